@@ -1,0 +1,109 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace suspension_health_monitor {
+
+/// A value as a parameter server, a YAML file or a command line delivers it.
+using OptionValue = std::variant<bool, int, double, std::string>;
+
+/// Values by full name; a nested YAML key is joined with '/', as on the ROS parameter server: `la/small_divisor`.
+using OptionMap = std::map<std::string, OptionValue>;
+
+/// One option of the struct `Options`: the only place where its name, unit, meaning and range are written.
+/// The default is the struct's own initialiser.
+template <class Options>
+struct OptionField {
+  std::string_view name;
+  std::string_view unit;  ///< "-" without unit
+  std::string_view help;
+  std::variant<bool Options::*, int Options::*, double Options::*, std::string Options::*,
+               std::optional<int> Options::*, std::optional<double> Options::*>
+      member;
+  double min = 0.0;               ///< smallest allowed number
+  double max = 0.0;               ///< largest allowed number
+  std::string_view choices = {};  ///< allowed words, separated by one space; empty: any text
+};
+
+/// What a person, a loader or a table in a document needs to know of one option.
+struct OptionDescription {
+  std::string name, unit, help;
+  std::string allowed;        ///< "in [0.9, 1]", "one of trapezoid, simpson", "true or false", "any text"
+  std::string default_value;  ///< "none" where the option may be left out
+};
+
+namespace option_table {
+
+using Member = std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::optional<double>*>;
+
+/// An option bound to the struct instance that holds its value.
+struct Bound {
+  std::string_view name, unit, help;
+  Member member;
+  double min, max;
+  std::string_view choices;
+};
+
+template <class Options>
+Bound bind(const OptionField<Options>& field, Options& options) {
+  return {field.name,
+          field.unit,
+          field.help,
+          std::visit([&](auto pointer) { return Member(&(options.*pointer)); }, field.member),
+          field.min,
+          field.max,
+          field.choices};
+}
+
+void assign(const Bound& option, const OptionValue& value);
+void check(const Bound& option);
+OptionDescription describe(const Bound& option);
+
+}  // namespace option_table
+
+/// Checks every option of one struct against its table.
+/// @throws std::invalid_argument  naming the option, its value and what is allowed. NaN is outside every range.
+template <class Options, std::size_t N>
+void validate(const Options& options, const std::array<OptionField<Options>, N>& fields) {
+  Options copy = options;
+  for (const OptionField<Options>& field : fields) option_table::check(option_table::bind(field, copy));
+}
+
+/// Sets the options that `values` names and removes them from `values`, so that what is left is unknown to this table.
+/// @throws std::invalid_argument  on a value of the wrong type or outside its range; `options` is then unchanged.
+template <class Options, std::size_t N>
+void takeOptions(OptionMap& values, const std::array<OptionField<Options>, N>& fields, Options& options) {
+  Options changed = options;
+  for (const OptionField<Options>& field : fields) {
+    const option_table::Bound option = option_table::bind(field, changed);
+    if (const auto found = values.find(std::string(field.name)); found != values.end()) {
+      option_table::assign(option, found->second);
+      values.erase(found);
+    }
+    option_table::check(option);
+  }
+  options = changed;
+}
+
+/// @param known  descriptions of all options that the caller understands, to propose the nearest name.
+/// @throws std::invalid_argument  naming the first key that is left in `values`: a misspelt option must not pass.
+void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>& known);
+
+/// @return one description per row of the table, with the struct's own defaults.
+template <class Options, std::size_t N>
+std::vector<OptionDescription> describeOptions(const std::array<OptionField<Options>, N>& fields) {
+  Options defaults;
+  std::vector<OptionDescription> result;
+  for (const OptionField<Options>& field : fields)
+    result.push_back(option_table::describe(option_table::bind(field, defaults)));
+  return result;
+}
+
+}  // namespace suspension_health_monitor

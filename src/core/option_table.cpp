@@ -1,0 +1,151 @@
+#include "suspension_health_monitor/option_table.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace suspension_health_monitor {
+namespace {
+
+std::string format(double value) {
+  std::ostringstream out;
+  out.precision(std::numeric_limits<double>::max_digits10 - 2);
+  out << value;
+  return out.str();
+}
+
+std::string format(const OptionValue& value) {
+  struct Formatter {
+    std::string operator()(bool b) const { return b ? "true" : "false"; }
+    std::string operator()(int i) const { return std::to_string(i); }
+    std::string operator()(double d) const { return format(d); }
+    std::string operator()(const std::string& s) const { return '"' + s + '"'; }
+  };
+  return std::visit(Formatter{}, value);
+}
+
+bool isChoice(std::string_view choices, const std::string& word) {
+  return !word.empty() && (' ' + std::string(choices) + ' ').find(' ' + word + ' ') != std::string::npos;
+}
+
+std::string allowedText(const option_table::Bound& option) {
+  if (std::holds_alternative<bool*>(option.member)) return "true or false";
+  if (std::holds_alternative<std::string*>(option.member)) {
+    if (option.choices.empty()) return "any text";
+    std::string words = "one of ";
+    for (const char letter : option.choices) words += letter == ' ' ? std::string(", ") : std::string(1, letter);
+    return words;
+  }
+  const bool whole =
+      std::holds_alternative<int*>(option.member) || std::holds_alternative<std::optional<int>*>(option.member);
+  return std::string(whole ? "a whole number " : "") + "in [" + format(option.min) + ", " + format(option.max) + "]";
+}
+
+[[noreturn]] void refuse(const option_table::Bound& option, const OptionValue& value) {
+  throw std::invalid_argument(std::string(option.name) + " = " + format(value) + " [" + std::string(option.unit) +
+                              "], must be " + allowedText(option) + ": " + std::string(option.help));
+}
+
+std::optional<double> asNumber(const OptionValue& value) {
+  if (const auto* d = std::get_if<double>(&value)) return *d;
+  if (const auto* i = std::get_if<int>(&value)) return *i;
+  return std::nullopt;
+}
+
+// A parameter file may write a whole number as 30 or 30.0; anything with a fraction is refused.
+std::optional<int> asWhole(const OptionValue& value) {
+  if (const auto* i = std::get_if<int>(&value)) return *i;
+  const auto* d = std::get_if<double>(&value);
+  if (d != nullptr && std::abs(*d) < 1e9 && std::trunc(*d) == *d) return static_cast<int>(*d);
+  return std::nullopt;
+}
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+namespace option_table {
+
+void assign(const Bound& option, const OptionValue& value) {
+  struct Assigner {
+    const OptionValue& value;
+    bool operator()(bool* target) const { return copy(target, std::get_if<bool>(&value)); }
+    bool operator()(std::string* target) const { return copy(target, std::get_if<std::string>(&value)); }
+    bool operator()(int* target) const { return copy(target, asWhole(value)); }
+    bool operator()(double* target) const { return copy(target, asNumber(value)); }
+    bool operator()(std::optional<int>* target) const { return copy(target, asWhole(value)); }
+    bool operator()(std::optional<double>* target) const { return copy(target, asNumber(value)); }
+
+    template <class Target, class Source>
+    static bool copy(Target* target, const Source& source) {
+      if (source) *target = *source;
+      return static_cast<bool>(source);
+    }
+  };
+  if (!std::visit(Assigner{value}, option.member)) refuse(option, value);
+}
+
+void check(const Bound& option) {
+  const auto checkNumber = [&](double number, const OptionValue& value) {
+    if (!(number >= option.min && number <= option.max)) refuse(option, value);
+  };
+  struct Checker {
+    const Bound& option;
+    const decltype(checkNumber)& number;
+    void operator()(const bool*) const {}
+    void operator()(const std::string* s) const {
+      if (!option.choices.empty() && !isChoice(option.choices, *s)) refuse(option, *s);
+    }
+    void operator()(const int* i) const { number(*i, *i); }
+    void operator()(const double* d) const { number(*d, *d); }
+    void operator()(const std::optional<int>* i) const {
+      if (*i) number(**i, **i);
+    }
+    void operator()(const std::optional<double>* d) const {
+      if (*d) number(**d, **d);
+    }
+  };
+  std::visit(Checker{option, checkNumber}, option.member);
+}
+
+OptionDescription describe(const Bound& option) {
+  struct Formatter {
+    std::string operator()(const bool* b) const { return *b ? "true" : "false"; }
+    std::string operator()(const std::string* s) const { return s->empty() ? "\"\"" : *s; }
+    std::string operator()(const int* i) const { return std::to_string(*i); }
+    std::string operator()(const double* d) const { return format(*d); }
+    std::string operator()(const std::optional<int>* i) const { return *i ? std::to_string(**i) : "none"; }
+    std::string operator()(const std::optional<double>* d) const { return *d ? format(**d) : "none"; }
+  };
+  return {std::string(option.name), std::string(option.unit), std::string(option.help), allowedText(option),
+          std::visit(Formatter{}, option.member)};
+}
+
+}  // namespace option_table
+
+void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>& known) {
+  if (values.empty()) return;
+  const std::string& name = values.begin()->first;
+  std::string message = "unknown option " + name + " = " + format(values.begin()->second);
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return editDistance(name, a.name) < editDistance(name, b.name);
+  });
+  if (nearest != known.end()) message += "; the nearest known name is " + nearest->name;
+  throw std::invalid_argument(message);
+}
+
+}  // namespace suspension_health_monitor
