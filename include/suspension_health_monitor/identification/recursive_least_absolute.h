@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+
+#include "suspension_health_monitor/identification/recursive_least_squares.h"
+
+namespace suspension_health_monitor {
+
+/// What keeps the weight 1/|epsilon| finite when a row is hit (almost) exactly.
+enum class SmallDivisor {
+  kAbsolute,  ///< |epsilon| >= eps_min in the unit of psi, as in the paper (below Eq. (23))
+  kRelative,  ///< |epsilon| >= eps_min times the running scale of the residual: scale-free
+};
+
+inline constexpr std::string_view kSmallDivisorNames = "absolute relative";
+
+struct LeastAbsoluteOptions {
+  int start_rows = 150;  ///< k0: rows during which LS leads, >= 1
+  SmallDivisor small_divisor_rule = SmallDivisor::kRelative;
+  double small_divisor = 0.2;             ///< eps_min >= 0, [unit of psi] if absolute, [-] if relative
+  bool scale_covariance_at_start = true;  ///< P_LA = P_LS mean|epsilon| at the hand-over, else P_LA = P_LS (paper)
+
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  void validate() const;
+};
+
+/// Recursive estimation in the sense of the least sum of absolute values, sum_i lambda^(k-i) |psi_i - phi_i' theta|:
+/// every row is weighted by 1/|epsilon| once, when it comes.
+///
+/// Source: Eq. (24)-(26), started from LS after k0 rows (sec. 3.2). With w = max(|epsilon|, eps_min) the correction is
+/// P phi epsilon / w, the least squares step for the weight 1/w; it equals (26), P phi sgn(epsilon), wherever
+/// |epsilon| >= eps_min, and does not overshoot below.
+/// Robust: good rows keep the weight that they earned while their residual was small, so a burst of outliers longer
+/// than the memory does not take over; the exact criterion (batch_estimators.h) breaks down there.
+/// Cost per update: O(p^2), no allocation.
+class RecursiveLeastAbsolute : public RecursiveEstimator {
+ public:
+  RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive, const LeastAbsoluteOptions& options);
+
+  /// @param row  regressor of size p. A row of zeros says nothing and changes nothing.
+  /// @return the innovation before the update, in the unit of psi.
+  double update(const RegressionRow& row);
+
+ private:
+  double divisor(double innovation) const;
+  void takeOver();
+
+  LeastAbsoluteOptions absolute_;
+  int rows_ = 0;  // counts up to k0 and stays there
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "suspension_health_monitor/identification/regression_row.h"
+#include "suspension_health_monitor/identification/running_mean.h"
+#include "suspension_health_monitor/identification/ud_covariance.h"
+
+namespace suspension_health_monitor {
+
+/// Start-up value of the covariance P(0).
+enum class InitialVariance {
+  kAbsolute,  ///< P_ii(0) = v, the paper's diag(1e5, ...): depends on the units of the data
+  kRelative,  ///< P_ii(0) = v / phi_i^2 with the first regressor entry that is not 0: scale-free
+};
+
+inline constexpr std::string_view kInitialVarianceNames = "absolute relative";
+
+struct RecursiveOptions {
+  double forgetting_factor = 0.98;  ///< lambda in (0, 1]; memory 1 / (1 - lambda) rows
+  double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
+  InitialVariance initial_variance_rule = InitialVariance::kRelative;
+
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  void validate() const;
+};
+
+/// What LS and LA have in common: an estimate theta with its covariance, updated row by row with a weight.
+class RecursiveEstimator {
+ public:
+  /// @param num_parameters  p >= 1.
+  RecursiveEstimator(int num_parameters, const RecursiveOptions& options);
+
+  int numParameters() const { return static_cast<int>(theta_.size()); }
+  const Eigen::VectorXd& parameters() const { return theta_; }  ///< theta, (p)
+  const UdCovariance& covariance() const { return covariance_; }
+  double forgettingFactor() const { return options_.forgetting_factor; }
+
+  /// @return sum of lambda^(k-i): the number of rows that the estimate rests on.
+  double effectiveRows() const { return absolute_residual_.weight(); }
+
+  double meanAbsoluteResidual() const { return absolute_residual_.mean(); }  ///< running mean of |epsilon|
+  double meanSquareResidual() const { return square_residual_.mean(); }      ///< running mean of epsilon^2
+  double meanAbsoluteOutput() const { return absolute_output_.mean(); }      ///< running mean of |psi|
+
+ protected:
+  /// epsilon = psi - phi' theta, Eq. (15) and (24); also takes the row into the running means.
+  double innovate(const RegressionRow& row);
+
+  /// theta <- theta + gain epsilon; the row counts as `weight` rows of an LS problem, weight > 0.
+  void correct(const RegressionRow& row, double innovation, double weight);
+
+  RecursiveOptions options_;
+  Eigen::VectorXd theta_;
+  UdCovariance covariance_;
+
+ private:
+  void releaseExcited(const Eigen::VectorXd& regressor);
+
+  RunningMean absolute_residual_, square_residual_, absolute_output_;
+};
+
+/// Recursive least squares with exponential forgetting: minimises sum_i lambda^(k-i) (psi_i - phi_i' theta)^2 (13).
+///
+/// Source: Eq. (15)-(17), the covariance in factored form (UdCovariance).
+/// Assumes: residuals of zero mean and without outliers (else RecursiveLeastAbsolute), not correlated with the
+/// regressor (else instrumental variables).
+/// A parameter whose regressor entry has been 0 ever since stays at 0.
+/// Cost per update: O(p^2), no allocation.
+class RecursiveLeastSquares : public RecursiveEstimator {
+ public:
+  using RecursiveEstimator::RecursiveEstimator;
+
+  /// @param row  regressor of size p. A row of zeros says nothing and changes nothing.
+  /// @return the innovation psi - phi' theta before the update, in the unit of psi.
+  double update(const RegressionRow& row);
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace suspension_health_monitor {
+
+/// One equation psi(k) = phi(k)' theta + e(k) of the regression (10).
+struct RegressionRow {
+  Eigen::VectorXd regressor;  ///< phi, one entry per parameter [unit of output / unit of parameter]
+  double output = 0.0;        ///< psi
+};
+
+}  // namespace suspension_health_monitor

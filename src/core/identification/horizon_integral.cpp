@@ -1,0 +1,72 @@
+#include "suspension_health_monitor/identification/horizon_integral.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace suspension_health_monitor {
+namespace {
+
+[[noreturn]] void refuseIntervals(int intervals, const char* allowed) {
+  throw std::invalid_argument("horizon_samples = " + std::to_string(intervals) + ", must be " + allowed);
+}
+
+}  // namespace
+
+IntegrationRule integrationRule(std::string_view name) {
+  if (name == "trapezoid") return IntegrationRule::kTrapezoid;
+  if (name == "simpson") return IntegrationRule::kSimpson;
+  if (name == "cubic") return IntegrationRule::kCubic;
+  throw std::invalid_argument("integration_rule = \"" + std::string(name) + "\", must be one of " +
+                              std::string(kIntegrationRuleNames));
+}
+
+HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule rule)
+    : intervals_(intervals), period_(period) {
+  if (intervals < 1) refuseIntervals(intervals, "at least 1");
+  if (!(std::isfinite(period) && period > 0.0))
+    throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be above 0");
+  switch (rule) {
+    case IntegrationRule::kTrapezoid:
+      end_corrections_ = {-1.0 / 2};
+      break;
+    case IntegrationRule::kSimpson:
+      if (intervals % 2 != 0) refuseIntervals(intervals, "even for integration_rule simpson");
+      same_weight_ = 2.0 / 3;
+      other_weight_ = 4.0 / 3;
+      end_corrections_ = {-1.0 / 3};
+      break;
+    case IntegrationRule::kCubic:
+      if (intervals < 5) refuseIntervals(intervals, "at least 5 for integration_rule cubic");
+      end_corrections_ = {-5.0 / 8, 1.0 / 6, -1.0 / 24};
+      num_corrections_ = 3;
+      break;
+  }
+}
+
+double HorizonIntegral::update(const DelayLine& signal) {
+  const double newest = signal.at(0);
+  const std::size_t leaving_parity = intervals_ % 2 == 0 ? 1 - parity_ : parity_;
+  sums_[parity_] += newest;
+  sums_[leaving_parity] -= signal.at(intervals_ + 1);
+  fresh_[parity_] += newest;
+  if (++since_refresh_ == intervals_ + 1) {
+    sums_ = fresh_;
+    fresh_ = {};
+    since_refresh_ = 0;
+  }
+  double integral = same_weight_ * sums_[parity_] + other_weight_ * sums_[1 - parity_];
+  for (int j = 0; j < num_corrections_; ++j)
+    integral += end_corrections_[static_cast<std::size_t>(j)] * (signal.at(j) + signal.at(intervals_ - j));
+  parity_ = 1 - parity_;
+  return period_ * integral;
+}
+
+void HorizonIntegral::reset() {
+  sums_ = {};
+  fresh_ = {};
+  since_refresh_ = 0;
+  parity_ = 0;
+}
+
+}  // namespace suspension_health_monitor

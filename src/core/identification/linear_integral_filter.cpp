@@ -1,0 +1,54 @@
+#include "suspension_health_monitor/identification/linear_integral_filter.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace suspension_health_monitor {
+
+LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOptions& options, int lowest_derivative)
+    : order_(order), horizon_(options.horizon_samples) {
+  if (order < 1) throw std::invalid_argument("filter order n = " + std::to_string(order) + ", must be at least 1");
+  if (lowest_derivative < 0 || lowest_derivative > order)
+    throw std::invalid_argument("derivative r = " + std::to_string(lowest_derivative) + ", must be in [0, " +
+                                std::to_string(order) + "]");
+  const HorizonIntegral integral(options.horizon_samples, options.period, options.rule);
+  const int num_integrals = order - lowest_derivative;
+  integrals_.assign(static_cast<std::size_t>(num_integrals), integral);
+  for (int i = 0; i <= num_integrals; ++i) {
+    const int for_differences = (order - i) * horizon_ + 1;
+    lines_.emplace_back(i < num_integrals ? std::max(for_differences, integral.requiredHistory()) : for_differences);
+  }
+  binomials_.push_back({1.0});
+  for (int r = 1; r <= order; ++r) {
+    std::vector<double> row(static_cast<std::size_t>(r) + 1, 0.0);
+    for (std::size_t j = 0; j < row.size(); ++j)
+      row[j] = (j < binomials_.back().size() ? binomials_.back()[j] : 0.0) - (j > 0 ? binomials_.back()[j - 1] : 0.0);
+    binomials_.push_back(row);
+  }
+}
+
+void LinearIntegralFilter::push(double sample) {
+  lines_.front().push(sample);
+  for (std::size_t i = 0; i < integrals_.size(); ++i) lines_[i + 1].push(integrals_[i].update(lines_[i]));
+  if (!full()) ++pushed_;
+}
+
+double LinearIntegralFilter::output(int derivative) const {
+  const DelayLine& line = lines_[static_cast<std::size_t>(order_ - derivative)];
+  double result = 0.0;
+  int lag = 0;
+  for (const double coefficient : binomials_[static_cast<std::size_t>(derivative)]) {
+    result += coefficient * line.at(lag);
+    lag += horizon_;
+  }
+  return result;
+}
+
+void LinearIntegralFilter::reset() {
+  pushed_ = 0;
+  for (HorizonIntegral& integral : integrals_) integral.reset();
+  for (DelayLine& line : lines_) line.reset();
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,57 @@
+#include "suspension_health_monitor/identification/recursive_least_squares.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace suspension_health_monitor {
+
+void RecursiveOptions::validate() const {
+  if (!(forgetting_factor > 0.0 && forgetting_factor <= 1.0))
+    throw std::invalid_argument("forgetting_factor = " + std::to_string(forgetting_factor) + ", must be in (0, 1]");
+  if (!(std::isfinite(initial_variance) && initial_variance > 0.0))
+    throw std::invalid_argument("initial_variance = " + std::to_string(initial_variance) + ", must be above 0");
+}
+
+RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOptions& options)
+    : options_(options),
+      theta_(Eigen::VectorXd::Zero(num_parameters)),
+      covariance_(num_parameters),
+      absolute_residual_(options.forgetting_factor),
+      square_residual_(options.forgetting_factor),
+      absolute_output_(options.forgetting_factor) {
+  options.validate();
+}
+
+double RecursiveEstimator::innovate(const RegressionRow& row) {
+  double innovation = row.output;
+  for (Eigen::Index i = 0; i < theta_.size(); ++i) innovation -= row.regressor[i] * theta_[i];
+  absolute_residual_.add(std::abs(innovation));
+  square_residual_.add(innovation * innovation);
+  absolute_output_.add(std::abs(row.output));
+  return innovation;
+}
+
+void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {
+  releaseExcited(row.regressor);
+  const Eigen::VectorXd& gain =
+      covariance_.update(row.regressor, options_.forgetting_factor / weight, options_.forgetting_factor);
+  for (Eigen::Index i = 0; i < theta_.size(); ++i) theta_[i] += gain[i] * innovation;
+}
+
+void RecursiveEstimator::releaseExcited(const Eigen::VectorXd& regressor) {
+  for (int i = 0; i < numParameters(); ++i) {
+    if (covariance_.isReleased(i) || regressor[i] == 0.0) continue;
+    const bool relative = options_.initial_variance_rule == InitialVariance::kRelative;
+    covariance_.release(i, options_.initial_variance / (relative ? regressor[i] * regressor[i] : 1.0));
+  }
+}
+
+double RecursiveLeastSquares::update(const RegressionRow& row) {
+  if (row.regressor.isZero(0.0)) return row.output;
+  const double innovation = innovate(row);
+  correct(row, innovation, 1.0);
+  return innovation;
+}
+
+}  // namespace suspension_health_monitor
