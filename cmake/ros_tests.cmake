@@ -1,0 +1,37 @@
+# Tests that need ROS or the built programs. test/core has its own CMakeLists.txt, because it runs without ROS too.
+find_package(catkin REQUIRED COMPONENTS roslaunch rostest)
+set(programs ${installed_libraries} ${installed_programs})
+
+# test/ros/NAME.test, with its gtest node in test/ros/NAME.cpp (own main) or in an executable Python file that the launch
+# file names. Every <test> needs a test-name of its own: it names the result file.
+file(GLOB rostests CONFIGURE_DEPENDS test/ros/*.test)
+foreach(rostest ${rostests})
+  get_filename_component(name ${rostest} NAME_WE)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/test/ros/${name}.cpp)
+    add_rostest_gtest(${name} ${rostest} test/ros/${name}.cpp)
+    configure_shell_target(${name} ${shell})
+    if(programs)
+      add_dependencies(${name} ${programs})
+    endif()
+  else()
+    add_rostest(${rostest} DEPENDENCIES ${programs})
+  endif()
+endforeach()
+
+file(GLOB launch_files CONFIGURE_DEPENDS launch/*.launch)
+if(launch_files)
+  roslaunch_add_file_check(launch DEPENDENCIES ${programs})
+endif()
+
+# test/cli/NAME_test.py: pytest from outside. SUSPENSION_BAG is the program under test.
+file(GLOB pytests CONFIGURE_DEPENDS test/cli/*_test.py)
+foreach(pytest ${pytests})
+  get_filename_component(name ${pytest} NAME_WE)
+  set(result ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/pytest-${name}.xml)
+  set(program ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}/suspension_bag)
+  catkin_run_tests_target(pytest ${name} pytest-${name}.xml
+    COMMAND "env PYTHONDONTWRITEBYTECODE=1 SUSPENSION_BAG=${program} ${PYTHON_EXECUTABLE} -m pytest -p no:cacheprovider \
+--rootdir=${PROJECT_SOURCE_DIR}/test -o junit_family=xunit1 --junitxml=${result} ${pytest}"
+    DEPENDENCIES ${programs}
+    WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
+endforeach()

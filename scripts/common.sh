@@ -1,0 +1,66 @@
+# shellcheck shell=bash
+# Sourced by the scripts beside it: the one place for paths, installing, building and the ROS environment.
+set -euo pipefail
+export PATH=/usr/bin:$PATH  # ROS is built for the system's Python; another one in front breaks it
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$repository/build
+
+say() { printf '== %s\n' "$*"; }
+
+fail() {
+  printf 'error: %s\n' "$*" >&2
+  exit 1
+}
+
+asRoot() {
+  if [ "$(id -u)" = 0 ]; then
+    "$@"
+  elif command -v sudo > /dev/null; then
+    sudo "$@"
+  else
+    fail "needs root for: $* (run as root, or install sudo)"
+  fi
+}
+
+# ROS setup files read variables that may be unset.
+sourceSetup() {
+  set +u
+  # shellcheck disable=SC1090
+  source "$1"
+  set -u
+}
+
+# Ubuntu keeps ROS in /opt/ros; Debian's packages need no setup file.
+sourceSystemRos() {
+  if [ -f /opt/ros/noetic/setup.bash ]; then sourceSetup /opt/ros/noetic/setup.bash; fi
+}
+
+# buildPackage [TARGET]...: configures and builds into build/. CMAKE_BUILD_PARALLEL_LEVEL limits the number of compilers.
+buildPackage() {
+  local jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)} cache=$build/CMakeCache.txt
+  sourceSystemRos
+  if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$repository" "$cache"; then
+    say "build/ was made for another place of this folder: starting it anew"
+    rm -rf "$build"
+  fi
+  mkdir -p "$build"
+  say "building in $build with $jobs jobs"
+  cmake -S "$repository" -B "$build" > "$build/configure.log" 2>&1 || { cat "$build/configure.log"; fail "cmake failed"; }
+  cmake --build "$build" --parallel "$jobs" --target "${@:-all}"
+}
+
+# A bare container may not know its own name, and then no ROS master starts.
+ensureLocalhost() {
+  if getent hosts localhost > /dev/null; then return; fi
+  [ "$(id -u)" = 0 ] || fail "localhost does not resolve: add '127.0.0.1 localhost' to /etc/hosts"
+  say "adding localhost to /etc/hosts"
+  printf '127.0.0.1 localhost\n' >> /etc/hosts
+}
+
+# The built package on the ROS path, on this machine only, with logs inside build/.
+enterEnvironment() {
+  ensureLocalhost
+  sourceSetup "$build/devel/setup.bash"
+  unset ROS_IP
+  export ROS_HOSTNAME=localhost ROS_HOME=$build/ros_home ROSCONSOLE_STDOUT_LINE_BUFFERED=1
+}

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Prints the tests that failed and, last, "N passed, N failed". Exit status 1 if a test failed or none ran.
+
+catkin_test_results counts gtest and rostest files twice, so the cases are counted here, in the result files:
+- each <testcase> of gtest, rostest nodes, pytest and roslaunch checks is one test;
+- a rostest-*.xml tells only whether its nodes ran: its cases count when they failed (crash, time limit, missing node);
+- catkin writes MISSING-*.xml in place of a result file that a test did not write (it crashed): one failure.
+"""
+import argparse
+import pathlib
+import sys
+import xml.etree.ElementTree as ElementTree
+
+MESSAGE_LINES = 40
+
+
+def failure_text(case):
+    """The failure of one <testcase>, None where it passed."""
+    failures = [*case.findall("failure"), *case.findall("error")]
+    if not failures:
+        return None
+    # rosunit repeats the message in the text; gtest and pytest have the longer text
+    texts = [max((failure.text or "").strip(), failure.get("message") or "", key=len) for failure in failures]
+    return "\n".join(texts)
+
+
+def read_results(path):
+    """(number passed, number skipped, [(name, failure text)]) of one result file."""
+    try:
+        cases = list(ElementTree.parse(path).getroot().iter("testcase"))
+    except ElementTree.ParseError as error:
+        return 0, 0, [(path.name, f"unreadable result file: {error}")]
+    if path.name.startswith("MISSING-"):
+        return 0, 0, [(path.name, "the test ended without a result: it crashed or could not start")]
+    passed, skipped, failed = 0, 0, []
+    for case in cases:
+        text = failure_text(case)
+        if text is not None:
+            failed.append((f"{case.get('classname', path.stem)}.{case.get('name')}", text))
+        elif case.find("skipped") is not None or case.get("status") == "notrun":
+            skipped += 1
+        else:
+            passed += 1
+    if path.name.startswith("rostest-"):
+        passed = skipped = 0
+    return passed, skipped, failed
+
+
+def print_failure(name, text):
+    lines = text.splitlines()
+    print(f"FAILED {name}")
+    for line in lines[:MESSAGE_LINES]:
+        print(f"    {line}")
+    if len(lines) > MESSAGE_LINES:
+        print(f"    ... {len(lines) - MESSAGE_LINES} more lines")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results", type=pathlib.Path, help="folder with the result files")
+    parser.add_argument("--ctest-status", type=int, default=0, help="exit status of ctest")
+    parser.add_argument("--log", type=pathlib.Path, help="output of ctest, named when something failed")
+    options = parser.parse_args()
+
+    results = [read_results(path) for path in sorted(options.results.rglob("*.xml"))]
+    passed = sum(result[0] for result in results)
+    skipped = sum(result[1] for result in results)
+    failed = [failure for result in results for failure in result[2]]
+    if options.ctest_status != 0 and not failed:
+        failed.append(("ctest", f"exit status {options.ctest_status}, though no result file tells of a failure"))
+    if passed == 0 and not failed:
+        failed.append(("scripts/test", "no test ran"))
+
+    for name, text in failed:
+        print_failure(name, text)
+    if failed and options.log:
+        print(f"whole output: {options.log}")
+    if skipped:
+        print(f"{skipped} skipped")
+    print(f"{passed} passed, {len(failed)} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,45 @@
+"""The library knows no ROS, and what estimates never sees what simulates."""
+import pathlib
+import re
+
+import pytest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+ROS_INCLUDE = re.compile(
+    r'^\s*#\s*include\s*[<"](ros|nodelet|pluginlib|rosbag|rosgraph_msgs|sensor_msgs|std_msgs|std_srvs'
+    r'|diagnostic_\w+|message_filters|tf2\w*|dynamic_reconfigure)/', re.MULTILINE)
+GENERATED_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]suspension_health_monitor/[A-Z]\w*\.h[>"]', re.MULTILINE)
+SIMULATION_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]suspension_health_monitor/simulation/', re.MULTILINE)
+
+LIBRARY = sorted(path for folder in ("include", "src/core") for path in (REPOSITORY / folder).rglob("*")
+                 if path.suffix in (".h", ".cpp"))
+ESTIMATION = [path for path in LIBRARY if "simulation" not in path.parent.parts]
+
+
+def name(path):
+    return str(path.relative_to(REPOSITORY))
+
+
+def test_library_has_files():
+    assert LIBRARY and ESTIMATION
+
+
+@pytest.mark.parametrize("include, pattern", [
+    ("#include <ros/ros.h>", ROS_INCLUDE), ('#include "sensor_msgs/Imu.h"', ROS_INCLUDE),
+    ("# include <tf2_ros/buffer.h>", ROS_INCLUDE), ("#include <diagnostic_updater/publisher.h>", ROS_INCLUDE),
+    ("#include <suspension_health_monitor/SuspensionHealth.h>", GENERATED_INCLUDE),
+    ('#include "suspension_health_monitor/simulation/road.h"', SIMULATION_INCLUDE)])
+def test_rule_sees_a_forbidden_include(include, pattern):
+    assert pattern.search("#pragma once\n" + include + "\n")
+
+
+@pytest.mark.parametrize("path", LIBRARY, ids=name)
+def test_library_includes_no_ros(path):
+    text = path.read_text()
+    assert not ROS_INCLUDE.search(text), "ROS header"
+    assert not GENERATED_INCLUDE.search(text), "generated message header"
+
+
+@pytest.mark.parametrize("path", ESTIMATION, ids=name)
+def test_estimation_includes_no_simulation(path):
+    assert not SIMULATION_INCLUDE.search(path.read_text())
