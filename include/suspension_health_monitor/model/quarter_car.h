@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
-
-#include <Eigen/Core>
 
 #include "suspension_health_monitor/option_table.h"
 
@@ -51,7 +50,8 @@ struct RoadDrivenForm {
 /// @throws std::invalid_argument  on a parameter outside its range or a rigid wheel, which has no such form.
 RoadDrivenForm roadDrivenForm(const QuarterCar& car);
 
-/// Equation (27), z'' = b1 v + b0 d, driven by the wheel's acceleration. State x = (d, v) [m, m/s], travel and its rate:
+/// Equation (27), z'' = b1 v + b0 d, driven by the wheel's acceleration. State x = (d, v) [m, m/s], travel and its
+/// rate:
 ///   x' = A x + B w'',   z'' = C x
 /// It holds for any tyre, since w'' is measured above it; with a rigid wheel w'' = mu''.
 struct WheelDrivenForm {

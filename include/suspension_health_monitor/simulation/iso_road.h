@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
+#include <vector>
 
 #include "suspension_health_monitor/simulation/road.h"
 
@@ -22,14 +21,14 @@ double isoDisplacementDensity(char road_class, double spatial_frequency);
 /// Height is a sum of kComponents sinusoids with random phases. The band [kLowest, kHighest] is cut into as many
 /// intervals of equal width in log n; each holds one sinusoid at a random place in it that carries the interval's whole
 /// variance, integral Gd(n) dn. The frequencies have no common multiple, so the profile does not repeat.
-/// Between the points of a grid (kPointsPerWave to the shortest wave, exact values there) height is a quintic that meets
-/// height, rate and acceleration at both ends; rate and acceleration are its derivatives, so the three always agree.
-/// Error of the acceleration: at most (2 pi / kPointsPerWave)^4 / 1920 = 5.1e-6 of the shortest sinusoid's, and as n^4
-/// less for longer ones.
-/// Cost: kPointsPerWave * kComponents phasor steps to the shortest wave, in blocks as time goes on; memory is constant.
+/// Between the points of a grid (kPointsPerWave to the shortest wave, exact values there) height is a quintic that
+/// meets height, rate and acceleration at both ends; rate and acceleration are its derivatives, so the three always
+/// agree. Error of the acceleration: at most (2 pi / kPointsPerWave)^4 / 1920 = 5.1e-6 of the shortest sinusoid's, and
+/// as n^4 less for longer ones. Cost: kPointsPerWave * kComponents phasor steps to the shortest wave, in blocks as time
+/// goes on; memory is constant.
 class IsoRoad {
  public:
-  static constexpr double kLowest = 0.011;  ///< [cycles/m], limits of ISO 8608's spectra over octave bands
+  static constexpr double kLowest = 0.011;  ///< [cycles/m], the range of ISO 8608's straight-line fit
   static constexpr double kHighest = 2.83;  ///< [cycles/m]
   static constexpr int kComponents = 512;
   static constexpr int kPointsPerWave = 20;

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "suspension_health_monitor/corner_sample.h"
+#include "suspension_health_monitor/simulation/accelerometer.h"
+#include "suspension_health_monitor/simulation/scenario.h"
+
+namespace suspension_health_monitor {
+
+/// What the simulator knows and no sensor tells, at one instant.
+struct DriveTruth {
+  double damping_to_mass = 0.0;        ///< b1 [1/s]
+  double stiffness_to_mass = 0.0;      ///< b0 [1/s^2]
+  double travel = 0.0;                 ///< d = w - z [m], compression positive
+  double travel_rate = 0.0;            ///< v = w' - z' [m/s]
+  double road_height = 0.0;            ///< mu [m]
+  double sprung_acceleration = 0.0;    ///< z'' without noise [m/s^2]
+  double unsprung_acceleration = 0.0;  ///< w'' without noise [m/s^2]
+};
+
+/// One instant of a simulated drive.
+struct DriveSample {
+  Stamp stamp{};                                 ///< true time since the start of the drive
+  std::optional<AccelerometerReading> sprung;    ///< none: message lost
+  std::optional<AccelerometerReading> unsprung;  ///< none: message lost
+  DriveTruth truth;
+};
+
+/// Drives a quarter car, equations (1)-(2) or with a rigid wheel (27), over a road and measures its two accelerations.
+///
+/// The body and a wheel on a tyre start at rest relative to the road, travel 0.
+/// Integration: Dormand-Prince 5(4) with error control, 1e-10 absolute (m, m/s) and 1e-10 relative per step; steps end
+/// on the samples and are at most 1/10 of the fastest time constant, stops included, so that none jumps over a contact.
+/// Same options, same samples. Its formulas are its own: estimation shares no code with it but the sign conventions.
+class DriveSimulator {
+ public:
+  /// @throws std::invalid_argument  as validate(SimulationOptions).
+  explicit DriveSimulator(const SimulationOptions& options);
+
+  /// @return the sample at k / rate for the k-th call, k = 0 .. duration * rate; none after the end of the drive.
+  std::optional<DriveSample> next();
+
+ private:
+  // z, z' and, of a wheel on a tyre, w, w'. A rigid wheel is where the road is, its two places stay unused.
+  using State = std::array<double, 4>;
+
+  struct Motion {
+    DriveTruth truth;
+    State derivative;
+  };
+  Motion motionAt(const State& state, double t);
+  void integrate(double from, double to);
+
+  SimulationOptions options_;
+  Scenario scenario_;
+  Accelerometer sprung_;
+  Accelerometer unsprung_;
+  State state_{};
+  double max_step_;  // [s]
+  long long next_index_ = 0;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,94 @@
+#include "suspension_health_monitor/simulation/drive_simulator.h"
+
+#include <algorithm>
+#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <cmath>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kAbsoluteTolerance = 1e-10;
+constexpr double kRelativeTolerance = 1e-10;
+
+double longestStep(const Scenario& scenario) {
+  const QuarterCar& car = scenario.vehicle;
+  double strut = scenario.strut.stiffness_to_mass;
+  if (scenario.strut.end_stops) strut += scenario.strut.end_stops->stiffness_to_mass;
+  // Squares of angular frequencies: the body on its strut, the wheel between strut and tyre.
+  double fastest = strut;
+  if (car.tyre_stiffness) fastest += (strut * car.sprung_mass + *car.tyre_stiffness) / car.unsprung_mass;
+  return 0.1 / std::sqrt(fastest);
+}
+
+}  // namespace
+
+DriveSimulator::DriveSimulator(const SimulationOptions& options)
+    : options_(options),
+      scenario_(makeScenario(options)),
+      sprung_(options, Accelerometer::Place::kSprung),
+      unsprung_(options, Accelerometer::Place::kUnsprung),
+      max_step_(longestStep(scenario_)) {
+  const RoadPoint start = scenario_.road(0.0);
+  state_ = {start.height, start.rate, start.height, start.rate};
+}
+
+std::optional<DriveSample> DriveSimulator::next() {
+  // A duration that is a whole number of periods must not lose its last sample to rounding.
+  if (static_cast<double>(next_index_) > options_.duration * options_.rate + 1e-6) return std::nullopt;
+  const double t = static_cast<double>(next_index_) / options_.rate;
+  if (next_index_ > 0) integrate(static_cast<double>(next_index_ - 1) / options_.rate, t);
+  ++next_index_;
+
+  DriveSample sample;
+  sample.stamp = fromSeconds(t);
+  sample.truth = motionAt(state_, t).truth;
+  sample.sprung = sprung_.read(t, sample.truth.sprung_acceleration);
+  sample.unsprung = unsprung_.read(t, sample.truth.unsprung_acceleration);
+  for (const TimeWindow& window : scenario_.zero_readings) {
+    if (!window.contains(t)) continue;
+    if (sample.sprung) sample.sprung->acceleration = 0.0;
+    if (sample.unsprung) sample.unsprung->acceleration = 0.0;
+  }
+  return sample;
+}
+
+DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
+  const RoadPoint road = scenario_.road(t);
+  const QuarterCar& car = scenario_.vehicle;
+  const bool rigid = !car.tyre_stiffness;
+  const auto [z, z_rate, w_state, w_rate_state] = state;
+  const double w = rigid ? road.height : w_state;
+  const double w_rate = rigid ? road.rate : w_rate_state;
+
+  Motion motion{};
+  DriveTruth& truth = motion.truth;
+  truth.damping_to_mass = scenario_.strut.damping_to_mass.at(t);
+  truth.stiffness_to_mass = scenario_.strut.stiffness_to_mass;
+  truth.travel = w - z;
+  truth.travel_rate = w_rate - z_rate;
+  truth.road_height = road.height;
+  truth.sprung_acceleration = scenario_.strut.forcePerMass(truth.travel, truth.travel_rate, t);
+  if (rigid) {
+    truth.unsprung_acceleration = road.acceleration;
+    motion.derivative = {z_rate, truth.sprung_acceleration, 0.0, 0.0};
+  } else {
+    const double strut_force = car.sprung_mass * truth.sprung_acceleration;
+    truth.unsprung_acceleration = -(strut_force + *car.tyre_stiffness * (w - road.height)) / car.unsprung_mass;
+    motion.derivative = {z_rate, truth.sprung_acceleration, w_rate, truth.unsprung_acceleration};
+  }
+  return motion;
+}
+
+void DriveSimulator::integrate(double from, double to) {
+  namespace odeint = boost::numeric::odeint;
+  const double first_step = std::min(max_step_, to - from);
+  const auto stepper =
+      odeint::make_controlled(kAbsoluteTolerance, kRelativeTolerance, max_step_, odeint::runge_kutta_dopri5<State>());
+  const auto system = [this](const State& x, State& derivative, double t) { derivative = motionAt(x, t).derivative; };
+  odeint::integrate_adaptive(stepper, system, state_, from, to, first_step);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,94 @@
+#include "suspension_health_monitor/simulation/scenario.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "suspension_health_monitor/simulation/iso_road.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+/// A vehicle and the road it is meant for.
+struct Vehicle {
+  std::string_view name;
+  QuarterCar car;
+  char iso_class;
+  double speed;  // [m/s]
+};
+
+// paper: section 4, non-pneumatic tyres, hence a rigid wheel.
+// golden_car: the reference quarter car of the International Roughness Index (Sayers, "On the calculation of
+//   International Roughness Index from longitudinal road profile", TRR 1501, 1995): beta/M = 6.0 1/s, K/M = 63.3 1/s^2,
+//   K0/M = 653 1/s^2, m/M = 0.15; only ratios are given there, M = 250 kg is ours.
+// rover, ugv: our own choice of a small slow rover (body 1.7 Hz) and of a softer, faster one (1.0 Hz) on bad ground,
+// with
+//   the golden car's ratio K0/K of about 10.
+constexpr Vehicle kVehicles[] = {
+    {"paper", {50.0, 5.0, 150.0, 690.0, std::nullopt}, 'C', 5.0},
+    {"golden_car", {250.0, 37.5, 1500.0, 15825.0, 163250.0}, 'C', 15.0},
+    {"rover", {10.0, 2.0, 50.0, 1200.0, 12000.0}, 'E', 2.0},
+    {"ugv", {50.0, 7.5, 200.0, 2000.0, 20000.0}, 'D', 6.0},
+};
+
+// The paper leaves its limit open. These stops are reached on its bumps only: 50 000 N/m on its 50 kg.
+constexpr EndStops kPaperStops{0.09, 1000.0};
+constexpr TimeWindow kPaperLosses[] = {{25.0, 26.0}, {65.0, 66.0}};
+constexpr double kPaperDampingLeft = 100.0 / 150.0;
+
+const Vehicle& findVehicle(const SimulationOptions& options) {
+  std::string_view name = options.vehicle;
+  if (name == "default") name = options.scenario == "iso_road" ? "golden_car" : "paper";
+  return *std::find_if(std::begin(kVehicles), std::end(kVehicles), [&](const Vehicle& v) { return v.name == name; });
+}
+
+Ramp dampingRamp(const SimulationOptions& options, double first) {
+  const double usual = options.scenario == "iso_road" ? 1.0 : kPaperDampingLeft;
+  const double left = options.damping_ramp ? options.damping_end_fraction.value_or(usual) : 1.0;
+  return {first, first * left, options.ramp_start, options.ramp_end};
+}
+
+Road makeRoad(const SimulationOptions& options, const Vehicle& vehicle) {
+  if (options.scenario == "iso_road") {
+    const char iso_class = options.iso_class == "default" ? vehicle.iso_class : options.iso_class.front();
+    return IsoRoad(iso_class, options.speed.value_or(vehicle.speed), options.seed);
+  }
+  if (options.scenario == "paper_saturation") return [](double t) { return paperRoad(t) + paperBumps(t); };
+  return paperRoad;
+}
+
+[[noreturn]] void refuse(const char* name, double value, const char* unit, const char* limit, double limit_value) {
+  std::ostringstream message;
+  message << name << " = " << value << " [" << unit << "], must be " << limit << " = " << limit_value;
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+void validate(const SimulationOptions& options) {
+  validate(options, kSimulationFields);
+  if (options.ramp_end <= options.ramp_start) {
+    refuse("ramp_end", options.ramp_end, "s", "later than ramp_start", options.ramp_start);
+  }
+  if (options.stamp_jitter >= 1.0 / options.rate) {
+    refuse("stamp_jitter", options.stamp_jitter, "s", "less than one sample period, 1 / rate", 1.0 / options.rate);
+  }
+}
+
+Scenario makeScenario(const SimulationOptions& options) {
+  validate(options);
+  const Vehicle& vehicle = findVehicle(options);
+  Scenario result;
+  result.vehicle = vehicle.car;
+  if (options.damping_to_mass) result.vehicle.damping = *options.damping_to_mass * vehicle.car.sprung_mass;
+  if (options.stiffness_to_mass) result.vehicle.stiffness = *options.stiffness_to_mass * vehicle.car.sprung_mass;
+  result.strut = {dampingRamp(options, result.vehicle.dampingToMass()), result.vehicle.stiffnessToMass(), std::nullopt};
+  result.road = makeRoad(options, vehicle);
+  if (options.scenario == "paper_saturation") result.strut.end_stops = kPaperStops;
+  if (options.scenario == "paper_outliers") {
+    result.zero_readings.assign(std::begin(kPaperLosses), std::end(kPaperLosses));
+  }
+  return result;
+}
+
+}  // namespace suspension_health_monitor
