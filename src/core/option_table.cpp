@@ -61,6 +61,23 @@ std::optional<int> asWhole(const OptionValue& value) {
   return std::nullopt;
 }
 
+// Copies a value into an option of the same kind; false if the kinds differ.
+struct Assigner {
+  const OptionValue& value;
+  bool operator()(bool* target) const { return copy(target, std::get_if<bool>(&value)); }
+  bool operator()(std::string* target) const { return copy(target, std::get_if<std::string>(&value)); }
+  bool operator()(int* target) const { return copy(target, asWhole(value)); }
+  bool operator()(double* target) const { return copy(target, asNumber(value)); }
+  bool operator()(std::optional<int>* target) const { return copy(target, asWhole(value)); }
+  bool operator()(std::optional<double>* target) const { return copy(target, asNumber(value)); }
+
+  template <class Target, class Source>
+  static bool copy(Target* target, const Source& source) {
+    if (source) *target = *source;
+    return static_cast<bool>(source);
+  }
+};
+
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -81,21 +98,6 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 namespace option_table {
 
 void assign(const Bound& option, const OptionValue& value) {
-  struct Assigner {
-    const OptionValue& value;
-    bool operator()(bool* target) const { return copy(target, std::get_if<bool>(&value)); }
-    bool operator()(std::string* target) const { return copy(target, std::get_if<std::string>(&value)); }
-    bool operator()(int* target) const { return copy(target, asWhole(value)); }
-    bool operator()(double* target) const { return copy(target, asNumber(value)); }
-    bool operator()(std::optional<int>* target) const { return copy(target, asWhole(value)); }
-    bool operator()(std::optional<double>* target) const { return copy(target, asNumber(value)); }
-
-    template <class Target, class Source>
-    static bool copy(Target* target, const Source& source) {
-      if (source) *target = *source;
-      return static_cast<bool>(source);
-    }
-  };
   if (!std::visit(Assigner{value}, option.member)) refuse(option, value);
 }
 
