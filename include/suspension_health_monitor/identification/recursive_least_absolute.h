@@ -1,18 +1,9 @@
 #pragma once
 
-#include <optional>
-
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/identification/small_divisor.h"
 
 namespace suspension_health_monitor {
-
-/// What keeps the weight 1/|epsilon| finite when a row is hit (almost) exactly.
-enum class SmallDivisor {
-  kAbsolute,  ///< |epsilon| >= eps_min in the unit of psi, as in the paper (below Eq. (23))
-  kRelative,  ///< |epsilon| >= eps_min times the running scale of the residual: scale-free
-};
-
-inline constexpr std::string_view kSmallDivisorNames = "absolute relative";
 
 struct LeastAbsoluteOptions {
   int start_rows = 150;  ///< k0: rows during which LS leads, >= 1
@@ -41,8 +32,11 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
   /// @return the innovation before the update, in the unit of psi.
   double update(const RegressionRow& row);
 
+  /// @return variance of theta_i if the residuals were white and Laplacian: mean|epsilon| P_ii, since the variance of a
+  /// median is 1 / (4 f(0)^2) per row with density f(0) = 1 / (2 mean|epsilon|). During the first k0 rows that of LS.
+  double parameterVariance(int i) const;
+
  private:
-  double divisor(double innovation) const;
   void takeOver();
 
   LeastAbsoluteOptions absolute_;

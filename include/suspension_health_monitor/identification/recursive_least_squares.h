@@ -74,6 +74,9 @@ class RecursiveLeastSquares : public RecursiveEstimator {
   /// @param row  regressor of size p. A row of zeros says nothing and changes nothing.
   /// @return the innovation psi - phi' theta before the update, in the unit of psi.
   double update(const RegressionRow& row);
+
+  /// @return variance of theta_i if the residuals were white: mean(epsilon^2) P_ii.
+  double parameterVariance(int i) const { return meanSquareResidual() * covariance_.variance(i); }
 };
 
 }  // namespace suspension_health_monitor

@@ -1,8 +1,6 @@
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -28,21 +26,21 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
     correct(row, innovation, 1.0);
     if (++rows_ == absolute_.start_rows) takeOver();
   } else {
-    correct(row, innovation, 1.0 / divisor(innovation));
+    correct(row, innovation,
+            1.0 / boundedDivisor(innovation, absolute_.small_divisor_rule, absolute_.small_divisor,
+                                 meanAbsoluteResidual()));
   }
   return innovation;
+}
+
+double RecursiveLeastAbsolute::parameterVariance(int i) const {
+  const bool ls_leads = rows_ < absolute_.start_rows;
+  return (ls_leads ? meanSquareResidual() : meanAbsoluteResidual()) * covariance_.variance(i);
 }
 
 void RecursiveLeastAbsolute::takeOver() {
   // R(k) of LA sums phi phi' / |epsilon|, that of LS phi phi': without the factor the start depends on the unit of psi.
   if (absolute_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
-}
-
-double RecursiveLeastAbsolute::divisor(double innovation) const {
-  const bool relative = absolute_.small_divisor_rule == SmallDivisor::kRelative;
-  const double smallest = absolute_.small_divisor * (relative ? meanAbsoluteResidual() : 1.0);
-  // The last bound only matters for a row that is hit exactly while the threshold is 0, too.
-  return std::max({std::abs(innovation), smallest, std::numeric_limits<double>::min()});
 }
 
 }  // namespace suspension_health_monitor

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "suspension_health_monitor/identification/running_mean.h"
+
+namespace suspension_health_monitor {
+
+/// How well a prediction follows a measurement, over an exponential window.
+/// A constant difference is left out of both figures: the offsets of two accelerometers are no fault of the model.
+class RunningComparison {
+ public:
+  /// @param forgetting_factor  lambda in (0, 1]; window of 1 / (1 - lambda) samples.
+  explicit RunningComparison(double forgetting_factor);
+
+  void add(double measured, double predicted);
+
+  /// @return root mean square of (measured - predicted) about its mean; 0 before the first sample.
+  double rmse() const;
+
+  /// @return 100 (1 - |y - yhat| / |y - mean y|), 100 for a perfect model, 0 for a constant; below 0 is worse than that.
+  /// NaN while the measurement has not moved.
+  double fitPercent() const;
+
+ private:
+  RunningMean residual_, square_residual_, measured_, square_measured_;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cmath>
+
+namespace suspension_health_monitor {
+
+/// What one estimator knows of the strut. NaN: nothing yet.
+struct StrutEstimate {
+  double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
+  double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
+  double damping_to_mass_stddev = std::nan("");    ///< [1/s], for residuals taken as white
+  double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
+  double effective_rows = 0.0;                     ///< rows in the estimator's memory
+  double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
+  bool valid = false;      ///< enough rows, enough explained, and a strut: b1 > 0, b0 > 0
+
+  /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
+  double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }
+  /// Damping ratio b1 / (2 sqrt(b0)) [-]; NaN unless b0 > 0.
+  double dampingRatio() const { return damping_to_mass / (2 * std::sqrt(stiffness_to_mass)); }
+};
+
+}  // namespace suspension_health_monitor

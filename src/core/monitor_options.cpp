@@ -1,0 +1,46 @@
+#include "suspension_health_monitor/monitor_options.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kDefaultHorizon = 0.6;  // [s], the paper's
+
+}  // namespace
+
+void MonitorOptions::validate() const {
+  suspension_health_monitor::validate(*this, kMonitorFields);
+  if (integration_horizon && horizon_samples)
+    throw std::invalid_argument("integration_horizon and horizon_samples are both given, must be one of them");
+  health().validate();
+  if (sample_period) HorizonIntegral(horizonSamples(*sample_period), *sample_period, integrationRule(integration_rule));
+}
+
+int MonitorOptions::horizonSamples(double period) const {
+  if (horizon_samples) return *horizon_samples;
+  const double samples = integration_horizon.value_or(kDefaultHorizon) / period;
+  return static_cast<int>(std::lround(std::min(samples, 1e6)));
+}
+
+IntegralFilterOptions MonitorOptions::filter(double period) const {
+  return {horizonSamples(period), period, integrationRule(integration_rule)};
+}
+
+RecursiveOptions MonitorOptions::recursive() const {
+  return {forgetting_factor, initial_variance,
+          initial_variance_rule == "relative" ? InitialVariance::kRelative : InitialVariance::kAbsolute};
+}
+
+LeastAbsoluteOptions MonitorOptions::leastAbsolute() const {
+  return {la_start_rows, la_small_divisor_rule == "relative" ? SmallDivisor::kRelative : SmallDivisor::kAbsolute,
+          la_small_divisor, la_scale_covariance_at_start};
+}
+
+HealthOptions MonitorOptions::health() const {
+  return {nominal_damping_to_mass, nominal_stiffness_to_mass, damping_warn, damping_error,
+          stiffness_warn,          stiffness_error,           confirm_time};
+}
+
+}  // namespace suspension_health_monitor
