@@ -1,9 +1,10 @@
 # Tests that need ROS or the built programs. test/core has its own CMakeLists.txt, because it runs without ROS too.
-find_package(catkin REQUIRED COMPONENTS roslaunch rostest)
+find_package(roslaunch REQUIRED)
+find_package(rostest REQUIRED)
 set(programs ${installed_libraries} ${installed_programs})
 
-# test/ros/NAME.test, with its gtest node in test/ros/NAME.cpp (own main) or in an executable Python file that the launch
-# file names. Every <test> needs a test-name of its own: it names the result file.
+# test/ros/NAME.test, with its gtest node in test/ros/NAME.cpp (own main) or in an executable Python file that it names.
+# Every <test> needs a test-name of its own, because that names the result file.
 file(GLOB rostests CONFIGURE_DEPENDS test/ros/*.test)
 foreach(rostest ${rostests})
   get_filename_component(name ${rostest} NAME_WE)
@@ -29,9 +30,10 @@ foreach(pytest ${pytests})
   get_filename_component(name ${pytest} NAME_WE)
   set(result ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/pytest-${name}.xml)
   set(program ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}/suspension_bag)
+  string(JOIN " " command env PYTHONDONTWRITEBYTECODE=1 SUSPENSION_BAG=${program} ${PYTHON_EXECUTABLE} -m pytest
+    -p no:cacheprovider --rootdir=${PROJECT_SOURCE_DIR}/test -o junit_family=xunit1 --junitxml=${result} ${pytest})
   catkin_run_tests_target(pytest ${name} pytest-${name}.xml
-    COMMAND "env PYTHONDONTWRITEBYTECODE=1 SUSPENSION_BAG=${program} ${PYTHON_EXECUTABLE} -m pytest -p no:cacheprovider \
---rootdir=${PROJECT_SOURCE_DIR}/test -o junit_family=xunit1 --junitxml=${result} ${pytest}"
+    COMMAND "${command}"
     DEPENDENCIES ${programs}
     WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
 endforeach()

@@ -35,7 +35,7 @@ sourceSystemRos() {
   if [ -f /opt/ros/noetic/setup.bash ]; then sourceSetup /opt/ros/noetic/setup.bash; fi
 }
 
-# buildPackage [TARGET]...: configures and builds into build/. CMAKE_BUILD_PARALLEL_LEVEL limits the number of compilers.
+# buildPackage [TARGET]...: configures and builds in build/. CMAKE_BUILD_PARALLEL_LEVEL: how many compilers at once.
 buildPackage() {
   local jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)} cache=$build/CMakeCache.txt
   sourceSystemRos
@@ -45,7 +45,8 @@ buildPackage() {
   fi
   mkdir -p "$build"
   say "building in $build with $jobs jobs"
-  cmake -S "$repository" -B "$build" > "$build/configure.log" 2>&1 || { cat "$build/configure.log"; fail "cmake failed"; }
+  cmake -S "$repository" -B "$build" > "$build/configure.log" 2>&1 ||
+    { cat "$build/configure.log"; fail "cmake failed"; }
   cmake --build "$build" --parallel "$jobs" --target "${@:-all}"
 }
 

@@ -24,14 +24,25 @@ def failure_text(case):
     return "\n".join(texts)
 
 
-def read_results(path):
-    """(number passed, number skipped, [(name, failure text)]) of one result file."""
+def test_output(log, result_name):
+    """The last lines that a test printed: its section in ctest's log, by the name of its result file."""
+    test = "_" + result_name[len("MISSING-"):-len(".xml")].replace("test-", "test_", 1)
+    for section in log.split(" Start "):
+        name, _, output = section.partition("\n")
+        if name.endswith((test, test + ".test")):
+            return "\n".join(output.splitlines()[-MESSAGE_LINES + 1:])
+    return ""
+
+
+def read_results(path, log):
+    """(number passed, number skipped, [(name, failure text)]) of one result file; log: what ctest printed."""
     try:
         cases = list(ElementTree.parse(path).getroot().iter("testcase"))
     except ElementTree.ParseError as error:
         return 0, 0, [(path.name, f"unreadable result file: {error}")]
     if path.name.startswith("MISSING-"):
-        return 0, 0, [(path.name, "the test ended without a result: it crashed or could not start")]
+        text = "the test ended without a result: it crashed or could not start\n" + test_output(log, path.name)
+        return 0, 0, [(path.name, text)]
     passed, skipped, failed = 0, 0, []
     for case in cases:
         text = failure_text(case)
@@ -59,10 +70,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("results", type=pathlib.Path, help="folder with the result files")
     parser.add_argument("--ctest-status", type=int, default=0, help="exit status of ctest")
-    parser.add_argument("--log", type=pathlib.Path, help="output of ctest, named when something failed")
+    parser.add_argument("--log", type=pathlib.Path, help="what ctest printed")
     options = parser.parse_args()
 
-    results = [read_results(path) for path in sorted(options.results.rglob("*.xml"))]
+    log = options.log.read_text(errors="replace") if options.log else ""
+    results = [read_results(path, log) for path in sorted(options.results.rglob("*.xml"))]
     passed = sum(result[0] for result in results)
     skipped = sum(result[1] for result in results)
     failed = [failure for result in results for failure in result[2]]
