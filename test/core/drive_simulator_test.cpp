@@ -7,47 +7,14 @@
 #include <cmath>
 #include <complex>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "simulated_drive.h"
 #include "suspension_health_monitor/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-SimulationOptions scenario(const std::string& name, double duration = 120.0) {
-  SimulationOptions options;
-  options.scenario = name;
-  options.duration = duration;
-  return options;
-}
-
-std::vector<DriveSample> drive(const SimulationOptions& options) {
-  DriveSimulator simulator(options);
-  std::vector<DriveSample> samples;
-  while (std::optional<DriveSample> sample = simulator.next()) samples.push_back(*sample);
-  return samples;
-}
-
-std::vector<double> sprungNoise(const SimulationOptions& options) {
-  std::vector<double> noise;
-  for (const DriveSample& s : drive(options)) noise.push_back(s.sprung->acceleration - s.truth.sprung_acceleration);
-  return noise;
-}
-
-double meanOf(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double standardDeviationOf(const std::vector<double>& values) {
-  const double mean = meanOf(values);
-  double sum = 0.0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return std::sqrt(sum / static_cast<double>(values.size()));
-}
 
 TEST(DriveSimulator, SamplesBothEndsOfTheDrive) {
   const std::vector<DriveSample> samples = drive(scenario("paper_clean", 2.0));
@@ -228,13 +195,6 @@ TEST(DriveSimulator, EndStopsLimitTheTravelByTheirEnergy) {
   EXPECT_LT(farthest, 0.09 + give);
 }
 
-TEST(DriveSimulator, StopsPushTheBodyAwayFromThem) {
-  const EndStops stops{0.09, 1000.0};
-  EXPECT_DOUBLE_EQ(stops.forcePerMass(0.05), 0.0);
-  EXPECT_NEAR(stops.forcePerMass(0.10), 10.0, 1e-12);
-  EXPECT_NEAR(stops.forcePerMass(-0.11), -20.0, 1e-12);
-}
-
 TEST(DriveSimulator, SameOptionsGiveIdenticalSamples) {
   SimulationOptions options = scenario("iso_road", 5.0);
   options.dropout = 0.1;
@@ -247,161 +207,6 @@ TEST(DriveSimulator, SameOptionsGiveIdenticalSamples) {
     ASSERT_EQ(first[i].sprung->stamp, second[i].sprung->stamp);
     ASSERT_EQ(first[i].sprung->acceleration, second[i].sprung->acceleration);
   }
-}
-
-TEST(DriveSimulator, NoiseBelongsToTheSeedAlone) {
-  SimulationOptions healthy = scenario("paper_clean", 60.0);
-  healthy.damping_ramp = false;
-  const std::vector<double> reference = sprungNoise(healthy);
-  SimulationOptions other_seed = healthy;
-  other_seed.seed = 2;
-  EXPECT_GT(std::abs(sprungNoise(other_seed)[10] - reference[10]), 1e-6);
-  const std::vector<double> faulty = sprungNoise(scenario("paper_saturation", 60.0));
-  SimulationOptions elsewhere = scenario("iso_road", 60.0);
-  elsewhere.stamp_jitter = 0.004;
-  elsewhere.vehicle = "rover";
-  const std::vector<double> on_iso_road = sprungNoise(elsewhere);
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    ASSERT_NEAR(faulty[i], reference[i], 1e-13);
-    ASSERT_NEAR(on_iso_road[i], reference[i], 1e-13);
-  }
-}
-
-TEST(DriveSimulator, NoiseHasTheStatedDeviationAndShape) {
-  for (const char* distribution : {"uniform", "gaussian"}) {
-    SimulationOptions options = scenario("paper_clean");
-    options.noise_distribution = distribution;
-    std::vector<double> sprung, unsprung, product;
-    for (const DriveSample& s : drive(options)) {
-      sprung.push_back(s.sprung->acceleration - s.truth.sprung_acceleration);
-      unsprung.push_back(s.unsprung->acceleration - s.truth.unsprung_acceleration);
-      product.push_back(sprung.back() * unsprung.back() / (0.024 * 0.024));
-    }
-    const double root = std::sqrt(static_cast<double>(sprung.size()));
-    for (const std::vector<double>& noise : {sprung, unsprung}) {
-      EXPECT_NEAR(meanOf(noise), 0.0, 4.0 * 0.024 / root) << distribution;
-      // A sample deviation scatters by at most sqrt(2 / N) / 2 of itself (normal; uniform less).
-      EXPECT_NEAR(standardDeviationOf(noise), 0.024, 4.0 * 0.024 * std::sqrt(0.5) / root) << distribution;
-      const double largest = *std::max_element(noise.begin(), noise.end());
-      // Of 6001 values the largest uniform one lies within 0.5 % of the edge, the largest normal one beyond 2.8 sigma.
-      if (options.noise_distribution == "uniform") {
-        EXPECT_LE(largest, 0.024 * std::sqrt(3.0));
-        EXPECT_GT(largest, 0.024 * std::sqrt(3.0) * 0.995);
-      } else {
-        EXPECT_GT(largest, 0.024 * 2.8);
-      }
-    }
-    EXPECT_NEAR(meanOf(product), 0.0, 4.0 / root) << "the two sensors' noises must be independent";
-  }
-}
-
-TEST(DriveSimulator, LosesTheStatedShareOfMessagesOfEachSensor) {
-  SimulationOptions options = scenario("paper_clean");
-  const std::vector<DriveSample> complete = drive(options);
-  options.dropout = 0.2;
-  const std::vector<DriveSample> samples = drive(options);
-  double sprung = 0.0, unsprung = 0.0, both = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    sprung += !samples[i].sprung;
-    unsprung += !samples[i].unsprung;
-    both += !samples[i].sprung && !samples[i].unsprung;
-    if (samples[i].sprung) {
-      ASSERT_EQ(samples[i].sprung->acceleration, complete[i].sprung->acceleration);
-    }
-  }
-  const double n = static_cast<double>(samples.size());
-  const auto tolerance = [n](double share) { return 4.0 * std::sqrt(share * (1.0 - share) / n); };
-  EXPECT_NEAR(sprung / n, 0.2, tolerance(0.2));
-  EXPECT_NEAR(unsprung / n, 0.2, tolerance(0.2));
-  EXPECT_NEAR(both / n, 0.04, tolerance(0.04));
-}
-
-TEST(DriveSimulator, JitterDelaysStampsButKeepsTheirOrder) {
-  SimulationOptions options = scenario("paper_clean");
-  options.stamp_jitter = 0.019;
-  std::vector<double> delays;
-  Stamp last{-1};
-  for (const DriveSample& sample : drive(options)) {
-    delays.push_back(toSeconds(sample.unsprung->stamp - sample.stamp));
-    EXPECT_GT(sample.unsprung->stamp, last);
-    last = sample.unsprung->stamp;
-  }
-  EXPECT_GE(*std::min_element(delays.begin(), delays.end()), 0.0);
-  EXPECT_LE(*std::max_element(delays.begin(), delays.end()), 0.019);
-  const double deviation = 0.019 / std::sqrt(12.0);
-  EXPECT_NEAR(meanOf(delays), 0.0095, 4.0 * deviation / std::sqrt(static_cast<double>(delays.size())));
-}
-
-TEST(DriveSimulator, SprungClockRunsAheadAsAsked) {
-  SimulationOptions options = scenario("paper_clean", 100.0);
-  options.clock_offset = 0.015;
-  options.clock_skew = 2e-4;
-  const DriveSample last = drive(options).back();
-  EXPECT_EQ(last.unsprung->stamp, std::chrono::seconds(100));
-  EXPECT_NEAR(toSeconds(last.sprung->stamp), 100.0 + 0.015 + 100.0 * 2e-4, 1e-9);
-}
-
-TEST(DriveSimulator, VehiclesHaveTheirPublishedRatios) {
-  SimulationOptions options = scenario("iso_road", 0.0);
-  const QuarterCar golden = makeScenario(options).vehicle;
-  EXPECT_NEAR(golden.dampingToMass(), 6.0, 1e-12);
-  EXPECT_NEAR(golden.stiffnessToMass(), 63.3, 1e-12);
-  EXPECT_NEAR(golden.unsprung_mass / golden.sprung_mass, 0.15, 1e-12);
-  EXPECT_NEAR(*golden.tyre_stiffness / golden.sprung_mass, 653.0, 1e-9);
-  options.vehicle = "rover";
-  options.damping_to_mass = 7.0;
-  options.stiffness_to_mass = 90.0;
-  const DriveTruth truth = drive(options).front().truth;
-  EXPECT_NEAR(truth.damping_to_mass, 7.0, 1e-12);
-  EXPECT_NEAR(truth.stiffness_to_mass, 90.0, 1e-12);
-}
-
-TEST(DriveSimulator, VehiclesHaveTheirOwnRoadAndSpeedUnlessToldOtherwise) {
-  SimulationOptions options = scenario("iso_road", 0.0);
-  options.vehicle = "rover";
-  const RoadPoint own = makeScenario(options).road(3.0);
-  options.iso_class = "E";
-  options.speed = 2.0;
-  EXPECT_EQ(makeScenario(options).road(3.0).height, own.height);
-  options.iso_class = "F";
-  EXPECT_NEAR(makeScenario(options).road(3.0).height, 2.0 * own.height, 1e-12);
-  options.speed = 6.0;
-  EXPECT_NEAR(makeScenario(options).road(1.0).height, 2.0 * own.height, 1e-12);
-}
-
-TEST(SimulationOptions, AreRefusedByNameAndValue) {
-  const auto complaint = [](auto change) -> std::string {
-    SimulationOptions options;
-    change(options);
-    try {
-      DriveSimulator simulator(options);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
-  };
-  const auto expectWords = [](const std::string& message, const std::string& words) {
-    EXPECT_NE(message.find(words), std::string::npos) << "got: " << message;
-  };
-  expectWords(complaint([](SimulationOptions& o) { o.scenario = "paper"; }), "scenario = \"paper\"");
-  expectWords(complaint([](SimulationOptions& o) { o.iso_class = "I"; }), "iso_class = \"I\"");
-  expectWords(complaint([](SimulationOptions& o) { o.rate = -50.0; }), "rate = -50");
-  expectWords(complaint([](SimulationOptions& o) { o.noise = std::nan(""); }), "noise = nan");
-  expectWords(complaint([](SimulationOptions& o) { o.stamp_jitter = 0.02; }), "stamp_jitter = 0.02");
-  expectWords(complaint([](SimulationOptions& o) { o.ramp_end = 30.0; }), "ramp_end = 30");
-  expectWords(complaint([](SimulationOptions& o) { o.speed = 0.0; }), "speed = 0");
-}
-
-TEST(SimulationOptions, DefaultsAreThePapersAndEveryOptionIsInTheTable) {
-  SimulationOptions options;
-  EXPECT_NO_THROW(validate(options));
-  OptionMap values{{"scenario", "iso_road"}, {"seed", 7}, {"damping_ramp", false}, {"speed", 3}};
-  takeOptions(values, kSimulationFields, options);
-  EXPECT_TRUE(values.empty());
-  EXPECT_EQ(options.scenario, "iso_road");
-  EXPECT_EQ(options.seed, 7);
-  EXPECT_FALSE(options.damping_ramp);
-  EXPECT_DOUBLE_EQ(*options.speed, 3.0);
 }
 
 }  // namespace
