@@ -12,8 +12,9 @@ enum class IntegrationRule {
   kTrapezoid,  ///< the paper's rule (9): straight lines between samples, error O(T^2)
   kSimpson,    ///< a parabola through every pair of intervals, error O(T^4); needs an even L.
                ///< Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed. (1984), eq. (2.2.2)
-  kCubic,      ///< piecewise cubic through four neighbours, error O(T^4), any L >= 5. Summed over the intervals it is
-               ///< the trapezoid rule with Gregory's end corrections up to second differences (ibid., sec. 2.9)
+  kCubic,      ///< piecewise cubic through four neighbours (a parabola in the first and the last interval), error
+               ///< O(T^4), any L >= 5. Summed over the intervals it is the trapezoid rule with Gregory's end corrections
+               ///< up to second differences (ibid., sec. 2.9)
 };
 
 /// The names of the rules in configuration files, in the order of the enumeration.

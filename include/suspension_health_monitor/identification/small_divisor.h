@@ -1,0 +1,26 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace suspension_health_monitor {
+
+/// What keeps the weight 1/|epsilon| finite when a row is hit (almost) exactly.
+enum class SmallDivisor {
+  kAbsolute,  ///< |epsilon| >= eps_min in the unit of psi, as in the paper (below Eq. (23))
+  kRelative,  ///< |epsilon| >= eps_min times the scale of the residuals: scale-free
+};
+
+inline constexpr std::string_view kSmallDivisorNames = "absolute relative";
+
+/// @param smallest  eps_min >= 0, [unit of psi] if absolute, [-] if relative.
+/// @param residual_scale  mean |epsilon| >= 0 [unit of psi], only used by the relative rule.
+/// @return max(|residual|, threshold) [unit of psi], above 0 even for a row hit exactly under a threshold of 0.
+inline double boundedDivisor(double residual, SmallDivisor rule, double smallest, double residual_scale) {
+  const double threshold = rule == SmallDivisor::kRelative ? smallest * residual_scale : smallest;
+  return std::max({std::abs(residual), threshold, std::numeric_limits<double>::min()});
+}
+
+}  // namespace suspension_health_monitor
