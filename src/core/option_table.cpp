@@ -1,5 +1,7 @@
 #include "suspension_health_monitor/option_table.h"
 
+#include <boost/lexical_cast/try_lexical_convert.hpp>
+
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -47,25 +49,42 @@ std::string allowedText(const option_table::Bound& option) {
                               "], must be " + allowedText(option) + ": " + std::string(option.help));
 }
 
+// A number may come as text: command lines have nothing else, and YAML 1.1 reads 1e-8 (no dot) as text.
 std::optional<double> asNumber(const OptionValue& value) {
+  double number = 0.0;
   if (const auto* d = std::get_if<double>(&value)) return *d;
   if (const auto* i = std::get_if<int>(&value)) return *i;
+  const auto* text = std::get_if<std::string>(&value);
+  if (text != nullptr && boost::conversion::try_lexical_convert(*text, number)) return number;
   return std::nullopt;
 }
 
-// A parameter file may write a whole number as 30 or 30.0; anything with a fraction is refused.
+// A whole number may be written as 30 or 30.0; anything with a fraction is refused.
 std::optional<int> asWhole(const OptionValue& value) {
-  if (const auto* i = std::get_if<int>(&value)) return *i;
-  const auto* d = std::get_if<double>(&value);
-  if (d != nullptr && std::abs(*d) < 1e9 && std::trunc(*d) == *d) return static_cast<int>(*d);
+  const std::optional<double> number = asNumber(value);
+  if (number && std::abs(*number) < 1e9 && std::trunc(*number) == *number) return static_cast<int>(*number);
+  return std::nullopt;
+}
+
+std::optional<bool> asBool(const OptionValue& value) {
+  if (const auto* b = std::get_if<bool>(&value)) return *b;
+  const auto* text = std::get_if<std::string>(&value);
+  if (text != nullptr && (*text == "true" || *text == "True")) return true;
+  if (text != nullptr && (*text == "false" || *text == "False")) return false;
+  return std::nullopt;
+}
+
+std::optional<std::string> asText(const OptionValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* i = std::get_if<int>(&value)) return std::to_string(*i);  // a name such as 17
   return std::nullopt;
 }
 
 // Copies a value into an option of the same kind; false if the kinds differ.
 struct Assigner {
   const OptionValue& value;
-  bool operator()(bool* target) const { return copy(target, std::get_if<bool>(&value)); }
-  bool operator()(std::string* target) const { return copy(target, std::get_if<std::string>(&value)); }
+  bool operator()(bool* target) const { return copy(target, asBool(value)); }
+  bool operator()(std::string* target) const { return copy(target, asText(value)); }
   bool operator()(int* target) const { return copy(target, asWhole(value)); }
   bool operator()(double* target) const { return copy(target, asNumber(value)); }
   bool operator()(std::optional<int>* target) const { return copy(target, asWhole(value)); }

@@ -15,6 +15,7 @@ enum class Side : std::size_t { kSprung = 0, kUnsprung = 1 };
 
 /// Why a reading was kept out.
 enum class RejectReason : std::size_t {
+  kNotMeasured,     ///< the message says that it carries no acceleration (covariance -1)
   kNotFinite,       ///< NaN or infinite acceleration
   kZeroStamp,       ///< stamp 0 in a series that has stamps
   kRepeatedStamp,   ///< same stamp as the reading before
@@ -22,8 +23,9 @@ enum class RejectReason : std::size_t {
   kMissingPartner,  ///< no reading of the other sensor within half a sample
   kTooSoon,         ///< less than half a sample after the one before: sample_period is too long for this input
 };
-inline constexpr std::array<std::string_view, 6> kRejectReasonNames{
-    "not_finite", "zero_stamp", "repeated_stamp", "time_went_back", "missing_partner", "too_soon"};
+inline constexpr std::array<std::string_view, 7> kRejectReasonNames{
+    "not_measured", "not_finite", "zero_stamp", "repeated_stamp", "time_went_back",
+    "missing_partner", "too_soon"};
 
 /// Number of rejected readings by reason.
 class RejectCounts {
@@ -31,6 +33,7 @@ class RejectCounts {
   void add(RejectReason reason) { ++counts_[static_cast<std::size_t>(reason)]; }
   std::uint64_t count(RejectReason reason) const { return counts_[static_cast<std::size_t>(reason)]; }
   std::uint64_t total() const;
+  RejectCounts& operator+=(const RejectCounts& other);
 
  private:
   std::array<std::uint64_t, kRejectReasonNames.size()> counts_{};

@@ -16,6 +16,11 @@ constexpr int kReorderedPeriods = 50;
 
 std::uint64_t RejectCounts::total() const { return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}); }
 
+RejectCounts& RejectCounts::operator+=(const RejectCounts& other) {
+  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+  return *this;
+}
+
 UniformGrid::UniformGrid(double period) : period_(fromSeconds(period)) {
   if (!(std::isfinite(period) && period_.count() > 0))
     throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be above 0");

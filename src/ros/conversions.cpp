@@ -1,0 +1,94 @@
+#include "conversions.h"
+
+#include <cmath>
+#include <limits>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+Stamp toStamp(const ros::Time& time) { return std::chrono::seconds(time.sec) + Stamp(time.nsec); }
+
+ros::Time toRosTime(Stamp stamp) {
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(stamp.count()));
+  return time;
+}
+
+StrutAxis::StrutAxis(const std::string& name) : letter_(name.back()), sign_(name.front() == '-' ? -1.0 : 1.0) {}
+
+std::optional<double> StrutAxis::acceleration(const sensor_msgs::Imu& imu) const {
+  if (imu.linear_acceleration_covariance[0] == -1.0) return std::nullopt;
+  const geometry_msgs::Vector3& a = imu.linear_acceleration;
+  return sign_ * (letter_ == 'x' ? a.x : letter_ == 'y' ? a.y : a.z);
+}
+
+ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, const std_msgs::Header& header,
+                        const std::optional<double>& sprung_mass) {
+  ParameterEstimate msg;
+  msg.header = header;
+  msg.estimator = estimator;
+  msg.damping_to_mass = estimate.damping_to_mass;
+  msg.stiffness_to_mass = estimate.stiffness_to_mass;
+  msg.damping_to_mass_stddev = estimate.damping_to_mass_stddev;
+  msg.stiffness_to_mass_stddev = estimate.stiffness_to_mass_stddev;
+  msg.damping = estimate.damping_to_mass * sprung_mass.value_or(kUnknown);
+  msg.stiffness = estimate.stiffness_to_mass * sprung_mass.value_or(kUnknown);
+  msg.natural_frequency = estimate.naturalFrequency();
+  msg.damping_ratio = estimate.dampingRatio();
+  msg.effective_rows = estimate.effective_rows;
+  msg.valid = estimate.valid;
+  return msg;
+}
+
+ModelComparison toMsg(const ComparisonReport& comparison, const std_msgs::Header& header) {
+  ModelComparison msg;
+  msg.header = header;
+  msg.measured = comparison.measured;
+  msg.predicted = comparison.predicted.value_or(kUnknown);
+  msg.residual = msg.measured - msg.predicted;
+  msg.rmse = msg.base_rmse = comparison.rmse;
+  msg.fit_percent = msg.base_fit_percent = comparison.fit_percent;
+  return msg;
+}
+
+SuspensionHealth toMsg(const MonitorReport& report, const MonitorOptions& options, const std_msgs::Header& header) {
+  SuspensionHealth msg;
+  msg.header = header;
+  msg.level = static_cast<SuspensionHealth::_level_type>(report.health.level);
+  msg.reason = describe(report.health);
+  msg.damping_to_mass = report.la.damping_to_mass;
+  msg.stiffness_to_mass = report.la.stiffness_to_mass;
+  msg.nominal_damping_to_mass = options.nominal_damping_to_mass.value_or(kUnknown);
+  msg.nominal_stiffness_to_mass = options.nominal_stiffness_to_mass.value_or(kUnknown);
+  msg.damping_change = report.health.damping_change.value_or(kUnknown);
+  msg.stiffness_change = report.health.stiffness_change.value_or(kUnknown);
+  return msg;
+}
+
+SimulationTruth toMsg(const DriveTruth& truth, const std_msgs::Header& header) {
+  SimulationTruth msg;
+  msg.header = header;
+  msg.damping_to_mass = truth.damping_to_mass;
+  msg.stiffness_to_mass = truth.stiffness_to_mass;
+  msg.travel = truth.travel;
+  msg.travel_rate = truth.travel_rate;
+  msg.road = truth.road_height;
+  msg.sprung_acceleration = truth.sprung_acceleration;
+  msg.unsprung_acceleration = truth.unsprung_acceleration;
+  return msg;
+}
+
+sensor_msgs::Imu toImu(double acceleration, double gravity, const std_msgs::Header& header) {
+  sensor_msgs::Imu imu;
+  imu.header = header;
+  imu.orientation_covariance[0] = -1.0;
+  imu.angular_velocity_covariance[0] = -1.0;
+  imu.linear_acceleration.z = acceleration + gravity;
+  return imu;
+}
+
+}  // namespace suspension_health_monitor

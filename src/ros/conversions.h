@@ -1,0 +1,48 @@
+#pragma once
+
+#include <ros/time.h>
+#include <sensor_msgs/Imu.h>
+#include <suspension_health_monitor/ModelComparison.h>
+#include <suspension_health_monitor/ParameterEstimate.h>
+#include <suspension_health_monitor/SimulationTruth.h>
+#include <suspension_health_monitor/SuspensionHealth.h>
+
+#include <optional>
+#include <string>
+
+#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+
+/// Messages to the library's types and back: the only place that knows both.
+
+Stamp toStamp(const ros::Time& time);
+ros::Time toRosTime(Stamp stamp);  ///< @pre stamp >= 0
+
+/// The axis of an IMU that points up along the strut.
+class StrutAxis {
+ public:
+  /// @param name  one of kAxisNames (shell_options.h).
+  explicit StrutAxis(const std::string& name);
+
+  /// @return acceleration along the axis, gravity included as measured (REP 145) [m/s^2]; nothing if the message says
+  /// that it carries none (covariance -1, sensor_msgs/Imu).
+  std::optional<double> acceleration(const sensor_msgs::Imu& imu) const;
+
+ private:
+  char letter_;
+  double sign_;
+};
+
+/// @param sprung_mass  [kg], for damping and stiffness in SI.
+ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, const std_msgs::Header& header,
+                        const std::optional<double>& sprung_mass);
+ModelComparison toMsg(const ComparisonReport& comparison, const std_msgs::Header& header);
+SuspensionHealth toMsg(const MonitorReport& report, const MonitorOptions& options, const std_msgs::Header& header);
+SimulationTruth toMsg(const DriveTruth& truth, const std_msgs::Header& header);
+
+/// An IMU lying level: the reading on z, gravity on top of it, covariances unknown (all 0) and no orientation (-1).
+sensor_msgs::Imu toImu(double acceleration, double gravity, const std_msgs::Header& header);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,37 @@
+#include "drive_messages.h"
+
+#include <algorithm>
+
+#include "conversions.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+// ROS cannot stamp before 0; only a clock that is set wrong on purpose gets there.
+ros::Time stampAt(Stamp stamp) { return toRosTime(std::max(stamp, Stamp::zero())); }
+
+}  // namespace
+
+DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp start)
+    : simulator_(options.drive), gravity_(options.publishing.gravity), start_(start) {}
+
+std::optional<DriveMessages> DriveMessageSource::next() {
+  const std::optional<DriveSample> sample = simulator_.next();
+  if (!sample) return std::nullopt;
+  std_msgs::Header header;
+  header.stamp = stampAt(start_ + sample->stamp);
+  header.frame_id = "sprung_imu";
+  return DriveMessages{header.stamp, toMessage(sample->sprung, "sprung_imu"),
+                       toMessage(sample->unsprung, "unsprung_imu"), toMsg(sample->truth, header)};
+}
+
+std::optional<sensor_msgs::Imu> DriveMessageSource::toMessage(const std::optional<AccelerometerReading>& reading,
+                                                              const char* frame) const {
+  if (!reading) return std::nullopt;
+  std_msgs::Header header;
+  header.stamp = stampAt(start_ + reading->stamp);
+  header.frame_id = frame;
+  return toImu(reading->acceleration, gravity_, header);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <sensor_msgs/Imu.h>
+#include <suspension_health_monitor/SimulationTruth.h>
+
+#include <optional>
+
+#include "simulator_options.h"
+#include "suspension_health_monitor/simulation/drive_simulator.h"
+
+namespace suspension_health_monitor {
+
+/// One instant of a simulated drive as messages; an IMU message that was lost is missing.
+struct DriveMessages {
+  ros::Time time;
+  std::optional<sensor_msgs::Imu> sprung, unsprung;
+  SimulationTruth truth;
+};
+
+/// The simulated drive as messages, the same for the simulator nodelet and for `suspension_bag simulate`.
+class DriveMessageSource {
+ public:
+  /// @param start  stamp at the start of the drive.
+  DriveMessageSource(const SimulatorOptions& options, Stamp start);
+
+  /// @return the next instant; nothing after the end of the drive.
+  std::optional<DriveMessages> next();
+
+ private:
+  std::optional<sensor_msgs::Imu> toMessage(const std::optional<AccelerometerReading>& reading,
+                                            const char* frame) const;
+
+  DriveSimulator simulator_;
+  double gravity_;
+  Stamp start_;
+};
+
+}  // namespace suspension_health_monitor

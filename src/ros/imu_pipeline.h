@@ -1,0 +1,56 @@
+#pragma once
+
+#include <sensor_msgs/Imu.h>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "conversions.h"
+#include "shell_options.h"
+#include "suspension_health_monitor/signal/period_measurement.h"
+#include "suspension_health_monitor/signal/uniform_grid.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+
+/// From Imu messages to reports, the same for the nodelet and for a bag:
+/// message -> acceleration along the strut -> UniformGrid -> SuspensionMonitor::addSample -> sink.
+/// Without a configured sample_period the first readings wait until their stamps have told it.
+class ImuPipeline {
+ public:
+  using Sink = std::function<void(const MonitorReport&)>;
+
+  /// @param sink  called with the report after every sample that was taken in.
+  /// @throws std::invalid_argument  as MonitorOptions::validate().
+  ImuPipeline(const PipelineOptions& options, Sink sink);
+
+  void push(Side side, const sensor_msgs::Imu& imu);
+
+  /// @return the monitor; nullptr while the sample period is being measured.
+  const SuspensionMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
+
+  /// @return everything that was kept out so far, wherever it was noticed.
+  RejectCounts rejected() const;
+
+ private:
+  struct Reading {
+    Side side;
+    Stamp stamp;
+    double acceleration;
+  };
+
+  void push(const Reading& reading);
+  void start(double period);
+
+  PipelineOptions options_;
+  std::array<StrutAxis, 2> axes_;
+  Sink sink_;
+  PeriodMeasurement measurement_;
+  std::vector<Reading> early_;  // readings that wait for the sample period
+  std::optional<UniformGrid> grid_;
+  std::optional<SuspensionMonitor> monitor_;
+  RejectCounts rejected_;
+};
+
+}  // namespace suspension_health_monitor

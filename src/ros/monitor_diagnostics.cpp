@@ -1,0 +1,108 @@
+#include "monitor_diagnostics.h"
+
+#include <cmath>
+
+namespace suspension_health_monitor {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kPeriodTolerance = 0.02;  // of the mean spacing against sample_period
+
+void addEstimate(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
+                 const StrutEstimate& estimate) {
+  status.addf(name + " damping_to_mass [1/s]", "%.4g", estimate.damping_to_mass);
+  status.addf(name + " stiffness_to_mass [1/s^2]", "%.5g", estimate.stiffness_to_mass);
+  status.addf(name + " explained [%]", "%.1f", 100.0 * estimate.explained);
+  status.add(name + " valid", estimate.valid);
+}
+
+void addJudgement(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
+                  const std::optional<double>& nominal, const std::optional<double>& change) {
+  if (nominal) status.addf("nominal " + name, "%.5g", *nominal);
+  if (change) status.addf(name + " change [%]", "%+.1f", 100.0 * *change);
+}
+
+}  // namespace
+
+MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                                       const std::string& name, const ShellOptions& options,
+                                       const std::array<ros::Subscriber, 2>& imu)
+    : options_(options), topics_{imu[0].getTopic(), imu[1].getTopic()}, updater_(node, private_node, name) {
+  updater_.setHardwareID(options.hardware_id);
+  updater_.add("Input", this, &MonitorDiagnostics::describeInput);
+  updater_.add("Health", this, &MonitorDiagnostics::describeHealth);
+}
+
+bool MonitorDiagnostics::noteLevel(HealthLevel level) {
+  const bool changed = level_ != level;
+  level_ = level;
+  return changed;
+}
+
+void MonitorDiagnostics::publish(const ImuPipeline& pipeline) {
+  pipeline_ = &pipeline;
+  updater_.force_update();
+  pipeline_ = nullptr;
+}
+
+void MonitorDiagnostics::describeInput(Status& status) {
+  status.summary(DiagnosticStatus::OK, "both IMUs arrive as expected");
+  const SuspensionMonitor* monitor = pipeline_->monitor();
+  if (monitor != nullptr) {
+    const InputStatus& input = monitor->input();
+    if (input.gaps + input.restarts > gaps_before_) status.mergeSummary(DiagnosticStatus::WARN, "gap in the input");
+    gaps_before_ = input.gaps + input.restarts;
+    if (input.mean_period > 0.0 && std::abs(input.mean_period / monitor->period() - 1.0) > kPeriodTolerance)
+      status.mergeSummary(DiagnosticStatus::WARN, "stamps do not fit sample_period");
+    status.addf("rate [Hz]", "%.4g", input.mean_period > 0.0 ? 1.0 / input.mean_period : 0.0);
+    status.addf("sample_period [s]", "%.9g", monitor->period());
+    status.addf("horizon_samples", "%d", monitor->horizonSamples());
+    status.add("samples", input.samples);
+    status.add("regression rows", input.rows);
+    status.add("gaps", input.gaps);
+    status.add("clock jumps", input.restarts);
+  }
+  const RejectCounts rejected = pipeline_->rejected();
+  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i) {
+    const auto reason = static_cast<RejectReason>(i);
+    const std::string name(kRejectReasonNames[i]);
+    if (rejected.count(reason) > rejected_before_.count(reason))
+      status.mergeSummary(DiagnosticStatus::WARN, "readings rejected: " + name);
+    status.add("rejected " + name, rejected.count(reason));
+  }
+  rejected_before_ = rejected;
+  describeSilence(status);
+  if (!refusal_.empty()) status.mergeSummary(DiagnosticStatus::ERROR, refusal_);
+}
+
+void MonitorDiagnostics::describeSilence(Status& status) const {
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    if (!last_message_[i]) {
+      status.mergeSummary(DiagnosticStatus::ERROR, "no message yet on " + topics_[i]);
+      continue;
+    }
+    const double silence = (ros::WallTime::now() - *last_message_[i]).toSec();
+    if (silence > options_.input_timeout)
+      status.mergeSummaryf(DiagnosticStatus::ERROR, "no message on %s for %.1f s", topics_[i].c_str(), silence);
+  }
+}
+
+void MonitorDiagnostics::describeHealth(Status& status) {
+  const SuspensionMonitor* monitor = pipeline_->monitor();
+  if (monitor == nullptr) {
+    status.summary(DiagnosticStatus::STALE, "measuring the sample period");
+    return;
+  }
+  const MonitorReport& report = monitor->report();
+  status.summary(static_cast<unsigned char>(report.health.level), describe(report.health));
+  addEstimate(status, "la", report.la);
+  addEstimate(status, "ls", report.ls);
+  const MonitorOptions& options = monitor->options();
+  addJudgement(status, "damping_to_mass", options.nominal_damping_to_mass, report.health.damping_change);
+  addJudgement(status, "stiffness_to_mass", options.nominal_stiffness_to_mass, report.health.stiffness_change);
+  status.addf("free run rmse [m/s^2]", "%.4g", report.comparison.rmse);
+  status.addf("free run fit [%]", "%.2f", report.comparison.fit_percent);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <nodelet/nodelet.h>
+#include <ros/ros.h>
+#include <sensor_msgs/Imu.h>
+#include <std_srvs/Trigger.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "imu_pipeline.h"
+#include "monitor_diagnostics.h"
+
+namespace suspension_health_monitor {
+
+/// Two IMU topics in; estimates, comparison, health and diagnostics out. One per strut.
+/// Every callback comes from one serial queue, so nothing here needs a lock.
+class MonitorNodelet : public nodelet::Nodelet {
+ public:
+  ~MonitorNodelet() override;
+
+ private:
+  /// @throws std::invalid_argument  on a wrong parameter: the loader logs it, drops the nodelet and lives on.
+  void onInit() override;
+
+  void onImu(Side side, const sensor_msgs::ImuConstPtr& imu);
+  void publish(const MonitorReport& report);
+  void onTick();
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void makePipeline();
+
+  PipelineOptions options_;
+  std::optional<ImuPipeline> pipeline_;
+  std::optional<MonitorDiagnostics> diagnostics_;
+  std::uint64_t reports_ = 0;
+  std::array<std::string, 2> frames_;
+  ros::Publisher ls_, la_, comparison_, health_;
+  ros::ServiceServer reset_;
+  ros::WallTimer tick_;
+  std::array<ros::Subscriber, 2> imu_;
+};
+
+}  // namespace suspension_health_monitor

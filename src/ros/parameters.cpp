@@ -1,0 +1,42 @@
+#include "parameters.h"
+
+#include <XmlRpcValue.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace suspension_health_monitor {
+namespace {
+
+void flatten(const std::string& name, XmlRpc::XmlRpcValue& value, OptionMap& result) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeStruct:
+      for (auto& [key, nested] : value) flatten(name.empty() ? key : name + '/' + key, nested, result);
+      break;
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      result[name] = static_cast<bool>(value);
+      break;
+    case XmlRpc::XmlRpcValue::TypeInt:
+      result[name] = static_cast<int>(value);
+      break;
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      result[name] = static_cast<double>(value);
+      break;
+    case XmlRpc::XmlRpcValue::TypeString:
+      result[name] = static_cast<std::string>(value);
+      break;
+    default:
+      throw std::invalid_argument(name + " is a list or binary, must be true or false, a number or a text");
+  }
+}
+
+}  // namespace
+
+OptionMap readParameters(const ros::NodeHandle& private_node) {
+  OptionMap result;
+  XmlRpc::XmlRpcValue value;
+  if (private_node.getParam(private_node.getNamespace(), value)) flatten("", value, result);
+  return result;
+}
+
+}  // namespace suspension_health_monitor

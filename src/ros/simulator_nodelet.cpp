@@ -1,0 +1,98 @@
+#include "simulator_nodelet.h"
+
+#include <rosgraph_msgs/Clock.h>
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "conversions.h"
+#include "parameters.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::uint32_t kQueueSize = 1000;
+constexpr double kLeadSamples = 200.0;  // how far the drive may run ahead of the monitor that sets the pace
+constexpr std::chrono::milliseconds kPoll{1};
+constexpr std::chrono::milliseconds kLongestWaitForPace{500};
+
+}  // namespace
+
+SimulatorNodelet::~SimulatorNodelet() {
+  running_ = false;
+  if (thread_.joinable()) thread_.join();
+  pace_.shutdown();
+}
+
+void SimulatorNodelet::onInit() {
+  ros::NodeHandle& node = getMTNodeHandle();
+  ros::NodeHandle& private_node = getPrivateNodeHandle();
+  SimulatorOptions options;
+  try {
+    options = SimulatorOptions::fromValues(readParameters(private_node));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string(error.what()) + " (in " + private_node.getNamespace() + ')');
+  }
+  sprung_ = node.advertise<sensor_msgs::Imu>("sprung/imu", kQueueSize);
+  unsprung_ = node.advertise<sensor_msgs::Imu>("unsprung/imu", kQueueSize);
+  truth_ = private_node.advertise<SimulationTruth>("truth", kQueueSize);
+  if (options.publishing.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize);
+  pace_ = node.subscribe<ParameterEstimate>(
+      "pace", kQueueSize,
+      [this](const ParameterEstimateConstPtr& estimate) { paced_until_ = estimate->header.stamp.toSec(); });
+  thread_ = std::thread(&SimulatorNodelet::drive, this, options);
+}
+
+void SimulatorNodelet::drive(SimulatorOptions options) {
+  if (options.publishing.wait_for_subscribers) waitForSubscribers();
+  const bool from_now = !options.publishing.publish_clock && options.publishing.start_time == 0.0;
+  const Stamp start = from_now ? toStamp(ros::Time::now()) : fromSeconds(options.publishing.start_time);
+  const Clock::time_point wall_start = Clock::now();
+  DriveMessageSource source(options, start);
+  while (running_ && ros::ok()) {
+    const std::optional<DriveMessages> messages = source.next();
+    if (!messages) break;
+    waitForTurn(options, toRosTime(start), messages->time, wall_start);
+    publish(*messages, options.publishing.publish_clock);
+  }
+  if (!running_ || !ros::ok()) return;
+  NODELET_INFO("drive of %g s finished", options.drive.duration);
+  if (!options.publishing.shutdown_at_end) return;
+  std::this_thread::sleep_for(kLongestWaitForPace);  // the last messages are still on their way
+  ros::requestShutdown();
+}
+
+void SimulatorNodelet::waitForSubscribers() const {
+  while (running_ && ros::ok() && (sprung_.getNumSubscribers() == 0 || unsprung_.getNumSubscribers() == 0))
+    std::this_thread::sleep_for(kPoll);
+}
+
+void SimulatorNodelet::waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now,
+                                   Clock::time_point wall_start) const {
+  const double factor = options.publishing.real_time_factor;
+  if (factor > 0.0) {
+    const std::chrono::duration<double> since_start((now - start).toSec() / factor);
+    std::this_thread::sleep_until(wall_start + std::chrono::duration_cast<Clock::duration>(since_start));
+    return;
+  }
+  if (pace_.getNumPublishers() == 0) return;
+  const double lead = kLeadSamples / options.drive.rate;
+  const Clock::time_point give_up = Clock::now() + kLongestWaitForPace;
+  while (running_ && ros::ok() && now.toSec() - std::max(paced_until_.load(), start.toSec()) > lead &&
+         Clock::now() < give_up)
+    std::this_thread::sleep_for(kPoll);
+}
+
+void SimulatorNodelet::publish(const DriveMessages& messages, bool publish_clock) {
+  if (publish_clock) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = messages.time;
+    clock_.publish(clock);
+  }
+  if (messages.sprung) sprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.sprung));
+  if (messages.unsprung) unsprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.unsprung));
+  truth_.publish(boost::make_shared<const SimulationTruth>(messages.truth));
+}
+
+}  // namespace suspension_health_monitor
+
+PLUGINLIB_EXPORT_CLASS(suspension_health_monitor::SimulatorNodelet, nodelet::Nodelet)

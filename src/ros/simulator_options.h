@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+
+#include "suspension_health_monitor/option_table.h"
+#include "suspension_health_monitor/simulation/scenario.h"
+
+namespace suspension_health_monitor {
+
+/// How a simulated drive is published.
+struct PublishingOptions {
+  double gravity = 9.81;
+  double start_time = 0.0;
+  double real_time_factor = 1.0;
+  bool publish_clock = false;
+  bool wait_for_subscribers = true;
+  bool shutdown_at_end = false;
+};
+
+using PublishingField = OptionField<PublishingOptions>;
+inline constexpr std::array kPublishingFields{
+    PublishingField{"gravity", "m/s^2", "what both IMUs read on z at rest (REP 145)", &PublishingOptions::gravity,
+                    -100.0, 100.0},
+    PublishingField{"start_time", "s", "stamp at the start of the drive; live without publish_clock it is now",
+                    &PublishingOptions::start_time, 0.0, 4e9},
+    PublishingField{"real_time_factor", "-", "drive seconds per wall second; 0: as fast as subscribers keep up",
+                    &PublishingOptions::real_time_factor, 0.0, 1e6},
+    PublishingField{"publish_clock", "-", "drive /clock, for nodes with use_sim_time",
+                    &PublishingOptions::publish_clock},
+    PublishingField{"wait_for_subscribers", "-", "start when both IMU topics have a subscriber",
+                    &PublishingOptions::wait_for_subscribers},
+    PublishingField{"shutdown_at_end", "-", "shut the node or the nodelet manager down after the drive",
+                    &PublishingOptions::shutdown_at_end},
+};
+
+/// What config/simulator.yaml can set.
+struct SimulatorOptions {
+  SimulationOptions drive;
+  PublishingOptions publishing;
+
+  /// @throws std::invalid_argument  naming an unknown name, or a value that is wrong and what is allowed.
+  static SimulatorOptions fromValues(OptionMap values) {
+    SimulatorOptions options;
+    takeOptions(values, kSimulationFields, options.drive);
+    takeOptions(values, kPublishingFields, options.publishing);
+    refuseUnknown(values, describe());
+    validate(options.drive);
+    return options;
+  }
+
+  /// @return every option that fromValues() understands.
+  static std::vector<OptionDescription> describe() {
+    std::vector<OptionDescription> all = describeOptions(kSimulationFields);
+    for (OptionDescription& option : describeOptions(kPublishingFields)) all.push_back(std::move(option));
+    return all;
+  }
+};
+
+}  // namespace suspension_health_monitor
