@@ -43,7 +43,7 @@ void SimulatorNodelet::onInit() {
 }
 
 void SimulatorNodelet::drive(SimulatorOptions options) {
-  if (options.publishing.wait_for_subscribers) waitForSubscribers();
+  waitForStart(options.publishing);
   const bool from_now = !options.publishing.publish_clock && options.publishing.start_time == 0.0;
   const Stamp start = from_now ? toStamp(ros::Time::now()) : fromSeconds(options.publishing.start_time);
   const Clock::time_point wall_start = Clock::now();
@@ -61,8 +61,13 @@ void SimulatorNodelet::drive(SimulatorOptions options) {
   ros::requestShutdown();
 }
 
-void SimulatorNodelet::waitForSubscribers() const {
-  while (running_ && ros::ok() && (sprung_.getNumSubscribers() == 0 || unsprung_.getNumSubscribers() == 0))
+void SimulatorNodelet::waitForStart(const PublishingOptions& options) const {
+  const auto wanted = [this] { return running_ && ros::ok(); };
+  while (options.wait_for_subscribers && wanted() &&
+         (sprung_.getNumSubscribers() == 0 || unsprung_.getNumSubscribers() == 0))
+    std::this_thread::sleep_for(kPoll);
+  const Clock::time_point start = Clock::now();
+  while (wanted() && std::chrono::duration<double>(Clock::now() - start).count() < options.start_delay)
     std::this_thread::sleep_for(kPoll);
 }
 

@@ -24,7 +24,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   void onInit() override;
 
   void drive(SimulatorOptions options);
-  void waitForSubscribers() const;
+  void waitForStart(const PublishingOptions& options) const;
   void waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now, Clock::time_point wall_start) const;
   void publish(const DriveMessages& messages, bool publish_clock);
 

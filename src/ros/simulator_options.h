@@ -14,6 +14,7 @@ struct PublishingOptions {
   double real_time_factor = 1.0;
   bool publish_clock = false;
   bool wait_for_subscribers = true;
+  double start_delay = 0.0;
   bool shutdown_at_end = false;
 };
 
@@ -29,6 +30,8 @@ inline constexpr std::array kPublishingFields{
                     &PublishingOptions::publish_clock},
     PublishingField{"wait_for_subscribers", "-", "start when both IMU topics have a subscriber",
                     &PublishingOptions::wait_for_subscribers},
+    PublishingField{"start_delay", "s", "wall time between that and the first message, for recorders to connect",
+                    &PublishingOptions::start_delay, 0.0, 3600.0},
     PublishingField{"shutdown_at_end", "-", "shut the node or the nodelet manager down after the drive",
                     &PublishingOptions::shutdown_at_end},
 };

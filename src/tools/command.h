@@ -1,0 +1,33 @@
+#pragma once
+
+#include <boost/program_options.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace suspension_health_monitor {
+
+using Arguments = std::vector<std::string>;
+
+/// One subcommand of suspension_bag: its file, its line in the help.
+/// run() gets what stands behind the subcommand's name. It throws std::invalid_argument or
+/// boost::program_options::error on wrong usage, InputError, or TooLittleError.
+struct Command {
+  const char* name;
+  const char* summary;
+  void (*run)(const Arguments& arguments);
+};
+
+void simulate(const Arguments& arguments);
+void identify(const Arguments& arguments);
+void horizon(const Arguments& arguments);
+void options(const Arguments& arguments);
+
+/// Parses a subcommand's arguments; prints the help and returns nothing if -h is among them.
+/// @param usage  first line of the help.  @param positional  option that bare arguments belong to, or empty.
+std::optional<boost::program_options::variables_map> parse(const Arguments& arguments, const std::string& usage,
+                                                           boost::program_options::options_description options,
+                                                           const std::string& positional = {});
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,52 @@
+#include "option_sources.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <stdexcept>
+
+namespace suspension_health_monitor {
+namespace {
+
+void flatten(const std::string& name, const YAML::Node& node, const std::string& file, OptionMap& values) {
+  if (node.IsMap()) {
+    for (const auto& entry : node) {
+      const auto key = entry.first.as<std::string>();
+      flatten(name.empty() ? key : name + '/' + key, entry.second, file, values);
+    }
+  } else if (node.IsScalar() && !name.empty()) {
+    values[name] = node.as<std::string>();
+  } else if (!(node.IsNull() && name.empty())) {  // a file of comments only sets nothing
+    throw std::invalid_argument(file + ": line " + std::to_string(node.Mark().line + 1) + ": " +
+                                (name.empty() ? "the file" : name) + " must be a name with a plain value");
+  }
+}
+
+}  // namespace
+
+OptionMap readYaml(const std::string& path) {
+  OptionMap values;
+  try {
+    flatten("", YAML::LoadFile(path), path, values);
+  } catch (const YAML::BadFile&) {
+    throw std::invalid_argument(path + ": cannot be read, must be a YAML file");
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(path + ": line " + std::to_string(error.mark.line + 1) + ": " + error.msg);
+  }
+  return values;
+}
+
+void set(OptionMap& values, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw std::invalid_argument("--set " + assignment + ", must be NAME=VALUE");
+  values[assignment.substr(0, equals)] = assignment.substr(equals + 1);
+}
+
+OptionMap gatherOptions(const std::string& config_file, const std::vector<std::string>& assignments) {
+  OptionMap values;
+  if (!config_file.empty()) values = readYaml(config_file);
+  for (const std::string& assignment : assignments) set(values, assignment);
+  return values;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,63 @@
+#include <rosbag/bag.h>
+
+#include "../ros/drive_messages.h"
+#include "command.h"
+#include "option_sources.h"
+#include "progress.h"
+#include "whole_file.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace po = boost::program_options;
+
+/// Options that have a flag of their own, besides --set NAME=VALUE.
+constexpr std::array kFlags{"scenario", "vehicle", "seed", "duration", "rate"};
+
+void writeBag(const SimulatorOptions& options, const std::string& path) {
+  DriveMessageSource drive(options, fromSeconds(options.publishing.start_time));
+  Progress progress("simulating", options.drive.duration);
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  bag.setCompression(rosbag::compression::LZ4);
+  std::size_t count = 0;
+  while (const std::optional<DriveMessages> messages = drive.next()) {
+    const ros::Time recorded = std::max(messages->time, ros::TIME_MIN);  // a bag cannot hold time 0
+    if (messages->sprung) bag.write("/sprung/imu", recorded, *messages->sprung);
+    if (messages->unsprung) bag.write("/unsprung/imu", recorded, *messages->unsprung);
+    bag.write("/simulator/truth", recorded, messages->truth);
+    progress.update(static_cast<double>(++count) / options.drive.rate);
+  }
+  bag.close();
+}
+
+}  // namespace
+
+void simulate(const Arguments& arguments) {
+  po::options_description description("options");
+  auto add = description.add_options();
+  add("output,o", po::value<std::string>()->required(), "the bag to write");
+  add("config", po::value<std::string>()->default_value(""), "YAML file like config/simulator.yaml");
+  add("set", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
+      "NAME=VALUE: any option of `suspension_bag options simulator`");
+  for (const OptionDescription& option : SimulatorOptions::describe())
+    if (std::find(kFlags.begin(), kFlags.end(), option.name) != kFlags.end())
+      add(option.name.c_str(), po::value<std::string>(),
+          (option.help + " (" + option.default_value + ") [" + option.unit + "]").c_str());
+  const auto values = parse(arguments, "simulate [--scenario S] [OPTION]... -o OUT.bag", description);
+  if (!values) return;
+
+  OptionMap settings =
+      gatherOptions((*values)["config"].as<std::string>(), (*values)["set"].as<std::vector<std::string>>());
+  for (const char* flag : kFlags)
+    if (values->count(flag) != 0) settings[flag] = (*values)[flag].as<std::string>();
+  const SimulatorOptions options = SimulatorOptions::fromValues(settings);
+
+  const auto path = (*values)["output"].as<std::string>();
+  WholeFile file(path);
+  writeBag(options, file.temporaryPath());
+  file.commit();
+  std::printf("%s: %s, %g s at %g Hz, seed %d\n", path.c_str(), options.drive.scenario.c_str(), options.drive.duration,
+              options.drive.rate, options.drive.seed);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,85 @@
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "command.h"
+#include "errors.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr std::array kCommands{
+    Command{"simulate", "write a simulated drive into a bag", &simulate},
+    Command{"identify", "damping/mass and stiffness/mass from recorded drives", &identify},
+    Command{"horizon", "propose the filter's horizon for a strut and show why", &horizon},
+    Command{"options", "all settings of the monitor or the simulator", &options},
+};
+
+void printHelp(std::FILE* out) {
+  std::fputs("usage: suspension_bag COMMAND [ARGUMENT]...\n\n", out);
+  for (const Command& command : kCommands) std::fprintf(out, "  %-10s %s\n", command.name, command.summary);
+  std::fputs("\nsuspension_bag COMMAND -h tells more. Tables go to standard output, messages to standard error.\n"
+             "Exit status: 0 done, 2 wrong usage, 3 unreadable or wrong input, 4 too little or too poor input.\n",
+             out);
+}
+
+int fail(const std::string& command, const std::exception& error, ExitStatus status) {
+  std::fprintf(stderr, "suspension_bag %s: %s\n", command.c_str(), error.what());
+  return status;
+}
+
+int run(const Command& command, const Arguments& arguments) {
+  try {
+    command.run(arguments);
+    return kDone;
+  } catch (const InputError& error) {
+    return fail(command.name, error, kWrongInput);
+  } catch (const TooLittleError& error) {
+    return fail(command.name, error, kTooLittle);
+  } catch (const std::invalid_argument& error) {
+    return fail(command.name, error, kWrongUsage);
+  } catch (const po::error& error) {
+    return fail(command.name, error, kWrongUsage);
+  } catch (const std::exception& error) {  // a full disk, a bag that breaks off while it is read
+    return fail(command.name, error, kWrongInput);
+  }
+}
+
+}  // namespace
+
+std::optional<po::variables_map> parse(const Arguments& arguments, const std::string& usage,
+                                       po::options_description options, const std::string& positional) {
+  options.add_options()("help,h", "show this help");
+  po::positional_options_description bare;
+  if (!positional.empty()) bare.add(positional.c_str(), -1);
+  po::variables_map values;
+  // No guessing: an abbreviated option would change its meaning when a new option appears.
+  const auto style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+  po::store(po::command_line_parser(arguments).options(options).positional(bare).style(style).run(), values);
+  if (values.count("help") != 0) {
+    std::cout << "usage: suspension_bag " << usage << "\n" << options;
+    return std::nullopt;
+  }
+  po::notify(values);
+  return values;
+}
+
+}  // namespace suspension_health_monitor
+
+int main(int argc, char** argv) {
+  using namespace suspension_health_monitor;
+  const Arguments arguments(argv + 1, argv + argc);
+  if (arguments.empty() || arguments.front() == "-h" || arguments.front() == "--help") {
+    printHelp(arguments.empty() ? stderr : stdout);
+    return arguments.empty() ? kWrongUsage : kDone;
+  }
+  for (const Command& command : kCommands)
+    if (arguments.front() == command.name) return run(command, {arguments.begin() + 1, arguments.end()});
+  std::fprintf(stderr, "suspension_bag: unknown command %s\n", arguments.front().c_str());
+  printHelp(stderr);
+  return kWrongUsage;
+}

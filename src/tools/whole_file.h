@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace suspension_health_monitor {
+
+/// A file that appears under its name whole or not at all: it is written beside it and renamed by commit().
+/// Without commit() (an error on the way) nothing is left, and a file that was there before stays as it was.
+class WholeFile {
+ public:
+  explicit WholeFile(const std::string& path);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  /// Where to write until commit().
+  const std::string& temporaryPath() const { return temporary_path_; }
+
+  /// @throws std::runtime_error  naming the file, if it cannot be put in place.
+  void commit();
+
+ private:
+  std::string path_, temporary_path_;
+  bool committed_ = false;
+};
+
+/// Writes lines of text into a WholeFile.
+class TextFile {
+ public:
+  /// @throws std::runtime_error  naming the file, if it cannot be opened.
+  explicit TextFile(const std::string& path);
+  ~TextFile();
+
+  std::FILE* stream() { return stream_; }
+
+  /// @throws std::runtime_error  naming the file, if anything could not be written.
+  void commit();
+
+ private:
+  WholeFile file_;
+  std::FILE* stream_;
+};
+
+}  // namespace suspension_health_monitor
