@@ -1,0 +1,95 @@
+// Counts every allocation of the test program, to show that the sample path makes none. Needs the GNU C library, and a
+// malloc that no sanitizer has taken.
+#include <cstdlib>
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+#include <atomic>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "paper_drive.h"
+#include "suspension_health_monitor/identification/auxiliary_instruments.h"
+#include "suspension_health_monitor/identification/general_regression.h"
+#include "suspension_health_monitor/identification/instrumental_variables.h"
+#include "suspension_health_monitor/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/identification/suspension_regression.h"
+
+namespace {
+std::atomic<long> num_allocations{0};
+}  // namespace
+
+extern "C" void* __libc_malloc(std::size_t size);  // NOLINT: the C library's own, below the one replaced here
+
+// Eigen and operator new both end up in malloc.
+extern "C" void* malloc(std::size_t size) {
+  ++num_allocations;
+  return __libc_malloc(size);
+}
+
+namespace suspension_health_monitor {
+namespace {
+
+template <class Step>
+long allocationsPerDrive(const Step& step) {
+  const std::vector<CornerSample> drive = healthyPaperDrive(10.0, 0.024);
+  for (const CornerSample& sample : drive) step(sample);
+  const long before = num_allocations;
+  for (const CornerSample& sample : drive) step(sample);
+  return num_allocations - before;
+}
+
+TEST(SamplePath, IsWatchedForAllocationsOfEigenAndOfTheStandardLibrary) {
+  Eigen::VectorXd eigen;
+  EXPECT_GE(allocationsPerDrive([&](const CornerSample&) { eigen = Eigen::VectorXd::Zero(eigen.size() + 1); }), 501);
+  std::vector<std::vector<double>> standard;
+  EXPECT_GE(allocationsPerDrive([&](const CornerSample&) { standard.emplace_back(1); }), 501);
+}
+
+TEST(SamplePath, AllocatesNothingInTheStrutRegressionWithBothEstimators) {
+  SuspensionRegression regression({});
+  RecursiveLeastSquares ls(2, {});
+  RecursiveLeastAbsolute la(2, {}, {});
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              if (const RegressionRow* row = regression.push(sample)) {
+                ls.update(*row);
+                la.update(*row);
+              }
+            }),
+            0);
+  EXPECT_GT(ls.effectiveRows(), 40.0);
+}
+
+TEST(SamplePath, AllocatesNothingInTheGeneralRegression) {
+  GeneralRegression regression(3, {});
+  RecursiveLeastSquares ls(6, {});
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              if (const RegressionRow* row = regression.push(sample.unsprung_acceleration, sample.sprung_acceleration))
+                ls.update(*row);
+            }),
+            0);
+}
+
+TEST(SamplePath, AllocatesNothingInInstrumentalVariables) {
+  SuspensionRegression regression({});
+  AuxiliaryInstruments auxiliary({});
+  auxiliary.setModel(kPaperB1, kPaperB0);
+  RecursiveInstrumentalVariables ls(2, 0.98);
+  RecursiveInstrumentalLeastAbsolute la(2, 0.98, {});
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              const RegressionRow* row = regression.push(sample);
+              const Eigen::VectorXd* instrument = auxiliary.push(sample.unsprung_acceleration);
+              if (row == nullptr || instrument == nullptr) return;
+              ls.update(*row, *instrument);
+              la.update(*row, *instrument);
+            }),
+            0);
+  EXPECT_GT(la.effectiveRows(), 40.0);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
+
+#endif
