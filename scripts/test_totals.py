@@ -14,14 +14,14 @@ import xml.etree.ElementTree as ElementTree
 MESSAGE_LINES = 40
 
 
-def failure_text(case):
-    """The failure of one <testcase>, None where it passed."""
+def failure_text(case, suite_output):
+    """The failure of one <testcase>, None where it passed; suite_output: where roslaunch's check tells the reason."""
     failures = [*case.findall("failure"), *case.findall("error")]
     if not failures:
         return None
     # rosunit repeats the message in the text; gtest and pytest have the longer text
     texts = [max((failure.text or "").strip(), failure.get("message") or "", key=len) for failure in failures]
-    return "\n".join(texts)
+    return "\n".join([*texts, suite_output])
 
 
 def test_output(log, result_name):
@@ -37,15 +37,16 @@ def test_output(log, result_name):
 def read_results(path, log):
     """(number passed, number skipped, [(name, failure text)]) of one result file; log: what ctest printed."""
     try:
-        cases = list(ElementTree.parse(path).getroot().iter("testcase"))
+        root = ElementTree.parse(path).getroot()
     except ElementTree.ParseError as error:
         return 0, 0, [(path.name, f"unreadable result file: {error}")]
     if path.name.startswith("MISSING-"):
         text = "the test ended without a result: it crashed or could not start\n" + test_output(log, path.name)
         return 0, 0, [(path.name, text)]
+    suite_output = root.findtext("system-out", "") if path.name.startswith("roslaunch-check") else ""
     passed, skipped, failed = 0, 0, []
-    for case in cases:
-        text = failure_text(case)
+    for case in root.iter("testcase"):
+        text = failure_text(case, suite_output)
         if text is not None:
             failed.append((f"{case.get('classname', path.stem)}.{case.get('name')}", text))
         elif case.find("skipped") is not None or case.get("status") == "notrun":
