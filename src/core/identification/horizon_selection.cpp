@@ -1,0 +1,77 @@
+#include "suspension_health_monitor/identification/horizon_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <sstream>
+#include <stdexcept>
+
+#include "suspension_health_monitor/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr int kCurvePoints = 241;
+constexpr double kCurveDecades = 1.5;  // on either side of the bandwidth
+
+// omega h / 2 at which sinc^2 is sqrt(1/2).
+constexpr double kFilterHalfPower = 1.0019063576966072;
+
+constexpr double kMostSamples = 1e6;
+
+void requireAboveZero(const char* name, double value, const char* unit) {
+  if (std::isfinite(value) && value > 0.0) return;
+  std::ostringstream message;
+  message << name << " = " << value << " [" << unit << "], must be above 0";
+  throw std::invalid_argument(message.str());
+}
+
+// With x = omega^2 / b0 and c = b1^2 / b0,  |G|^2 = (1 + c x) / ((1 - x)^2 + c x).
+double gainSquared(double x, double c) { return (1.0 + c * x) / ((1.0 - x) * (1.0 - x) + c * x); }
+
+// @return omega^2 / b0 above the resonance where |G|^2 is half its maximum: the larger root of a quadratic.
+double halfPower(double c) {
+  const double resonance = 2.0 / (std::sqrt(1.0 + 2.0 * c) + 1.0);
+  const double level = 0.5 * gainSquared(resonance, c);
+  const double half_sum = (1.0 - 0.5 * c) + 0.5 * c / level;
+  return half_sum + std::sqrt(half_sum * half_sum + (1.0 - level) / level);
+}
+
+}  // namespace
+
+double transmissibility(double damping_to_mass, double stiffness_to_mass, double frequency_hz) {
+  const std::complex<double> s(0.0, 2.0 * kPi * frequency_hz);
+  const std::complex<double> force = damping_to_mass * s + stiffness_to_mass;
+  return std::abs(force / (s * s + force));
+}
+
+double integralFilterMagnitude(double horizon, double frequency_hz) {
+  const double x = kPi * frequency_hz * horizon;
+  const double sinc = x == 0.0 ? 1.0 : std::sin(x) / x;
+  return sinc * sinc;
+}
+
+HorizonProposal proposeHorizon(double damping_to_mass, double stiffness_to_mass) {
+  requireAboveZero("damping_to_mass", damping_to_mass, "1/s");
+  requireAboveZero("stiffness_to_mass", stiffness_to_mass, "1/s^2");
+  const double c = damping_to_mass / stiffness_to_mass * damping_to_mass;
+  const double omega = std::sqrt(stiffness_to_mass * halfPower(c));
+  HorizonProposal proposal{2.0 * kFilterHalfPower / omega, omega / (2.0 * kPi), {}};
+  for (int i = 0; i < kCurvePoints; ++i) {
+    const double decades = kCurveDecades * (2.0 * i / (kCurvePoints - 1) - 1.0);
+    const double frequency = proposal.bandwidth_hz * std::pow(10.0, decades);
+    proposal.curves.push_back({frequency, transmissibility(damping_to_mass, stiffness_to_mass, frequency),
+                               integralFilterMagnitude(proposal.horizon, frequency)});
+  }
+  return proposal;
+}
+
+int horizonSamples(double horizon, double period, IntegrationRule rule) {
+  requireAboveZero("integration_horizon", horizon, "s");
+  requireAboveZero("sample_period", period, "s");
+  const double samples = std::min(horizon / period, kMostSamples);
+  if (rule == IntegrationRule::kSimpson) return 2 * std::max(1, static_cast<int>(std::lround(samples / 2.0)));
+  return std::max(rule == IntegrationRule::kCubic ? 5 : 1, static_cast<int>(std::lround(samples)));
+}
+
+}  // namespace suspension_health_monitor
