@@ -61,7 +61,7 @@ ensureLocalhost() {
 # The built package on the ROS path, on this machine only, with logs inside build/.
 enterEnvironment() {
   ensureLocalhost
-  sourceSetup "$build/devel/setup.bash"
+  sourceSetup "$repository/devel/setup.bash"
   unset ROS_IP
   export ROS_HOSTNAME=localhost ROS_HOME=$build/ros_home ROSCONSOLE_STDOUT_LINE_BUFFERED=1
 }

@@ -1,0 +1,50 @@
+#include "bag_options.h"
+
+#include <stdexcept>
+
+#include "option_sources.h"
+#include "survey.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace po = boost::program_options;
+
+}  // namespace
+
+void addBagOptions(po::options_description& description) {
+  auto add = description.add_options();
+  add("bag", po::value<std::vector<std::string>>()->required(), "bags, read one after the other");
+  add("config", po::value<std::string>()->default_value(""), "YAML file like config/monitor.yaml");
+  add("set", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
+      "NAME=VALUE: any option of `suspension_bag options monitor`");
+  add("sprung-topic", po::value<std::string>()->default_value("/sprung/imu"), "Imu topic of the body");
+  add("unsprung-topic", po::value<std::string>()->default_value("/unsprung/imu"), "Imu topic of the wheel carrier");
+  add("start", po::value<double>()->default_value(0.0), "[s] after the beginning of each bag");
+  add("end", po::value<double>(), "[s] after the beginning of each bag (its end)");
+  add("json", po::value<std::string>(), "write the result as JSON");
+}
+
+BagOptions readBagOptions(const po::variables_map& values) {
+  BagOptions options;
+  ImuBags& bags = options.bags;
+  bags.paths = values["bag"].as<std::vector<std::string>>();
+  bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
+  if (bags.topics[0] == bags.topics[1])
+    throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + bags.topics[0] + ", must differ");
+  bags.start = values["start"].as<double>();
+  if (values.count("end") != 0) bags.end = values["end"].as<double>();
+  if (!(bags.start >= 0.0 && bags.end > bags.start))
+    throw std::invalid_argument("--start " + std::to_string(bags.start) + " --end " + std::to_string(bags.end) +
+                                " [s], must be 0 <= start < end");
+  const OptionMap settings =
+      gatherOptions(values["config"].as<std::string>(), values["set"].as<std::vector<std::string>>());
+  options.pipeline = PipelineOptions::fromValues(settings);
+  MonitorOptions& monitor = options.pipeline.monitor;
+  options.period_measured = !monitor.sample_period;
+  options.horizon_measured = !monitor.integration_horizon && !monitor.horizon_samples;
+  if (options.period_measured || options.horizon_measured) measureOpenSettings(bags, options.pipeline);
+  return options;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,168 @@
+#include <cinttypes>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "../ros/imu_pipeline.h"
+#include "bag_options.h"
+#include "command.h"
+#include "errors.h"
+#include "whole_file.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr std::size_t kTableLines = 12;
+
+/// One line per regression row, full precision.
+void writeRow(std::FILE* out, const MonitorReport& report) {
+  std::fprintf(out, "%" PRId64 ".%09" PRId64 ",%.17g,%.17g,%.17g,%.17g,%.17g,", report.stamp.count() / 1000000000,
+               report.stamp.count() % 1000000000, report.ls.damping_to_mass, report.ls.stiffness_to_mass,
+               report.la.damping_to_mass, report.la.stiffness_to_mass, report.comparison.measured);
+  const std::optional<double>& predicted = report.comparison.predicted;
+  if (predicted)
+    std::fprintf(out, "%.17g,%.17g\n", *predicted, report.comparison.measured - *predicted);
+  else
+    std::fputs("nan,nan\n", out);
+}
+
+/// Keeps a few reports, evenly spread over a series of unknown length: every n-th, n doubling when there are too many.
+class Digest {
+ public:
+  void add(const MonitorReport& report) {
+    if (count_++ % stride_ != 0) return;
+    reports_.push_back(report);
+    if (reports_.size() < 2 * kTableLines) return;
+    for (std::size_t i = 0; 2 * i < reports_.size(); ++i) reports_[i] = reports_[2 * i];
+    reports_.resize(reports_.size() / 2);
+    stride_ *= 2;
+  }
+  const std::vector<MonitorReport>& reports() const { return reports_; }
+
+ private:
+  std::vector<MonitorReport> reports_;
+  std::size_t count_ = 0;
+  std::size_t stride_ = 1;
+};
+
+nlohmann::json toJson(const StrutEstimate& estimate) {
+  return {{"damping_to_mass", estimate.damping_to_mass},
+          {"stiffness_to_mass", estimate.stiffness_to_mass},
+          {"damping_to_mass_stddev", estimate.damping_to_mass_stddev},
+          {"stiffness_to_mass_stddev", estimate.stiffness_to_mass_stddev},
+          {"natural_frequency", estimate.naturalFrequency()},
+          {"damping_ratio", estimate.dampingRatio()},
+          {"valid", estimate.valid}};
+}
+
+void writeJson(const std::string& path, const ImuPipeline& pipeline) {
+  const SuspensionMonitor& monitor = *pipeline.monitor();
+  nlohmann::json rejected = nlohmann::json::object();
+  const RejectCounts counts = pipeline.rejected();
+  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
+    rejected[std::string(kRejectReasonNames[i])] = counts.count(static_cast<RejectReason>(i));
+  const nlohmann::json result{{"samples", monitor.input().samples},
+                              {"rows", monitor.input().rows},
+                              {"gaps", monitor.input().gaps},
+                              {"clock_jumps", monitor.input().restarts},
+                              {"rejected", rejected},
+                              {"sample_period", monitor.period()},
+                              {"horizon_samples", monitor.horizonSamples()},
+                              {"ls", toJson(monitor.report().ls)},
+                              {"la", toJson(monitor.report().la)}};
+  TextFile file(path);
+  std::fprintf(file.stream(), "%s\n", result.dump(2).c_str());
+  file.commit();
+}
+
+void printInput(const ImuPipeline& pipeline, const BagOptions& options) {
+  const SuspensionMonitor& monitor = *pipeline.monitor();
+  const InputStatus& input = monitor.input();
+  std::printf("sample period %.6g s%s, horizon %d samples = %.4g s%s\n", monitor.period(),
+              options.period_measured ? " (measured)" : "", monitor.horizonSamples(),
+              monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
+  std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
+              input.rows, input.gaps, input.restarts);
+  const RejectCounts rejected = pipeline.rejected();
+  if (rejected.total() == 0) std::printf(", rejected 0");
+  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
+    if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
+      std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
+  std::printf("\n\n");
+}
+
+void printTable(const std::vector<MonitorReport>& reports) {
+  std::printf("              damping/mass [1/s]   stiffness/mass [1/s^2]   free run\n");
+  std::printf("      time s      LS        LA          LS         LA       rmse m/s^2   fit %%   valid\n");
+  for (const MonitorReport& report : reports)
+    std::printf("%12.2f %9.4f %9.4f  %11.4f %10.4f %12.4f %8.1f   %s\n", toSeconds(report.stamp),
+                report.ls.damping_to_mass, report.la.damping_to_mass, report.ls.stiffness_to_mass,
+                report.la.stiffness_to_mass, report.comparison.rmse, report.comparison.fit_percent,
+                report.la.valid ? "yes" : "no");
+}
+
+void printResult(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
+  std::printf("%s: damping/mass %.4f +- %.4f 1/s, stiffness/mass %.4f +- %.4f 1/s^2, %.3f Hz, damping ratio %.3f%s\n",
+              name, estimate.damping_to_mass, estimate.damping_to_mass_stddev, estimate.stiffness_to_mass,
+              estimate.stiffness_to_mass_stddev, estimate.naturalFrequency(), estimate.dampingRatio(),
+              estimate.valid ? "" : "  NOT VALID: too little or too poor excitation");
+  if (mass)
+    std::printf("    damping %.4g N s/m, stiffness %.5g N/m\n", *mass * estimate.damping_to_mass,
+                *mass * estimate.stiffness_to_mass);
+}
+
+void checkEnough(const ImuPipeline& pipeline) {
+  const SuspensionMonitor* monitor = pipeline.monitor();
+  if (monitor != nullptr && monitor->input().rows > 0) return;
+  std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed";
+  if (monitor != nullptr)
+    message += " (" + std::to_string(2 * monitor->horizonSamples() + 1) + " samples; usable samples in all: " +
+               std::to_string(monitor->input().samples) + ", gaps: " + std::to_string(monitor->input().gaps) + ")";
+  const RejectCounts rejected = pipeline.rejected();
+  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
+    if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
+      message += "; rejected " + std::string(kRejectReasonNames[i]) + ": " + std::to_string(count);
+  throw TooLittleError(message);
+}
+
+}  // namespace
+
+void identify(const Arguments& arguments) {
+  po::options_description description("options");
+  addBagOptions(description);
+  description.add_options()("csv", po::value<std::string>(), "write a line per regression row, full precision");
+  const auto values = parse(arguments, "identify BAG... [OPTION]...", description, "bag");
+  if (!values) return;
+  const BagOptions options = readBagOptions(*values);
+
+  std::optional<TextFile> csv;
+  if (values->count("csv") != 0) {
+    csv.emplace((*values)["csv"].as<std::string>());
+    std::fputs("time,ls_damping_to_mass,ls_stiffness_to_mass,la_damping_to_mass,la_stiffness_to_mass,"
+               "measured,predicted,residual\n",
+               csv->stream());
+  }
+  Digest digest;
+  ImuPipeline pipeline(options.pipeline, [&](const MonitorReport& report) {
+    if (!report.has_row) return;
+    if (csv) writeRow(csv->stream(), report);
+    digest.add(report);
+  });
+  readImuMessages(options.bags, [&](Side side, const sensor_msgs::Imu& imu) {
+    pipeline.push(side, imu);
+    return true;
+  });
+  checkEnough(pipeline);
+
+  if (csv) csv->commit();
+  if (values->count("json") != 0) writeJson((*values)["json"].as<std::string>(), pipeline);
+  printInput(pipeline, options);
+  printTable(digest.reports());
+  std::printf("\nat the end, over the last %.0f rows:\n", pipeline.monitor()->report().la.effective_rows);
+  printResult("LS", pipeline.monitor()->report().ls, options.pipeline.monitor.sprung_mass);
+  printResult("LA", pipeline.monitor()->report().la, options.pipeline.monitor.sprung_mass);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <sensor_msgs/Imu.h>
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/signal/uniform_grid.h"
+
+namespace suspension_health_monitor {
+
+/// What to read: one or more bags, the topics of the two IMUs, and a part of each bag.
+struct ImuBags {
+  std::vector<std::string> paths;
+  std::array<std::string, 2> topics;  ///< by Side
+  double start = 0.0;                 ///< seconds after the beginning of each bag
+  double end = std::numeric_limits<double>::infinity();
+};
+
+/// Reads the IMU messages of all bags in the order of their recording, with a progress bar.
+/// Memory does not grow with the bags. (A bag whose chunks overlap in time goes through rosbag::View, which sorts it
+/// with an index in memory.)
+/// @param take  called with every message; returns false to stop.
+/// @throws InputError  naming the bag: unreadable, a topic missing (with those that are there) or of another type.
+/// @throws TooLittleError  if a bag holds no message at all.
+void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take);
+
+}  // namespace suspension_health_monitor
