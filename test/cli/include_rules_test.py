@@ -7,9 +7,9 @@ import pytest
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 ROS_INCLUDE = re.compile(
     r'^\s*#\s*include\s*[<"](ros|nodelet|pluginlib|rosbag|rosgraph_msgs|sensor_msgs|std_msgs|std_srvs'
-    r'|diagnostic_\w+|message_filters|tf2\w*|dynamic_reconfigure)/', re.MULTILINE)
-GENERATED_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]suspension_health_monitor/[A-Z]\w*\.h[>"]', re.MULTILINE)
-SIMULATION_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]suspension_health_monitor/simulation/', re.MULTILINE)
+    r'|diagnostic_\w+|message_filters|tf2\w*|dynamic_reconfigure)/')
+GENERATED_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]suspension_health_monitor/[A-Z]\w*\.h[>"]')
+SIMULATION_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]suspension_health_monitor/simulation/')
 
 LIBRARY = sorted(path for folder in ("include", "src/core") for path in (REPOSITORY / folder).rglob("*")
                  if path.suffix in (".h", ".cpp"))
@@ -18,6 +18,11 @@ ESTIMATION = [path for path in LIBRARY if "simulation" not in path.parent.parts]
 
 def name(path):
     return str(path.relative_to(REPOSITORY))
+
+
+def includes(path, pattern):
+    """The lines of path that include what pattern forbids."""
+    return [line for line in path.read_text().splitlines() if pattern.search(line)]
 
 
 def test_library_has_files():
@@ -30,16 +35,15 @@ def test_library_has_files():
     ("#include <suspension_health_monitor/SuspensionHealth.h>", GENERATED_INCLUDE),
     ('#include "suspension_health_monitor/simulation/road.h"', SIMULATION_INCLUDE)])
 def test_rule_sees_a_forbidden_include(include, pattern):
-    assert pattern.search("#pragma once\n" + include + "\n")
+    assert pattern.match(include)
 
 
 @pytest.mark.parametrize("path", LIBRARY, ids=name)
 def test_library_includes_no_ros(path):
-    text = path.read_text()
-    assert not ROS_INCLUDE.search(text), "ROS header"
-    assert not GENERATED_INCLUDE.search(text), "generated message header"
+    assert includes(path, ROS_INCLUDE) == []
+    assert includes(path, GENERATED_INCLUDE) == []
 
 
 @pytest.mark.parametrize("path", ESTIMATION, ids=name)
 def test_estimation_includes_no_simulation(path):
-    assert not SIMULATION_INCLUDE.search(path.read_text())
+    assert includes(path, SIMULATION_INCLUDE) == []
