@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "suspension_health_monitor/signal/continuity.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -58,18 +60,22 @@ const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
 bool SuspensionMonitor::continues(Stamp stamp) {
   if (!last_stamp_) return true;
   const Stamp spacing = stamp - *last_stamp_;
-  if (spacing.count() < 0) {
-    ++input_.restarts;
-    startNewSeries();
-  } else if (2 * spacing <= period_) {
-    rejected_.add(RejectReason::kTooSoon);
-    return false;
-  } else if (2 * spacing >= 3 * period_) {
-    ++input_.gaps;
-    startNewSeries();
-  } else {
-    spacing_.add(toSeconds(spacing));
-    input_.mean_period = spacing_.mean();
+  switch (continuity(spacing, period_)) {
+    case Continuity::kTooSoon:
+      rejected_.add(RejectReason::kTooSoon);
+      return false;
+    case Continuity::kContinues:
+      spacing_.add(toSeconds(spacing));
+      input_.mean_period = spacing_.mean();
+      break;
+    case Continuity::kGap:
+      ++input_.gaps;
+      startNewSeries();
+      break;
+    case Continuity::kClockJumped:
+      ++input_.restarts;
+      startNewSeries();
+      break;
   }
   return true;
 }

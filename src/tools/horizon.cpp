@@ -1,7 +1,64 @@
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
 #include "command.h"
+#include "suspension_health_monitor/identification/horizon_selection.h"
+#include "whole_file.h"
 
 namespace suspension_health_monitor {
+namespace {
 
-void horizon(const Arguments&) {}
+namespace po = boost::program_options;
+
+constexpr std::size_t kPlotLines = 25;
+constexpr double kColumnsPerUnit = 30.0;
+
+/// Both curves as a plot on its side, for a terminal.
+void plot(const HorizonProposal& proposal) {
+  const double highest = std::max_element(proposal.curves.begin(), proposal.curves.end(), [](auto& a, auto& b) {
+                           return a.system < b.system;
+                         })->system;
+  const auto column = [](double magnitude) { return static_cast<std::size_t>(magnitude * kColumnsPerUnit); };
+  std::printf("      Hz   strut  filter   magnitude: S strut, F filter, | is 1\n");
+  const std::size_t step = proposal.curves.size() / kPlotLines;
+  for (std::size_t i = 0; i < proposal.curves.size(); i += step) {
+    const MagnitudePoint& point = proposal.curves[i];
+    std::string line(column(std::max(highest, 1.0)) + 1, ' ');
+    line[column(1.0)] = '|';
+    line[column(point.filter)] = 'F';
+    line[column(point.system)] = 'S';
+    std::printf("%8.3f  %6.3f  %6.3f   %s\n", point.frequency_hz, point.system, point.filter, line.c_str());
+  }
+}
+
+void writeJson(const std::string& path, const HorizonProposal& proposal) {
+  nlohmann::json curves = nlohmann::json::array();
+  for (const MagnitudePoint& point : proposal.curves)
+    curves.push_back({{"frequency_hz", point.frequency_hz}, {"strut", point.system}, {"filter", point.filter}});
+  TextFile file(path);
+  const nlohmann::json result{
+      {"horizon", proposal.horizon}, {"bandwidth_hz", proposal.bandwidth_hz}, {"curves", curves}};
+  std::fprintf(file.stream(), "%s\n", result.dump(2).c_str());
+  file.commit();
+}
+
+}  // namespace
+
+void horizon(const Arguments& arguments) {
+  po::options_description description("options");
+  auto add = description.add_options();
+  add("damping-to-mass", po::value<double>()->required(), "[1/s] rough b1, e.g. from identify");
+  add("stiffness-to-mass", po::value<double>()->required(), "[1/s^2] rough b0");
+  add("json", po::value<std::string>(), "write proposal and curves as JSON");
+  const auto values = parse(arguments, "horizon --damping-to-mass B1 --stiffness-to-mass B0 [--json FILE]", description);
+  if (!values) return;
+  const HorizonProposal proposal =
+      proposeHorizon((*values)["damping-to-mass"].as<double>(), (*values)["stiffness-to-mass"].as<double>());
+  if (values->count("json") != 0) writeJson((*values)["json"].as<std::string>(), proposal);
+  plot(proposal);
+  std::printf("\nintegration_horizon: %.3g   # [s] strut and filter both reach to %.3g Hz (3 dB)\n", proposal.horizon,
+              proposal.bandwidth_hz);
+}
 
 }  // namespace suspension_health_monitor

@@ -4,6 +4,8 @@
 
 #include "../ros/imu_pipeline.h"
 #include "errors.h"
+#include "suspension_health_monitor/identification/horizon_survey.h"
+#include "suspension_health_monitor/signal/continuity.h"
 #include "suspension_health_monitor/signal/period_measurement.h"
 
 namespace suspension_health_monitor {
@@ -12,6 +14,7 @@ namespace {
 // Long enough to meet some road, short enough to cost little beside the reading itself.
 constexpr std::size_t kSurveyedMessages = 100000;
 constexpr std::size_t kFewestSpacings = 10;
+constexpr int kLongestHorizon = 4096;  // [samples]
 
 double measurePeriod(const ImuBags& bags) {
   PeriodMeasurement measurement(kFewestSpacings);
@@ -27,11 +30,39 @@ double measurePeriod(const ImuBags& bags) {
   return *period;
 }
 
+int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
+  const double period = *options.monitor.sample_period;
+  const std::array<StrutAxis, 2> axes{StrutAxis(options.shell.sprung_axis), StrutAxis(options.shell.unsprung_axis)};
+  HorizonSurvey survey(period, integrationRule(options.monitor.integration_rule), kLongestHorizon);
+  UniformGrid grid(period);
+  std::optional<Stamp> last;
+  std::size_t count = 0;
+  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
+    const std::optional<double> acceleration = axes[static_cast<std::size_t>(side)].acceleration(imu);
+    const std::optional<CornerSample> sample =
+        acceleration ? grid.push(side, toStamp(imu.header.stamp), *acceleration) : std::nullopt;
+    if (sample) {
+      const Continuity follows = last ? continuity(sample->stamp - *last, fromSeconds(period)) : Continuity::kGap;
+      if (follows == Continuity::kGap || follows == Continuity::kClockJumped) survey.interrupt();
+      if (follows != Continuity::kTooSoon) survey.push(*sample);
+      last = sample->stamp;
+    }
+    return ++count < kSurveyedMessages;
+  });
+  const std::optional<int> samples = survey.horizonSamples();
+  if (!samples)
+    throw TooLittleError("no horizon can be proposed: the data show no damped spring; give integration_horizon "
+                         "(--set integration_horizon=0.6) to look at them all the same");
+  return *samples;
+}
+
 }  // namespace
 
 void measureOpenSettings(const ImuBags& bags, PipelineOptions& options) {
   MonitorOptions& monitor = options.monitor;
   if (!monitor.sample_period) monitor.sample_period = measurePeriod(bags);
+  if (!monitor.integration_horizon && !monitor.horizon_samples)
+    monitor.horizon_samples = proposeHorizonSamples(bags, options);
 }
 
 }  // namespace suspension_health_monitor
