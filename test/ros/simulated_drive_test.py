@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""The estimates against the simulator's truth, by stamp, through real topics."""
+import math
+import unittest
+
+import rospy
+import rostest
+from ros_session import PACKAGE, Collector, launch, settings, start_node, wait_until
+from suspension_health_monitor.msg import ParameterEstimate, SimulationTruth
+
+# Errors of b1 [1/s] and b0 [1/s^2] in the paper's experiments (lambda 0.98, L 30), t > 10 s, measured over 20 noise
+# seeds with an independent implementation. "largest" is the largest of 20 drives: one more drive stays below it but for
+# a chance of 1/21, hence the fixed seed. The rms of one drive scatters by 1 / sqrt(2 * 110 s / 1 s of memory) = 7 %.
+LARGEST = {"ls, no fault": (0.16, 0.63), "la, no fault": (0.16, 0.28), "la, data loss": (0.31, 0.61)}
+RMS = {"ls, no fault": (0.047, 0.170), "la, no fault": (0.069, 0.099), "la, data loss": (0.075, 0.129),
+       "ls, data loss": (0.537, 0.826)}
+RMS_SCATTER = 0.07
+SETTLED = 10.0  # [s]
+TIMES = (12.0, 20.0, 38.0, 55.0, 62.0, 80.0, 95.0, 119.0)  # [s], none within 10 s after a loss (25..26 s, 65..66 s)
+DURATION = 120.0
+SEED = 1
+
+
+class SimulatedDriveTest(unittest.TestCase):
+    def setUp(self):
+        self.ls = Collector("/monitor/ls", ParameterEstimate)
+        self.la = Collector("/monitor/la", ParameterEstimate)
+        self.truth = Collector("/simulator/truth", SimulationTruth)
+
+    def tearDown(self):
+        for collector in (self.ls, self.la, self.truth):
+            collector.stop()
+
+    def wait_for_end(self, start_time):
+        last = rospy.Time.from_sec(start_time + DURATION)
+        for collector in (self.ls, self.la, self.truth):
+            collector.wait_for(lambda message: message.header.stamp == last, 20.0, "the end of the drive")
+
+    def errors(self, estimates, start_time):
+        """(b1 error, b0 error) by drive time [s], from 10 s on."""
+        truth = self.truth.by_stamp()
+        result = {}
+        for stamp, estimate in estimates.by_stamp().items():
+            time = round(stamp * 1e-9 - start_time, 9)
+            if time >= SETTLED:
+                self.assertTrue(estimate.valid or time not in TIMES, f"at {time} s")
+                result[time] = (estimate.damping_to_mass - truth[stamp].damping_to_mass,
+                                estimate.stiffness_to_mass - truth[stamp].stiffness_to_mass)
+        self.assertEqual(len(result), round((DURATION - SETTLED) * 50) + 1, "an estimate for every sample")
+        return result
+
+    def assert_close_at_times(self, errors, what):
+        for time in TIMES:
+            for error, largest in zip(errors[time], LARGEST[what]):
+                self.assertLessEqual(abs(error), largest, f"{what}: {errors[time]} at {time} s")
+
+    def assert_rms_as_in_table(self, errors, what):
+        for parameter, expected in enumerate(RMS[what]):
+            rms = math.sqrt(sum(error[parameter]**2 for error in errors.values()) / len(errors))
+            self.assertLessEqual(abs(rms / expected - 1.0), 5 * RMS_SCATTER, f"{what}: rms {rms}, table {expected}")
+
+    def test_nodelets_in_one_manager_follow_the_truth_through_data_loss(self):
+        with launch("paper.launch", scenario="paper_outliers", real_time_factor=30, seed=SEED):
+            self.wait_for_end(0.0)
+        ls = self.errors(self.ls, 0.0)
+        la = self.errors(self.la, 0.0)
+        self.assert_close_at_times(ls, "ls, no fault")
+        self.assert_close_at_times(la, "la, data loss")
+        self.assert_rms_as_in_table(ls, "ls, data loss")
+        self.assert_rms_as_in_table(la, "la, data loss")
+
+    def test_separate_nodes_follow_the_truth(self):
+        start_time = 1000.0
+        drive = {"scenario": "paper_clean", "start_time": start_time, "real_time_factor": 30.0, "seed": SEED}
+        rospy.set_param("/use_sim_time", False)
+        with start_node("monitor_node", "monitor", settings("paper.yaml")):
+            self.la.wait_for_publisher()
+            self.ls.wait_for_publisher()
+            with start_node("simulator_node", "simulator", drive):
+                self.wait_for_end(start_time)
+        for name, estimates in (("ls, no fault", self.ls), ("la, no fault", self.la)):
+            errors = self.errors(estimates, start_time)
+            self.assert_close_at_times(errors, name)
+            self.assert_rms_as_in_table(errors, name)
+
+
+if __name__ == "__main__":
+    rospy.init_node("simulated_drive_test")
+    rostest.rosrun(PACKAGE, "simulated_drive", SimulatedDriveTest)
