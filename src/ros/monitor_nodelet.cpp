@@ -16,12 +16,10 @@ MonitorNodelet::~MonitorNodelet() {
 void MonitorNodelet::onInit() {
   ros::NodeHandle& node = getNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
-  try {
+  startOrRefuse(private_node, [&] {
     options_ = PipelineOptions::fromValues(readParameters(private_node));
     makePipeline();
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string(error.what()) + " (in " + private_node.getNamespace() + ')');
-  }
+  });
   const auto queue_size = static_cast<std::uint32_t>(options_.shell.queue_size);
   ls_ = private_node.advertise<ParameterEstimate>("ls", queue_size);
   la_ = private_node.advertise<ParameterEstimate>("la", queue_size);

@@ -22,7 +22,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   ~MonitorNodelet() override;
 
  private:
-  /// @throws std::invalid_argument  on a wrong parameter: the loader logs it, drops the nodelet and lives on.
+  /// @throws std::invalid_argument  on a wrong parameter, after logging it: the loader drops the nodelet and lives on.
   void onInit() override;
 
   void onImu(Side side, const sensor_msgs::ImuConstPtr& imu);

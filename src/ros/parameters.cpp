@@ -1,6 +1,7 @@
 #include "parameters.h"
 
 #include <XmlRpcValue.h>
+#include <ros/console.h>
 
 #include <stdexcept>
 #include <string>
@@ -37,6 +38,15 @@ OptionMap readParameters(const ros::NodeHandle& private_node) {
   XmlRpc::XmlRpcValue value;
   if (private_node.getParam(private_node.getNamespace(), value)) flatten("", value, result);
   return result;
+}
+
+void startOrRefuse(const ros::NodeHandle& private_node, const std::function<void()>& start) {
+  try {
+    start();
+  } catch (const std::exception& error) {
+    ROS_ERROR("%s (in %s)", error.what(), private_node.getNamespace().c_str());
+    throw;
+  }
 }
 
 }  // namespace suspension_health_monitor

@@ -2,6 +2,8 @@
 
 #include <ros/node_handle.h>
 
+#include <functional>
+
 #include "suspension_health_monitor/option_table.h"
 
 namespace suspension_health_monitor {
@@ -10,5 +12,9 @@ namespace suspension_health_monitor {
 /// @return all parameters below it, names joined with '/'.
 /// @throws std::invalid_argument  on a value that no option can have (a list, a date, binary), naming it.
 OptionMap readParameters(const ros::NodeHandle& private_node);
+
+/// Runs the part of a nodelet's onInit that may refuse parameters. The nodelet loader drops a nodelet that throws
+/// without a word, so what was thrown is logged here, with the namespace, and passed on.
+void startOrRefuse(const ros::NodeHandle& private_node, const std::function<void()>& start);
 
 }  // namespace suspension_health_monitor

@@ -27,11 +27,7 @@ void SimulatorNodelet::onInit() {
   ros::NodeHandle& node = getMTNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   SimulatorOptions options;
-  try {
-    options = SimulatorOptions::fromValues(readParameters(private_node));
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string(error.what()) + " (in " + private_node.getNamespace() + ')');
-  }
+  startOrRefuse(private_node, [&] { options = SimulatorOptions::fromValues(readParameters(private_node)); });
   sprung_ = node.advertise<sensor_msgs::Imu>("sprung/imu", kQueueSize);
   unsprung_ = node.advertise<sensor_msgs::Imu>("unsprung/imu", kQueueSize);
   truth_ = private_node.advertise<SimulationTruth>("truth", kQueueSize);

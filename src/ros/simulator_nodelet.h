@@ -20,7 +20,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// @throws std::invalid_argument  on a wrong parameter: the loader logs it, drops the nodelet and lives on.
+  /// @throws std::invalid_argument  on a wrong parameter, after logging it: the loader drops the nodelet and lives on.
   void onInit() override;
 
   void drive(SimulatorOptions options);
