@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""A wrong parameter is refused at start, by name, value and what is allowed, and harms nobody else."""
+import unittest
+
+import rospy
+import rostest
+from ros_session import PACKAGE, Collector, is_finite, load_nodelet, settings, start_node
+from rosgraph_msgs.msg import Log
+from suspension_health_monitor.msg import ParameterEstimate
+
+# What is wrong: the parameters, and what the message must hold. Names are those of config/monitor.yaml.
+WRONG = {
+    "out of range": ({"forgetting_factor": 1.2}, ["forgetting_factor = 1.2", "must be in [0.9, 1]"]),
+    "nested": ({"la": {"small_divisor": -1.0}}, ["la/small_divisor = -1", "must be in [0, 10]"]),
+    "unknown": ({"forgeting_factor": 0.98}, ["unknown option forgeting_factor = 0.98", "forgetting_factor"]),
+    "wrong type": ({"forgetting_factor": "high"}, ['forgetting_factor = "high"', "must be in [0.9, 1]"]),
+    "not whole": ({"horizon_samples": 30.5}, ["horizon_samples = 30.5", "a whole number in [1, 100000]"]),
+    "list": ({"forgetting_factor": [0.98, 0.99]}, ["forgetting_factor", "list", "must be true or false, a number"]),
+    "not one of the words": ({"integration_rule": "euler"}, ['integration_rule = "euler"', "trapezoid", "cubic"]),
+    "contradiction": ({"horizon_samples": 30, "integration_horizon": 0.6}, ["horizon_samples", "integration_horizon"]),
+}
+WRONG_SIMULATION = {"scenario": "paper_dirty"}
+DRIVE = {"real_time_factor": 20.0, "duration": 30.0}
+
+
+class RefusedParametersTest(unittest.TestCase):
+    def setUp(self):
+        self.rosout = Collector("/rosout", Log)
+
+    def tearDown(self):
+        self.rosout.stop()
+
+    def assert_refused_in_rosout(self, name, parts):
+        self.rosout.wait_for(lambda log: log.level >= Log.ERROR and all(part in log.msg for part in [*parts, "/" + name]),
+                             5.0, f"an error with {parts}")
+
+    def test_nodelet_is_refused_and_a_good_one_works_beside_it(self):
+        self.rosout.wait_for_publisher()
+        for number, (parameters, parts) in enumerate(WRONG.values()):
+            name = f"wrong_{number}"
+            with load_nodelet("MonitorNodelet", name, parameters) as wrong:
+                self.assertNotEqual(wrong.wait_for_end(5.0), 0)
+                self.assert_refused_in_rosout(name, parts)
+        estimates = Collector("/good/la", ParameterEstimate)
+        with load_nodelet("MonitorNodelet", "good", settings("paper.yaml")):
+            estimates.wait_for_publisher()
+            with load_nodelet("SimulatorNodelet", "drive", DRIVE):
+                estimates.wait_for(lambda estimate: estimate.valid and is_finite(estimate), 10.0, "a valid estimate")
+        estimates.stop()
+
+    def test_refused_simulator_leaves_no_topic(self):
+        self.rosout.wait_for_publisher()
+        with load_nodelet("SimulatorNodelet", "wrong_drive", WRONG_SIMULATION) as wrong:
+            self.assertNotEqual(wrong.wait_for_end(5.0), 0)
+        self.assert_refused_in_rosout("wrong_drive", ['scenario = "paper_dirty"', "paper_clean, paper_outliers"])
+        self.assertNotIn("/wrong_drive/truth", [topic for topic, _ in rospy.get_published_topics()])
+
+    def test_nodes_end_with_an_error_and_say_why(self):
+        for program, parameters, parts in (("monitor_node", *WRONG["out of range"]),
+                                           ("monitor_node", *WRONG["unknown"]),
+                                           ("simulator_node", WRONG_SIMULATION, ['scenario = "paper_dirty"'])):
+            with start_node(program, "wrong_node", parameters) as node:
+                self.assertNotEqual(node.wait_for_end(5.0), 0)
+                for part in [*parts, "/wrong_node"]:
+                    self.assertIn(part, node.output())
+
+
+if __name__ == "__main__":
+    rospy.init_node("refused_parameters_test")
+    rostest.rosrun(PACKAGE, "refused_parameters", RefusedParametersTest)
