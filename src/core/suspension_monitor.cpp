@@ -105,8 +105,7 @@ bool SuspensionMonitor::isValid(const StrutEstimate& estimate) const {
 void SuspensionMonitor::compare(const CornerSample& sample) {
   ComparisonReport& comparison = report_.comparison;
   const StrutEstimate& la = report_.la;
-  if (la.valid && free_run_.accepts(la.damping_to_mass, la.stiffness_to_mass))
-    free_run_.setModel(la.damping_to_mass, la.stiffness_to_mass);
+  if (la.valid) free_run_.trySetModel(la.damping_to_mass, la.stiffness_to_mass);
   comparison.measured = sample.sprung_acceleration;
   comparison.predicted = free_run_.push(sample.unsprung_acceleration);
   if (!free_run_.settled()) comparison.predicted.reset();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "suspension_health_monitor/identification/running_mean.h"
 
 namespace suspension_health_monitor {
@@ -21,7 +23,11 @@ class RunningComparison {
   double fitPercent() const;
 
  private:
-  RunningMean residual_, square_residual_, measured_, square_measured_;
+  enum Mean : std::size_t { kResidual, kSquareResidual, kMeasured, kSquareMeasured, kNumMeans };
+
+  double deviation(Mean value, Mean square) const;
+
+  RunningMeans<kNumMeans> means_;
 };
 
 }  // namespace suspension_health_monitor

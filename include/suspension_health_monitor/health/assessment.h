@@ -47,6 +47,7 @@ class HealthAssessment {
 
  private:
   HealthOptions options_;
+  Stamp confirm_time_;
   HealthReport report_;
   HealthLevel pending_ = HealthLevel::kStale;
   Stamp pending_since_{};

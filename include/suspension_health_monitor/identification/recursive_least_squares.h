@@ -37,11 +37,11 @@ class RecursiveEstimator {
   double forgettingFactor() const { return options_.forgetting_factor; }
 
   /// @return sum of lambda^(k-i): the number of rows that the estimate rests on.
-  double effectiveRows() const { return absolute_residual_.weight(); }
+  double effectiveRows() const { return means_.weight(); }
 
-  double meanAbsoluteResidual() const { return absolute_residual_.mean(); }  ///< running mean of |epsilon|
-  double meanSquareResidual() const { return square_residual_.mean(); }      ///< running mean of epsilon^2
-  double meanAbsoluteOutput() const { return absolute_output_.mean(); }      ///< running mean of |psi|
+  double meanAbsoluteResidual() const { return means_.mean(kAbsoluteResidual); }  ///< running mean of |epsilon|
+  double meanSquareResidual() const { return means_.mean(kSquareResidual); }      ///< running mean of epsilon^2
+  double meanAbsoluteOutput() const { return means_.mean(kAbsoluteOutput); }      ///< running mean of |psi|
 
  protected:
   /// epsilon = psi - phi' theta, Eq. (15) and (24); also takes the row into the running means.
@@ -57,7 +57,10 @@ class RecursiveEstimator {
  private:
   void releaseExcited(const Eigen::VectorXd& regressor);
 
-  RunningMean absolute_residual_, square_residual_, absolute_output_;
+  enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kNumMeans };
+
+  int num_released_ = 0;
+  RunningMeans<kNumMeans> means_;
 };
 
 /// Recursive least squares with exponential forgetting: minimises sum_i lambda^(k-i) (psi_i - phi_i' theta)^2 (13).

@@ -8,6 +8,13 @@ namespace suspension_health_monitor {
 struct RegressionRow {
   Eigen::VectorXd regressor;  ///< phi, one entry per parameter [unit of output / unit of parameter]
   double output = 0.0;        ///< psi
+
+  /// @return true if no parameter can make a difference to this row.
+  bool saysNothing() const {
+    for (Eigen::Index i = 0; i < regressor.size(); ++i)
+      if (regressor[i] != 0.0) return false;
+    return true;
+  }
 };
 
 }  // namespace suspension_health_monitor

@@ -1,25 +1,44 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 namespace suspension_health_monitor {
 
-/// Mean with exponential forgetting, sum lambda^(k-i) x_i / sum lambda^(k-i): unbiased from the first value on.
-class RunningMean {
+/// Means of N quantities with exponential forgetting, sum lambda^(k-i) x_i / sum lambda^(k-i): unbiased from the first
+/// value on.
+template <std::size_t N>
+class RunningMeans {
  public:
   /// @param forgetting_factor  lambda in (0, 1].
-  explicit RunningMean(double forgetting_factor) : forgetting_factor_(forgetting_factor) {}
+  explicit RunningMeans(double forgetting_factor) : forgetting_factor_(forgetting_factor) {}
 
-  void add(double value) {
+  void add(const std::array<double, N>& values) {
     weight_ = forgetting_factor_ * weight_ + 1.0;
-    mean_ += (value - mean_) / weight_;
+    const double gain = 1.0 / weight_;
+    for (std::size_t i = 0; i < N; ++i) means_[i] += gain * (values[i] - means_[i]);
   }
 
-  double mean() const { return mean_; }      ///< 0 before the first value
-  double weight() const { return weight_; }  ///< sum lambda^(k-i), at most 1 / (1 - lambda)
+  double mean(std::size_t i) const { return means_[i]; }  ///< 0 before the first values
+  double weight() const { return weight_; }               ///< sum lambda^(k-i), at most 1 / (1 - lambda)
 
  private:
   double forgetting_factor_;
   double weight_ = 0.0;
-  double mean_ = 0.0;
+  std::array<double, N> means_{};
+};
+
+/// The mean of one quantity.
+class RunningMean {
+ public:
+  explicit RunningMean(double forgetting_factor) : means_(forgetting_factor) {}
+
+  void add(double value) { means_.add({value}); }
+  double mean() const { return means_.mean(0); }
+  double weight() const { return means_.weight(); }
+
+ private:
+  RunningMeans<1> means_;
 };
 
 }  // namespace suspension_health_monitor

@@ -45,7 +45,7 @@ class UdCovariance {
   Eigen::MatrixXd upper_;     // U, unit diagonal
   Eigen::VectorXd diagonal_;  // D
   Eigen::VectorXd ceiling_;
-  Eigen::VectorXd projected_, gain_;
+  Eigen::VectorXd gain_;
 };
 
 }  // namespace suspension_health_monitor

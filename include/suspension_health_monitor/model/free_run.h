@@ -22,6 +22,10 @@ class FreeRun {
   /// @return true if the model is stable and the sampling can follow it: b1 > 0, b0 > 0, at most 32 steps per sample.
   bool accepts(double damping_to_mass, double stiffness_to_mass) const;
 
+  /// Changes the model if it is acceptable; travel and travel rate go on.
+  /// @return accepts(); if false, the model stays as it was.
+  bool trySetModel(double damping_to_mass, double stiffness_to_mass);
+
   /// Changes the model; travel and travel rate go on.
   /// @param damping_to_mass  b1 [1/s].  @param stiffness_to_mass  b0 [1/s^2].
   /// @throws std::invalid_argument  naming the value that makes the model unacceptable.
@@ -47,7 +51,7 @@ class FreeRun {
   static constexpr double kSettledDecay = 6.9;  // ln 1000
   static constexpr std::size_t kNodes = 4;      // of the interpolating cubic
 
-  double steps(double damping_to_mass, double stiffness_to_mass) const;
+  double exactSteps(double damping_to_mass, double stiffness_to_mass) const;
   void advance();
   double interpolate(double fraction) const;
   State derivative(const State& state, double unsprung_acceleration) const;

@@ -38,7 +38,10 @@ void HealthOptions::validate() const {
   checkThresholds("stiffness", stiffness_warn, stiffness_error);
 }
 
-HealthAssessment::HealthAssessment(const HealthOptions& options) : options_(options) { options.validate(); }
+HealthAssessment::HealthAssessment(const HealthOptions& options)
+    : options_(options), confirm_time_(fromSeconds(options.confirm_time)) {
+  options.validate();
+}
 
 const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& estimate) {
   HealthReport now;
@@ -53,7 +56,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
     pending_ = now.level;
     pending_since_ = stamp;
   }
-  const bool confirmed = stamp - pending_since_ >= fromSeconds(options_.confirm_time);
+  const bool confirmed = stamp - pending_since_ >= confirm_time_;
   const HealthLevel reported = report_.level;
   report_ = now;
   if (!confirmed) report_.level = reported;

@@ -20,7 +20,7 @@ RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const Recursi
 }
 
 double RecursiveLeastAbsolute::update(const RegressionRow& row) {
-  if (row.regressor.isZero(0.0)) return row.output;
+  if (row.saysNothing()) return row.output;
   const double innovation = innovate(row);
   if (rows_ < absolute_.start_rows) {
     correct(row, innovation, 1.0);

@@ -17,23 +17,19 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
     : options_(options),
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
-      absolute_residual_(options.forgetting_factor),
-      square_residual_(options.forgetting_factor),
-      absolute_output_(options.forgetting_factor) {
+      means_(options.forgetting_factor) {
   options.validate();
 }
 
 double RecursiveEstimator::innovate(const RegressionRow& row) {
   double innovation = row.output;
   for (Eigen::Index i = 0; i < theta_.size(); ++i) innovation -= row.regressor[i] * theta_[i];
-  absolute_residual_.add(std::abs(innovation));
-  square_residual_.add(innovation * innovation);
-  absolute_output_.add(std::abs(row.output));
+  means_.add({std::abs(innovation), innovation * innovation, std::abs(row.output)});
   return innovation;
 }
 
 void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {
-  releaseExcited(row.regressor);
+  if (num_released_ < numParameters()) releaseExcited(row.regressor);
   const Eigen::VectorXd& gain =
       covariance_.update(row.regressor, options_.forgetting_factor / weight, options_.forgetting_factor);
   for (Eigen::Index i = 0; i < theta_.size(); ++i) theta_[i] += gain[i] * innovation;
@@ -44,11 +40,12 @@ void RecursiveEstimator::releaseExcited(const Eigen::VectorXd& regressor) {
     if (covariance_.isReleased(i) || regressor[i] == 0.0) continue;
     const bool relative = options_.initial_variance_rule == InitialVariance::kRelative;
     covariance_.release(i, options_.initial_variance / (relative ? regressor[i] * regressor[i] : 1.0));
+    ++num_released_;
   }
 }
 
 double RecursiveLeastSquares::update(const RegressionRow& row) {
-  if (row.regressor.isZero(0.0)) return row.output;
+  if (row.saysNothing()) return row.output;
   const double innovation = innovate(row);
   correct(row, innovation, 1.0);
   return innovation;

@@ -8,7 +8,6 @@ UdCovariance::UdCovariance(int size)
     : upper_(Eigen::MatrixXd::Identity(size, size)),
       diagonal_(Eigen::VectorXd::Zero(size)),
       ceiling_(Eigen::VectorXd::Zero(size)),
-      projected_(Eigen::VectorXd::Zero(size)),
       gain_(Eigen::VectorXd::Zero(size)) {}
 
 void UdCovariance::release(int i, double variance) {
@@ -18,14 +17,11 @@ void UdCovariance::release(int i, double variance) {
 
 const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor) {
   const Eigen::Index p = diagonal_.size();
-  for (Eigen::Index j = 0; j < p; ++j) {  // f = U' phi
-    double sum = regressor[j];
-    for (Eigen::Index i = 0; i < j; ++i) sum += upper_(i, j) * regressor[i];
-    projected_[j] = sum;
-  }
   double alpha = noise;
   for (Eigen::Index j = 0; j < p; ++j) {
-    const double f = projected_[j];
+    double* const column = upper_.data() + j * p;  // of U; its part above the diagonal
+    double f = regressor[j];                       // entry j of U' phi
+    for (Eigen::Index i = 0; i < j; ++i) f += column[i] * regressor[i];
     const double v = diagonal_[j] * f;
     const double alpha_before = alpha;
     alpha += f * v;
@@ -33,8 +29,8 @@ const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, do
     const double multiplier = -f / alpha_before;
     gain_[j] = v;
     for (Eigen::Index i = 0; i < j; ++i) {
-      const double old = upper_(i, j);
-      upper_(i, j) += multiplier * gain_[i];
+      const double old = column[i];
+      column[i] += multiplier * gain_[i];
       gain_[i] += old * v;
     }
   }
@@ -49,8 +45,8 @@ void UdCovariance::scale(double factor) {
 }
 
 double UdCovariance::variance(int i) const {
-  double sum = 0.0;
-  for (Eigen::Index j = i; j < diagonal_.size(); ++j) sum += upper_(i, j) * upper_(i, j) * diagonal_[j];
+  double sum = diagonal_[i];
+  for (Eigen::Index j = i + 1; j < diagonal_.size(); ++j) sum += upper_(i, j) * upper_(i, j) * diagonal_[j];
   return sum;
 }
 

@@ -9,7 +9,9 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kLongestStep = 0.35;  // in units of the model's fastest time; keeps the step error below 1e-4
-constexpr double kMostSteps = 32.0;
+constexpr double kMostSteps = 31.0;
+
+bool isFewEnough(double steps) { return steps > 0.0 && steps <= kMostSteps; }  // not NaN
 
 }  // namespace
 
@@ -18,28 +20,35 @@ FreeRun::FreeRun(double period) : period_(period) {
     throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be above 0");
 }
 
-double FreeRun::steps(double damping_to_mass, double stiffness_to_mass) const {
-  return std::ceil(period_ * std::max(damping_to_mass, std::sqrt(stiffness_to_mass)) / kLongestStep);
+// How many steps of kLongestStep a sample has; not above 0 or NaN unless both parameters are above 0.
+double FreeRun::exactSteps(double damping_to_mass, double stiffness_to_mass) const {
+  if (!(damping_to_mass > 0.0 && stiffness_to_mass > 0.0)) return 0.0;
+  return period_ * std::max(damping_to_mass, std::sqrt(stiffness_to_mass)) / kLongestStep;
 }
 
 bool FreeRun::accepts(double damping_to_mass, double stiffness_to_mass) const {
-  return damping_to_mass > 0.0 && stiffness_to_mass > 0.0 &&
-         steps(damping_to_mass, stiffness_to_mass) <= kMostSteps;  // false for NaN and infinity, too
+  return isFewEnough(exactSteps(damping_to_mass, stiffness_to_mass));
 }
 
-void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
-  if (!accepts(damping_to_mass, stiffness_to_mass))
-    throw std::invalid_argument("damping_to_mass = " + std::to_string(damping_to_mass) +
-                                " [1/s], stiffness_to_mass = " + std::to_string(stiffness_to_mass) +
-                                " [1/s^2]: both must be above 0 and slow enough for sample_period = " +
-                                std::to_string(period_) + " [s]");
+bool FreeRun::trySetModel(double damping_to_mass, double stiffness_to_mass) {
+  const double steps = exactSteps(damping_to_mass, stiffness_to_mass);
+  if (!isFewEnough(steps)) return false;
   damping_to_mass_ = damping_to_mass;
   stiffness_to_mass_ = stiffness_to_mass;
-  num_steps_ = static_cast<int>(steps(damping_to_mass, stiffness_to_mass));
+  num_steps_ = 1 + static_cast<int>(steps);
   // Roots of s^2 + b1 s + b0; an overdamped strut has a slow real one.
   const double half = damping_to_mass / 2;
   const double discriminant = half * half - stiffness_to_mass;
   decay_rate_ = discriminant > 0.0 ? stiffness_to_mass / (half + std::sqrt(discriminant)) : half;
+  return true;
+}
+
+void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
+  if (trySetModel(damping_to_mass, stiffness_to_mass)) return;
+  throw std::invalid_argument("damping_to_mass = " + std::to_string(damping_to_mass) +
+                              " [1/s], stiffness_to_mass = " + std::to_string(stiffness_to_mass) +
+                              " [1/s^2]: both must be above 0 and slow enough for sample_period = " +
+                              std::to_string(period_) + " [s]");
 }
 
 std::optional<double> FreeRun::push(double unsprung_acceleration) {
