@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""A replayed bag gives live what suspension_bag gives offline: every estimate, at the measurement's own stamp."""
+import csv
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+from decimal import Decimal
+
+import rosbag
+import rospy
+import rostest
+from ros_session import PACKAGE, REPOSITORY, Collector, find_program, is_finite, launch
+from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
+
+SETTINGS = os.path.join(REPOSITORY, "config", "paper.yaml")
+DURATION = 70.0  # [s], with both losses of readings
+FILLING = 60  # samples before the first regression row: two horizons of 30
+RATE = 20  # bag seconds per wall second
+TOLERANCE = 1e-9  # relative; both ways run the same code
+
+
+def run_tool(*arguments):
+    result = subprocess.run([find_program(PACKAGE, "suspension_bag"), *arguments], text=True, timeout=20.0,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if result.returncode != 0:
+        raise AssertionError(f"suspension_bag {arguments} ended with {result.returncode}:\n{result.stdout}")
+
+
+def read_csv(path):
+    """The lines of `identify --csv` by stamp in nanoseconds."""
+    with open(path, encoding="utf-8", newline="") as stream:
+        return {int(Decimal(line["time"]) * 10**9): {name: float(value) for name, value in line.items()}
+                for line in csv.DictReader(stream)}
+
+
+class BagReplayTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            bag, table = os.path.join(folder, "drive.bag"), os.path.join(folder, "estimates.csv")
+            run_tool("simulate", "--scenario", "paper_outliers", "--seed", "3", "--duration", str(DURATION), "-o", bag)
+            run_tool("identify", bag, "--config", SETTINGS, "--csv", table)
+            cls.offline = read_csv(table)
+            with rosbag.Bag(bag) as messages:
+                cls.stamps = {message.header.stamp.to_nsec() for _, message, _ in messages.read_messages("/sprung/imu")}
+            cls.replay(bag)
+
+    @classmethod
+    def replay(cls, bag):
+        collectors = [Collector("/monitor/ls", ParameterEstimate), Collector("/monitor/la", ParameterEstimate),
+                      Collector("/monitor/comparison", ModelComparison)]
+        with launch("replay.launch", bag=bag, rate=RATE, delay=2.0, config=SETTINGS) as player:
+            status = player.wait_for_end(20.0)
+        if status != 0:
+            raise AssertionError(f"replay.launch ended with {status}:\n{player.output()}")
+        cls.ls, cls.la, cls.comparison = (collector.by_stamp() for collector in collectors)
+
+    def test_every_sample_of_the_bag_gives_an_estimate_with_its_stamp(self):
+        self.assertEqual(len(self.stamps), DURATION * 50 + 1)
+        self.assertEqual(set(self.la), self.stamps)
+        self.assertEqual(set(self.ls), self.stamps)
+        self.assertEqual(set(self.comparison), self.stamps)
+
+    def test_estimates_begin_when_the_filter_is_full(self):
+        rows = sorted(stamp for stamp, estimate in self.la.items() if is_finite(estimate))
+        self.assertEqual(rows, sorted(self.stamps)[FILLING:])
+        self.assertEqual(rows, sorted(self.offline))
+
+    def test_live_equals_offline(self):
+        for stamp, line in self.offline.items():
+            ls, la, comparison = self.ls[stamp], self.la[stamp], self.comparison[stamp]
+            for name, live in (("ls_damping_to_mass", ls.damping_to_mass), ("la_damping_to_mass", la.damping_to_mass),
+                               ("ls_stiffness_to_mass", ls.stiffness_to_mass),
+                               ("la_stiffness_to_mass", la.stiffness_to_mass), ("measured", comparison.measured),
+                               ("predicted", comparison.predicted), ("residual", comparison.residual)):
+                offline = line[name]
+                same = math.isclose(live, offline, rel_tol=TOLERANCE) or (math.isnan(live) and math.isnan(offline))
+                self.assertTrue(same, f"{name} at {stamp} ns: live {live}, offline {offline}")
+
+    def test_estimates_are_those_of_the_drive(self):
+        last = self.la[max(self.la)]
+        self.assertAlmostEqual(last.damping_to_mass, 3.0 - (DURATION - 40.0) / 60.0, delta=0.31)
+        self.assertAlmostEqual(last.stiffness_to_mass, 13.8, delta=0.61)
+
+
+if __name__ == "__main__":
+    rospy.init_node("bag_replay_test")
+    rostest.rosrun(PACKAGE, "bag_replay", BagReplayTest)
