@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Drives the paper's experiments through the nodelets, prints LS against LA, and writes DIR/report.html with Figs. 3-7.
+
+Needs a built workspace whose setup.bash is sourced; scripts/demo does both. Exit status: 0 done and every claim held,
+1 otherwise.
+"""
+import argparse
+import pathlib
+import sys
+import time
+
+from report.accuracy import find_program, seed_medians
+from report.experiments import DURATION, EXPERIMENTS, REAL_TIME_FACTORS, RunFailed, read_settings, run_experiments
+from report.page import page, write_whole
+from report.progress import Progress
+from report.recording import IncompleteRecording, read_recording, require_complete
+from report.sections import Results, report_sections, tables
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[1]
+CONFIG = REPOSITORY / "config"
+TITLE = "Suspension health monitor: the paper's experiments"
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("demo_out"), metavar="DIR")
+    parser.add_argument("--work", type=pathlib.Path, default=REPOSITORY / "build/demo", metavar="DIR",
+                        help="for logs and what is deleted again")
+    parser.add_argument("--quick", action="store_true", help="leave out the medians over noise seeds")
+    parser.add_argument("--seed", type=int, default=1, help="noise of the drives through the nodelets")
+    parser.add_argument("--seeds", type=int, default=20, help="how many noise seeds the medians are over")
+    return parser.parse_args()
+
+
+def read_complete(scenario, bag, settings):
+    """The recording, with every row from the first regression row on. @throws IncompleteRecording"""
+    recording = read_recording(bag)
+    require_complete(recording, scenario, settings.first_row, DURATION, settings.period)
+    return recording
+
+
+def drive_and_read(options, settings):
+    """{scenario: Recording} of all experiments; what misses rows runs again, slower. @throws IncompleteRecording"""
+    bags = {each.scenario: options.output.resolve() / f"{each.scenario}.bag" for each in EXPERIMENTS}
+    recordings = {}
+    for factor in REAL_TIME_FACTORS:
+        due = [scenario for scenario in bags if scenario not in recordings]
+        print(f"== driving {len(due)} x {DURATION:g} s through the nodelets, side by side, {factor:g} times faster "
+              "than the wall clock", flush=True)
+        with Progress("driving") as progress:
+            run_experiments(due, bags, options.seed, factor, options.work.resolve(), progress)
+        failures = []
+        for scenario in due:
+            try:
+                recordings[scenario] = read_complete(scenario, bags[scenario], settings)
+            except IncompleteRecording as error:
+                print(f"   {error}", flush=True)
+                failures.append(error)
+        if not failures:
+            return {scenario: recordings[scenario] for scenario in bags}
+    raise failures[0]
+
+
+def medians(options, recordings):
+    if options.quick:
+        return {}
+    print(f"== the same with {options.seeds} noise seeds each, by suspension_bag simulate and identify", flush=True)
+    with Progress("identifying") as progress:
+        return seed_medians(find_program(), CONFIG / "paper.yaml", options.work.resolve() / "seeds", recordings,
+                            range(1, options.seeds + 1), progress)
+
+
+def main():
+    options = parse_arguments()
+    start = time.monotonic()
+    sys.stdout.reconfigure(errors="replace")  # a terminal without the squares still gets its tables
+    options.output.mkdir(parents=True, exist_ok=True)
+    try:
+        settings = read_settings(CONFIG)
+        recordings = drive_and_read(options, settings)
+        results = Results(settings, EXPERIMENTS, recordings, medians(options, recordings), options.seed, options.seeds)
+    except (RunFailed, IncompleteRecording) as error:
+        sys.exit(f"error: {error}")
+    except KeyboardInterrupt:
+        sys.exit("interrupted: the drives are ended, no report is written")
+    print("\nb1 = damping/mass, b0 = stiffness/mass; LS least squares, LA least sum of absolute values")
+    for table in tables(results):
+        print(f"\n{table.to_text()}")
+    report = options.output / "report.html"
+    write_whole(report, page(TITLE, report_sections(results)))
+    held = [claim[-1] for claim in results.claims()]
+    print(f"\n{sum(held)} of {len(held)} claims of the paper held, {time.monotonic() - start:.0f} s; report: {report}")
+    return 0 if all(held) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
