@@ -102,7 +102,8 @@ def track(results, scenario, fault_label, names, ls_text, la_text):
 
 def data_loss(results):
     return Section("Data loss", (
-        "Twice both accelerations read zero (gravity apart) for one second, at 25 s and 65 s, as with a bad connection.",),
+        "Twice both accelerations read zero (gravity apart) for one second, at 25 s and 65 s, as with a bad "
+        "connection.",),
         track(results, "paper_outliers", "data loss", ("Fig. 3", "Fig. 4"),
               "LS. Each loss throws b₁ off by up to {0:.1f} 1/s and b₀ by up to {1:.1f} 1/s², and it takes seconds "
               "to recover.",
