@@ -40,6 +40,12 @@ bool MonitorDiagnostics::noteLevel(HealthLevel level) {
   return changed;
 }
 
+void MonitorDiagnostics::restart() {
+  rejected_before_ = {};
+  gaps_before_ = 0;
+  refusal_.clear();
+}
+
 void MonitorDiagnostics::publish(const ImuPipeline& pipeline) {
   pipeline_ = &pipeline;
   updater_.force_update();
@@ -72,8 +78,10 @@ void MonitorDiagnostics::describeInput(Status& status) {
     status.add("rejected " + name, rejected.count(reason));
   }
   rejected_before_ = rejected;
-  describeSilence(status);
-  if (!refusal_.empty()) status.mergeSummary(DiagnosticStatus::ERROR, refusal_);
+  if (refusal_.empty())
+    describeSilence(status);
+  else
+    status.mergeSummary(DiagnosticStatus::ERROR, "stopped listening until reset: " + refusal_);
 }
 
 void MonitorDiagnostics::describeSilence(Status& status) const {

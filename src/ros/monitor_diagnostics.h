@@ -26,6 +26,9 @@ class MonitorDiagnostics {
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
 
+  /// To be called with a new pipeline: its counters start from 0, and nothing is refused yet.
+  void restart();
+
   void publish(const ImuPipeline& pipeline);
 
  private:

@@ -26,12 +26,7 @@ void MonitorNodelet::onInit() {
   comparison_ = private_node.advertise<ModelComparison>("comparison", queue_size);
   health_ = private_node.advertise<SuspensionHealth>("health", queue_size);
   reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
-  const auto subscribe = [&](Side side, const char* topic) {
-    return node.subscribe<sensor_msgs::Imu>(
-        topic, queue_size, [this, side](const sensor_msgs::ImuConstPtr& imu) { onImu(side, imu); }, nullptr,
-        ros::TransportHints().tcpNoDelay());
-  };
-  imu_ = {subscribe(Side::kSprung, "sprung/imu"), subscribe(Side::kUnsprung, "unsprung/imu")};
+  subscribe();
   diagnostics_.emplace(node, private_node, getName(), options_.shell, imu_);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
 }
@@ -40,15 +35,29 @@ void MonitorNodelet::makePipeline() {
   pipeline_.emplace(options_, [this](const MonitorReport& report) { publish(report); });
 }
 
+void MonitorNodelet::subscribe() {
+  const auto queue_size = static_cast<std::uint32_t>(options_.shell.queue_size);
+  const auto listen = [&](Side side, const char* topic) {
+    return getNodeHandle().subscribe<sensor_msgs::Imu>(
+        topic, queue_size, [this, side](const sensor_msgs::ImuConstPtr& imu) { onImu(side, imu); }, nullptr,
+        ros::TransportHints().tcpNoDelay());
+  };
+  imu_ = {listen(Side::kSprung, "sprung/imu"), listen(Side::kUnsprung, "unsprung/imu")};
+}
+
+void MonitorNodelet::stopListening(const std::string& reason) {
+  NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
+  diagnostics_->setRefusal(reason);
+  for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
+}
+
 void MonitorNodelet::onImu(Side side, const sensor_msgs::ImuConstPtr& imu) {
   frames_[static_cast<std::size_t>(side)] = imu->header.frame_id;
   diagnostics_->noteMessage(side);
   try {
     pipeline_->push(side, *imu);
   } catch (const std::invalid_argument& error) {  // the options do not fit the sample period that was measured
-    NODELET_ERROR("stopped listening: %s", error.what());
-    diagnostics_->setRefusal(error.what());
-    for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
+    stopListening(error.what());
   }
 }
 
@@ -74,6 +83,8 @@ void MonitorNodelet::onTick() { diagnostics_->publish(*pipeline_); }
 
 bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   makePipeline();
+  diagnostics_->restart();
+  if (!imu_.front()) subscribe();
   response.success = true;
   response.message = "estimates, filters and counters start anew";
   return true;

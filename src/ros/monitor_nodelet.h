@@ -30,6 +30,8 @@ class MonitorNodelet : public nodelet::Nodelet {
   void onTick();
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void makePipeline();
+  void subscribe();
+  void stopListening(const std::string& reason);
 
   PipelineOptions options_;
   std::optional<ImuPipeline> pipeline_;
