@@ -5,26 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "monitor_settings.h"
 #include "suspension_health_monitor/simulation/drive_simulator.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
-
-/// Section 3.2 and 4 of the paper, as in config/paper.yaml.
-inline MonitorOptions paperOptions() {
-  MonitorOptions options;
-  options.sample_period = 0.02;
-  options.horizon_samples = 30;
-  options.integration_rule = "trapezoid";
-  options.forgetting_factor = 0.98;
-  options.initial_variance = 1e5;
-  options.initial_variance_rule = "absolute";
-  options.la_start_rows = 150;
-  options.la_small_divisor_rule = "absolute";
-  options.la_small_divisor = 1e-8;
-  options.la_scale_covariance_at_start = false;
-  return options;
-}
 
 /// The paper's experiment: 120 s at 50 Hz, damping falling from 3 to 2 1/s between 40 s and 100 s.
 inline std::vector<DriveSample> paperExperiment(const std::string& scenario, int seed) {

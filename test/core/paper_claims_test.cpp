@@ -11,12 +11,6 @@ namespace {
 
 constexpr int kNumSeeds = 20;
 
-MonitorOptions liveOptions() {
-  MonitorOptions options;
-  options.sample_period = 0.02;
-  return options;
-}
-
 MonitorOptions liveOptionsWithThePapersDivisor() {
   MonitorOptions options = liveOptions();
   options.la_small_divisor_rule = "absolute";

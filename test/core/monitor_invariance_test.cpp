@@ -1,0 +1,88 @@
+// Nothing may depend on the unit or the offset of the two sensors: b1 and b0 are in 1/s and 1/s^2 whatever u and y are
+// in.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "monitor_settings.h"
+#include "paper_drive.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+struct Sensors {
+  double gain = 1.0, offset = 0.0;
+};
+
+CornerSample seenBy(const Sensors& sensors, const CornerSample& sample) {
+  return {sample.stamp, sensors.gain * sample.sprung_acceleration + sensors.offset,
+          sensors.gain * sample.unsprung_acceleration + sensors.offset};
+}
+
+void expectNear(const StrutEstimate& actual, const StrutEstimate& expected, double relative_tolerance) {
+  const auto near = [&](double a, double b) { ASSERT_NEAR(a, b, relative_tolerance * std::abs(b)); };
+  near(actual.damping_to_mass, expected.damping_to_mass);
+  near(actual.stiffness_to_mass, expected.stiffness_to_mass);
+  near(actual.damping_to_mass_stddev, expected.damping_to_mass_stddev);
+  near(actual.stiffness_to_mass_stddev, expected.stiffness_to_mass_stddev);
+  ASSERT_NEAR(actual.explained, expected.explained, relative_tolerance);
+  ASSERT_EQ(actual.valid, expected.valid);
+}
+
+void expectSameEstimates(const std::string& scenario, const Sensors& sensors) {
+  SCOPED_TRACE(scenario + ", gain " + std::to_string(sensors.gain) + ", offset " + std::to_string(sensors.offset));
+  SimulationOptions drive;
+  drive.scenario = scenario;
+  SuspensionMonitor reference(liveOptions()), monitor(liveOptions());
+  for (const CornerSample& sample : simulate(drive)) {
+    const MonitorReport& expected = *reference.addSample(sample);
+    const MonitorReport& actual = *monitor.addSample(seenBy(sensors, sample));
+    if (!expected.has_row) continue;
+    expectNear(actual.ls, expected.ls, 1e-9);
+    expectNear(actual.la, expected.la, 1e-9);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+  if (sensors.offset == 0.0) {
+    EXPECT_NEAR(monitor.report().comparison.rmse / (std::abs(sensors.gain) * reference.report().comparison.rmse), 1.0,
+                1e-9);
+  }
+}
+
+TEST(MonitorInvariance, EstimatesAreTheSameInAnyUnit) {
+  for (const char* scenario : {"paper_clean", "paper_outliers", "paper_saturation"})
+    for (const double gain : {100.0, 1e6, 1e-6}) expectSameEstimates(scenario, {gain, 0.0});
+}
+
+TEST(MonitorInvariance, EstimatesAreTheSameWithBothSensorsUpsideDown) {
+  expectSameEstimates("paper_clean", {-1.0, 0.0});
+}
+
+TEST(MonitorInvariance, GravityInBothReadingsChangesNothing) {
+  for (const char* scenario : {"paper_clean", "paper_saturation"}) expectSameEstimates(scenario, {1.0, 9.81});
+}
+
+// The strut s times faster, sampled s times faster, with the memory in samples: b1 s times, b0 s^2 times as large.
+TEST(MonitorInvariance, TimeScalesTheParameters) {
+  constexpr double kFaster = 64.0;
+  MonitorOptions fast_options = liveOptions();
+  fast_options.sample_period = 0.02 / kFaster;
+  fast_options.integration_horizon = 0.6 / kFaster;
+  SuspensionMonitor reference(liveOptions()), fast(fast_options);
+  for (const CornerSample& sample : healthyPaperDrive(30.0, 0.024)) {
+    reference.addSample(sample);
+    fast.addSample(
+        {fromSeconds(toSeconds(sample.stamp) / kFaster), sample.sprung_acceleration, sample.unsprung_acceleration});
+  }
+  const StrutEstimate& slow_la = reference.report().la;
+  const StrutEstimate& fast_la = fast.report().la;
+  EXPECT_NEAR(fast_la.damping_to_mass / (kFaster * slow_la.damping_to_mass), 1.0, 1e-9);
+  EXPECT_NEAR(fast_la.stiffness_to_mass / (kFaster * kFaster * slow_la.stiffness_to_mass), 1.0, 1e-9);
+  EXPECT_NEAR(fast_la.dampingRatio(), slow_la.dampingRatio(), 1e-9);
+  EXPECT_NEAR(fast_la.naturalFrequency(), kFaster * slow_la.naturalFrequency(), 1e-7);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
