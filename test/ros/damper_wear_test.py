@@ -5,7 +5,7 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from ros_session import PACKAGE, Collector, launch, statuses
+from ros_session import PACKAGE, Collector, launch, statuses, values
 from suspension_health_monitor.msg import SuspensionHealth
 
 OK, WARN, ERROR, STALE = (DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR, DiagnosticStatus.STALE)
@@ -77,8 +77,8 @@ class DamperWearTest(unittest.TestCase):
         self.assertAlmostEqual(last.stiffness_change, 0.0, delta=0.28 / 13.8)
         status = statuses(self.worn.diagnostics, TASK)[-1]
         self.assertRegex(status.message, r"^damping 3[0-9] % below nominal")
-        values = {value.key: value.value for value in status.values}
-        self.assertAlmostEqual(float(values["damping_to_mass change [%]"]), 100.0 * last.damping_change, delta=0.1)
+        change = float(values(status)["damping_to_mass change [%]"])
+        self.assertAlmostEqual(change, 100.0 * last.damping_change, delta=0.1)
 
     def test_healthy_drive_stays_ok(self):
         self.assertEqual(list(dict.fromkeys(self.healthy.levels)), [STALE, OK])

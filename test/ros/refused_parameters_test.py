@@ -31,8 +31,9 @@ class RefusedParametersTest(unittest.TestCase):
         self.rosout.stop()
 
     def assert_refused_in_rosout(self, name, parts):
-        self.rosout.wait_for(lambda log: log.level >= Log.ERROR and all(part in log.msg for part in [*parts, "/" + name]),
-                             5.0, f"an error with {parts}")
+        wanted = [*parts, "/" + name]
+        self.rosout.wait_for(lambda log: log.level >= Log.ERROR and all(part in log.msg for part in wanted),
+                             5.0, f"an error with {wanted}")
 
     def test_nodelet_is_refused_and_a_good_one_works_beside_it(self):
         self.rosout.wait_for_publisher()

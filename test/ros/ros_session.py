@@ -140,5 +140,10 @@ def statuses(diagnostics, name):
     return [status for array in list(diagnostics.messages) for status in array.status if status.name == name]
 
 
+def values(status):
+    """What a status reports, by name."""
+    return {value.key: value.value for value in status.values}
+
+
 def is_finite(estimate):
     return math.isfinite(estimate.damping_to_mass) and math.isfinite(estimate.stiffness_to_mass)

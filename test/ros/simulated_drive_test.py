@@ -5,7 +5,7 @@ import unittest
 
 import rospy
 import rostest
-from ros_session import PACKAGE, Collector, launch, settings, start_node, wait_until
+from ros_session import PACKAGE, Collector, launch, settings, start_node
 from suspension_health_monitor.msg import ParameterEstimate, SimulationTruth
 
 # Errors of b1 [1/s] and b0 [1/s^2] in the paper's experiments (lambda 0.98, L 30), t > 10 s, measured over 20 noise

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""What /diagnostics says of the input: how often, and when a sensor is silent or the settings do not fit."""
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticStatus
+from measured_drive import PERIOD, MeasuredDrive
+from ros_session import PACKAGE, load_nodelet, values, wait_until
+
+START = 1000.0  # [s]
+SHORT_TIMEOUT = {"sample_period": PERIOD, "input_timeout": 0.3}
+
+
+def load_monitor(name, parameters):
+    """A monitor that reads NAME/sprung and NAME/unsprung."""
+    return load_nodelet("MonitorNodelet", name, parameters,
+                        **{"sprung/imu": f"/{name}/sprung", "unsprung/imu": f"/{name}/unsprung"})
+
+
+def drive_for(name):
+    return MeasuredDrive(name, f"/{name}/sprung", f"/{name}/unsprung")
+
+
+class InputDiagnosticsTest(unittest.TestCase):
+    def test_diagnostics_come_once_a_second_whatever_the_sensor_rate(self):
+        drive = MeasuredDrive()
+        drive.feed(0, 300, START)
+        before = len(drive.diagnostics.messages)
+        pace = rospy.Rate(150)
+        index = 300
+        while len(drive.diagnostics.messages) < before + 4:
+            drive.feed(index, index + 1, START)
+            index += 1
+            pace.sleep()
+        arrivals = drive.diagnostics.arrivals[before:before + 4]
+        for earlier, later in zip(arrivals, arrivals[1:]):
+            self.assertAlmostEqual(later - earlier, 1.0, delta=0.3)
+        self.assertGreater(index - 300, 150, "samples meanwhile")
+        status = drive.input_status(lambda _: True, after=before)
+        self.assertEqual((status.level, status.hardware_id), (DiagnosticStatus.OK, "suspension"))
+        self.assertAlmostEqual(float(values(status)["rate [Hz]"]), 1.0 / PERIOD, delta=0.01)
+        drive.stop()
+
+    def test_silent_sensors_are_an_error(self):
+        with load_monitor("silent", SHORT_TIMEOUT):
+            drive = drive_for("silent")
+
+            def is_error_that_says(text):
+                return lambda status: status.level == DiagnosticStatus.ERROR and text in status.message
+            drive.input_status(is_error_that_says("no message yet on /silent/sprung"))
+            drive.input_status(is_error_that_says("no message yet on /silent/unsprung"))
+            drive.feed(0, 200, START)
+            before = len(drive.diagnostics.messages)
+            drive.input_status(is_error_that_says("no message on /silent/sprung for"), after=before)
+            drive.input_status(is_error_that_says("no message on /silent/unsprung for"), after=before)
+            drive.stop()
+
+    def test_one_silent_sensor_is_named(self):
+        with load_monitor("half", SHORT_TIMEOUT):
+            drive = drive_for("half")
+            drive.feed(0, 200, START)
+            before = len(drive.diagnostics.messages)
+            indices = iter(range(200, 1200))
+
+            def status_while_sprung_goes_on():
+                sprung, _ = drive.pair(next(indices), START)
+                drive.publishers[MeasuredDrive.SPRUNG].publish(sprung)
+                return next((status for array in drive.diagnostics.messages[before:] for status in array.status
+                             if status.name == drive.input_task and "no message on" in status.message), None)
+            status = wait_until(status_while_sprung_goes_on, 5.0, "an error for the silent sensor")
+            self.assertEqual(status.level, DiagnosticStatus.ERROR)
+            self.assertIn("no message on /half/unsprung for", status.message)
+            self.assertNotIn("/half/sprung", status.message)
+            drive.stop()
+
+    def test_horizon_too_short_for_the_measured_period_is_an_error_until_reset(self):
+        with load_monitor("coarse", {"integration_horizon": 0.06}):  # 3 samples; the cubic rule needs 5
+            drive = drive_for("coarse")
+            for index in range(100):
+                for publisher, imu in zip(drive.publishers, drive.pair(index, START)):
+                    publisher.publish(imu)
+            status = drive.input_status(lambda s: "must be at least 5" in s.message)
+            self.assertEqual(status.level, DiagnosticStatus.ERROR)
+            self.assertIn("stopped listening until reset", status.message)
+            self.assertNotIn("no message", status.message)
+            self.assertTrue(drive.reset().success)
+            for publisher in drive.publishers:
+                wait_until(publisher.get_num_connections, 5.0, f"the monitor back on {publisher.name}")
+            drive.period = 0.01  # 6 samples
+            drive.feed(0, 300, START)
+            before = len(drive.diagnostics.messages)
+            drive.input_status(lambda s: values(s).get("horizon_samples") == "6", after=before)
+            drive.stop()
+
+
+if __name__ == "__main__":
+    rospy.init_node("input_diagnostics_test")
+    rostest.rosrun(PACKAGE, "input_diagnostics", InputDiagnosticsTest)
