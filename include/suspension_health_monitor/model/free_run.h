@@ -22,11 +22,12 @@ class FreeRun {
   /// @return true if the model is stable and the sampling can follow it: b1 > 0, b0 > 0, at most 32 steps per sample.
   bool accepts(double damping_to_mass, double stiffness_to_mass) const;
 
-  /// Changes the model if it is acceptable; travel and travel rate go on.
+  /// Changes the model if it is acceptable. The spring's force b0 d and the travel rate go on, so that gravity stays in
+  /// balance when an estimate of b0 moves: with the travel kept, 1 % of b0 would shake the prediction by 0.1 m/s^2.
   /// @return accepts(); if false, the model stays as it was.
   bool trySetModel(double damping_to_mass, double stiffness_to_mass);
 
-  /// Changes the model; travel and travel rate go on.
+  /// As trySetModel().
   /// @param damping_to_mass  b1 [1/s].  @param stiffness_to_mass  b0 [1/s^2].
   /// @throws std::invalid_argument  naming the value that makes the model unacceptable.
   void setModel(double damping_to_mass, double stiffness_to_mass);

@@ -33,6 +33,7 @@ bool FreeRun::accepts(double damping_to_mass, double stiffness_to_mass) const {
 bool FreeRun::trySetModel(double damping_to_mass, double stiffness_to_mass) {
   const double steps = exactSteps(damping_to_mass, stiffness_to_mass);
   if (!isFewEnough(steps)) return false;
+  if (num_steps_ > 0) state_[0] *= stiffness_to_mass_ / stiffness_to_mass;
   damping_to_mass_ = damping_to_mass;
   stiffness_to_mass_ = stiffness_to_mass;
   num_steps_ = 1 + static_cast<int>(steps);

@@ -1,0 +1,202 @@
+#include "suspension_health_monitor/model/free_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <stdexcept>
+
+#include "suspension_health_monitor/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kB1 = 3.0;       // [1/s]
+constexpr double kB0 = 13.8;      // [1/s^2]
+constexpr double kPeriod = 0.02;  // [s]
+
+FreeRun paperModel() {
+  FreeRun run(kPeriod);
+  run.setModel(kB1, kB0);
+  return run;
+}
+
+// From wheel to body: G(s) = (b1 s + b0) / (s^2 + b1 s + b0).
+std::complex<double> transferFunction(double b1, double b0, double omega) {
+  const std::complex<double> s(0.0, omega);
+  return (b1 * s + b0) / (s * s + b1 * s + b0);
+}
+
+// The cubic through samples s = 0, -1, -2, -3 misses a sine by at most max |s (s+1) (s+2) (s+3)| / 24 (omega T)^4,
+// which is (omega T)^4 / 24 in the newest interval. This error is a sine of the same frequency and its images at
+// 2 pi / T - omega and beyond; both pass through G.
+double interpolationTolerance(double b1, double b0, double omega, double period) {
+  const double error = std::pow(omega * period, 4) / 24.0;
+  return error * (std::abs(transferFunction(b1, b0, omega)) +
+                  2.0 * std::abs(transferFunction(b1, b0, 2.0 * kPi / period - omega)));
+}
+
+void expectTransferFunction(double b1, double b0, double omega, double step_error) {
+  SCOPED_TRACE("omega " + std::to_string(omega));
+  FreeRun run(kPeriod);
+  run.setModel(b1, b0);
+  const std::complex<double> g = transferFunction(b1, b0, omega);
+  const double tolerance = interpolationTolerance(b1, b0, omega, kPeriod) + step_error * std::abs(g);
+  const auto settling = static_cast<int>(20.0 / (kPeriod * b1 / 2.0));  // e^-20 of the start is left
+  for (int k = 0; k < settling + 200; ++k) {
+    const double t = k * kPeriod;
+    const std::optional<double> predicted = run.push(std::cos(omega * t));
+    if (k < settling) continue;
+    const std::complex<double> phasor = std::polar(1.0, omega * t);
+    ASSERT_NEAR(*predicted, (g * phasor).real(), tolerance) << "sample " << k;
+    // d'' = w'' - z''
+    const std::complex<double> travel = (1.0 - g) / -(omega * omega) * phasor;
+    ASSERT_NEAR(run.travel(), travel.real(), tolerance * std::abs((1.0 - g) / (omega * omega * g)) + 1e-9);
+  }
+}
+
+TEST(FreeRun, AnswersASineByTheTransferFunction) {
+  for (const double omega_t : {0.02, 0.1, 0.2, 0.4}) expectTransferFunction(kB1, kB0, omega_t / kPeriod, 1e-6);
+}
+
+TEST(FreeRun, AnswersASineByTheTransferFunctionWhereASampleTakesSeveralSteps) {
+  for (const double omega_t : {0.1, 0.4}) expectTransferFunction(25.0, 4000.0, omega_t / kPeriod, 1e-4);
+}
+
+TEST(FreeRun, ConstantSuchAsGravityComesOutAgainFromTheFirstSampleOn) {
+  FreeRun run = paperModel();
+  for (int k = 0; k < 3; ++k) EXPECT_FALSE(run.push(9.81));
+  for (int k = 0; k < 500; ++k) {
+    ASSERT_NEAR(*run.push(9.81), 9.81, 1e-12);
+    ASSERT_NEAR(run.travel(), 9.81 / kB0, 1e-13);
+  }
+}
+
+TEST(FreeRun, SettlesToTheStaticTravelAfterAStep) {
+  FreeRun run = paperModel();
+  for (int k = 0; k < 10; ++k) run.push(0.0);
+  for (int k = 0; k < 1500; ++k) run.push(2.0);  // e^-45 of the step is left
+  EXPECT_NEAR(run.travel(), 2.0 / kB0, 1e-12);
+  EXPECT_NEAR(run.travelRate(), 0.0, 1e-12);
+  EXPECT_NEAR(*run.push(2.0), 2.0, 1e-12);
+}
+
+TEST(FreeRun, WheelThatIsPushedUpCompressesTheStrutAndLiftsTheBody) {
+  FreeRun run = paperModel();
+  for (int k = 0; k < 4; ++k) run.push(0.0);
+  double predicted = 0.0;
+  for (int k = 0; k < 5; ++k) predicted = *run.push(1.0);
+  EXPECT_GT(run.travel(), 0.0);
+  EXPECT_GT(run.travelRate(), 0.0);
+  EXPECT_GT(predicted, 0.0);
+}
+
+TEST(FreeRun, DecaysFreelyAsTheDampedOscillator) {
+  FreeRun run = paperModel();
+  for (int k = 0; k < 20; ++k) run.push(1.0 + k);
+  for (int k = 0; k < 4; ++k) run.push(0.0);  // from here on the interpolated input is 0, too
+  const double d0 = run.travel(), v0 = run.travelRate();
+  const double sigma = kB1 / 2.0, omega = std::sqrt(kB0 - sigma * sigma);
+  for (int k = 1; k <= 100; ++k) {
+    run.push(0.0);
+    const double t = k * kPeriod;
+    const double expected =
+        std::exp(-sigma * t) * (d0 * std::cos(omega * t) + (v0 + sigma * d0) / omega * std::sin(omega * t));
+    ASSERT_NEAR(run.travel(), expected, 1e-5 * (std::abs(d0) + std::abs(v0) / omega));
+  }
+}
+
+TEST(FreeRun, GivesNothingWithoutAModelOrWithFewerThanFourSamples) {
+  FreeRun run(kPeriod);
+  for (int k = 0; k < 10; ++k) EXPECT_FALSE(run.push(1.0));
+  run.setModel(kB1, kB0);
+  EXPECT_TRUE(run.push(1.0));
+}
+
+TEST(FreeRun, RefusesModelsThatAreUnstableOrTooFastForTheSampling) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kTooFast = 33 * 0.35 / kPeriod;  // [1/s]
+  const std::pair<double, double> refused[] = {
+      {-1.0, kB0}, {0.0, kB0}, {kNan, kB0}, {kInfinity, kB0}, {kTooFast, kB0},
+      {kB1, -1.0}, {kB1, 0.0}, {kB1, kNan}, {kB1, kInfinity}, {kB1, kTooFast * kTooFast}};
+  FreeRun run = paperModel(), untouched = paperModel();
+  for (const auto& [b1, b0] : refused) {
+    EXPECT_FALSE(run.accepts(b1, b0)) << b1 << ", " << b0;
+    EXPECT_FALSE(run.trySetModel(b1, b0)) << b1 << ", " << b0;
+    EXPECT_THROW(run.setModel(b1, b0), std::invalid_argument) << b1 << ", " << b0;
+  }
+  EXPECT_TRUE(run.accepts(kTooFast * 0.9, kB0));
+  for (int k = 0; k < 10; ++k) EXPECT_EQ(run.push(k), untouched.push(k));
+  EXPECT_THROW(FreeRun(0.0), std::invalid_argument);
+  EXPECT_THROW(FreeRun{kNan}, std::invalid_argument);
+}
+
+TEST(FreeRun, StaysFiniteAtTheFastestModelThatItAccepts) {
+  FreeRun run(kPeriod);
+  run.setModel(30 * 0.35 / kPeriod, std::pow(30 * 0.35 / kPeriod, 2));
+  for (int k = 0; k < 1000; ++k) run.push(k % 2 == 0 ? 1.0 : -1.0);
+  for (int k = 0; k < 10; ++k) run.push(1.0);
+  EXPECT_NEAR(*run.push(1.0), 1.0, 1e-3);
+}
+
+TEST(FreeRun, ChangeOfStiffnessUnderGravityLeavesThePredictionAtRest) {
+  FreeRun run = paperModel();
+  for (int k = 0; k < 10; ++k) run.push(9.81);
+  run.setModel(kB1, 1.1 * kB0);
+  EXPECT_NEAR(*run.push(9.81), 9.81, 1e-12);
+  EXPECT_NEAR(run.travel(), 9.81 / (1.1 * kB0), 1e-12);
+}
+
+TEST(FreeRun, ResetStartsAnewWithTheSameModel) {
+  FreeRun run = paperModel(), fresh = paperModel();
+  for (int k = 0; k < 1000; ++k) run.push(std::sin(0.1 * k));
+  ASSERT_TRUE(run.settled());
+  run.reset();
+  EXPECT_FALSE(run.settled());
+  EXPECT_EQ(run.travel(), 0.0);
+  for (int k = 0; k < 100; ++k) ASSERT_EQ(run.push(std::cos(0.2 * k)), fresh.push(std::cos(0.2 * k)));
+}
+
+// A run that starts in the middle of the drive knows as much as one from its beginning as soon as it says so.
+void expectSettledMeansDecayed(double b1, double b0) {
+  FreeRun whole(kPeriod), late(kPeriod);
+  whole.setModel(b1, b0);
+  late.setModel(b1, b0);
+  double first_difference = 0.0;
+  for (int k = 0; !late.settled(); ++k) {
+    ASSERT_LT(k, 100000);
+    const double input = std::sin(0.13 * k) + std::cos(0.05 * k);
+    whole.push(input);
+    if (k < 500 || !late.push(input)) continue;
+    if (first_difference == 0.0)
+      first_difference =
+          std::hypot(whole.travel() - late.travel(), (whole.travelRate() - late.travelRate()) / std::sqrt(b0));
+  }
+  EXPECT_GT(first_difference, 0.0);
+  // Two directions of the state decay together; their interplay adds a factor.
+  EXPECT_LT(std::abs(whole.travel() - late.travel()), 3e-3 * first_difference);
+  EXPECT_GT(first_difference, 1e-4);
+}
+
+TEST(FreeRun, IsSettledWhenTheUnknownStartHasDecayed) {
+  expectSettledMeansDecayed(kB1, kB0);   // underdamped
+  expectSettledMeansDecayed(20.0, kB0);  // overdamped: the slow root 0.72 1/s counts, not b1 / 2
+}
+
+TEST(FreeRun, SettlesAfterTheTimeOfTheSlowestRoot) {
+  const auto samplesToSettle = [](double b1, double b0) {
+    FreeRun run(kPeriod);
+    run.setModel(b1, b0);
+    int count = 0;
+    while (!run.settled()) run.push(1.0), ++count;
+    return count * kPeriod;
+  };
+  EXPECT_NEAR(samplesToSettle(kB1, kB0), std::log(1000.0) / 1.5, 5 * kPeriod);
+  const double slow_root = 10.0 - std::sqrt(100.0 - kB0);
+  EXPECT_NEAR(samplesToSettle(20.0, kB0), std::log(1000.0) / slow_root, 5 * kPeriod);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
