@@ -35,9 +35,9 @@ struct MonitorReport {
 
 /// How the input has been so far.
 struct InputStatus {
-  std::uint64_t samples = 0;  ///< taken in
-  std::uint64_t rows = 0;     ///< regression rows that they gave
-  std::uint64_t gaps = 0;     ///< interruptions of at least one sample, after which the filter filled anew
+  std::uint64_t samples = 0;   ///< taken in
+  std::uint64_t rows = 0;      ///< regression rows that they gave
+  std::uint64_t gaps = 0;      ///< interruptions of at least one sample, after which the filter filled anew
   std::uint64_t restarts = 0;  ///< times that the clock went back and the series began anew
   double mean_period = 0.0;    ///< running mean of the spacing of uninterrupted samples [s]; 0 before the second
 };
@@ -54,7 +54,9 @@ class SuspensionMonitor {
   explicit SuspensionMonitor(const MonitorOptions& options);
 
   /// Takes in the next sample. A gap or a clock that goes back empties the filter (2 L samples without rows follow);
-  /// estimates hold meanwhile, marked as not valid.
+  /// estimates hold meanwhile, marked as not valid. They do so, too, after L rows of output exactly 0: without any
+  /// noise there is no motion but a sensor that is stuck or a simulated vehicle at rest, and rows that LA hits exactly
+  /// would weigh so much that it could not leave them for minutes.
   /// @return the report, owned by this object and valid until the next call; nullptr if the sample was rejected.
   const MonitorReport* addSample(const CornerSample& sample);
 
@@ -76,6 +78,7 @@ class SuspensionMonitor {
   Stamp period_;
   int horizon_samples_;
   double min_rows_;
+  int silent_rows_ = 0;  // rows of output 0 without a break; counts up to L and stays there
   SuspensionRegression regression_;
   RecursiveLeastSquares least_squares_;
   RecursiveLeastAbsolute least_absolute_;

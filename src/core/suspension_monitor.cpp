@@ -45,6 +45,10 @@ SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
       spacing_(windowFactor(options.comparison_window, *options.sample_period)) {}
 
 const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
+  if (!std::isfinite(sample.sprung_acceleration) || !std::isfinite(sample.unsprung_acceleration)) {
+    rejected_.add(RejectReason::kNotFinite);
+    return nullptr;
+  }
   if (!continues(sample.stamp)) return nullptr;
   last_stamp_ = sample.stamp;
   report_.stamp = sample.stamp;
@@ -89,12 +93,16 @@ void SuspensionMonitor::startNewSeries() {
 
 void SuspensionMonitor::estimate(const RegressionRow& row) {
   ++input_.rows;
-  least_squares_.update(row);
-  least_absolute_.update(row);
-  describeStrut(least_squares_, report_.ls);
-  describeStrut(least_absolute_, report_.la);
-  report_.ls.valid = isValid(report_.ls);
-  report_.la.valid = isValid(report_.la);
+  silent_rows_ = row.output == 0.0 ? std::min(silent_rows_ + 1, horizon_samples_) : 0;
+  const bool moves = silent_rows_ < horizon_samples_;
+  if (moves) {
+    least_squares_.update(row);
+    least_absolute_.update(row);
+    describeStrut(least_squares_, report_.ls);
+    describeStrut(least_absolute_, report_.la);
+  }
+  report_.ls.valid = moves && isValid(report_.ls);
+  report_.la.valid = moves && isValid(report_.la);
 }
 
 bool SuspensionMonitor::isValid(const StrutEstimate& estimate) const {

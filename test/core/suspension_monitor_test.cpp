@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "monitor_settings.h"
@@ -148,6 +149,22 @@ TEST(SuspensionMonitor, RejectsAndCountsSamplesThatComeTooSoon) {
   EXPECT_EQ(monitor.rejected().total(), 501u);
   EXPECT_EQ(monitor.input().samples, 501u);
   expectSameParameters(monitor.report().la, undisturbed.report().la);
+}
+
+TEST(SuspensionMonitor, RejectsAndCountsWhatIsNoNumber) {
+  SuspensionMonitor monitor(liveOptions());
+  const std::vector<CornerSample> drive = healthyPaperDrive(10.0, 0.024);
+  addAll(monitor, drive);
+  const StrutEstimate before = monitor.report().la;
+  const Stamp next = drive.back().stamp + kPeriod;
+  EXPECT_EQ(monitor.addSample({next, std::nan(""), 1.0}), nullptr);
+  EXPECT_EQ(monitor.addSample({next, 1.0, -std::numeric_limits<double>::infinity()}), nullptr);
+  EXPECT_EQ(monitor.rejected().count(RejectReason::kNotFinite), 2u);
+  EXPECT_EQ(monitor.input().samples, drive.size());
+  expectSameParameters(monitor.report().la, before);
+  addAll(monitor, later(drive, next));  // the same stamp is still free
+  EXPECT_EQ(monitor.input().gaps, 0u);
+  EXPECT_TRUE(monitor.report().la.valid);
 }
 
 TEST(SuspensionMonitor, ClockThatGoesBackStartsANewSeriesAndKeepsWhatWasLearnt) {
