@@ -16,6 +16,8 @@
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
+#include "suspension_health_monitor/signal/uniform_grid.h"
+#include "suspension_health_monitor/suspension_monitor.h"
 
 namespace {
 std::atomic<long> num_allocations{0};
@@ -87,6 +89,31 @@ TEST(SamplePath, AllocatesNothingInInstrumentalVariables) {
             }),
             0);
   EXPECT_GT(la.effectiveRows(), 40.0);
+}
+
+TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {
+  MonitorOptions options;
+  options.sample_period = 0.02;
+  options.nominal_damping_to_mass = kPaperB1;
+  options.nominal_stiffness_to_mass = kPaperB0;
+  UniformGrid grid(0.02);
+  SuspensionMonitor monitor(options);
+  Stamp stamp{};
+  // The drive goes on and on, with gaps (every 200 samples), lost partners and, at times, a clock that goes back.
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              const std::uint64_t count = monitor.input().samples;
+              stamp += std::chrono::milliseconds(count % 200 == 199 ? 100 : 20);
+              if (count == 450) stamp = {};
+              if (count % 97 != 96) grid.push(Side::kUnsprung, stamp, sample.unsprung_acceleration);
+              if (const auto pair = grid.push(Side::kSprung, stamp, sample.sprung_acceleration))
+                monitor.addSample(*pair);
+              else
+                monitor.addSample({stamp, sample.sprung_acceleration, sample.unsprung_acceleration});
+            }),
+            0);
+  EXPECT_GT(monitor.input().gaps, 2u);
+  EXPECT_EQ(monitor.input().restarts, 1u);
+  EXPECT_GT(grid.rejected().count(RejectReason::kMissingPartner), 2u);
 }
 
 }  // namespace
