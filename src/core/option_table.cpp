@@ -28,7 +28,8 @@ std::string format(const OptionValue& value) {
 }
 
 bool isChoice(std::string_view choices, const std::string& word) {
-  return !word.empty() && (' ' + std::string(choices) + ' ').find(' ' + word + ' ') != std::string::npos;
+  return !word.empty() && word.find(' ') == std::string::npos &&
+         (' ' + std::string(choices) + ' ').find(' ' + word + ' ') != std::string::npos;
 }
 
 std::string allowedText(const option_table::Bound& option) {
@@ -62,7 +63,7 @@ std::optional<double> asNumber(const OptionValue& value) {
 // A whole number may be written as 30 or 30.0; anything with a fraction is refused.
 std::optional<int> asWhole(const OptionValue& value) {
   const std::optional<double> number = asNumber(value);
-  if (number && std::abs(*number) < 1e9 && std::trunc(*number) == *number) return static_cast<int>(*number);
+  if (number && std::abs(*number) <= std::numeric_limits<int>::max() && std::trunc(*number) == *number) return static_cast<int>(*number);
   return std::nullopt;
 }
 
