@@ -63,8 +63,11 @@ void SimulatorNodelet::waitForStart(const PublishingOptions& options) const {
          (sprung_.getNumSubscribers() == 0 || unsprung_.getNumSubscribers() == 0))
     std::this_thread::sleep_for(kPoll);
   const Clock::time_point start = Clock::now();
-  while (wanted() && std::chrono::duration<double>(Clock::now() - start).count() < options.start_delay)
+  while (wanted() && std::chrono::duration<double>(Clock::now() - start).count() < options.start_delay) {
+    // rosbag record keeps only 100 messages per topic until it has seen a clock that is not 0
+    if (options.publish_clock) publishClock(toRosTime(fromSeconds(options.start_time)));
     std::this_thread::sleep_for(kPoll);
+  }
 }
 
 void SimulatorNodelet::waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now,
@@ -83,11 +86,15 @@ void SimulatorNodelet::waitForTurn(const SimulatorOptions& options, ros::Time st
     std::this_thread::sleep_for(kPoll);
 }
 
+void SimulatorNodelet::publishClock(ros::Time now) const {
+  rosgraph_msgs::Clock clock;
+  clock.clock = std::max(now, ros::TIME_MIN);  // 0 means that there is no clock yet
+  clock_.publish(clock);
+}
+
 void SimulatorNodelet::publish(const DriveMessages& messages, bool publish_clock) {
   if (publish_clock) {
-    rosgraph_msgs::Clock clock;
-    clock.clock = messages.time;
-    clock_.publish(clock);
+    publishClock(messages.time);
   }
   if (messages.sprung) sprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.sprung));
   if (messages.unsprung) unsprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.unsprung));

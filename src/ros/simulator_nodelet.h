@@ -26,6 +26,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   void drive(SimulatorOptions options);
   void waitForStart(const PublishingOptions& options) const;
   void waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now, Clock::time_point wall_start) const;
+  void publishClock(ros::Time now) const;
   void publish(const DriveMessages& messages, bool publish_clock);
 
   ros::Publisher sprung_, unsprung_, truth_, clock_;
