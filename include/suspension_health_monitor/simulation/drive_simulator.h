@@ -43,8 +43,10 @@ class DriveSimulator {
   std::optional<DriveSample> next();
 
  private:
-  // z, z' and, of a wheel on a tyre, w, w'. A rigid wheel is where the road is, its two places stay unused.
-  using State = std::array<double, 4>;
+  static constexpr std::size_t kMostHidden = 4;
+
+  // z, z' and, of a wheel on a tyre, w, w'; then the memories of hidden effects. Places that are not needed stay 0.
+  using State = std::array<double, 4 + kMostHidden>;
 
   struct Motion {
     DriveTruth truth;

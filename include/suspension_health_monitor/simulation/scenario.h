@@ -36,6 +36,8 @@ struct SimulationOptions {
   double stamp_jitter = 0.0;
   double clock_offset = 0.0;
   double clock_skew = 0.0;
+
+  std::vector<ActiveEffect> hidden = {};  ///< effects that the model does not know of
 };
 
 inline constexpr std::array kSimulationFields{

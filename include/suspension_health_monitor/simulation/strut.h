@@ -1,6 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/model/strut_model.h"
 
 namespace suspension_health_monitor {
 
@@ -27,13 +30,18 @@ struct Strut {
   Ramp damping_to_mass;      ///< b1 [1/s]
   double stiffness_to_mass;  ///< b0 [1/s^2]
   std::optional<EndStops> end_stops;
+  std::vector<ActiveEffect> hidden;  ///< what the model lacks, at most 4
 
-  /// The one place where the simulated force is written:  z'' = b1(t) v + b0 d + stops(d).
+  /// The one place where the simulated force is written:  z'' = b1(t) v + b0 d + stops(d) + sum_j c_j f_j(d, v, t, s_j).
   /// @param travel  d [m], compression positive.
   /// @param travel_rate  v [m/s].
   /// @param t  time since the start of the drive [s].
+  /// @param memory  one state per hidden effect.
   /// @return force on the body per unit sprung mass, z'' [m/s^2].
-  double forcePerMass(double travel, double travel_rate, double t) const;
+  double forcePerMass(double travel, double travel_rate, double t, const double* memory) const;
+
+  /// Rate of the j-th hidden effect's memory [1/s]; 0 if it has none.
+  double memoryRate(std::size_t j, double travel, double travel_rate, double t, double memory) const;
 };
 
 }  // namespace suspension_health_monitor

@@ -33,6 +33,7 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       max_step_(longestStep(scenario_)) {
   const RoadPoint start = scenario_.road(0.0);
   state_ = {start.height, start.rate, start.height, start.rate};
+  scenario_.strut.hidden = options.hidden;
 }
 
 std::optional<DriveSample> DriveSimulator::next() {
@@ -59,7 +60,8 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
   const RoadPoint road = scenario_.road(t);
   const QuarterCar& car = scenario_.vehicle;
   const bool rigid = !car.tyre_stiffness;
-  const auto [z, z_rate, w_state, w_rate_state] = state;
+  const double z = state[0], z_rate = state[1], w_state = state[2], w_rate_state = state[3];
+  const double* const memory = &state[4];
   const double w = rigid ? road.height : w_state;
   const double w_rate = rigid ? road.rate : w_rate_state;
 
@@ -70,7 +72,7 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
   truth.travel = w - z;
   truth.travel_rate = w_rate - z_rate;
   truth.road_height = road.height;
-  truth.sprung_acceleration = scenario_.strut.forcePerMass(truth.travel, truth.travel_rate, t);
+  truth.sprung_acceleration = scenario_.strut.forcePerMass(truth.travel, truth.travel_rate, t, memory);
   if (rigid) {
     truth.unsprung_acceleration = road.acceleration;
     motion.derivative = {z_rate, truth.sprung_acceleration, 0.0, 0.0};
@@ -79,6 +81,8 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
     truth.unsprung_acceleration = -(strut_force + *car.tyre_stiffness * (w - road.height)) / car.unsprung_mass;
     motion.derivative = {z_rate, truth.sprung_acceleration, w_rate, truth.unsprung_acceleration};
   }
+  for (std::size_t j = 0; j < scenario_.strut.hidden.size(); ++j)
+    motion.derivative[4 + j] = scenario_.strut.memoryRate(j, truth.travel, truth.travel_rate, t, memory[j]);
   return motion;
 }
 

@@ -13,9 +13,17 @@ double EndStops::forcePerMass(double travel) const {
   return stiffness_to_mass * (std::max(0.0, travel - gap) + std::min(0.0, travel + gap));
 }
 
-double Strut::forcePerMass(double travel, double travel_rate, double t) const {
-  const double linear = damping_to_mass.at(t) * travel_rate + stiffness_to_mass * travel;
-  return end_stops ? linear + end_stops->forcePerMass(travel) : linear;
+double Strut::forcePerMass(double travel, double travel_rate, double t, const double* memory) const {
+  double force = damping_to_mass.at(t) * travel_rate + stiffness_to_mass * travel;
+  if (end_stops) force += end_stops->forcePerMass(travel);
+  for (std::size_t j = 0; j < hidden.size(); ++j)
+    force += hidden[j].coefficient * hidden[j].effect.force({travel, travel_rate, t, memory[j]}, hidden[j].shapes.data());
+  return force;
+}
+
+double Strut::memoryRate(std::size_t j, double travel, double travel_rate, double t, double memory) const {
+  const ForceEffect& effect = hidden[j].effect;
+  return effect.memory_rate ? effect.memory_rate({travel, travel_rate, t, memory}, hidden[j].shapes.data()) : 0.0;
 }
 
 }  // namespace suspension_health_monitor

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/discrepancy/output_error_fit.h"
+
+namespace suspension_health_monitor {
+
+/// What may be missing: the catalogue's records, or a user's.
+struct EffectCandidates {
+  std::vector<ForceEffect> forces;
+  std::vector<MeasurementEffect> readings;
+};
+
+enum class Verdict { kEffectFound, kNothingMissing, kUnexplained };
+
+/// A model with some effects added, fitted on the training blocks and judged on the held-out ones.
+struct RankedModel {
+  std::vector<std::string> effects;  ///< names, in the order of selection
+  StrutModel model;
+  double held_out_rmse = 0.0;         ///< [m/s^2]
+  double error_removed_percent = 0.0; ///< of the mean square that the model before left
+  double significance = 0.0;          ///< t of the improvement over held-out stretches, against the model before
+  bool significant = false;           ///< by that, corrected for the number of candidates
+};
+
+/// What a search found.
+struct SearchResult {
+  Verdict verdict = Verdict::kNothingMissing;
+  RankedModel base;
+  double base_fit_percent = 0.0;
+  double noise_floor = 0.0;       ///< what sensor noise alone would leave of a free run [m/s^2]
+  double structured_share = 0.0;  ///< share of the base's held-out mean square that is not noise
+  std::vector<RankedModel> ranking;                       ///< single effects, best first
+  std::vector<std::string> selected;
+  std::vector<std::vector<std::string>> indistinguishable;  ///< groups that these drives cannot tell apart
+  std::optional<RankedModel> extended;
+  std::optional<ModelFit> final_fit;  ///< of the selected model on all samples
+  double extended_fit_percent = 0.0;
+};
+
+struct SearchOptions {
+  int threads = 2;
+  int most_effects = 3;
+};
+
+/// Searches for the physical effects that a linear strut model lacks.
+///
+/// Every candidate is added to the model and fitted by output error on two thirds of the drives, and judged by the free
+/// run's error on the rest: contiguous blocks that no fit has seen. The best one stays if the improvement is significant
+/// over the held-out stretches (paired t, corrected for the number of candidates) and worth having; then the next.
+/// A name is given only if the result explains most of the structure; else the verdict is "unexplained".
+class EffectSearch {
+ public:
+  using Progress = std::function<void(double share)>;
+
+  EffectSearch(EffectCandidates candidates, const SearchOptions& options);
+
+  /// @param records  drives of one vehicle.  @param start  rough b1, b0, e.g. of LS.
+  /// @return nothing if the drives are too short to hold out a part of them, or not even the base model can be fitted.
+  std::optional<SearchResult> run(const std::vector<const DriveRecord*>& records, const StrutModel& start,
+                                  const Progress& progress = {}) const;
+
+ private:
+  EffectCandidates candidates_;
+  SearchOptions options_;
+};
+
+}  // namespace suspension_health_monitor

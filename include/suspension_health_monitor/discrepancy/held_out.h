@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/discrepancy/output_error_fit.h"
+
+namespace suspension_health_monitor {
+
+/// How far two models differ on the same held-out stretches.
+struct PairedComparison {
+  double removed_share = 0.0;  ///< 1 - (mean square after) / (mean square before)
+  double t = 0.0;              ///< mean difference of a stretch over its standard error
+  double log_ratio = 0.0;      ///< n ln(before / after) for n stretches: the likelihood ratio if a stretch told as much
+                               ///< as one independent residual, which is far less than it does
+};
+
+/// @param before, after  sums of squares by stretch, of equal length >= 2.
+PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after);
+
+/// @return true if chance alone gets so far with at most the given probability. Either way of looking is enough: t is
+/// weak where an effect acts in a few violent moments, the likelihood ratio where it acts gently all the time.
+bool isSignificant(const PairedComparison& comparison, double probability);
+
+/// Which samples are fitted and which are kept to judge: contiguous blocks, every third one held out.
+/// The held-out blocks are cut into stretches of one natural period, about as long as the free run remembers.
+class HeldOut {
+ public:
+  std::vector<std::vector<SampleMask>> training;  ///< per record and segment
+
+  /// @param residuals  per segment of all records, as ModelFit has them.
+  /// @return sum of squared residuals of each held-out stretch.
+  std::vector<double> stretchErrors(const std::vector<std::vector<double>>& residuals) const;
+
+  /// @return sum of squared residuals of the training samples.
+  double trainingError(const std::vector<std::vector<double>>& residuals) const;
+
+  double rmse(const std::vector<double>& stretch_errors) const;
+
+  /// @return 100 (1 - rmse / standard deviation of the held-out measurement).
+  double fitPercent(double rmse) const { return 100.0 * (1.0 - rmse / deviation_); }
+
+ private:
+  friend std::optional<HeldOut> holdOut(const std::vector<const DriveRecord*>& records, double stiffness_to_mass);
+
+  struct Stretch {
+    std::size_t segment, first, last;  // last is one past the end
+  };
+  std::vector<Stretch> stretches_;
+  std::vector<const SampleMask*> masks_;
+  double samples_ = 0.0;
+  double deviation_ = 0.0;
+};
+
+/// @return nothing if there are fewer than eight held-out stretches.
+std::optional<HeldOut> holdOut(const std::vector<const DriveRecord*>& records, double stiffness_to_mass);
+
+/// Estimates what the noise of both sensors leaves of a free run [m/s^2].
+///
+/// The noise of the body's sensor is what a long linear predictor of z'' from its own past and from w'' (past and
+/// future) cannot foresee: forces that are missing from the model change slowly against the sampling and are foreseen,
+/// white noise is not. The wheel's sensor is taken to be as noisy; its noise comes through the model.
+double estimateNoiseFloor(const std::vector<const DriveRecord*>& records, const StrutModel& model);
+
+}  // namespace suspension_health_monitor

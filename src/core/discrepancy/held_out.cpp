@@ -1,0 +1,145 @@
+#include "suspension_health_monitor/discrepancy/held_out.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "suspension_health_monitor/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::size_t kBlocks = 15;  // per record
+constexpr std::size_t kFewestStretches = 8;
+constexpr int kPredictorLength = 16;
+
+}  // namespace
+
+PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after) {
+  double sum = 0.0, square = 0.0, total = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double difference = before[i] - after[i];
+    sum += difference;
+    square += difference * difference;
+    total += before[i];
+  }
+  const auto n = static_cast<double>(before.size());
+  const double variance = std::max(0.0, (square - sum * sum / n) / (n - 1.0));
+  PairedComparison result;
+  if (total > 0.0) result.removed_share = sum / total;
+  if (total > sum && total > 0.0) result.log_ratio = n * std::log(total / (total - sum));
+  if (variance > 0.0) result.t = sum / std::sqrt(n * variance);
+  return result;
+}
+
+bool isSignificant(const PairedComparison& comparison, double probability) {
+  const boost::math::normal normal;
+  const boost::math::chi_squared chi_squared(2.0);  // a coefficient and a shape
+  return comparison.t > boost::math::quantile(boost::math::complement(normal, probability)) ||
+         comparison.log_ratio > boost::math::quantile(boost::math::complement(chi_squared, probability));
+}
+
+std::optional<HeldOut> holdOut(const std::vector<const DriveRecord*>& records, double stiffness_to_mass) {
+  HeldOut result;
+  double sum = 0.0, square = 0.0;
+  std::size_t segment_index = 0;
+  for (const DriveRecord* record : records) {
+    const auto period = static_cast<std::size_t>(
+        std::max(4.0, std::round(2.0 * kPi / std::sqrt(stiffness_to_mass) / record->period())));
+    const std::size_t block = std::max<std::size_t>(1, record->numSamples() / kBlocks);
+    std::size_t position = 0;  // in the record
+    result.training.emplace_back();
+    for (const DriveSegment& segment : record->segments()) {
+      SampleMask mask(segment.size(), 1);
+      for (std::size_t k = 0; k < segment.size(); ++k) {
+        if ((position + k) / block % 3 != 2) continue;
+        mask[k] = 0;
+        sum += segment.sprung[k];
+        square += segment.sprung[k] * segment.sprung[k];
+        result.samples_ += 1.0;
+        const bool goes_on = !result.stretches_.empty() && result.stretches_.back().segment == segment_index &&
+                             result.stretches_.back().last == k &&
+                             k - result.stretches_.back().first < period;
+        if (goes_on)
+          result.stretches_.back().last = k + 1;
+        else
+          result.stretches_.push_back({segment_index, k, k + 1});
+      }
+      position += segment.size();
+      ++segment_index;
+      result.training.back().push_back(std::move(mask));
+    }
+  }
+  if (result.stretches_.size() < kFewestStretches) return std::nullopt;
+  const double mean = sum / result.samples_;
+  result.deviation_ = std::sqrt(std::max(0.0, square / result.samples_ - mean * mean));
+  return result;
+}
+
+std::vector<double> HeldOut::stretchErrors(const std::vector<std::vector<double>>& residuals) const {
+  std::vector<double> errors;
+  for (const Stretch& stretch : stretches_) {
+    double sum = 0.0;
+    for (std::size_t k = stretch.first; k < stretch.last; ++k)
+      sum += residuals[stretch.segment][k] * residuals[stretch.segment][k];
+    errors.push_back(sum);
+  }
+  return errors;
+}
+
+double HeldOut::trainingError(const std::vector<std::vector<double>>& residuals) const {
+  double sum = 0.0;
+  std::size_t segment = 0;
+  for (const std::vector<SampleMask>& record : training)
+    for (const SampleMask& mask : record) {
+      for (std::size_t k = 0; k < mask.size(); ++k)
+        if (mask[k] != 0) sum += residuals[segment][k] * residuals[segment][k];
+      ++segment;
+    }
+  return sum;
+}
+
+double HeldOut::rmse(const std::vector<double>& stretch_errors) const {
+  double sum = 0.0;
+  for (const double error : stretch_errors) sum += error;
+  return std::sqrt(sum / samples_);
+}
+
+double estimateNoiseFloor(const std::vector<const DriveRecord*>& records, const StrutModel& model) {
+  // The wheel's motion during a step stands for w''; steps before and after the sample are offered.
+  constexpr Eigen::Index n = 3 * kPredictorLength + 1;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd moment = Eigen::VectorXd::Zero(n);
+  double energy = 0.0, count = 0.0;
+  Eigen::VectorXd row(n);
+  for (const DriveRecord* record : records)
+    for (const DriveSegment& segment : record->segments()) {
+      const auto last = static_cast<int>(segment.size()) - kPredictorLength - 1;
+      for (int k = kPredictorLength; k < last; ++k) {
+        for (int i = 0; i < kPredictorLength; ++i)
+          row[i] = segment.sprung[static_cast<std::size_t>(k - 1 - i)];
+        for (int i = 0; i < 2 * kPredictorLength; ++i)
+          row[kPredictorLength + i] =
+              segment.wheel[static_cast<std::size_t>((k - kPredictorLength + i) * record->steps())].end_velocity /
+              record->period();
+        row[n - 1] = 1.0;
+        gram.selfadjointView<Eigen::Lower>().rankUpdate(row);
+        moment += segment.sprung[static_cast<std::size_t>(k)] * row;
+        energy += segment.sprung[static_cast<std::size_t>(k)] * segment.sprung[static_cast<std::size_t>(k)];
+        count += 1.0;
+      }
+    }
+  if (count <= 2.0 * n) return 0.0;
+  gram.diagonal() *= 1.0 + 1e-12;
+  const Eigen::VectorXd solution = gram.selfadjointView<Eigen::Lower>().ldlt().solve(moment);
+  const double innovation = std::max(0.0, energy - solution.dot(moment)) / (count - n);
+  const double b1 = model.damping_to_mass;
+  const double b0 = model.stiffness_to_mass;
+  // White noise on w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): its variance grows by T (b1^2 + b0) / (2 b1).
+  const double through = records.front()->period() * (b1 * b1 + b0) / (2.0 * b1);
+  return std::sqrt(innovation * (1.0 + through));
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,71 @@
+#include "suspension_health_monitor/model/effect_catalogue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace suspension_health_monitor {
+namespace {
+
+using M = StrutMotion;
+
+// d travel, v travel rate, t time, s memory, c the coefficient. A new effect is one more record.
+std::vector<ForceEffect> makeForceEffects() {
+  return {
+      {"progressive_spring", "c d |d|^(p-1)", "m^(1-p)/s^2", "progressive or sagging coil, rubber helper",
+       [](const M& m, const double* p) { return m.travel * std::pow(std::abs(m.travel), p[0] - 1.0); },
+       {{"p", "-", ShapeScale::kNone, 1.5, 5.0}}},
+      {"asymmetric_spring", "c |d|", "1/s^2", "different spring rate in bump and rebound",
+       [](const M& m, const double*) { return std::abs(m.travel); }},
+      {"bump_stop", "c max(0, d - g)", "1/s^2", "bump stop in use: overload or sag",
+       [](const M& m, const double* g) { return std::max(0.0, m.travel - g[0]); },
+       {{"g", "m", ShapeScale::kTravel, 0.2, 4.0}}},
+      {"rebound_stop", "c min(0, d + g)", "1/s^2", "topping out",
+       [](const M& m, const double* g) { return std::min(0.0, m.travel + g[0]); },
+       {{"g", "m", ShapeScale::kTravel, 0.2, 4.0}}},
+      {"coulomb_friction", "c tanh(v/vs)", "m/s^2", "dry friction: seal, bent rod, top mount",
+       [](const M& m, const double* vs) { return std::tanh(m.travel_rate / vs[0]); },
+       {{"vs", "m/s", ShapeScale::kTravelRate, 0.01, 0.2}}},
+      {"quadratic_damping", "c v |v|", "1/m", "orifice flow in the damper",
+       [](const M& m, const double*) { return m.travel_rate * std::abs(m.travel_rate); }},
+      {"asymmetric_damping", "c |v|", "1/s", "bump and rebound valves differ",
+       [](const M& m, const double*) { return std::abs(m.travel_rate); }},
+      {"digressive_damping", "c v / sqrt(1 + (v/v0)^2)", "1/s", "blow-off valve of the damper",
+       [](const M& m, const double* v0) {
+         const double ratio = m.travel_rate / v0[0];
+         return m.travel_rate / std::sqrt(1.0 + ratio * ratio);
+       },
+       {{"v0", "m/s", ShapeScale::kTravelRate, 0.2, 3.0}}},
+      {"position_dependent_damping", "c d^2 v", "1/(m^2 s)", "bypass damper",
+       [](const M& m, const double*) { return m.travel * m.travel * m.travel_rate; }},
+      {"hysteresis", "c s, s' = (v - |v| s)/x", "m/s^2", "rubber bushing, pre-sliding friction (Dahl)",
+       [](const M& m, const double*) { return m.memory; },
+       {{"x", "m", ShapeScale::kTravel, 0.05, 3.0}},
+       [](const M& m, const double* x) { return (m.travel_rate - std::abs(m.travel_rate) * m.memory) / x[0]; }},
+      {"viscoelastic_mount", "c (d - s), s' = (d - s)/tau", "1/s^2", "top mount in series (Maxwell)",
+       [](const M& m, const double*) { return m.travel - m.memory; },
+       {{"tau", "s", ShapeScale::kTime, 0.1, 10.0}},
+       [](const M& m, const double* tau) { return (m.travel - m.memory) / tau[0]; }},
+      {"damping_drift", "c t v", "1/s^2", "damping changes during the drive: oil loss, heat",
+       [](const M& m, const double*) { return m.time * m.travel_rate; }},
+      {"stiffness_drift", "c t d", "1/s^3", "stiffness changes during the drive: broken coil, load",
+       [](const M& m, const double*) { return m.time * m.travel; }},
+  };
+}
+
+}  // namespace
+
+const std::vector<ForceEffect>& forceEffects() {
+  static const std::vector<ForceEffect> effects = makeForceEffects();
+  return effects;
+}
+
+const ForceEffect& findEffect(const std::vector<ForceEffect>& effects, std::string_view name) {
+  const auto found = std::find_if(effects.begin(), effects.end(), [&](const ForceEffect& e) { return e.name == name; });
+  if (found != effects.end()) return *found;
+  std::string known;
+  for (const ForceEffect& effect : effects) known += (known.empty() ? "" : ", ") + effect.name;
+  throw std::invalid_argument("effect " + std::string(name) + ", must be one of " + known);
+}
+
+}  // namespace suspension_health_monitor

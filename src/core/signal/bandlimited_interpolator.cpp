@@ -1,0 +1,65 @@
+#include "suspension_health_monitor/signal/bandlimited_interpolator.h"
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+
+#include "suspension_health_monitor/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+// Where the energy of a wheel's motion is counts most; near Nyquist's frequency an error is cheaper than the length that
+// would avoid it. Bands from 0, as shares of Nyquist's frequency, and their weights.
+struct Band {
+  double edge, weight;
+};
+constexpr Band kBands[] = {{0.5, 1.0}, {0.75, 1e-2}, {0.9, 1e-4}};
+constexpr double kRidge = 1e-12;  // keeps the weights small where the bands leave them free
+
+double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
+
+// Weighted mean of cos(omega x) over the bands.
+double bandMean(double x) {
+  double sum = 0.0;
+  for (const Band& band : kBands) sum += band.weight * band.edge * sinc(band.edge * kPi * x);
+  return sum;
+}
+
+}  // namespace
+
+BandlimitedInterpolator::BandlimitedInterpolator(double fraction) : weights_(2 * kHalfWidth) {
+  constexpr Eigen::Index n = 2 * kHalfWidth;
+  // Mean over the band of |sum_i h_i e^(j w i) - e^(j w D)|^2 is a quadratic form in h with these entries.
+  Eigen::MatrixXd gram(n, n);
+  Eigen::VectorXd target(n);
+  const double wanted = kHalfWidth - 1 + fraction;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    target[i] = bandMean(static_cast<double>(i) - wanted);
+    for (Eigen::Index j = 0; j < n; ++j) gram(i, j) = bandMean(static_cast<double>(i - j));
+    gram(i, i) += kRidge;
+  }
+  const Eigen::VectorXd solution = gram.ldlt().solve(target);
+  // A constant, gravity say, comes out exactly.
+  for (Eigen::Index i = 0; i < n; ++i) weights_[static_cast<std::size_t>(i)] = solution[i] / solution.sum();
+}
+
+BandlimitedInterpolator BandlimitedInterpolator::integral(double from, double to, int power) {
+  // Six Gauss-Legendre nodes on [-1, 1]; Abramowitz and Stegun, table 25.4.
+  constexpr std::array<std::array<double, 2>, 6> kNodes{{{-0.932469514203152, 0.171324492379170},
+                                                         {-0.661209386466265, 0.360761573048139},
+                                                         {-0.238619186083197, 0.467913934572691},
+                                                         {0.238619186083197, 0.467913934572691},
+                                                         {0.661209386466265, 0.360761573048139},
+                                                         {0.932469514203152, 0.171324492379170}}};
+  std::vector<double> weights(2 * kHalfWidth, 0.0);
+  for (const auto& [x, weight] : kNodes) {
+    const double position = from + (to - from) * (x + 1.0) / 2.0;
+    const BandlimitedInterpolator node(position);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      weights[i] += (to - from) / 2.0 * weight * std::pow(to - position, power) * node.weights_[i];
+  }
+  return BandlimitedInterpolator(weights);
+}
+
+}  // namespace suspension_health_monitor
