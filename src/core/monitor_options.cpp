@@ -7,6 +7,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kDefaultHorizon = 0.6;  // [s], the paper's
+constexpr int kMostSamples = 1000000;
 
 }  // namespace
 
@@ -20,8 +21,12 @@ void MonitorOptions::validate() const {
 
 int MonitorOptions::horizonSamples(double period) const {
   if (horizon_samples) return *horizon_samples;
-  const double samples = integration_horizon.value_or(kDefaultHorizon) / period;
-  return static_cast<int>(std::lround(std::min(samples, 1e6)));
+  const double horizon = integration_horizon.value_or(kDefaultHorizon);
+  if (horizon / period > kMostSamples)
+    throw std::invalid_argument("integration_horizon = " + std::to_string(horizon) + " [s], must be at most " +
+                                std::to_string(kMostSamples) + " samples of sample_period = " + std::to_string(period) +
+                                " [s]");
+  return static_cast<int>(std::lround(horizon / period));
 }
 
 IntegralFilterOptions MonitorOptions::filter(double period) const {
