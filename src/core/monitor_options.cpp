@@ -16,7 +16,7 @@ void MonitorOptions::validate() const {
   if (integration_horizon && horizon_samples)
     throw std::invalid_argument("integration_horizon and horizon_samples are both given, must be one of them");
   health().validate();
-  if (sample_period) HorizonIntegral(horizonSamples(*sample_period), *sample_period, integrationRule(integration_rule));
+  if (sample_period) filter(*sample_period);
 }
 
 int MonitorOptions::horizonSamples(double period) const {
@@ -30,7 +30,16 @@ int MonitorOptions::horizonSamples(double period) const {
 }
 
 IntegralFilterOptions MonitorOptions::filter(double period) const {
-  return {horizonSamples(period), period, integrationRule(integration_rule)};
+  const IntegralFilterOptions filter{horizonSamples(period), period, integrationRule(integration_rule)};
+  try {
+    HorizonIntegral(filter.horizon_samples, filter.period, filter.rule);
+  } catch (const std::invalid_argument& error) {
+    if (horizon_samples) throw;  // the user's own words
+    throw std::invalid_argument("integration_horizon = " +
+                                std::to_string(integration_horizon.value_or(kDefaultHorizon)) +
+                                " [s] with sample_period = " + std::to_string(period) + " [s] makes " + error.what());
+  }
+  return filter;
 }
 
 RecursiveOptions MonitorOptions::recursive() const {
