@@ -67,9 +67,9 @@ struct ChunkContents {
   std::vector<BagMessage> messages;
 };
 
-/// A bag of format 2.0, read chunk by chunk, so that memory does not grow with the bag: rosbag::Bag loads an index entry
-/// per message (about 64 bytes each). Reading and decompression are rosbag's ChunkedFile.
-/// Source of the layout: wiki.ros.org/Bags/Format/2.0.
+/// A bag of format 2.0, read chunk by chunk, so that memory does not grow with the bag: rosbag::Bag loads an index
+/// entry per message (about 64 bytes each). Reading and decompression are rosbag's ChunkedFile. Source of the layout:
+/// wiki.ros.org/Bags/Format/2.0.
 class BagFile {
  public:
   /// Opens the bag and reads its table of contents.

@@ -39,8 +39,7 @@ Sides findSides(const BagFile& file, const std::array<std::string, 2>& topics) {
     for (const BagConnection& connection : file.connections()) {
       if (connection.topic != topics[i]) continue;
       if (connection.md5sum != ImuTraits::value())
-        throw InputError(file.path() + ": topic " + topics[i] + " is " + connection.type +
-                         ", must be sensor_msgs/Imu");
+        throw InputError(file.path() + ": topic " + topics[i] + " is " + connection.type + ", must be sensor_msgs/Imu");
       sides[connection.id] = static_cast<Side>(i);
       found = true;
     }
