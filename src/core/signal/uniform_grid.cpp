@@ -44,7 +44,7 @@ bool UniformGrid::admit(Side side, Stamp stamp, double acceleration) {
     rejected_.add(reason);
     return false;
   };
-  if (!std::isfinite(acceleration)) return reject(RejectReason::kNotFinite);
+  if (!isUsable(acceleration)) return reject(RejectReason::kNotFinite);
   if (last && stamp.count() == 0) return reject(RejectReason::kZeroStamp);
   if (last && stamp == *last) return reject(RejectReason::kRepeatedStamp);
   if (last && stamp < *last) {
