@@ -2,7 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <ios>
+#include <filesystem>
 #include <stdexcept>
 
 namespace suspension_health_monitor {
@@ -29,6 +29,7 @@ void flatten(const std::string& name, int depth, const YAML::Node& node, const s
 }  // namespace
 
 OptionMap readYaml(const std::string& path) {
+  if (std::filesystem::is_directory(path)) throw std::invalid_argument(path + ": is a folder, must be a YAML file");
   OptionMap values;
   try {
     flatten("", 0, YAML::LoadFile(path), path, values);
@@ -36,8 +37,6 @@ OptionMap readYaml(const std::string& path) {
     throw std::invalid_argument(path + ": cannot be read, must be a YAML file");
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(path + ": line " + std::to_string(error.mark.line + 1) + ": " + error.msg);
-  } catch (const std::ios_base::failure&) {  // a directory
-    throw std::invalid_argument(path + ": cannot be read, must be a YAML file");
   }
   return values;
 }

@@ -40,7 +40,8 @@ void writeBag(const SimulatorOptions& options, const std::string& path) {
     bag->open(file.temporaryPath(), rosbag::bagmode::Write);
     writeDrive(options, *bag);
   } catch (const rosbag::BagException& error) {
-    bag.release();  // its destructor would write on, throw, and so end the program
+    // Its destructor would write on, throw, and so end the program.
+    [[maybe_unused]] static const rosbag::Bag* const abandoned = bag.release();
     throw std::runtime_error(path + ": cannot be written: " + error.what());
   }
   file.commit();
