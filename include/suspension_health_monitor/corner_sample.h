@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 
 namespace suspension_health_monitor {
 
@@ -16,6 +17,10 @@ inline double toSeconds(Stamp stamp) { return std::chrono::duration<double>(stam
 inline Stamp fromSeconds(double seconds) {
   return std::chrono::round<Stamp>(std::chrono::duration<double>(seconds));
 }
+
+/// @return true for an acceleration that can be computed with: not NaN, not infinite, nor so large that sums of its
+/// fourth power would overflow.
+inline bool isUsable(double acceleration) { return std::abs(acceleration) < 1e60; }
 
 /// What the two accelerometers of one strut read at one instant.
 ///

@@ -42,7 +42,7 @@ struct MonitorOptions {
 
   /// The horizon in samples: horizon_samples, or integration_horizon (0.6 s if neither is given) over `period`.
   /// @param period  sampling time [s].
-  /// @throws std::invalid_argument  if both are given, or the horizon is shorter than the integration rule needs.
+  /// @throws std::invalid_argument  if the horizon is longer than a million samples.
   int horizonSamples(double period) const;
 
   IntegralFilterOptions filter(double period) const;

@@ -7,6 +7,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kDefaultHorizon = 0.6;  // [s], the paper's
+constexpr int kMostSamples = 1000000;
 
 }  // namespace
 
@@ -15,17 +16,30 @@ void MonitorOptions::validate() const {
   if (integration_horizon && horizon_samples)
     throw std::invalid_argument("integration_horizon and horizon_samples are both given, must be one of them");
   health().validate();
-  if (sample_period) HorizonIntegral(horizonSamples(*sample_period), *sample_period, integrationRule(integration_rule));
+  if (sample_period) filter(*sample_period);
 }
 
 int MonitorOptions::horizonSamples(double period) const {
   if (horizon_samples) return *horizon_samples;
-  const double samples = integration_horizon.value_or(kDefaultHorizon) / period;
-  return static_cast<int>(std::lround(std::min(samples, 1e6)));
+  const double horizon = integration_horizon.value_or(kDefaultHorizon);
+  if (horizon / period > kMostSamples)
+    throw std::invalid_argument("integration_horizon = " + std::to_string(horizon) + " [s], must be at most " +
+                                std::to_string(kMostSamples) + " samples of sample_period = " + std::to_string(period) +
+                                " [s]");
+  return static_cast<int>(std::lround(horizon / period));
 }
 
 IntegralFilterOptions MonitorOptions::filter(double period) const {
-  return {horizonSamples(period), period, integrationRule(integration_rule)};
+  const IntegralFilterOptions filter{horizonSamples(period), period, integrationRule(integration_rule)};
+  try {
+    HorizonIntegral(filter.horizon_samples, filter.period, filter.rule);
+  } catch (const std::invalid_argument& error) {
+    if (horizon_samples) throw;  // the user's own words
+    throw std::invalid_argument("integration_horizon = " +
+                                std::to_string(integration_horizon.value_or(kDefaultHorizon)) +
+                                " [s] with sample_period = " + std::to_string(period) + " [s] makes " + error.what());
+  }
+  return filter;
 }
 
 RecursiveOptions MonitorOptions::recursive() const {

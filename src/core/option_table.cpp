@@ -63,7 +63,8 @@ std::optional<double> asNumber(const OptionValue& value) {
 // A whole number may be written as 30 or 30.0; anything with a fraction is refused.
 std::optional<int> asWhole(const OptionValue& value) {
   const std::optional<double> number = asNumber(value);
-  if (number && std::abs(*number) <= std::numeric_limits<int>::max() && std::trunc(*number) == *number) return static_cast<int>(*number);
+  if (number && std::abs(*number) <= std::numeric_limits<int>::max() && std::trunc(*number) == *number)
+    return static_cast<int>(*number);
   return std::nullopt;
 }
 

@@ -45,7 +45,7 @@ SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
       spacing_(windowFactor(options.comparison_window, *options.sample_period)) {}
 
 const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
-  if (!std::isfinite(sample.sprung_acceleration) || !std::isfinite(sample.unsprung_acceleration)) {
+  if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) {
     rejected_.add(RejectReason::kNotFinite);
     return nullptr;
   }

@@ -6,16 +6,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "bag_record.h"
-#include "errors.h"
-
 namespace suspension_health_monitor {
 namespace {
 
 constexpr char kMagic[] = "#ROSBAG V2.0";
 constexpr std::uint32_t kLargestChunk = 1U << 30U;
-
-std::string_view view(const std::vector<char>& bytes) { return {bytes.data(), bytes.size()}; }
 
 std::string text(std::optional<std::string_view> bytes) { return std::string(bytes.value_or(std::string_view())); }
 
@@ -34,8 +29,8 @@ BagFile::BagFile(const std::string& path) : path_(path) {
   }
   if (size_ < sizeof(kMagic) || file_.getline() != std::string(kMagic) + '\n')
     throw InputError(path + ": is not a bag of format 2.0 (rosbag check tells, rosbag migrate mends older ones)");
-  const std::vector<char> header = readBlock("bag header");
-  const BagRecord record{view(header), {}};
+  readBlock("bag header", header_);
+  const BagRecord record{header_.view(), {}};
   if (!text(findField(record.header, rosbag::ENCRYPTOR_FIELD_NAME)).empty())
     throw InputError(path + ": is encrypted (rosbag decrypt makes a bag that can be read)");
   const auto contents = record.field<std::uint64_t>(rosbag::INDEX_POS_FIELD_NAME);
@@ -49,81 +44,109 @@ BagFile::BagFile(const std::string& path) : path_(path) {
 }
 
 void BagFile::readContents(std::uint64_t position, std::uint32_t num_connections, std::uint32_t num_chunks) {
-  file_.seek(position);
-  const std::vector<char> bytes = readBytes(static_cast<std::uint32_t>(size_ - position), "table of contents");
-  std::string_view rest = view(bytes);
+  seek(position);
+  BagBytes bytes;
+  readBytes(size_ - position, "table of contents", bytes);
+  std::string_view rest = bytes.view();
   while (const std::optional<BagRecord> record = takeRecord(rest)) {
     if (record->operation() == rosbag::OP_CONNECTION) {
       connections_.push_back({record->field<std::uint32_t>(rosbag::CONNECTION_FIELD_NAME).value_or(0),
                               text(findField(record->header, rosbag::TOPIC_FIELD_NAME)),
                               text(findField(record->body, "type")), text(findField(record->body, "md5sum"))});
     } else if (record->operation() == rosbag::OP_CHUNK_INFO) {
-      chunks_.push_back({record->field<std::uint64_t>(rosbag::CHUNK_POS_FIELD_NAME).value_or(0),
-                         record->time(rosbag::START_TIME_FIELD_NAME).value_or(0),
-                         record->time(rosbag::END_TIME_FIELD_NAME).value_or(0)});
+      chunks_.push_back(toChunk(*record));
     }
   }
   if (connections_.size() != num_connections || chunks_.size() != num_chunks)
     throw InputError(path_ + ": is cut off inside its table of contents (rosbag reindex saves what is left)");
 }
 
-bool BagFile::chunksAreOrdered() const {
-  return std::adjacent_find(chunks_.begin(), chunks_.end(), [](const BagChunk& a, const BagChunk& b) {
-           return b.start < a.end || b.position < a.position;
-         }) == chunks_.end();
+BagChunk BagFile::toChunk(const BagRecord& record) const {
+  const auto position = record.field<std::uint64_t>(rosbag::CHUNK_POS_FIELD_NAME);
+  const auto start = record.time(rosbag::START_TIME_FIELD_NAME);
+  const auto end = record.time(rosbag::END_TIME_FIELD_NAME);
+  if (!position || !start || !end)
+    throw InputError(path_ + ": the table of contents is damaged (rosbag reindex repairs it)");
+  BagChunk chunk{*position, *start, *end, 0};
+  constexpr std::size_t kEntry = 8;  // connection and number of its messages, 32 bit each
+  for (std::string_view rest = record.body; rest.size() >= kEntry; rest.remove_prefix(kEntry))
+    chunk.num_messages += *toInteger<std::uint32_t>(rest.substr(kEntry / 2, kEntry / 2));
+  return chunk;
 }
 
-std::vector<BagMessage> BagFile::read(const BagChunk& chunk, std::vector<char>& bytes) {
-  file_.seek(chunk.position);
-  const std::vector<char> header_bytes = readBlock("chunk header");
-  const std::string_view header = view(header_bytes);
-  const std::string compression = text(findField(header, rosbag::COMPRESSION_FIELD_NAME));
-  const auto size = toInteger<std::uint32_t>(findField(header, rosbag::SIZE_FIELD_NAME));
-  const auto damaged = [this] { return InputError(path_ + ": a chunk is damaged (rosbag reindex saves the others)"); };
-  if (BagRecord{header, {}}.operation() != rosbag::OP_CHUNK || !size || *size > kLargestChunk) throw damaged();
-  compressed_ = readBlock("chunk");
+void BagFile::read(const BagChunk& chunk, ChunkContents& contents) {
+  readChunkBytes(chunk, contents.bytes);
+  parseMessages(chunk, contents.bytes.view(), contents.messages);
+}
+
+void BagFile::readChunkBytes(const BagChunk& chunk, BagBytes& bytes) {
+  seek(chunk.position);
+  readBlock("chunk header", header_);
+  const BagRecord record{header_.view(), {}};
+  const std::string compression = text(findField(record.header, rosbag::COMPRESSION_FIELD_NAME));
+  const auto size = record.field<std::uint32_t>(rosbag::SIZE_FIELD_NAME);
+  if (record.operation() != rosbag::OP_CHUNK || !size || *size > kLargestChunk) throw damagedChunk();
   if (compression == "none") {
-    bytes.swap(compressed_);
-  } else {
-    const auto codec = compression == "lz4" ? rosbag::compression::LZ4 : rosbag::compression::BZ2;
-    bytes.resize(*size);
-    try {
-      file_.decompress(codec, reinterpret_cast<std::uint8_t*>(bytes.data()), *size,
-                       reinterpret_cast<std::uint8_t*>(compressed_.data()),
-                       static_cast<unsigned int>(compressed_.size()));
-    } catch (const rosbag::BagException&) {
-      throw damaged();
-    }
+    readBlock("chunk", bytes);
+    return;
   }
-  std::vector<BagMessage> messages;
-  std::string_view rest = view(bytes);
-  while (const std::optional<BagRecord> record = takeRecord(rest)) {
-    if (record->operation() != rosbag::OP_MSG_DATA) continue;
+  readBlock("chunk", compressed_);
+  resize(bytes, *size);
+  try {
+    file_.decompress(compression == "lz4" ? rosbag::compression::LZ4 : rosbag::compression::BZ2,
+                     reinterpret_cast<std::uint8_t*>(bytes.begin()), *size,
+                     reinterpret_cast<std::uint8_t*>(compressed_.begin()),
+                     static_cast<unsigned int>(compressed_.view().size()));
+  } catch (const rosbag::BagException&) {
+    throw damagedChunk();
+  }
+}
+
+void BagFile::parseMessages(const BagChunk& chunk, std::string_view bytes, std::vector<BagMessage>& messages) const {
+  messages.clear();
+  while (const std::optional<BagRecord> record = takeRecord(bytes)) {
+    const auto operation = record->operation();
+    if (operation == rosbag::OP_CONNECTION) continue;
     const auto connection = record->field<std::uint32_t>(rosbag::CONNECTION_FIELD_NAME);
     const auto time = record->time(rosbag::TIME_FIELD_NAME);
-    if (!connection || !time) throw damaged();
+    if (operation != rosbag::OP_MSG_DATA || !connection || !time || *time < chunk.start || *time > chunk.end)
+      throw damagedChunk();
     messages.push_back({*connection, *time, record->body});
   }
-  if (!rest.empty()) throw damaged();
+  if (!bytes.empty() || messages.size() != chunk.num_messages) throw damagedChunk();
   if (!std::is_sorted(messages.begin(), messages.end(), isInOrder))
     std::stable_sort(messages.begin(), messages.end(), isInOrder);
-  return messages;
 }
 
-std::vector<char> BagFile::readBytes(std::uint32_t size, const char* what) {
-  std::vector<char> bytes(size);
+void BagFile::resize(BagBytes& bytes, std::uint64_t size) const {
+  if (!bytes.resize(size)) throw InputError(path_ + ": does not fit into the memory of this machine");
+}
+
+void BagFile::seek(std::uint64_t position) {
+  if (position > size_) throw InputError(path_ + ": is cut off, or damaged (rosbag reindex saves what is left)");
+  file_.seek(position);
+}
+
+void BagFile::readBytes(std::uint64_t size, const char* what, BagBytes& bytes) {
+  const auto cutOff = [&] {
+    return InputError(path_ + ": is cut off inside a " + what + " (rosbag reindex saves what is left)");
+  };
+  if (size > size_ - std::min(file_.getOffset(), size_)) throw cutOff();
+  resize(bytes, size);
   try {
-    if (file_.getOffset() + size > size_) throw rosbag::BagIOException("beyond the end");
-    file_.read(bytes.data(), size);
+    file_.read(bytes.begin(), size);
   } catch (const rosbag::BagException&) {
-    throw InputError(path_ + ": is cut off inside a " + what + " (rosbag reindex saves what is left)");
+    throw cutOff();
   }
-  return bytes;
 }
 
-std::vector<char> BagFile::readBlock(const char* what) {
-  const std::vector<char> size = readBytes(sizeof(std::uint32_t), what);
-  return readBytes(*toInteger<std::uint32_t>(view(size)), what);
+void BagFile::readBlock(const char* what, BagBytes& bytes) {
+  readBytes(sizeof(std::uint32_t), what, bytes);
+  readBytes(*toInteger<std::uint32_t>(bytes.view()), what, bytes);
+}
+
+InputError BagFile::damagedChunk() const {
+  return InputError(path_ + ": a chunk is damaged (rosbag reindex saves the others)");
 }
 
 }  // namespace suspension_health_monitor

@@ -2,10 +2,16 @@
 
 #include <rosbag/chunked_file.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "bag_record.h"
+#include "errors.h"
 
 namespace suspension_health_monitor {
 
@@ -15,22 +21,55 @@ struct BagConnection {
   std::string topic, type, md5sum;
 };
 
-/// Where a chunk of messages stands and which recording times it spans [ns].
+/// Where a chunk of messages stands, which recording times it spans [ns], and how many messages it holds.
 struct BagChunk {
   std::uint64_t position = 0;
   std::uint64_t start = 0, end = 0;
+  std::uint64_t num_messages = 0;
 };
 
-/// One message inside a chunk; `body` is valid as long as the chunk's bytes are.
+/// One message inside a chunk.
 struct BagMessage {
   std::uint32_t connection = 0;
   std::uint64_t time = 0;  // recording time [ns]
   std::string_view body;
 };
 
-/// A bag of format 2.0, read chunk by chunk, so that memory does not grow with the bag: rosbag::Bag loads an index entry
-/// per message (about 64 bytes each). Reading and decompression are rosbag's ChunkedFile.
-/// Source of the layout: wiki.ros.org/Bags/Format/2.0.
+/// Storage that is used again. It grows by calloc, which costs nothing before it is written: a damaged bag may ask for
+/// far more than it fills.
+class BagBytes {
+ public:
+  /// Makes room for `size` bytes. What was there is lost.
+  /// @return false if there is not so much memory.
+  bool resize(std::size_t size) {
+    if (size > capacity_ || bytes_ == nullptr) {
+      bytes_.reset(static_cast<char*>(std::calloc(size + 1, 1)));
+      capacity_ = bytes_ == nullptr ? 0 : size;
+    }
+    size_ = std::min(size, capacity_);
+    return bytes_ != nullptr;
+  }
+  char* begin() { return bytes_.get(); }
+  std::string_view view() const { return {bytes_.get(), size_}; }
+
+ private:
+  struct Free {
+    void operator()(char* bytes) const { std::free(bytes); }
+  };
+  std::unique_ptr<char[], Free> bytes_;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+/// The messages of a chunk in the order of recording time; their bodies are valid as long as the bytes are.
+struct ChunkContents {
+  BagBytes bytes;
+  std::vector<BagMessage> messages;
+};
+
+/// A bag of format 2.0, read chunk by chunk, so that memory does not grow with the bag: rosbag::Bag loads an index
+/// entry per message (about 64 bytes each). Reading and decompression are rosbag's ChunkedFile. Source of the layout:
+/// wiki.ros.org/Bags/Format/2.0.
 class BagFile {
  public:
   /// Opens the bag and reads its table of contents.
@@ -41,26 +80,28 @@ class BagFile {
   const std::vector<BagConnection>& connections() const { return connections_; }
   const std::vector<BagChunk>& chunks() const { return chunks_; }
 
-  /// @return true if every chunk begins after the one before it has ended: then reading them in order is reading in time.
-  bool chunksAreOrdered() const;
-
   /// Reads one chunk.
-  /// @param bytes  storage for it.
-  /// @return its messages in the order of recording time.
-  /// @throws InputError  if the chunk is damaged.
-  std::vector<BagMessage> read(const BagChunk& chunk, std::vector<char>& bytes);
+  /// @param contents  storage for it.
+  /// @throws InputError  if the chunk is damaged, or is not what the table of contents says of it.
+  void read(const BagChunk& chunk, ChunkContents& contents);
 
  private:
   void readContents(std::uint64_t position, std::uint32_t num_connections, std::uint32_t num_chunks);
-  std::vector<char> readBytes(std::uint32_t size, const char* what);
-  std::vector<char> readBlock(const char* what);  // a length and that many bytes
+  BagChunk toChunk(const BagRecord& record) const;
+  void readChunkBytes(const BagChunk& chunk, BagBytes& bytes);
+  void parseMessages(const BagChunk& chunk, std::string_view bytes, std::vector<BagMessage>& messages) const;
+  void resize(BagBytes& bytes, std::uint64_t size) const;
+  void seek(std::uint64_t position);
+  void readBytes(std::uint64_t size, const char* what, BagBytes& bytes);
+  void readBlock(const char* what, BagBytes& bytes);  // a length and that many bytes
+  InputError damagedChunk() const;
 
   std::string path_;
   rosbag::ChunkedFile file_;
   std::uint64_t size_ = 0;
   std::vector<BagConnection> connections_;
   std::vector<BagChunk> chunks_;
-  std::vector<char> compressed_;
+  BagBytes header_, compressed_;
 };
 
 }  // namespace suspension_health_monitor

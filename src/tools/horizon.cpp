@@ -13,18 +13,18 @@ namespace po = boost::program_options;
 
 constexpr std::size_t kPlotLines = 25;
 constexpr double kColumnsPerUnit = 30.0;
+constexpr double kHighestPlotted = 3.0;
 
-/// Both curves as a plot on its side, for a terminal.
+/// Both curves as a plot on its side, for a terminal; a higher resonance is cut off.
 void plot(const HorizonProposal& proposal) {
-  const double highest = std::max_element(proposal.curves.begin(), proposal.curves.end(), [](auto& a, auto& b) {
-                           return a.system < b.system;
-                         })->system;
-  const auto column = [](double magnitude) { return static_cast<std::size_t>(magnitude * kColumnsPerUnit); };
+  const auto column = [](double magnitude) {
+    return static_cast<std::size_t>(std::min(magnitude, kHighestPlotted) * kColumnsPerUnit);
+  };
   std::printf("      Hz   strut  filter   magnitude: S strut, F filter, | is 1\n");
   const std::size_t step = proposal.curves.size() / kPlotLines;
   for (std::size_t i = 0; i < proposal.curves.size(); i += step) {
     const MagnitudePoint& point = proposal.curves[i];
-    std::string line(column(std::max(highest, 1.0)) + 1, ' ');
+    std::string line(std::max(column(point.system), column(1.0)) + 1, ' ');
     line[column(1.0)] = '|';
     line[column(point.filter)] = 'F';
     line[column(point.system)] = 'S';
@@ -51,7 +51,8 @@ void horizon(const Arguments& arguments) {
   add("damping-to-mass", po::value<double>()->required(), "[1/s] rough b1, e.g. from identify");
   add("stiffness-to-mass", po::value<double>()->required(), "[1/s^2] rough b0");
   add("json", po::value<std::string>(), "write proposal and curves as JSON");
-  const auto values = parse(arguments, "horizon --damping-to-mass B1 --stiffness-to-mass B0 [--json FILE]", description);
+  const auto values =
+      parse(arguments, "horizon --damping-to-mass B1 --stiffness-to-mass B0 [--json FILE]", description);
   if (!values) return;
   const HorizonProposal proposal =
       proposeHorizon((*values)["damping-to-mass"].as<double>(), (*values)["stiffness-to-mass"].as<double>());

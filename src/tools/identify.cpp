@@ -57,7 +57,7 @@ nlohmann::json toJson(const StrutEstimate& estimate) {
           {"valid", estimate.valid}};
 }
 
-void writeJson(const std::string& path, const ImuPipeline& pipeline) {
+void writeJson(std::FILE* out, const ImuPipeline& pipeline) {
   const SuspensionMonitor& monitor = *pipeline.monitor();
   nlohmann::json rejected = nlohmann::json::object();
   const RejectCounts counts = pipeline.rejected();
@@ -72,9 +72,7 @@ void writeJson(const std::string& path, const ImuPipeline& pipeline) {
                               {"horizon_samples", monitor.horizonSamples()},
                               {"ls", toJson(monitor.report().ls)},
                               {"la", toJson(monitor.report().la)}};
-  TextFile file(path);
-  std::fprintf(file.stream(), "%s\n", result.dump(2).c_str());
-  file.commit();
+  std::fprintf(out, "%s\n", result.dump(2).c_str());
 }
 
 void printInput(const ImuPipeline& pipeline, const BagOptions& options) {
@@ -118,8 +116,9 @@ void checkEnough(const ImuPipeline& pipeline) {
   if (monitor != nullptr && monitor->input().rows > 0) return;
   std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed";
   if (monitor != nullptr)
-    message += " (" + std::to_string(2 * monitor->horizonSamples() + 1) + " samples; usable samples in all: " +
-               std::to_string(monitor->input().samples) + ", gaps: " + std::to_string(monitor->input().gaps) + ")";
+    message += " (" + std::to_string(2 * monitor->horizonSamples() + 1) +
+               " samples; usable samples in all: " + std::to_string(monitor->input().samples) +
+               ", gaps: " + std::to_string(monitor->input().gaps) + ")";
   const RejectCounts rejected = pipeline.rejected();
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
@@ -135,14 +134,17 @@ void identify(const Arguments& arguments) {
   description.add_options()("csv", po::value<std::string>(), "write a line per regression row, full precision");
   const auto values = parse(arguments, "identify BAG... [OPTION]...", description, "bag");
   if (!values) return;
+  requireSeparateFiles(*values, {"bag", "config"}, {"csv", "json"});
   const BagOptions options = readBagOptions(*values);
 
-  std::optional<TextFile> csv;
+  std::optional<TextFile> csv, json;
+  if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
   if (values->count("csv") != 0) {
     csv.emplace((*values)["csv"].as<std::string>());
-    std::fputs("time,ls_damping_to_mass,ls_stiffness_to_mass,la_damping_to_mass,la_stiffness_to_mass,"
-               "measured,predicted,residual\n",
-               csv->stream());
+    std::fputs(
+        "time,ls_damping_to_mass,ls_stiffness_to_mass,la_damping_to_mass,la_stiffness_to_mass,"
+        "measured,predicted,residual\n",
+        csv->stream());
   }
   Digest digest;
   ImuPipeline pipeline(options.pipeline, [&](const MonitorReport& report) {
@@ -156,8 +158,9 @@ void identify(const Arguments& arguments) {
   });
   checkEnough(pipeline);
 
+  if (json) writeJson(json->stream(), pipeline);
+  if (json) json->commit();
   if (csv) csv->commit();
-  if (values->count("json") != 0) writeJson((*values)["json"].as<std::string>(), pipeline);
   printInput(pipeline, options);
   printTable(digest.reports());
   std::printf("\nat the end, over the last %.0f rows:\n", pipeline.monitor()->report().la.effective_rows);

@@ -1,12 +1,13 @@
 #include "imu_bags.h"
 
 #include <ros/serialization.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "bag_file.h"
 #include "errors.h"
@@ -26,17 +27,19 @@ std::string listImuTopics(const std::vector<BagConnection>& connections) {
   return list.empty() ? "none" : list;
 }
 
-/// Which connections carry which IMU.
-std::map<std::uint32_t, Side> findSides(const BagFile& file, const std::array<std::string, 2>& topics) {
+/// For every connection of a bag the IMU that it carries, if any.
+using Sides = std::map<std::uint32_t, std::optional<Side>>;
+
+Sides findSides(const BagFile& file, const std::array<std::string, 2>& topics) {
   static constexpr std::array<const char*, 2> kOptions{"--sprung-topic", "--unsprung-topic"};
-  std::map<std::uint32_t, Side> sides;
+  Sides sides;
+  for (const BagConnection& connection : file.connections()) sides[connection.id] = std::nullopt;
   for (std::size_t i = 0; i < topics.size(); ++i) {
     bool found = false;
     for (const BagConnection& connection : file.connections()) {
       if (connection.topic != topics[i]) continue;
       if (connection.md5sum != ImuTraits::value())
-        throw InputError(file.path() + ": topic " + topics[i] + " is " + connection.type +
-                         ", must be sensor_msgs/Imu");
+        throw InputError(file.path() + ": topic " + topics[i] + " is " + connection.type + ", must be sensor_msgs/Imu");
       sides[connection.id] = static_cast<Side>(i);
       found = true;
     }
@@ -47,64 +50,103 @@ std::map<std::uint32_t, Side> findSides(const BagFile& file, const std::array<st
   return sides;
 }
 
-bool deliver(Side side, std::string_view body, const std::string& path, sensor_msgs::Imu& imu, const Take& take) {
-  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(const_cast<char*>(body.data())),
-                                     static_cast<std::uint32_t>(body.size()));
-  try {
-    ros::serialization::deserialize(stream, imu);
-  } catch (const ros::Exception&) {
-    throw InputError(path + ": a message is damaged");
-  }
-  return take(side, imu);
-}
-
 struct Range {
-  std::uint64_t first, last;  // recording time [ns]
+  std::uint64_t first = 0;  // recording time [ns]
+  std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
 };
 
-Range toRange(const ImuBags& bags, const std::vector<BagChunk>& chunks) {
-  const auto earliest = std::min_element(chunks.begin(), chunks.end(),
-                                         [](const BagChunk& a, const BagChunk& b) { return a.start < b.start; });
-  const auto after = [&](double seconds) {
-    constexpr double kFarFuture = 1e9;  // [s]
-    return earliest->start + static_cast<std::uint64_t>(1e9 * std::clamp(seconds, 0.0, kFarFuture));
-  };
-  return {after(bags.start), after(bags.end)};
+Range toRange(const ImuBags& bags, std::uint64_t beginning) {
+  constexpr double kFarFuture = 1e9;  // [s]
+  const auto after = [&](double seconds) { return beginning + static_cast<std::uint64_t>(1e9 * seconds); };
+  Range range;
+  if (bags.start > 0.0) range.first = after(std::min(bags.start, kFarFuture));
+  if (bags.end < kFarFuture) range.last = after(bags.end);
+  return range;
 }
 
-bool readByChunks(BagFile& file, const std::map<std::uint32_t, Side>& sides, const Range& range, const Take& take) {
-  Progress progress("reading " + file.path(), static_cast<double>(file.chunks().size()));
-  std::vector<char> bytes;
-  sensor_msgs::Imu imu;
+/// A chunk with messages that have not been delivered.
+struct OpenChunk {
+  ChunkContents contents;
+  std::uint64_t position = 0;
+  std::size_t next = 0;
+
+  const BagMessage& message() const { return contents.messages[next]; }
+};
+
+/// For a heap with the earliest message on top; of messages at the same time the one that was written first.
+bool isLater(const OpenChunk& a, const OpenChunk& b) {
+  return std::tie(a.message().time, a.position) > std::tie(b.message().time, b.position);
+}
+
+/// Delivers the IMU messages of one bag by recording time. Its chunks are opened in the order in which they begin and
+/// kept as long as they have messages that are later than the beginning of the next one.
+class Delivery {
+ public:
+  Delivery(BagFile& file, Sides sides, const Range& range, const Take& take)
+      : file_(file), sides_(std::move(sides)), range_(range), take_(take) {}
+
+  void open(const BagChunk& chunk) {
+    file_.read(chunk, spare_);
+    if (spare_.messages.empty()) return;
+    open_.push_back({std::exchange(spare_, {}), chunk.position, 0});
+    std::push_heap(open_.begin(), open_.end(), isLater);
+  }
+
+  /// @return false if no more messages are wanted.
+  bool deliverBefore(std::uint64_t time) {
+    while (!open_.empty() && open_.front().message().time < time) {
+      std::pop_heap(open_.begin(), open_.end(), isLater);
+      OpenChunk& chunk = open_.back();
+      if (!deliver(chunk.message())) return false;
+      if (++chunk.next < chunk.contents.messages.size()) {
+        std::push_heap(open_.begin(), open_.end(), isLater);
+      } else {
+        spare_ = std::move(chunk.contents);
+        open_.pop_back();
+      }
+    }
+    return true;
+  }
+
+ private:
+  bool deliver(const BagMessage& message) {
+    const auto side = sides_.find(message.connection);
+    if (side == sides_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
+    if (!side->second || message.time < range_.first || message.time > range_.last) return true;
+    ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(const_cast<char*>(message.body.data())),
+                                       static_cast<std::uint32_t>(message.body.size()));
+    try {
+      ros::serialization::deserialize(stream, imu_);
+    } catch (const ros::Exception&) {
+      throw InputError(file_.path() + ": a message is damaged");
+    }
+    return take_(*side->second, imu_);
+  }
+
+  BagFile& file_;
+  Sides sides_;
+  Range range_;
+  const Take& take_;
+  std::vector<OpenChunk> open_;  // a heap
+  ChunkContents spare_;          // storage of a chunk that is done
+  sensor_msgs::Imu imu_;
+};
+
+bool readBag(BagFile& file, const ImuBags& bags, const Take& take) {
+  std::vector<BagChunk> chunks = file.chunks();
+  std::stable_sort(chunks.begin(), chunks.end(),
+                   [](const BagChunk& a, const BagChunk& b) { return a.start < b.start; });
+  const Range range = toRange(bags, chunks.front().start);
+  Delivery delivery(file, findSides(file, bags.topics), range, take);
+  Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
   double done = 0.0;
-  for (const BagChunk& chunk : file.chunks()) {
+  for (const BagChunk& chunk : chunks) {
     progress.update(++done);
     if (chunk.end < range.first || chunk.start > range.last) continue;
-    for (const BagMessage& message : file.read(chunk, bytes)) {
-      const auto side = sides.find(message.connection);
-      if (side == sides.end() || message.time < range.first || message.time > range.last) continue;
-      if (!deliver(side->second, message.body, file.path(), imu, take)) return false;
-    }
+    if (!delivery.deliverBefore(chunk.start)) return false;
+    delivery.open(chunk);
   }
-  return true;
-}
-
-bool readSorted(const ImuBags& bags, const std::string& path, const Range& range, const Take& take) {
-  rosbag::Bag bag(path);
-  ros::Time first, last;
-  first.fromNSec(range.first);
-  last.fromNSec(range.last);
-  rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>(bags.topics.begin(), bags.topics.end())), first,
-                    last);
-  Progress progress("reading " + path, view.size());
-  double done = 0.0;
-  for (const rosbag::MessageInstance& message : view) {
-    progress.update(++done);
-    const sensor_msgs::ImuConstPtr imu = message.instantiate<sensor_msgs::Imu>();
-    const Side side = message.getTopic() == bags.topics.front() ? Side::kSprung : Side::kUnsprung;
-    if (imu != nullptr && !take(side, *imu)) return false;
-  }
-  return true;
+  return delivery.deliverBefore(std::numeric_limits<std::uint64_t>::max());
 }
 
 }  // namespace
@@ -113,11 +155,7 @@ void readImuMessages(const ImuBags& bags, const Take& take) {
   for (const std::string& path : bags.paths) {
     BagFile file(path);
     if (file.chunks().empty()) throw TooLittleError(path + ": the bag holds no messages");
-    const std::map<std::uint32_t, Side> sides = findSides(file, bags.topics);
-    const Range range = toRange(bags, file.chunks());
-    const bool wants_more =
-        file.chunksAreOrdered() ? readByChunks(file, sides, range, take) : readSorted(bags, path, range, take);
-    if (!wants_more) return;
+    if (!readBag(file, bags, take)) return;
   }
 }
 

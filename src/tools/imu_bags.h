@@ -21,8 +21,7 @@ struct ImuBags {
 };
 
 /// Reads the IMU messages of all bags in the order of their recording, with a progress bar.
-/// Memory does not grow with the bags. (A bag whose chunks overlap in time goes through rosbag::View, which sorts it
-/// with an index in memory.)
+/// Memory does not grow with the bags; only chunks that overlap in time are held together.
 /// @param take  called with every message; returns false to stop.
 /// @throws InputError  naming the bag: unreadable, a topic missing (with those that are there) or of another type.
 /// @throws TooLittleError  if a bag holds no message at all.

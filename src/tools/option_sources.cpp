@@ -2,19 +2,24 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <filesystem>
 #include <stdexcept>
 
 namespace suspension_health_monitor {
 namespace {
 
-void flatten(const std::string& name, const YAML::Node& node, const std::string& file, OptionMap& values) {
-  if (node.IsMap()) {
+constexpr int kDeepest = 4;  // no name has more parts; an alias that contains itself has no end
+
+void flatten(const std::string& name, int depth, const YAML::Node& node, const std::string& file, OptionMap& values) {
+  if (node.IsMap() && depth < kDeepest) {
     for (const auto& entry : node) {
       const auto key = entry.first.as<std::string>();
-      flatten(name.empty() ? key : name + '/' + key, entry.second, file, values);
+      flatten(name.empty() ? key : name + '/' + key, depth + 1, entry.second, file, values);
     }
   } else if (node.IsScalar() && !name.empty()) {
-    values[name] = node.as<std::string>();
+    if (!values.emplace(name, node.as<std::string>()).second)
+      throw std::invalid_argument(file + ": line " + std::to_string(node.Mark().line + 1) + ": " + name +
+                                  " is given twice, must be given once");
   } else if (!(node.IsNull() && name.empty())) {  // a file of comments only sets nothing
     throw std::invalid_argument(file + ": line " + std::to_string(node.Mark().line + 1) + ": " +
                                 (name.empty() ? "the file" : name) + " must be a name with a plain value");
@@ -24,9 +29,10 @@ void flatten(const std::string& name, const YAML::Node& node, const std::string&
 }  // namespace
 
 OptionMap readYaml(const std::string& path) {
+  if (std::filesystem::is_directory(path)) throw std::invalid_argument(path + ": is a folder, must be a YAML file");
   OptionMap values;
   try {
-    flatten("", YAML::LoadFile(path), path, values);
+    flatten("", 0, YAML::LoadFile(path), path, values);
   } catch (const YAML::BadFile&) {
     throw std::invalid_argument(path + ": cannot be read, must be a YAML file");
   } catch (const YAML::Exception& error) {

@@ -1,5 +1,9 @@
 #include <rosbag/bag.h>
 
+#include <array>
+#include <memory>
+#include <stdexcept>
+
 #include "../ros/drive_messages.h"
 #include "command.h"
 #include "option_sources.h"
@@ -14,10 +18,9 @@ namespace po = boost::program_options;
 /// Options that have a flag of their own, besides --set NAME=VALUE.
 constexpr std::array kFlags{"scenario", "vehicle", "seed", "duration", "rate"};
 
-void writeBag(const SimulatorOptions& options, const std::string& path) {
+void writeDrive(const SimulatorOptions& options, rosbag::Bag& bag) {
   DriveMessageSource drive(options, fromSeconds(options.publishing.start_time));
   Progress progress("simulating", options.drive.duration);
-  rosbag::Bag bag(path, rosbag::bagmode::Write);
   bag.setCompression(rosbag::compression::LZ4);
   std::size_t count = 0;
   while (const std::optional<DriveMessages> messages = drive.next()) {
@@ -28,6 +31,20 @@ void writeBag(const SimulatorOptions& options, const std::string& path) {
     progress.update(static_cast<double>(++count) / options.drive.rate);
   }
   bag.close();
+}
+
+void writeBag(const SimulatorOptions& options, const std::string& path) {
+  WholeFile file(path);
+  auto bag = std::make_unique<rosbag::Bag>();
+  try {
+    bag->open(file.temporaryPath(), rosbag::bagmode::Write);
+    writeDrive(options, *bag);
+  } catch (const rosbag::BagException& error) {
+    // Its destructor would write on, throw, and so end the program.
+    [[maybe_unused]] static const rosbag::Bag* const abandoned = bag.release();
+    throw std::runtime_error(path + ": cannot be written: " + error.what());
+  }
+  file.commit();
 }
 
 }  // namespace
@@ -46,6 +63,7 @@ void simulate(const Arguments& arguments) {
   const auto values = parse(arguments, "simulate [--scenario S] [OPTION]... -o OUT.bag", description);
   if (!values) return;
 
+  requireSeparateFiles(*values, {"config"}, {"output"});
   OptionMap settings =
       gatherOptions((*values)["config"].as<std::string>(), (*values)["set"].as<std::vector<std::string>>());
   for (const char* flag : kFlags)
@@ -53,9 +71,7 @@ void simulate(const Arguments& arguments) {
   const SimulatorOptions options = SimulatorOptions::fromValues(settings);
 
   const auto path = (*values)["output"].as<std::string>();
-  WholeFile file(path);
-  writeBag(options, file.temporaryPath());
-  file.commit();
+  writeBag(options, path);
   std::printf("%s: %s, %g s at %g Hz, seed %d\n", path.c_str(), options.drive.scenario.c_str(), options.drive.duration,
               options.drive.rate, options.drive.seed);
 }

@@ -1,6 +1,8 @@
 #include "survey.h"
 
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "../ros/imu_pipeline.h"
 #include "errors.h"
@@ -27,6 +29,13 @@ double measurePeriod(const ImuBags& bags) {
   if (!period)
     throw TooLittleError("the sample period cannot be measured: fewer than " + std::to_string(kFewestSpacings) +
                          " increasing stamps on one of the topics (of " + std::to_string(count) + " messages)");
+  try {
+    MonitorOptions options;
+    options.sample_period = period;
+    validate(options, kMonitorFields);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(std::string("measured from the stamps: ") + error.what());
+  }
   return *period;
 }
 
@@ -51,8 +60,9 @@ int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
   });
   const std::optional<int> samples = survey.horizonSamples();
   if (!samples)
-    throw TooLittleError("no horizon can be proposed: the data show no damped spring; give integration_horizon "
-                         "(--set integration_horizon=0.6) to look at them all the same");
+    throw TooLittleError(
+        "no horizon can be proposed: the data show no damped spring; give integration_horizon "
+        "(--set integration_horizon=0.6) to look at them all the same");
   return *samples;
 }
 

@@ -22,9 +22,10 @@ constexpr std::array kCommands{
 void printHelp(std::FILE* out) {
   std::fputs("usage: suspension_bag COMMAND [ARGUMENT]...\n\n", out);
   for (const Command& command : kCommands) std::fprintf(out, "  %-10s %s\n", command.name, command.summary);
-  std::fputs("\nsuspension_bag COMMAND -h tells more. Tables go to standard output, messages to standard error.\n"
-             "Exit status: 0 done, 2 wrong usage, 3 unreadable or wrong input, 4 too little or too poor input.\n",
-             out);
+  std::fputs(
+      "\nsuspension_bag COMMAND -h tells more. Tables go to standard output, messages to standard error.\n"
+      "Exit status: 0 done, 2 wrong usage, 3 unreadable or wrong input, 4 too little or too poor input.\n",
+      out);
 }
 
 int fail(const std::string& command, const std::exception& error, ExitStatus status) {
@@ -35,6 +36,7 @@ int fail(const std::string& command, const std::exception& error, ExitStatus sta
 int run(const Command& command, const Arguments& arguments) {
   try {
     command.run(arguments);
+    if (std::fflush(stdout) != 0) throw std::runtime_error("standard output: cannot be written");
     return kDone;
   } catch (const InputError& error) {
     return fail(command.name, error, kWrongInput);
@@ -42,6 +44,8 @@ int run(const Command& command, const Arguments& arguments) {
     return fail(command.name, error, kTooLittle);
   } catch (const std::invalid_argument& error) {
     return fail(command.name, error, kWrongUsage);
+  } catch (const po::invalid_option_value& error) {  // of those with a type, and that is always a number
+    return fail(command.name, std::invalid_argument(error.what() + std::string(", must be a number")), kWrongUsage);
   } catch (const po::error& error) {
     return fail(command.name, error, kWrongUsage);
   } catch (const std::exception& error) {  // a full disk, a bag that breaks off while it is read

@@ -1,14 +1,24 @@
 #pragma once
 
+#include <boost/program_options/variables_map.hpp>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace suspension_health_monitor {
 
+/// Refuses to write a file that is read, too, or to write two results into one file.
+/// @param inputs, outputs  names of options with a path, or several, as their value; those not given do not matter.
+/// @throws std::invalid_argument  naming option and path.
+void requireSeparateFiles(const boost::program_options::variables_map& values, const std::vector<std::string>& inputs,
+                          const std::vector<std::string>& outputs);
+
 /// A file that appears under its name whole or not at all: it is written beside it and renamed by commit().
 /// Without commit() (an error on the way) nothing is left, and a file that was there before stays as it was.
+/// A link stays a link; what is no regular file (a pipe, /dev/null) is written to as it is.
 class WholeFile {
  public:
+  /// @throws std::runtime_error  naming the file, if it cannot be written.
   explicit WholeFile(const std::string& path);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
@@ -22,13 +32,13 @@ class WholeFile {
 
  private:
   std::string path_, temporary_path_;
-  bool committed_ = false;
+  bool temporary_;
 };
 
 /// Writes lines of text into a WholeFile.
 class TextFile {
  public:
-  /// @throws std::runtime_error  naming the file, if it cannot be opened.
+  /// @throws std::runtime_error  naming the file, if it cannot be written.
   explicit TextFile(const std::string& path);
   ~TextFile();
 
@@ -38,6 +48,7 @@ class TextFile {
   void commit();
 
  private:
+  std::string path_;
   WholeFile file_;
   std::FILE* stream_;
 };

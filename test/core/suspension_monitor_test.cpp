@@ -159,11 +159,25 @@ TEST(SuspensionMonitor, RejectsAndCountsWhatIsNoNumber) {
   const Stamp next = drive.back().stamp + kPeriod;
   EXPECT_EQ(monitor.addSample({next, std::nan(""), 1.0}), nullptr);
   EXPECT_EQ(monitor.addSample({next, 1.0, -std::numeric_limits<double>::infinity()}), nullptr);
-  EXPECT_EQ(monitor.rejected().count(RejectReason::kNotFinite), 2u);
+  EXPECT_EQ(monitor.addSample({next, 1e200, 1.0}), nullptr);  // its square is infinite
+  EXPECT_EQ(monitor.rejected().count(RejectReason::kNotFinite), 3u);
   EXPECT_EQ(monitor.input().samples, drive.size());
   expectSameParameters(monitor.report().la, before);
   addAll(monitor, later(drive, next));  // the same stamp is still free
   EXPECT_EQ(monitor.input().gaps, 0u);
+  EXPECT_TRUE(monitor.report().la.valid);
+}
+
+TEST(SuspensionMonitor, SurvivesTheLargestReadingThatItTakes) {
+  SuspensionMonitor monitor(liveOptions());
+  const std::vector<CornerSample> drive = healthyPaperDrive(60.0, 0.024);
+  addAll(monitor, drive);
+  const Stamp next = drive.back().stamp + kPeriod;
+  ASSERT_NE(monitor.addSample({next, 0.99e60, -0.99e60}), nullptr);
+  for (int pass = 0; pass < 40; ++pass)
+    addAll(monitor, later(drive, next + kPeriod + pass * (drive.back().stamp + kPeriod)));
+  EXPECT_TRUE(std::isfinite(monitor.report().ls.damping_to_mass));
+  EXPECT_TRUE(std::isfinite(monitor.report().la.damping_to_mass_stddev));
   EXPECT_TRUE(monitor.report().la.valid);
 }
 

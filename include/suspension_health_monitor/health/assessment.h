@@ -34,6 +34,8 @@ struct HealthReport {
 
 /// Judges damping and stiffness by their relative change from nominal values.
 /// An estimate that is not valid gives kStale: "cannot tell", never "healthy".
+/// A level is reported once it has lasted for the confirm time. While levels alternate that are all worse (or all
+/// better) than the reported one, the one nearest to it counts as lasting, so that noise at a threshold hides nothing.
 /// Cost per estimate: O(1), no allocation.
 class HealthAssessment {
  public:

@@ -16,7 +16,7 @@ enum class Side : std::size_t { kSprung = 0, kUnsprung = 1 };
 /// Why a reading was kept out.
 enum class RejectReason : std::size_t {
   kNotMeasured,     ///< the message says that it carries no acceleration (covariance -1)
-  kNotFinite,       ///< NaN or infinite acceleration
+  kNotFinite,       ///< NaN, infinite or absurdly large (isUsable())
   kZeroStamp,       ///< stamp 0 in a series that has stamps
   kRepeatedStamp,   ///< same stamp as the reading before
   kTimeWentBack,    ///< older than the reading before; a jump far back starts a new series

@@ -23,6 +23,11 @@ HealthLevel judge(const std::optional<double>& change, double warn, double error
   return std::abs(*change) < error ? HealthLevel::kWarn : HealthLevel::kError;
 }
 
+// Both worse than `level`, or both better.
+bool areBeyond(HealthLevel level, HealthLevel a, HealthLevel b) {
+  return (a > level && b > level) || (a < level && b < level);
+}
+
 std::string describeChange(const char* parameter, const std::optional<double>& change) {
   if (!change) return {};
   const long percent = std::lround(100.0 * std::abs(*change));
@@ -52,14 +57,18 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
     now.stiffness_level = judge(now.stiffness_change, options_.stiffness_warn, options_.stiffness_error);
     now.level = std::max(now.damping_level, now.stiffness_level);
   }
-  if (now.level != pending_ || stamp < pending_since_) {
+  const HealthLevel reported = report_.level;
+  if (stamp < pending_since_ || !areBeyond(reported, now.level, pending_)) {
     pending_ = now.level;
     pending_since_ = stamp;
+  } else {
+    pending_ = now.level > reported ? std::min(now.level, pending_) : std::max(now.level, pending_);
   }
-  const bool confirmed = stamp - pending_since_ >= confirm_time_;
-  const HealthLevel reported = report_.level;
-  report_ = now;
-  if (!confirmed) report_.level = reported;
+  const bool confirmed = now.level == reported || stamp - pending_since_ >= confirm_time_;
+  const HealthLevel level = confirmed ? pending_ : reported;
+  if (estimate.valid || level == HealthLevel::kStale)
+    report_ = now;  // else the last judgement stands, with its reasons
+  report_.level = level;
   return report_;
 }
 

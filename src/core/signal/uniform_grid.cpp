@@ -12,6 +12,13 @@ namespace {
 // message that was overtaken.
 constexpr int kReorderedPeriods = 50;
 
+// Before the conversion to whole nanoseconds, which is undefined for NaN and what does not fit.
+Stamp checked(double period) {
+  if (!(period >= 1e-9 && period <= 1e9))
+    throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be in [1e-9, 1e9]");
+  return fromSeconds(period);
+}
+
 }  // namespace
 
 std::uint64_t RejectCounts::total() const { return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}); }
@@ -21,10 +28,7 @@ RejectCounts& RejectCounts::operator+=(const RejectCounts& other) {
   return *this;
 }
 
-UniformGrid::UniformGrid(double period) : period_(fromSeconds(period)) {
-  if (!(std::isfinite(period) && period_.count() > 0))
-    throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be above 0");
-}
+UniformGrid::UniformGrid(double period) : period_(checked(period)) {}
 
 std::optional<CornerSample> UniformGrid::push(Side side, Stamp stamp, double acceleration) {
   if (!admit(side, stamp, acceleration)) return std::nullopt;
@@ -40,7 +44,7 @@ bool UniformGrid::admit(Side side, Stamp stamp, double acceleration) {
     rejected_.add(reason);
     return false;
   };
-  if (!std::isfinite(acceleration)) return reject(RejectReason::kNotFinite);
+  if (!isUsable(acceleration)) return reject(RejectReason::kNotFinite);
   if (last && stamp.count() == 0) return reject(RejectReason::kZeroStamp);
   if (last && stamp == *last) return reject(RejectReason::kRepeatedStamp);
   if (last && stamp < *last) {

@@ -1,0 +1,104 @@
+"""What a person reads: help, tables, the progress bar, and the tables of the README."""
+import math
+import os
+import pty
+import re
+import subprocess
+
+import pytest
+
+import imu_bag
+
+OPTIONS = {
+    "simulate": ["-o [ --output ]", "--config", "--set", "--scenario", "--vehicle", "--seed", "--duration", "--rate"],
+    "identify": ["--config", "--set", "--sprung-topic", "/sprung/imu", "--unsprung-topic", "/unsprung/imu", "--start",
+                 "--end", "--csv", "--json"],
+    "horizon": ["--damping-to-mass", "--stiffness-to-mass", "--json"],
+    "options": ["monitor", "simulator"],
+}
+README = imu_bag.REPOSITORY / "README.md"
+
+
+@pytest.mark.parametrize("flag", ["-h", "--help"])
+@pytest.mark.parametrize("command", OPTIONS)
+def test_help_of_a_command_names_every_option(program, command, flag):
+    text = program.succeed(command, flag)
+    assert text.startswith(f"usage: suspension_bag {command}")
+    for option in [*OPTIONS[command], "-h [ --help ]"]:
+        assert option in text
+    assert max(map(len, text.splitlines())) <= 100
+
+
+@pytest.mark.parametrize("flag", ["-h", "--help"])
+def test_help_names_commands_and_exit_statuses(program, flag):
+    text = program.succeed(flag)
+    for word in [*OPTIONS, "0 done", "2 wrong usage", "3 unreadable", "4 too little"]:
+        assert word in text
+
+
+def test_help_comes_before_complaints(program):
+    assert "usage" in program.succeed("identify", "--start", "-1", "-h")
+
+
+@pytest.mark.parametrize("of", ["monitor", "simulator"])
+def test_readme_has_the_table_of_settings(program, of):
+    found = re.search(rf"<!-- options {of} -->\n(.*?)<!-- end -->", README.read_text(), re.DOTALL)
+    if found is None:
+        pytest.skip("README.md has no such table")
+    assert found.group(1) == program.succeed("options", of)
+
+
+@pytest.mark.parametrize("of", ["monitor", "simulator"])
+def test_table_of_settings_is_complete(program, of):
+    """Every name of the shipped file is in the table, and every table line is whole."""
+    lines = program.succeed("options", of).splitlines()
+    assert all(re.fullmatch(r"\|( [^|]+ \|){5}", line) for line in lines if not line.startswith("|---"))
+    names = {line.split("`")[1] for line in lines[2:]}
+    settings = (imu_bag.REPOSITORY / f"config/{of}.yaml").read_text()
+    written = set(re.findall(r"^(?:# )? *(\w+): +[^#\s]", settings, re.MULTILINE))
+    assert written == {name.split("/")[-1] for name in names}
+
+
+def test_identify_prints_a_table(program, paper_bag):
+    text = program.succeed("identify", paper_bag)
+    assert "sample period 0.02 s (measured)" in text and "(proposed from the data)" in text
+    assert "samples 2001" in text and "rejected 0" in text
+    lines = text.splitlines()
+    assert max(map(len, lines)) <= 120
+    rows = [line.split() for line in lines if line.endswith(("  yes", "  no"))]
+    assert 6 <= len(rows) <= 24
+    times = [float(row[0]) for row in rows]
+    assert times == sorted(times) and times[-1] - times[0] > 30
+    assert [float(value) for value in rows[-1][3:5]] == pytest.approx([13.8, 13.8], rel=0.1)
+    for name in ("LS", "LA"):
+        numbers = re.search(rf"^{name}: damping/mass (\S+) \+- (\S+) 1/s, stiffness/mass (\S+) \+- (\S+) 1/s\^2, "
+                            r"(\S+) Hz, damping ratio (\S+)", text, re.MULTILINE).groups()
+        b1, _, b0, _, frequency, ratio = map(float, numbers)
+        assert b0 == pytest.approx(13.8, rel=0.1)
+        assert frequency == pytest.approx(math.sqrt(b0) / (2 * math.pi), abs=1e-3)
+        assert ratio == pytest.approx(b1 / (2 * math.sqrt(b0)), abs=1e-3)
+
+
+def test_mass_gives_damping_and_stiffness(program, paper_bag):
+    text = program.succeed("identify", paper_bag, "--set", "sprung_mass=50")
+    b1, b0 = map(float, re.search(r"LA: damping/mass (\S+) .*stiffness/mass (\S+) ", text).groups())
+    damping, stiffness = map(float, re.search(r"damping (\S+) N s/m, stiffness (\S+) N/m\s*\Z", text).groups())
+    assert (damping, stiffness) == pytest.approx((50 * b1, 50 * b0), rel=1e-3)
+
+
+@pytest.mark.parametrize("b1, b0", [("3", "13.8"), ("1e-6", "1e8"), ("1e4", "1e-3")])
+def test_horizon_of_any_strut_is_readable(program, b1, b0):
+    text = program.succeed("horizon", "--damping-to-mass", b1, "--stiffness-to-mass", b0)
+    assert float(re.search(r"integration_horizon: (\S+)", text).group(1)) > 0
+    assert max(map(len, text.splitlines())) <= 130
+
+
+def test_progress_bar_only_on_a_terminal(program, paper_bag):
+    terminal, device = pty.openpty()
+    result = subprocess.run([program.path, "identify", paper_bag], stdout=subprocess.PIPE, stderr=device,
+                            encoding="utf-8", timeout=60, check=True)
+    os.close(device)
+    shown = os.read(terminal, 100_000).decode()
+    os.close(terminal)
+    assert "100 %" in shown and str(paper_bag) in shown
+    assert result.stdout == program.succeed("identify", paper_bag)  # which also finds standard error empty

@@ -1,0 +1,133 @@
+"""Wrong options and settings: status 2, and a message that says what would be right."""
+import pytest
+
+import conftest
+
+USAGE = {
+    "no bag": ([], ["bag"]),
+    "unknown option": (["{bag}", "--bogus"], ["--bogus"]),
+    "abbreviated option": (["{bag}", "--conf", "x"], ["--conf"]),
+    "option without its value": (["{bag}", "--csv"], ["--csv"]),
+    "option twice": (["{bag}", "--json", "a", "--json", "b"], ["--json"]),
+    "negative start": (["{bag}", "--start", "-1"], ["--start -1", "0 <= start"]),
+    "start is no number": (["{bag}", "--start", "soon"], ["--start", "soon", "must be a number"]),
+    "start is NaN": (["{bag}", "--start", "nan"], ["--start nan"]),
+    "end before start": (["{bag}", "--start", "5", "--end", "4"], ["--end 4", "start < end"]),
+    "same topic twice": (["{bag}", "--sprung-topic", "/unsprung/imu"], ["--sprung-topic", "/unsprung/imu", "differ"]),
+}
+
+SETTINGS = {
+    "forgetting_factor=1.2": ["forgetting_factor = 1.2", "in [0.9, 1]"],
+    "forgetting_factor=nan": ["forgetting_factor = nan", "in [0.9, 1]"],
+    "forgetting_factor=inf": ["forgetting_factor = inf", "in [0.9, 1]"],
+    "forgetting_factor=high": ["forgetting_factor", '"high"', "in [0.9, 1]"],
+    "forgetting_factor=": ["forgetting_factor", '""', "in [0.9, 1]"],
+    "forgetting_factor= 0.98": ["forgetting_factor", '" 0.98"', "in [0.9, 1]"],
+    "forgeting_factor=0.98": ["forgeting_factor", "nearest", " forgetting_factor"],
+    "small_divisor=0.1": ["small_divisor", "nearest", "la/small_divisor"],
+    "horizon_samples=20.5": ["horizon_samples", "20.5", "whole number"],
+    "horizon_samples=3": ["horizon_samples", "3", "at least 5", "cubic"],
+    "horizon_samples=99999999999": ["horizon_samples", "whole number in [1, 100000]"],
+    "integration_rule=romberg": ["integration_rule", "romberg", "trapezoid, simpson, cubic"],
+    "la/scale_covariance_at_start=maybe": ["la/scale_covariance_at_start", "maybe", "true or false"],
+    "sprung_axis=up": ["sprung_axis", "up", "x, y, z, -x, -y, -z"],
+    "sample_period=0": ["sample_period = 0", "in [1e-06, 10]"],
+    "forgetting_factor": ["--set forgetting_factor", "NAME=VALUE"],
+    "=0.98": ["--set =0.98", "NAME=VALUE"],
+}
+
+FILES = {
+    "unknown name": ("la:\n  start_row: 10\n", ["la/start_row", "nearest", "la/start_rows"]),
+    "below a node's name": ("monitor:\n  forgetting_factor: 0.98\n", ["monitor/forgetting_factor", "nearest"]),
+    "out of range": ("forgetting_factor: 1.2\n", ["forgetting_factor = ", "1.2", "in [0.9, 1]"]),
+    "wrong type": ("forgetting_factor: high\n", ["forgetting_factor", "high", "in [0.9, 1]"]),
+    "list": ("forgetting_factor: [0.9, 0.98]\n", ["{file}: line 1", "forgetting_factor", "plain value"]),
+    "no value": ("sample_period: 0.02\nforgetting_factor:\n", ["{file}: line", "forgetting_factor", "plain value"]),
+    "tree for a value": ("forgetting_factor:\n  low: 0.9\n", ["forgetting_factor/low", "nearest"]),
+    "only a word": ("hello\n", ["{file}: line 1", "plain value"]),
+    "given twice": ("forgetting_factor: 0.98\nforgetting_factor: 0.97\n", ["{file}: line 2", "forgetting_factor",
+                                                                          "twice"]),
+    "unclosed bracket": ("sample_period: 0.02\nla: [1, 2\n", ["{file}: line 3"]),
+    "tab": ("la:\n\tstart_rows: 10\n", ["{file}: line 2"]),
+    "tree for a name": ("? {a: b}\n: 1\n", ["{file}: line 1"]),
+    "alias within itself": ("la: &la\n  more: *la\n", ["{file}: line 1", "plain value"]),
+    "binary": ("\x01\x02\x7f\x00", ["{file}: line 1"]),
+}
+
+
+@pytest.mark.parametrize("arguments, words", USAGE.values(), ids=USAGE.keys())
+def test_wrong_arguments(program, paper_bag, tmp_path, arguments, words):
+    program.refuse(2, ["identify", *(argument.format(bag=paper_bag) for argument in arguments)], words, tmp_path)
+
+
+@pytest.mark.parametrize("setting, words", SETTINGS.items(), ids=SETTINGS.keys())
+def test_wrong_setting(program, paper_bag, tmp_path, setting, words):
+    outputs = ["--csv", tmp_path / "rows.csv", "--json", tmp_path / "result.json"]
+    program.refuse(2, ["identify", paper_bag, "--set", setting, *outputs], words, tmp_path)
+
+
+@pytest.mark.parametrize("text, words", FILES.values(), ids=FILES.keys())
+def test_wrong_settings_file(program, paper_bag, tmp_path, text, words):
+    path = tmp_path / "settings.yaml"
+    path.write_text(text)
+    arguments = ["identify", paper_bag, "--config", path, "--csv", tmp_path / "rows.csv"]
+    program.refuse(2, arguments, [word.format(file=path) for word in words], tmp_path)
+
+
+@pytest.mark.parametrize("name", ["missing.yaml", ""])
+def test_settings_file_that_cannot_be_read(program, paper_bag, tmp_path, name):  # missing, or a folder
+    path = tmp_path / name
+    program.refuse(2, ["identify", paper_bag, "--config", path], [path, "must be a YAML file"], tmp_path)
+
+
+def test_settings_that_exclude_each_other(program, paper_bag, tmp_path):
+    arguments = ["--set", "horizon_samples=30", "--set", "integration_horizon=0.6"]
+    program.refuse(2, ["identify", paper_bag, *arguments], ["horizon_samples", "integration_horizon", "one of them"],
+                   tmp_path)
+
+
+def test_set_overrides_the_file(program, paper_bag):
+    plain, equal, other = (program.succeed("identify", paper_bag, "--config", conftest.PAPER_SETTINGS, *more)
+                           for more in ([], ["--set", "forgetting_factor=0.98"], ["--set", "forgetting_factor=0.95"]))
+    assert plain == equal != other
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (["--scenario", "moon"], ["scenario", "moon", "paper_clean"]),
+    (["--vehicle", "bicycle"], ["vehicle", "bicycle", "golden_car"]),
+    (["--seed", "-1"], ["seed = -1", "whole number in [0, "]),
+    (["--seed", "1.5"], ["seed", "1.5", "whole number"]),
+    (["--duration", "-1"], ["duration = -1", "in [0, "]),
+    (["--rate", "0"], ["rate = 0", "in [0.1, "]),
+    (["--rate", "fast"], ["rate", "fast", "in [0.1, "]),
+    (["--set", "ramp_end=10"], ["ramp_end = 10", "ramp_start = 40"]),
+    (["--set", "sede=1"], ["sede", "nearest", "seed"]),
+    (["stray.bag"], ["positional"])])
+def test_wrong_simulation(program, tmp_path, arguments, words):
+    program.refuse(2, ["simulate", *arguments, "-o", tmp_path / "drive.bag"], words, tmp_path)
+
+
+def test_simulation_needs_an_output(program, tmp_path):
+    program.refuse(2, ["simulate"], ["--output"], tmp_path)
+
+
+@pytest.mark.parametrize("b1, b0, word", [("-1", "10", "damping_to_mass = -1"), ("1", "0", "stiffness_to_mass = 0"),
+                                          ("nan", "10", "above 0"), ("1", "inf", "above 0"), ("1", "x", "a number")])
+def test_horizon_of_no_strut(program, tmp_path, b1, b0, word):
+    program.refuse(2, ["horizon", "--damping-to-mass", b1, "--stiffness-to-mass", b0], [word], tmp_path)
+
+
+def test_unknown_command(program):
+    result = program("analyse")
+    assert (result.returncode, result.stdout) == (2, "")
+    assert "unknown command analyse" in result.stderr and "identify" in result.stderr
+
+
+def test_no_command(program):
+    result = program()
+    assert (result.returncode, result.stdout) == (2, "")
+    assert "usage: suspension_bag COMMAND" in result.stderr
+
+
+def test_unknown_table_of_options(program, tmp_path):
+    program.refuse(2, ["options", "car"], ["car", "monitor or simulator"], tmp_path)

@@ -1,0 +1,187 @@
+#include "suspension_health_monitor/health/assessment.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kNominalB1 = 3.0, kNominalB0 = 13.8;
+
+HealthOptions options() {
+  HealthOptions result;
+  result.nominal_damping_to_mass = kNominalB1;
+  result.nominal_stiffness_to_mass = kNominalB0;
+  return result;
+}
+
+StrutEstimate estimate(double damping_change, double stiffness_change) {
+  StrutEstimate result;
+  result.damping_to_mass = kNominalB1 * (1.0 + damping_change);
+  result.stiffness_to_mass = kNominalB0 * (1.0 + stiffness_change);
+  result.valid = true;
+  return result;
+}
+
+Stamp at(double seconds) { return fromSeconds(seconds); }
+
+// The report once the estimate has lasted.
+HealthReport judged(const StrutEstimate& of, const HealthOptions& by = options()) {
+  HealthAssessment assessment(by);
+  assessment.update(at(0.0), of);
+  return assessment.update(at(10.0), of);
+}
+
+TEST(HealthAssessment, JudgesEachParameterByItsOwnThresholds) {
+  HealthOptions strict = options();
+  strict.damping_warn = 0.1;
+  strict.damping_error = 0.2;
+  strict.stiffness_warn = 0.3;
+  strict.stiffness_error = 0.4;
+  const auto levels = [&](double damping_change, double stiffness_change) {
+    const HealthReport report = judged(estimate(damping_change, stiffness_change), strict);
+    return std::pair(report.damping_level, report.stiffness_level);
+  };
+  EXPECT_EQ(levels(0.09, -0.29), std::pair(HealthLevel::kOk, HealthLevel::kOk));
+  EXPECT_EQ(levels(-0.11, 0.31), std::pair(HealthLevel::kWarn, HealthLevel::kWarn));
+  EXPECT_EQ(levels(0.19, -0.39), std::pair(HealthLevel::kWarn, HealthLevel::kWarn));
+  EXPECT_EQ(levels(-0.21, 0.41), std::pair(HealthLevel::kError, HealthLevel::kError));
+}
+
+TEST(HealthAssessment, ReportsTheWorseOfTheTwoAndTheSignOfTheChange) {
+  const HealthReport damper = judged(estimate(-0.31, 0.05));
+  EXPECT_EQ(damper.level, HealthLevel::kError);
+  EXPECT_NEAR(*damper.damping_change, -0.31, 1e-12);
+  EXPECT_NEAR(*damper.stiffness_change, 0.05, 1e-12);
+  EXPECT_EQ(judged(estimate(0.0, -0.2)).level, HealthLevel::kWarn);
+  EXPECT_EQ(judged(estimate(0.1, -0.1)).level, HealthLevel::kOk);
+}
+
+TEST(HealthAssessment, ThresholdItselfIsTheHigherLevel) {
+  HealthOptions exact = options();
+  exact.nominal_damping_to_mass = 4.0;
+  exact.damping_warn = 0.25;
+  exact.damping_error = 0.5;
+  StrutEstimate value = estimate(0.0, 0.0);
+  value.damping_to_mass = 3.0;
+  EXPECT_EQ(judged(value, exact).level, HealthLevel::kWarn);
+  value.damping_to_mass = 2.0;
+  EXPECT_EQ(judged(value, exact).level, HealthLevel::kError);
+}
+
+TEST(HealthAssessment, JudgesOnlyWhatHasANominalValue) {
+  HealthOptions only_damping = options();
+  only_damping.nominal_stiffness_to_mass.reset();
+  const HealthReport report = judged(estimate(0.0, -0.9), only_damping);
+  EXPECT_EQ(report.level, HealthLevel::kOk);
+  EXPECT_FALSE(report.stiffness_change);
+  EXPECT_EQ(judged(estimate(-0.9, -0.9), HealthOptions{}).level, HealthLevel::kOk);
+}
+
+TEST(HealthAssessment, EstimateThatIsNotValidIsStaleNeverHealthy) {
+  StrutEstimate invalid = estimate(0.0, 0.0);
+  invalid.valid = false;
+  const HealthReport report = judged(invalid);
+  EXPECT_EQ(report.level, HealthLevel::kStale);
+  EXPECT_FALSE(report.damping_change);
+  EXPECT_EQ(judged(invalid, HealthOptions{}).level, HealthLevel::kStale);
+  EXPECT_EQ(HealthAssessment(options()).report().level, HealthLevel::kStale);
+}
+
+TEST(HealthAssessment, NewLevelMustLastForTheConfirmTime) {
+  HealthAssessment assessment(options());  // 1 s
+  const auto level = [&](double seconds, double change) {
+    return assessment.update(at(seconds), estimate(change, 0.0)).level;
+  };
+  EXPECT_EQ(level(5.0, 0.0), HealthLevel::kStale);
+  EXPECT_EQ(level(5.999, 0.0), HealthLevel::kStale);
+  EXPECT_EQ(level(6.0, 0.0), HealthLevel::kOk);
+  EXPECT_EQ(level(7.0, -0.2), HealthLevel::kOk);
+  EXPECT_EQ(level(7.9, -0.2), HealthLevel::kOk);
+  EXPECT_EQ(level(7.95, 0.0), HealthLevel::kOk);  // back in time: nothing happened
+  EXPECT_EQ(level(8.0, -0.2), HealthLevel::kOk);
+  EXPECT_EQ(level(8.999, -0.2), HealthLevel::kOk);
+  EXPECT_EQ(level(9.0, -0.2), HealthLevel::kWarn);
+  EXPECT_EQ(level(9.5, -0.4), HealthLevel::kWarn);
+  EXPECT_EQ(level(10.5, -0.4), HealthLevel::kError);
+}
+
+TEST(HealthAssessment, NoiseAtAThresholdHidesNothing) {
+  HealthAssessment assessment(options());
+  const auto alternate = [&](double first, double change, double other_change) {
+    for (int k = 0; k <= 60; ++k) assessment.update(at(first + 0.02 * k), estimate(k % 2 ? change : other_change, 0.0));
+    return assessment.report().level;
+  };
+  EXPECT_EQ(alternate(0.0, 0.0, 0.0), HealthLevel::kOk);
+  EXPECT_EQ(alternate(10.0, -0.29, -0.31), HealthLevel::kWarn);
+  EXPECT_EQ(alternate(20.0, -0.31, -0.31), HealthLevel::kError);
+  EXPECT_EQ(alternate(30.0, -0.14, -0.16), HealthLevel::kWarn);
+  EXPECT_EQ(alternate(40.0, -0.14, -0.16), HealthLevel::kWarn);
+  EXPECT_EQ(alternate(50.0, -0.14, -0.14), HealthLevel::kOk);
+  EXPECT_EQ(alternate(60.0, -0.14, -0.16), HealthLevel::kOk);
+}
+
+TEST(HealthAssessment, ConfirmTimeZeroReportsAtOnce) {
+  HealthOptions quick = options();
+  quick.confirm_time = 0.0;
+  HealthAssessment assessment(quick);
+  EXPECT_EQ(assessment.update(at(5.0), estimate(-0.4, 0.0)).level, HealthLevel::kError);
+  EXPECT_EQ(assessment.update(at(5.0), estimate(0.0, 0.0)).level, HealthLevel::kOk);
+}
+
+TEST(HealthAssessment, ClockThatGoesBackRestartsTheConfirmation) {
+  HealthAssessment assessment(options());
+  assessment.update(at(100.0), estimate(-0.2, 0.0));
+  assessment.update(at(50.0), estimate(-0.2, 0.0));
+  EXPECT_EQ(assessment.update(at(50.9), estimate(-0.2, 0.0)).level, HealthLevel::kStale);
+  EXPECT_EQ(assessment.update(at(51.0), estimate(-0.2, 0.0)).level, HealthLevel::kWarn);
+}
+
+TEST(HealthAssessment, RefusesAnErrorThresholdBelowItsWarning) {
+  HealthOptions wrong = options();
+  wrong.stiffness_error = 0.1;
+  try {
+    HealthAssessment assessment(wrong);
+    ADD_FAILURE() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("health/stiffness_error = 0.1"), std::string::npos) << message;
+    EXPECT_NE(message.find("health/stiffness_warn = 0.15"), std::string::npos) << message;
+  }
+  wrong = options();
+  wrong.damping_error = wrong.damping_warn;
+  EXPECT_NO_THROW(wrong.validate());
+  wrong.damping_warn = 0.5;
+  EXPECT_THROW(wrong.validate(), std::invalid_argument);
+}
+
+TEST(HealthReport, SaysInOneSentenceWhatChanged) {
+  EXPECT_EQ(describe(judged(estimate(-0.31, 0.0))), "damping 31 % below nominal, stiffness at nominal");
+  EXPECT_EQ(describe(judged(estimate(0.002, 0.204))), "damping at nominal, stiffness 20 % above nominal");
+  HealthOptions only_stiffness = options();
+  only_stiffness.nominal_damping_to_mass.reset();
+  EXPECT_EQ(describe(judged(estimate(-0.31, -0.16), only_stiffness)), "stiffness 16 % below nominal");
+  EXPECT_EQ(describe(judged(estimate(0.0, 0.0), HealthOptions{})),
+            "estimates valid; no nominal values given to judge them by");
+  EXPECT_EQ(describe(HealthReport{}), "cannot tell: no valid estimate (starting, parked, or poor input)");
+}
+
+// Before "cannot tell" is confirmed, the last judgement stands, with its reasons.
+TEST(HealthReport, KeepsItsReasonsAsLongAsItsLevel) {
+  HealthAssessment assessment(options());
+  assessment.update(at(0.0), estimate(-0.4, 0.0));
+  assessment.update(at(1.0), estimate(-0.4, 0.0));
+  StrutEstimate invalid = estimate(-0.4, 0.0);
+  invalid.valid = false;
+  const HealthReport unconfirmed = assessment.update(at(1.5), invalid);
+  EXPECT_EQ(unconfirmed.level, HealthLevel::kError);
+  EXPECT_EQ(unconfirmed.damping_level, HealthLevel::kError);
+  EXPECT_EQ(describe(unconfirmed), "damping 40 % below nominal, stiffness at nominal");
+  const HealthReport stale = assessment.update(at(2.5), invalid);
+  EXPECT_EQ(stale.level, HealthLevel::kStale);
+  EXPECT_FALSE(stale.damping_change);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor

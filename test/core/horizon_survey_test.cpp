@@ -1,0 +1,59 @@
+#include "suspension_health_monitor/identification/horizon_survey.h"
+
+#include <gtest/gtest.h>
+
+#include "paper_drive.h"
+#include "suspension_health_monitor/identification/horizon_selection.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+SimulationOptions roadDrive() {
+  SimulationOptions options;
+  options.scenario = "iso_road";
+  options.vehicle = "golden_car";
+  options.rate = 200.0;
+  options.noise = 0.1;
+  options.duration = 30.0;
+  return options;
+}
+
+TEST(HorizonSurvey, FindsTheHorizonThatTheTrueParametersAskFor) {
+  const SimulationOptions drive = roadDrive();
+  const int expected = horizonSamples(proposeHorizon(6.0, 63.3).horizon, 1.0 / drive.rate, IntegrationRule::kCubic);
+  HorizonSurvey survey(1.0 / drive.rate, IntegrationRule::kCubic, 400);
+  for (const CornerSample& sample : simulate(drive)) survey.push(sample);
+  ASSERT_TRUE(survey.horizonSamples());
+  EXPECT_NEAR(*survey.horizonSamples(), expected, 0.1 * expected);
+}
+
+TEST(HorizonSurvey, DoesNotDependOnTheUnitOfTheSensors) {
+  const SimulationOptions drive = roadDrive();
+  HorizonSurvey survey(1.0 / drive.rate, IntegrationRule::kCubic, 400), in_volts(survey);
+  for (const CornerSample& sample : simulate(drive)) {
+    survey.push(sample);
+    in_volts.push({sample.stamp, 1e-3 * sample.sprung_acceleration, 1e-3 * sample.unsprung_acceleration});
+  }
+  EXPECT_EQ(in_volts.horizonSamples(), survey.horizonSamples());
+}
+
+TEST(HorizonSurvey, KeepsWhatItLearntOverAnInterruption) {
+  HorizonSurvey survey(0.02, IntegrationRule::kCubic, 100), interrupted(survey);
+  const std::vector<CornerSample> drive = healthyPaperDrive(60.0, 0.024);
+  for (const CornerSample& sample : drive) survey.push(sample);
+  for (const CornerSample& sample : drive) interrupted.push(sample);
+  interrupted.interrupt();
+  EXPECT_EQ(interrupted.horizonSamples(), survey.horizonSamples());
+  for (const CornerSample& sample : drive) interrupted.push(sample);
+  EXPECT_NEAR(*interrupted.horizonSamples(), *survey.horizonSamples(), 2);
+}
+
+TEST(HorizonSurvey, GivesNothingBeforeItHasSeenAStrut) {
+  HorizonSurvey survey(0.02, IntegrationRule::kCubic, 100);
+  EXPECT_FALSE(survey.horizonSamples());
+  for (int k = 0; k < 1000; ++k) survey.push({k * std::chrono::milliseconds(20), 9.81, 9.81});  // parked
+  EXPECT_FALSE(survey.horizonSamples());
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,0 +1,129 @@
+#include "suspension_health_monitor/monitor_options.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "monitor_settings.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+std::string complaint(const std::function<void(MonitorOptions&)>& change) {
+  MonitorOptions options = liveOptions();
+  change(options);
+  try {
+    SuspensionMonitor monitor(options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expectWords(const std::string& message, const std::string& words) {
+  EXPECT_NE(message.find(words), std::string::npos) << "got: \"" << message << '"';
+}
+
+TEST(MonitorOptions, HorizonMayBeGivenInSecondsOrInSamples) {
+  MonitorOptions options;
+  EXPECT_EQ(options.horizonSamples(0.02), 30);  // 0.6 s if neither is given
+  EXPECT_EQ(options.horizonSamples(0.005), 120);
+  options.integration_horizon = 0.4;
+  EXPECT_EQ(options.horizonSamples(0.02), 20);
+  EXPECT_EQ(options.horizonSamples(0.03), 13);  // the nearest
+  options.integration_horizon.reset();
+  options.horizon_samples = 17;
+  EXPECT_EQ(options.horizonSamples(0.02), 17);
+  EXPECT_EQ(options.horizonSamples(0.01), 17);
+}
+
+TEST(MonitorOptions, MonitorUsesTheHorizonInEitherForm) {
+  MonitorOptions in_seconds = liveOptions(), in_samples = liveOptions();
+  in_seconds.integration_horizon = 0.4;
+  in_samples.horizon_samples = 20;
+  SuspensionMonitor a(in_seconds), b(in_samples);
+  EXPECT_EQ(a.horizonSamples(), 20);
+  for (int k = 0; k < 60; ++k) {
+    const CornerSample sample{k * std::chrono::milliseconds(20), 1.0 * (k * k % 7), 1.0 * (k * k % 5)};
+    EXPECT_EQ(a.addSample(sample)->has_row, k >= 40);
+    EXPECT_EQ(b.addSample(sample)->has_row, k >= 40);
+    if (k < 40) continue;
+    EXPECT_EQ(a.report().ls.damping_to_mass, b.report().ls.damping_to_mass);
+  }
+}
+
+TEST(MonitorOptions, SettingsReachTheEstimators) {
+  const MonitorOptions paper = paperOptions();
+  EXPECT_EQ(paper.filter(0.02).horizon_samples, 30);
+  EXPECT_EQ(paper.filter(0.02).period, 0.02);
+  EXPECT_EQ(paper.filter(0.02).rule, IntegrationRule::kTrapezoid);
+  EXPECT_EQ(paper.recursive().forgetting_factor, 0.98);
+  EXPECT_EQ(paper.recursive().initial_variance_rule, InitialVariance::kAbsolute);
+  EXPECT_EQ(paper.leastAbsolute().start_rows, 150);
+  EXPECT_EQ(paper.leastAbsolute().small_divisor_rule, SmallDivisor::kAbsolute);
+  EXPECT_EQ(paper.leastAbsolute().small_divisor, 1e-8);
+  EXPECT_FALSE(paper.leastAbsolute().scale_covariance_at_start);
+  const MonitorOptions live = liveOptions();
+  EXPECT_EQ(live.recursive().initial_variance_rule, InitialVariance::kRelative);
+  EXPECT_EQ(live.leastAbsolute().small_divisor_rule, SmallDivisor::kRelative);
+  MonitorOptions health;
+  health.nominal_damping_to_mass = 1.0;
+  health.nominal_stiffness_to_mass = 2.0;
+  health.damping_warn = 0.3;
+  health.damping_error = 0.4;
+  health.stiffness_warn = 0.5;
+  health.stiffness_error = 0.6;
+  health.confirm_time = 7.0;
+  EXPECT_EQ(health.health().nominal_damping_to_mass, 1.0);
+  EXPECT_EQ(health.health().nominal_stiffness_to_mass, 2.0);
+  EXPECT_EQ(health.health().damping_warn, 0.3);
+  EXPECT_EQ(health.health().damping_error, 0.4);
+  EXPECT_EQ(health.health().stiffness_warn, 0.5);
+  EXPECT_EQ(health.health().stiffness_error, 0.6);
+  EXPECT_EQ(health.health().confirm_time, 7.0);
+}
+
+TEST(MonitorOptions, DefaultsAreValidWithAndWithoutASamplePeriod) {
+  EXPECT_NO_THROW(MonitorOptions{}.validate());
+  EXPECT_NO_THROW(liveOptions().validate());
+  EXPECT_NO_THROW(paperOptions().validate());
+}
+
+TEST(MonitorOptions, MonitorNeedsASamplePeriod) {
+  expectWords(complaint([](MonitorOptions& o) { o.sample_period.reset(); }), "sample_period");
+}
+
+TEST(MonitorOptions, AreRefusedByNameAndValue) {
+  expectWords(complaint([](MonitorOptions& o) { o.sample_period = -0.02; }), "sample_period = -0.02 [s], must be in");
+  expectWords(complaint([](MonitorOptions& o) { o.forgetting_factor = 1.2; }),
+              "forgetting_factor = 1.2 [-], must be in");
+  expectWords(complaint([](MonitorOptions& o) { o.forgetting_factor = std::nan(""); }), "forgetting_factor = nan");
+  expectWords(complaint([](MonitorOptions& o) { o.integration_rule = "euler"; }), "integration_rule = \"euler\"");
+  expectWords(complaint([](MonitorOptions& o) { o.la_small_divisor_rule = "absolute relative"; }),
+              "la/small_divisor_rule = \"absolute relative\"");
+  expectWords(complaint([](MonitorOptions& o) { o.la_start_rows = 0; }), "la/start_rows = 0");
+  expectWords(complaint([](MonitorOptions& o) { o.sprung_mass = 0.0; }), "sprung_mass = 0 [kg]");
+}
+
+TEST(MonitorOptions, ThatContradictEachOtherAreRefused) {
+  expectWords(complaint([](MonitorOptions& o) { o.integration_horizon = 0.6, o.horizon_samples = 30; }),
+              "integration_horizon and horizon_samples are both given");
+  expectWords(complaint([](MonitorOptions& o) { o.stiffness_error = 0.1; }), "health/stiffness_error = 0.1");
+  expectWords(complaint([](MonitorOptions& o) { o.integration_rule = "simpson", o.horizon_samples = 31; }),
+              "horizon_samples = 31, must be even");
+  expectWords(complaint([](MonitorOptions& o) { o.horizon_samples = 4; }), "horizon_samples = 4, must be at least 5");
+  expectWords(complaint([](MonitorOptions& o) { o.integration_horizon = 0.05; }), "must be at least 5");
+}
+
+TEST(MonitorOptions, HorizonOfTooManySamplesIsRefusedNotShortened) {
+  const std::string message = complaint([](MonitorOptions& o) { o.sample_period = 1e-4, o.integration_horizon = 1e3; });
+  expectWords(message, "integration_horizon = 1000");
+  expectWords(message, "1000000 samples");
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,0 +1,62 @@
+#include "suspension_health_monitor/signal/period_measurement.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace suspension_health_monitor {
+namespace {
+
+Stamp at(double seconds) { return fromSeconds(seconds); }
+
+void addBoth(PeriodMeasurement& measurement, Stamp stamp) {
+  measurement.add(Side::kSprung, stamp);
+  measurement.add(Side::kUnsprung, stamp);
+}
+
+TEST(PeriodMeasurement, GivesNothingBeforeBothStreamsHaveShownEnoughSpacings) {
+  PeriodMeasurement measurement(3);
+  for (int k = 0; k < 10; ++k) measurement.add(Side::kSprung, at(0.02 * k));
+  EXPECT_FALSE(measurement.period());
+  for (int k = 0; k < 3; ++k) measurement.add(Side::kUnsprung, at(0.02 * k));
+  EXPECT_FALSE(measurement.period());
+  measurement.add(Side::kUnsprung, at(0.06));
+  EXPECT_NEAR(*measurement.period(), 0.02, 1e-9);
+}
+
+TEST(PeriodMeasurement, IsThatOfTheSlowerStream) {
+  for (const auto& [body, wheel] : {std::pair(0.01, 0.04), std::pair(0.04, 0.01)}) {
+    PeriodMeasurement measurement(20);
+    for (int k = 0; k < 30; ++k) {
+      measurement.add(Side::kSprung, at(body * k));
+      measurement.add(Side::kUnsprung, at(wheel * k));
+    }
+    EXPECT_NEAR(*measurement.period(), 0.04, 1e-9);
+  }
+}
+
+TEST(PeriodMeasurement, PassesOverGapsRepeatedStampsAndClocksThatJump) {
+  PeriodMeasurement measurement(50);
+  double t = 1.7e9;
+  for (int k = 0; k < 101; ++k) {
+    addBoth(measurement, at(t));
+    t += k % 10 == 3 ? 0.5 : k % 10 == 5 ? -7.0 : k % 10 == 7 ? 0.0 : 0.02;
+  }
+  EXPECT_NEAR(*measurement.period(), 0.02, 1e-6);
+}
+
+// Stamps are late by up to 40 % of a period: spacings have a triangular density of half-width 0.4 T about T, and so
+// their median a standard deviation of 1 / (2 f(T) sqrt(n)) = 0.4 T / (2 sqrt(n)), for n = 100 spacings 2 % of T.
+TEST(PeriodMeasurement, IsTheMeanSpacingUnderJitter) {
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> late(0.0, 0.4 * 0.02);
+  PeriodMeasurement measurement(100);
+  for (int k = 0; k < 101; ++k) {
+    measurement.add(Side::kSprung, at(0.02 * k + late(engine)));
+    measurement.add(Side::kUnsprung, at(0.02 * k + late(engine)));
+  }
+  EXPECT_NEAR(*measurement.period(), 0.02, 4 * 0.02 * 0.02);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
