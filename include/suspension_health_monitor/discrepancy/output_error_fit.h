@@ -29,7 +29,7 @@ struct ModelFit {
   StrutModel model;
   std::vector<StrutState> initial;              ///< per segment
   std::vector<std::vector<double>> residuals;   ///< measured - predicted, per segment and sample [m/s^2]
-  Eigen::VectorXd stddev;                       ///< of b1, b0, then coefficient and shapes effect by effect
+  Eigen::VectorXd stddev;  ///< of b1, b0, coefficient and shapes effect by effect, then of the reading's coefficients
 };
 
 /// Fits b1, b0, coefficients, shapes and the initial state of every segment so that the free run follows the measured

@@ -149,6 +149,33 @@ class SegmentCost : public ceres::CostFunction {
   std::vector<std::size_t> used_;
 };
 
+/// Standard deviations of the model's numbers (in SI), the initial states of the segments being unknown, too.
+Eigen::VectorXd standardDeviations(const ceres::Problem& problem, const Parameterization& parameters,
+                                   const double* model) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(parameters.size(), parameters.size());
+  double square = 0.0, count = 0.0;
+  std::vector<ceres::ResidualBlockId> blocks;
+  problem.GetResidualBlocks(&blocks);
+  for (const ceres::ResidualBlockId block : blocks) {
+    std::vector<double*> x;
+    problem.GetParameterBlocksForResidualBlock(block, &x);
+    const ceres::CostFunction* cost = problem.GetCostFunctionForResidualBlock(block);
+    Eigen::VectorXd residuals(cost->num_residuals());
+    RowMajor shared(cost->num_residuals(), parameters.size()), local(cost->num_residuals(), 2);
+    double* jacobians[2] = {shared.data(), local.data()};
+    if (!cost->Evaluate(x.data(), residuals.data(), jacobians)) continue;
+    const Eigen::MatrixXd cross = local.transpose() * shared;
+    information += shared.transpose() * shared -
+                   cross.transpose() * (local.transpose() * local).ldlt().solve(cross);
+    square += residuals.squaredNorm();
+    count += static_cast<double>(residuals.size());
+  }
+  const Eigen::MatrixXd covariance =
+      square / count * information.ldlt().solve(Eigen::MatrixXd::Identity(parameters.size(), parameters.size()));
+  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseProduct(parameters.slopes(model).cwiseAbs());
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -251,6 +278,7 @@ std::optional<ModelFit> fitOutputError(const std::vector<const DriveRecord*>& re
   ModelFit fit;
   fit.model = start;
   parameters.apply(x.data(), fit.model);
+  fit.stddev = standardDeviations(problem, parameters, x.data());
   index = 0;
   for (const DriveRecord* record : records)
     for (const DriveSegment& segment : record->segments()) {

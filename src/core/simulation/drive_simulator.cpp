@@ -33,7 +33,6 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       max_step_(longestStep(scenario_)) {
   const RoadPoint start = scenario_.road(0.0);
   state_ = {start.height, start.rate, start.height, start.rate};
-  scenario_.strut.hidden = options.hidden;
 }
 
 std::optional<DriveSample> DriveSimulator::next() {

@@ -82,7 +82,7 @@ Scenario makeScenario(const SimulationOptions& options) {
   result.vehicle = vehicle.car;
   if (options.damping_to_mass) result.vehicle.damping = *options.damping_to_mass * vehicle.car.sprung_mass;
   if (options.stiffness_to_mass) result.vehicle.stiffness = *options.stiffness_to_mass * vehicle.car.sprung_mass;
-  result.strut = {dampingRamp(options, result.vehicle.dampingToMass()), result.vehicle.stiffnessToMass(), std::nullopt};
+  result.strut = {dampingRamp(options, result.vehicle.dampingToMass()), result.vehicle.stiffnessToMass(), std::nullopt, options.hidden};
   result.road = makeRoad(options, vehicle);
   if (options.scenario == "paper_saturation") result.strut.end_stops = kPaperStops;
   if (options.scenario == "paper_outliers") {
