@@ -1,0 +1,72 @@
+#include "suspension_health_monitor/signal/bandlimited_interpolator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "suspension_health_monitor/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr int kHalf = BandlimitedInterpolator::kHalfWidth;
+
+// Samples around position 0 of sin(omega x + phase), x in samples.
+std::vector<double> sineAround(double omega, double phase) {
+  std::vector<double> samples;
+  for (int i = 0; i < 2 * kHalf; ++i) samples.push_back(std::sin(omega * (i - kHalf + 1) + phase));
+  return samples;
+}
+
+TEST(BandlimitedInterpolator, ConstantIsExact) {
+  const std::vector<double> gravity(2 * kHalf, 9.81);
+  for (const double fraction : {0.0, 0.13, 0.5, 1.0})
+    EXPECT_NEAR(BandlimitedInterpolator(fraction)(gravity.data()), 9.81, 1e-11) << fraction;
+}
+
+TEST(BandlimitedInterpolator, FractionsZeroAndOneAreTheTwoMiddleSamples) {
+  std::vector<double> samples = sineAround(0.3, 0.4);
+  EXPECT_NEAR(BandlimitedInterpolator(0.0)(samples.data()), samples[kHalf - 1], 1e-4);
+  EXPECT_NEAR(BandlimitedInterpolator(1.0)(samples.data()), samples[kHalf], 1e-4);
+}
+
+double worstErrorAt(double share_of_nyquist) {
+  const double omega = share_of_nyquist * kPi;
+  double worst = 0.0;
+  for (const double fraction : {0.1, 0.25, 0.5, 0.9})
+    for (const double phase : {0.0, 0.7, kPi / 2, 2.0}) {
+      const double value = BandlimitedInterpolator(fraction)(sineAround(omega, phase).data());
+      worst = std::max(worst, std::abs(value - std::sin(omega * fraction + phase)));
+    }
+  return worst;
+}
+
+TEST(BandlimitedInterpolator, SinesUpToHalfOfNyquistAreGoodToATenThousandth) {
+  for (const double share : {0.01, 0.1, 0.2, 0.3, 0.4}) EXPECT_LT(worstErrorAt(share), 1e-4) << share;
+  EXPECT_LT(worstErrorAt(0.5), 2e-4);
+}
+
+TEST(BandlimitedInterpolator, SinesNearNyquistAreBetterThanACubicSplines) {
+  EXPECT_LT(worstErrorAt(0.75), 1e-3);
+  EXPECT_LT(worstErrorAt(0.88), 2e-2);  // the spline's error there is about 0.5
+}
+
+TEST(BandlimitedInterpolator, IntegralIsThatOfASine) {
+  for (const double omega : {0.2, 1.0, kPi / 2})
+    for (const double phase : {0.0, 0.7, 2.0})
+      for (const auto& [from, to] : std::vector<std::pair<double, double>>{{0.0, 1.0}, {0.0, 0.5}, {0.5, 1.0}}) {
+        const std::vector<double> samples = sineAround(omega, phase);
+        const double at_from = omega * from + phase, at_to = omega * to + phase;
+        const double once = (std::cos(at_from) - std::cos(at_to)) / omega;
+        const double weighted = (to - from) * std::cos(at_from) / omega -
+                                (std::sin(at_to) - std::sin(at_from)) / (omega * omega);
+        EXPECT_NEAR(BandlimitedInterpolator::integral(from, to, 0)(samples.data()), once, 2e-4) << omega;
+        EXPECT_NEAR(BandlimitedInterpolator::integral(from, to, 1)(samples.data()), weighted, 1e-4) << omega;
+      }
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,0 +1,170 @@
+#include "suspension_health_monitor/model/effect_catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/model/measurement_effect.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kNoMemory = std::numeric_limits<double>::quiet_NaN();
+
+// A force and a memory rate worked by hand. What a law must not depend on is not 0 in the motion.
+struct WorkedValue {
+  std::string name;
+  std::vector<double> shapes;
+  StrutMotion motion;  // d, v, t, s
+  double force;
+  double memory_rate = kNoMemory;
+};
+
+const std::vector<WorkedValue>& workedValues() {
+  static const std::vector<WorkedValue> values{
+      {"progressive_spring", {3.0}, {0.2, -0.7, 5.0, 0.6}, 0.008},
+      {"progressive_spring", {3.0}, {-0.2, 0.7, 5.0, 0.6}, -0.008},
+      {"progressive_spring", {2.0}, {-0.5, 0.7, 5.0, 0.6}, -0.25},
+      {"asymmetric_spring", {}, {-0.3, 0.7, 5.0, 0.6}, 0.3},
+      {"asymmetric_spring", {}, {0.1, -0.7, 5.0, 0.6}, 0.1},
+      {"bump_stop", {0.02}, {0.05, -0.7, 5.0, 0.6}, 0.03},
+      {"bump_stop", {0.02}, {0.01, 0.7, 5.0, 0.6}, 0.0},
+      {"bump_stop", {0.02}, {-0.05, 0.7, 5.0, 0.6}, 0.0},
+      {"rebound_stop", {0.02}, {-0.05, 0.7, 5.0, 0.6}, -0.03},
+      {"rebound_stop", {0.02}, {-0.01, -0.7, 5.0, 0.6}, 0.0},
+      {"rebound_stop", {0.02}, {0.05, 0.7, 5.0, 0.6}, 0.0},
+      {"coulomb_friction", {0.1}, {-0.3, 0.1, 5.0, 0.6}, 0.76159415595576},
+      {"coulomb_friction", {0.1}, {0.3, -0.1, 5.0, 0.6}, -0.76159415595576},
+      {"coulomb_friction", {0.1}, {-0.3, 10.0, 5.0, 0.6}, 1.0},
+      {"quadratic_damping", {}, {0.3, -2.0, 5.0, 0.6}, -4.0},
+      {"quadratic_damping", {}, {-0.3, 0.5, 5.0, 0.6}, 0.25},
+      {"asymmetric_damping", {}, {0.3, -2.0, 5.0, 0.6}, 2.0},
+      {"asymmetric_damping", {}, {-0.3, 0.5, 5.0, 0.6}, 0.5},
+      {"digressive_damping", {0.3}, {-0.2, 0.4, 5.0, 0.6}, 0.24},   // 0.4 / (5/3)
+      {"digressive_damping", {0.4}, {0.2, -0.3, 5.0, 0.6}, -0.24},  // -0.3 / (5/4)
+      {"position_dependent_damping", {}, {-0.1, 2.0, 5.0, 0.6}, 0.02},
+      {"position_dependent_damping", {}, {0.2, -3.0, 5.0, 0.6}, -0.12},
+      {"hysteresis", {0.02}, {-0.3, 0.4, 5.0, 0.5}, 0.5, 10.0},   // (0.4 - 0.2) / 0.02
+      {"hysteresis", {0.02}, {0.3, -0.4, 5.0, 0.5}, 0.5, -30.0},  // (-0.4 - 0.2) / 0.02
+      {"hysteresis", {0.02}, {0.3, -0.4, 5.0, -1.0}, -1.0, 0.0},  // friction fully built up
+      {"viscoelastic_mount", {0.5}, {0.05, -0.7, 5.0, 0.02}, 0.03, 0.06},
+      {"viscoelastic_mount", {0.5}, {-0.01, 0.7, 5.0, 0.02}, -0.03, -0.06},
+      {"damping_drift", {}, {0.2, -0.3, 10.0, 0.6}, -3.0},
+      {"damping_drift", {}, {-0.2, 0.3, 4.0, 0.6}, 1.2},
+      {"stiffness_drift", {}, {-0.02, 0.3, 10.0, 0.6}, -0.2},
+      {"stiffness_drift", {}, {0.03, -0.3, 4.0, 0.6}, 0.12},
+  };
+  return values;
+}
+
+TEST(EffectCatalogue, ForcesAndMemoryRatesAreAsWorkedByHand) {
+  for (const WorkedValue& value : workedValues()) {
+    const ForceEffect& effect = findEffect(forceEffects(), value.name);
+    ASSERT_EQ(effect.shapes.size(), value.shapes.size()) << value.name;
+    EXPECT_NEAR(effect.force(value.motion, value.shapes.data()), value.force, 1e-12)
+        << value.name << " at d = " << value.motion.travel << ", v = " << value.motion.travel_rate;
+    ASSERT_EQ(static_cast<bool>(effect.memory_rate), !std::isnan(value.memory_rate)) << value.name;
+    if (!effect.memory_rate) continue;
+    EXPECT_NEAR(effect.memory_rate(value.motion, value.shapes.data()), value.memory_rate, 1e-12) << value.name;
+  }
+}
+
+TEST(EffectCatalogue, EveryEffectHasWorkedValues) {
+  std::set<std::string> worked, known;
+  for (const WorkedValue& value : workedValues()) worked.insert(value.name);
+  for (const ForceEffect& effect : forceEffects()) known.insert(effect.name);
+  EXPECT_EQ(worked, known);
+}
+
+TEST(EffectCatalogue, NamesAreUniqueAndTextsFilled) {
+  std::set<std::string> names;
+  const auto check = [&](const auto& effect) {
+    EXPECT_TRUE(names.insert(effect.name).second) << effect.name;
+    EXPECT_FALSE(effect.name.empty());
+    EXPECT_NE(effect.law.find_first_of("cy"), std::string::npos) << effect.name;
+    EXPECT_FALSE(effect.unit.empty()) << effect.name;
+    EXPECT_FALSE(effect.finding.empty()) << effect.name;
+  };
+  for (const ForceEffect& effect : forceEffects()) check(effect);
+  for (const MeasurementEffect& effect : measurementEffects()) check(effect);
+}
+
+TEST(EffectCatalogue, ShapesHaveNamesUnitsAndPositiveRangesAndStandInTheLaw) {
+  for (const ForceEffect& effect : forceEffects())
+    for (const ShapeParameter& shape : effect.shapes) {
+      EXPECT_NE(effect.law.find(shape.name), std::string::npos) << effect.name;
+      EXPECT_GT(shape.min, 0.0) << effect.name;
+      EXPECT_LT(shape.min, shape.max) << effect.name;
+      const char* units[] = {"-", "m", "m/s", "s"};  // in the order of ShapeScale
+      EXPECT_EQ(shape.unit, units[static_cast<int>(shape.scale)]) << effect.name;
+    }
+}
+
+TEST(EffectCatalogue, ForcesAreFiniteFromRestToViolentMotion) {
+  for (const ForceEffect& effect : forceEffects()) {
+    for (const double size : {0.0, 1e-12, 1.0, 1e3})
+      for (const bool largest : {false, true})
+        for (const double sign : {-1.0, 1.0}) {
+          std::vector<double> shapes;
+          for (const ShapeParameter& shape : effect.shapes) shapes.push_back(largest ? shape.max : shape.min);
+          const StrutMotion motion{sign * size, -sign * size, 1e4, sign};
+          EXPECT_TRUE(std::isfinite(effect.force(motion, shapes.data()))) << effect.name;
+          const double rate = effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : 0.0;
+          EXPECT_TRUE(std::isfinite(rate)) << effect.name;
+        }
+    const StrutMotion rest{0.0, 0.0, 100.0, 0.0};
+    const std::vector<double> shapes(effect.shapes.size(), 1.0);
+    EXPECT_EQ(effect.force(rest, shapes.data()), 0.0) << effect.name << " at rest";
+  }
+}
+
+TEST(EffectCatalogue, UnknownNameIsRefusedWithTheKnownOnes) {
+  try {
+    findEffect(forceEffects(), "anti_gravity");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("anti_gravity"), std::string::npos);
+    for (const ForceEffect& effect : forceEffects())
+      EXPECT_NE(std::string(error.what()).find(effect.name), std::string::npos) << effect.name;
+  }
+}
+
+const MeasurementEffect& reading(const std::string& name) {
+  for (const MeasurementEffect& effect : measurementEffects())
+    if (effect.name == name) return effect;
+  throw std::invalid_argument(name);
+}
+
+TEST(MeasurementEffect, PositiveClockOffsetDelaysASine) {
+  constexpr double period = 0.01, omega = 10.0;
+  for (const double delay : {0.003, -0.004, 0.023}) {
+    std::vector<double> predicted;
+    for (int k = 0; k < 200; ++k) predicted.push_back(std::sin(omega * k * period));
+    reading("clock_offset").apply(delay, period, predicted);
+    // The parabola's error is at most 0.0642 (omega T)^3.
+    for (std::size_t k = 5; k < 195; ++k)
+      ASSERT_NEAR(predicted[k], std::sin(omega * (static_cast<double>(k) * period - delay)), 6.5e-5) << delay;
+  }
+}
+
+TEST(MeasurementEffect, BiasAddsAndScaleErrorMultiplies) {
+  std::vector<double> biased{1.0, -2.0, 4.0}, scaled = biased;
+  reading("accelerometer_bias").apply(0.5, 0.01, biased);
+  EXPECT_EQ(biased, (std::vector<double>{1.5, -1.5, 4.5}));
+  reading("scale_error").apply(-0.25, 0.01, scaled);
+  EXPECT_EQ(scaled, (std::vector<double>{0.75, -1.5, 3.0}));
+}
+
+TEST(MeasurementEffect, ScalesAreThoseOfTheResidual) {
+  EXPECT_NEAR(reading("clock_offset").scale(0.2, 2.0, 0.01), 0.001, 1e-15);  // [s]
+  EXPECT_NEAR(reading("accelerometer_bias").scale(0.2, 2.0, 0.01), 0.2, 1e-15);
+  EXPECT_NEAR(reading("scale_error").scale(0.2, 2.0, 0.01), 0.1, 1e-15);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
