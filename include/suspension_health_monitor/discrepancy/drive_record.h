@@ -11,8 +11,8 @@ namespace suspension_health_monitor {
 
 /// An uninterrupted, uniformly sampled stretch of a drive, prepared for free runs.
 struct DriveSegment {
-  double start = 0.0;           ///< time of its first sample since the start of the drive [s]
-  std::vector<double> sprung;   ///< z'' less the drive's mean w'' [m/s^2], one per sample
+  double start = 0.0;            ///< time of its first sample since the start of the drive [s]
+  std::vector<double> sprung;    ///< z'' less the drive's mean w'' [m/s^2], one per sample
   std::vector<WheelStep> wheel;  ///< what the wheel does, one per integration step
 
   std::size_t size() const { return sprung.size(); }
@@ -44,10 +44,11 @@ class DriveRecord {
 
  private:
   struct Stretch {
-    double start;
+    double start = 0.0;  // [s]
     std::vector<double> sprung, wheel;
   };
 
+  void endBeforeStuckReadings();
   void addSegment(const Stretch& stretch);
 
   double period_;
@@ -55,8 +56,9 @@ class DriveRecord {
   double mean_wheel_ = 0.0;
   std::vector<Stretch> stretches_;
   std::vector<DriveSegment> segments_;
-  Stamp first_{}, last_{};
-  std::array<int, 2> repeats_{};
+  Stamp first_{};
+  CornerSample last_{};
+  std::array<int, 2> repeats_{};  // of the last reading, sprung and unsprung
 };
 
 }  // namespace suspension_health_monitor

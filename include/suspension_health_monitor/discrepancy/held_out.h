@@ -47,7 +47,6 @@ class HeldOut {
     std::size_t segment, first, last;  // last is one past the end
   };
   std::vector<Stretch> stretches_;
-  std::vector<const SampleMask*> masks_;
   double samples_ = 0.0;
   double deviation_ = 0.0;
 };

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
-#include "suspension_health_monitor/signal/bandlimited_interpolator.h"
 #include "suspension_health_monitor/signal/continuity.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kStuckReadings = 4;          // equal ones in a row
+constexpr int kStuckRepeats = 4;  // a value that is read so many times again is a stuck one
 constexpr std::size_t kShortestSegment = 32;
 
 }  // namespace
@@ -18,28 +17,33 @@ DriveRecord::DriveRecord(double period, int steps) : period_(period), steps_(ste
 void DriveRecord::push(const CornerSample& sample) {
   const bool first = stretches_.empty();
   if (first) first_ = sample.stamp;
-  const Continuity follows = first ? Continuity::kGap : continuity(sample.stamp - last_, fromSeconds(period_));
+  const Continuity follows = first ? Continuity::kGap : continuity(sample.stamp - last_.stamp, fromSeconds(period_));
   if (follows == Continuity::kTooSoon) return;
-  last_ = sample.stamp;
-  const auto begin = [&] { stretches_.push_back({toSeconds(sample.stamp - first_), {}, {}}); };
-  if (follows != Continuity::kContinues) {
-    begin();
+  if (follows == Continuity::kContinues) {
+    repeats_[0] = sample.sprung_acceleration == last_.sprung_acceleration ? repeats_[0] + 1 : 0;
+    repeats_[1] = sample.unsprung_acceleration == last_.unsprung_acceleration ? repeats_[1] + 1 : 0;
+  } else {
+    stretches_.emplace_back();
     repeats_ = {};
   }
-  Stretch* stretch = &stretches_.back();
-  if (!stretch->sprung.empty()) {
-    repeats_[0] = sample.sprung_acceleration == stretch->sprung.back() ? repeats_[0] + 1 : 0;
-    repeats_[1] = sample.unsprung_acceleration == stretch->wheel.back() ? repeats_[1] + 1 : 0;
-    if (repeats_[0] >= kStuckReadings || repeats_[1] >= kStuckReadings) {
-      const auto stuck = std::min<std::size_t>(stretch->sprung.size(), kStuckReadings);
-      stretch->sprung.resize(stretch->sprung.size() - stuck);
-      stretch->wheel.resize(stretch->wheel.size() - stuck);
-      begin();
-      stretch = &stretches_.back();
-    }
+  last_ = sample;
+  if (std::max(repeats_[0], repeats_[1]) >= kStuckRepeats) {
+    endBeforeStuckReadings();
+    return;
   }
-  stretch->sprung.push_back(sample.sprung_acceleration);
-  stretch->wheel.push_back(sample.unsprung_acceleration);
+  Stretch& stretch = stretches_.back();
+  if (stretch.wheel.empty()) stretch.start = toSeconds(sample.stamp - first_);
+  stretch.sprung.push_back(sample.sprung_acceleration);
+  stretch.wheel.push_back(sample.unsprung_acceleration);
+}
+
+void DriveRecord::endBeforeStuckReadings() {
+  Stretch& stretch = stretches_.back();
+  if (stretch.wheel.empty()) return;  // ended already
+  const std::size_t kept = stretch.wheel.size() - std::min<std::size_t>(stretch.wheel.size(), kStuckRepeats);
+  stretch.sprung.resize(kept);
+  stretch.wheel.resize(kept);
+  stretches_.emplace_back();
 }
 
 void DriveRecord::finish() {
