@@ -4,150 +4,96 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "parameterization.h"
+#include "segment_cost.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kRunaway = 1e3;    // times the drive's largest measured acceleration
-constexpr double kDifference = 1e-6;  // relative step of the numerical derivatives
+constexpr double kRunaway = 1e3;  // times the drive's largest measured acceleration
 
-/// A model as a vector of numbers of order 1: b1 and b0 relative to their start, coefficients relative to a force of the
-/// size of the linear one, shapes by the logarithm of their ratio to the start.
-class Parameterization {
- public:
-  Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales)
-      : start_(start), coefficient_scales_(coefficient_scales) {}
+using Records = std::vector<const DriveRecord*>;
+using Masks = std::vector<std::vector<SampleMask>>;
 
-  int size() const {
-    int count = 2;
-    for (const ActiveEffect& active : start_.effects) count += 1 + static_cast<int>(active.shapes.size());
-    return count + static_cast<int>(start_.reading.size());
-  }
+const SampleMask* maskOf(const Masks& masks, std::size_t record, std::size_t segment) {
+  return masks.empty() ? nullptr : &masks[record][segment];
+}
 
-  Eigen::VectorXd initial() const {
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(size());
-    x[0] = x[1] = 1.0;
-    int i = 2;
-    for (std::size_t j = 0; j < start_.effects.size(); ++j) {
-      x[i] = start_.effects[j].coefficient / coefficient_scales_[j];
-      i += 1 + static_cast<int>(start_.effects[j].shapes.size());
-    }
-    for (std::size_t j = 0; j < start_.reading.size(); ++j) x[i++] = start_.reading[j].coefficient / readingScale(j);
-    return x;
-  }
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
-  void apply(const double* x, StrutModel& model) const {
-    model.damping_to_mass = x[0] * start_.damping_to_mass;
-    model.stiffness_to_mass = x[1] * start_.stiffness_to_mass;
-    int i = 2;
-    for (std::size_t j = 0; j < start_.effects.size(); ++j) {
-      model.effects[j].coefficient = x[i++] * coefficient_scales_[j];
-      for (std::size_t s = 0; s < start_.effects[j].shapes.size(); ++s)
-        model.effects[j].shapes[s] = start_.effects[j].shapes[s] * std::exp(x[i++]);
-    }
-    for (std::size_t j = 0; j < start_.reading.size(); ++j) model.reading[j].coefficient = x[i++] * readingScale(j);
-  }
-
-  /// d(SI value)/dx at x, for the standard deviations.
-  Eigen::VectorXd slopes(const double* x) const {
-    StrutModel model = start_;
-    apply(x, model);
-    Eigen::VectorXd slope(size());
-    slope[0] = start_.damping_to_mass;
-    slope[1] = start_.stiffness_to_mass;
-    int i = 2;
-    for (std::size_t j = 0; j < model.effects.size(); ++j) {
-      slope[i++] = coefficient_scales_[j];
-      for (const double shape : model.effects[j].shapes) slope[i++] = shape;
-    }
-    for (std::size_t j = 0; j < start_.reading.size(); ++j) slope[i++] = readingScale(j);
-    return slope;
-  }
-
- private:
-  double readingScale(std::size_t j) const { return coefficient_scales_[start_.effects.size() + j]; }
-
-  StrutModel start_;
-  std::vector<double> coefficient_scales_;
+/// What a first run from rest, the effects not acting yet, shows of the drives: rms values.
+struct Sizes {
+  double travel = 0.0, travel_rate = 0.0;
+  std::vector<double> forces;  // of the effects, per unit of their coefficient
+  double acceleration = 0.0;   // of the measured z'', what is fitted only
+  double residual = 0.0;       // robust, what is fitted only
 };
 
-struct Scales {
-  double travel, travel_rate;
-};
-
-/// Residuals of one segment. Parameter blocks: the model, the segment's initial travel and travel rate.
-class SegmentCost : public ceres::CostFunction {
- public:
-  SegmentCost(const DriveRecord& record, const DriveSegment& segment, const SampleMask* mask,
-              const Parameterization& parameters, const StrutModel& model, const Scales& scales, double outlier)
-      : record_(record), segment_(segment), parameters_(parameters), model_(model), scales_(scales), outlier_(outlier) {
-    for (std::size_t k = 0; k < segment.size(); ++k)
-      if (mask == nullptr || (*mask)[k] != 0) used_.push_back(k);
-    set_num_residuals(static_cast<int>(used_.size()));
-    mutable_parameter_block_sizes()->push_back(parameters.size());
-    mutable_parameter_block_sizes()->push_back(2);
+/// Sums squares over one segment.
+void addSegment(const StrutModel& start, const DriveRecord& record, const DriveSegment& segment,
+                const std::vector<StrutState>& motion, Sizes& sums) {
+  for (std::size_t k = 0; k < segment.size(); ++k) {
+    const StrutState& state = motion[k];
+    sums.travel += state.travel * state.travel;
+    sums.travel_rate += state.travel_rate * state.travel_rate;
+    const double time = segment.start + static_cast<double>(k) * record.period();
+    for (std::size_t j = 0; j < start.effects.size(); ++j) {
+      const ActiveEffect& active = start.effects[j];
+      const double f =
+          active.effect.force({state.travel, state.travel_rate, time, state.memory[j]}, active.shapes.data());
+      sums.forces[j] += f * f;
+    }
   }
+}
 
-  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    Eigen::VectorXd shared = Eigen::Map<const Eigen::VectorXd>(x[0], parameters_.size());
-    Eigen::VectorXd local = Eigen::Map<const Eigen::VectorXd>(x[1], 2);
-    Eigen::VectorXd base(num_residuals()), moved(num_residuals());
-    if (!evaluate(shared, local, base)) return false;
-    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = base.unaryExpr([this](double r) { return damp(r); });
-    if (jacobians == nullptr) return true;
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Eigen::VectorXd* blocks[2] = {&shared, &local};
-    for (int block = 0; block < 2; ++block) {
-      if (jacobians[block] == nullptr) continue;
-      Eigen::VectorXd& vector = *blocks[block];
-      Eigen::Map<RowMajor> jacobian(jacobians[block], num_residuals(), vector.size());
-      for (Eigen::Index i = 0; i < vector.size(); ++i) {
-        const double kept = vector[i];
-        const double step = kDifference * std::max(1.0, std::abs(kept));
-        vector[i] = kept + step;
-        if (!evaluate(shared, local, moved)) return false;
-        vector[i] = kept;
-        for (int k = 0; k < num_residuals(); ++k)
-          jacobian(k, i) = (moved[k] - base[k]) / step * dampSlope(base[k]);
+/// @return nothing if the model runs away or there is nothing to fit.
+std::optional<Sizes> firstRun(const Records& records, const Masks& masks, const StrutModel& start) {
+  StrutModel linear = start;  // the effects' memories run along
+  for (ActiveEffect& active : linear.effects) active.coefficient = 0.0;
+  Sizes sizes;
+  sizes.forces.resize(start.effects.size(), 0.0);
+  double count = 0.0;
+  std::vector<double> absolute, predicted;
+  std::vector<StrutState> motion;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t s = 0; s < records[r]->segments().size(); ++s) {
+      const DriveSegment& segment = records[r]->segments()[s];
+      if (!runFree(linear, *records[r], segment, {}, predicted, &motion)) return std::nullopt;
+      addSegment(start, *records[r], segment, motion, sizes);
+      count += static_cast<double>(segment.size());
+      const SampleMask* mask = maskOf(masks, r, s);
+      for (std::size_t k = 0; k < segment.size(); ++k) {
+        if (mask != nullptr && (*mask)[k] == 0) continue;
+        sizes.acceleration += segment.sprung[k] * segment.sprung[k];
+        absolute.push_back(std::abs(segment.sprung[k] - predicted[k]));
       }
     }
-    return true;
-  }
+  if (absolute.empty()) return std::nullopt;
+  for (double* square : {&sizes.travel, &sizes.travel_rate}) *square = std::sqrt(*square / count);
+  for (double& square : sizes.forces) square = std::sqrt(square / count);
+  sizes.acceleration = std::sqrt(sizes.acceleration / static_cast<double>(absolute.size()));
+  sizes.residual = 1.4826 * median(absolute);
+  return sizes;
+}
 
- private:
-  bool evaluate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& residuals) const {
-    StrutModel model = model_;
-    parameters_.apply(shared.data(), model);
-    StrutState state;
-    state.travel = local[0] * scales_.travel;
-    state.travel_rate = local[1] * scales_.travel_rate;
-    std::vector<double> predicted;
-    if (!runFree(model, record_, segment_, state, predicted)) return false;
-    for (std::size_t i = 0; i < used_.size(); ++i)
-      residuals[static_cast<Eigen::Index>(i)] = segment_.sprung[used_[i]] - predicted[used_[i]];
-    return true;
+/// @return nothing if an effect never acts in these drives.
+std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const Sizes& sizes, double period) {
+  std::vector<double> scales;
+  for (const double force : sizes.forces) {
+    if (force == 0.0) return std::nullopt;
+    scales.push_back(0.1 * sizes.acceleration / force);
   }
-
-  // Smooth Huber loss as a change of the residual: half its square is a^2 (sqrt(1 + (r/a)^2) - 1).
-  double damp(double r) const {
-    const double q = r / outlier_;
-    return std::copysign(outlier_ * std::sqrt(2.0 * q * q / (std::sqrt(1.0 + q * q) + 1.0)), r);
-  }
-  double dampSlope(double r) const {
-    const double q = r / outlier_;
-    const double damped = damp(r);
-    return damped == 0.0 ? 1.0 : r / (std::sqrt(1.0 + q * q) * damped);
-  }
-
-  const DriveRecord& record_;
-  const DriveSegment& segment_;
-  const Parameterization& parameters_;
-  const StrutModel& model_;
-  Scales scales_;
-  double outlier_;
-  std::vector<std::size_t> used_;
-};
+  for (const ActiveMeasurementEffect& reading : start.reading)
+    scales.push_back(reading.effect.scale(sizes.residual, sizes.acceleration, period));
+  return scales;
+}
 
 /// Standard deviations of the model's numbers (in SI), the initial states of the segments being unknown, too.
 Eigen::VectorXd standardDeviations(const ceres::Problem& problem, const Parameterization& parameters,
@@ -176,10 +122,42 @@ Eigen::VectorXd standardDeviations(const ceres::Problem& problem, const Paramete
   return covariance.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseProduct(parameters.slopes(model).cwiseAbs());
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+/// Fits the model `x` and the initial states in place.
+/// @return the model's standard deviations; nothing if the solver fails.
+std::optional<Eigen::VectorXd> solve(const Records& records, const Masks& masks, const StrutModel& start,
+                                     const Parameterization& parameters, const CostScales& scales, int max_iterations,
+                                     Eigen::VectorXd& x, std::vector<std::array<double, 2>>& initial) {
+  ceres::Problem problem;
+  auto* ordering = new ceres::ParameterBlockOrdering;  // the solver's options own it
+  ceres::Solver::Options solver;
+  solver.linear_solver_ordering.reset(ordering);
+  std::size_t index = 0;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t s = 0; s < records[r]->segments().size(); ++s, ++index) {
+      problem.AddResidualBlock(new SegmentCost(*records[r], records[r]->segments()[s], maskOf(masks, r, s), parameters,
+                                               start, scales),
+                               nullptr, x.data(), initial[index].data());
+      ordering->AddElementToGroup(initial[index].data(), 0);
+    }
+  ordering->AddElementToGroup(x.data(), 1);
+  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  solver.max_num_iterations = max_iterations;
+  solver.function_tolerance = 1e-7;
+  solver.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return std::nullopt;
+  return standardDeviations(problem, parameters, x.data());
+}
+
+/// Adds initial state and residuals of a segment.
+bool addResiduals(const DriveRecord& record, const DriveSegment& segment, const StrutState& state, ModelFit& fit) {
+  std::vector<double> residuals;
+  if (!runFree(fit.model, record, segment, state, residuals)) return false;
+  for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segment.sprung[k] - residuals[k];
+  fit.initial.push_back(state);
+  fit.residuals.push_back(std::move(residuals));
+  return true;
 }
 
 }  // namespace
@@ -210,86 +188,32 @@ bool runFree(const StrutModel& model, const DriveRecord& record, const DriveSegm
 std::optional<ModelFit> fitOutputError(const std::vector<const DriveRecord*>& records,
                                        const std::vector<std::vector<SampleMask>>& masks, const StrutModel& start,
                                        const FitOptions& options) {
-  // First run, from rest: sizes of forces and residuals.
-  double travel2 = 0.0, rate2 = 0.0, y2 = 0.0;
-  std::size_t count = 0;
-  std::vector<double> absolute, force2(start.effects.size(), 0.0), predicted;
-  std::vector<StrutState> motion;
-  StrutModel linear = start;  // the effects' memories run along, their forces do not act yet
-  for (ActiveEffect& active : linear.effects) active.coefficient = 0.0;
-  for (const DriveRecord* record : records)
-    for (const DriveSegment& segment : record->segments()) {
-      if (!runFree(linear, *record, segment, {}, predicted, &motion)) return std::nullopt;
-      for (std::size_t k = 0; k < segment.size(); ++k) {
-        travel2 += motion[k].travel * motion[k].travel;
-        rate2 += motion[k].travel_rate * motion[k].travel_rate;
-        y2 += segment.sprung[k] * segment.sprung[k];
-        absolute.push_back(std::abs(segment.sprung[k] - predicted[k]));
-        const double time = segment.start + static_cast<double>(k) * record->period();
-        for (std::size_t j = 0; j < start.effects.size(); ++j) {
-          const double f = start.effects[j].effect.force({motion[k].travel, motion[k].travel_rate, time, motion[k].memory[j]},
-                                                         start.effects[j].shapes.data());
-          force2[j] += f * f;
-        }
-      }
-      count += segment.size();
-    }
-  if (count == 0) return std::nullopt;
-  const double n = static_cast<double>(count);
-  const double outlier = std::max(options.outlier_scale * 1.4826 * median(absolute), 1e-9 * std::sqrt(y2 / n));
-  const Scales scales{std::sqrt(travel2 / n), std::sqrt(rate2 / n)};
-  std::vector<double> coefficient_scales;
-  for (std::size_t j = 0; j < start.effects.size(); ++j) {
-    const double size = std::sqrt(force2[j] / n);
-    if (size == 0.0) return std::nullopt;  // the effect never acts in these drives
-    coefficient_scales.push_back(0.1 * std::sqrt(y2 / n) / size);
-  }
-
-  const double residual = 1.4826 * median(absolute);
-  for (const ActiveMeasurementEffect& reading : start.reading)
-    coefficient_scales.push_back(reading.effect.scale(residual, std::sqrt(y2 / n), records.front()->period()));
-
-  const Parameterization parameters(start, coefficient_scales);
+  const std::optional<Sizes> sizes = firstRun(records, masks, start);
+  if (!sizes) return std::nullopt;
+  const auto coefficient_scales = coefficientScales(start, *sizes, records.front()->period());
+  if (!coefficient_scales) return std::nullopt;
+  const Parameterization parameters(start, *coefficient_scales);
+  const CostScales scales{sizes->travel, sizes->travel_rate,
+                          std::max(options.outlier_scale * sizes->residual, 1e-9 * sizes->acceleration)};
   Eigen::VectorXd x = parameters.initial();
-  std::vector<std::array<double, 2>> initial;
-  for (const DriveRecord* record : records) initial.resize(initial.size() + record->segments().size(), {0.0, 0.0});
-  ceres::Problem problem;
-  auto* ordering = new ceres::ParameterBlockOrdering;
-  std::size_t index = 0;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    for (std::size_t s = 0; s < records[r]->segments().size(); ++s, ++index) {
-      problem.AddResidualBlock(new SegmentCost(*records[r], records[r]->segments()[s],
-                                               masks.empty() ? nullptr : &masks[r][s], parameters, start, scales,
-                                               outlier),
-                               nullptr, x.data(), initial[index].data());
-      ordering->AddElementToGroup(initial[index].data(), 0);
-    }
-  ordering->AddElementToGroup(x.data(), 1);
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_SCHUR;
-  solver.linear_solver_ordering.reset(ordering);
-  solver.max_num_iterations = options.max_iterations;
-  solver.function_tolerance = 1e-7;
-  solver.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return std::nullopt;
+  std::size_t num_segments = 0;
+  for (const DriveRecord* record : records) num_segments += record->segments().size();
+  std::vector<std::array<double, 2>> initial(num_segments, {0.0, 0.0});
+  const auto stddev = solve(records, masks, start, parameters, scales, options.max_iterations, x, initial);
+  if (!stddev) return std::nullopt;
 
   ModelFit fit;
   fit.model = start;
+  fit.stddev = *stddev;
   parameters.apply(x.data(), fit.model);
-  fit.stddev = standardDeviations(problem, parameters, x.data());
-  index = 0;
+  std::size_t index = 0;
   for (const DriveRecord* record : records)
     for (const DriveSegment& segment : record->segments()) {
       StrutState state;
       state.travel = initial[index][0] * scales.travel;
       state.travel_rate = initial[index][1] * scales.travel_rate;
       ++index;
-      if (!runFree(fit.model, *record, segment, state, predicted)) return std::nullopt;
-      for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k] = segment.sprung[k] - predicted[k];
-      fit.initial.push_back(state);
-      fit.residuals.push_back(predicted);
+      if (!addResiduals(*record, segment, state, fit)) return std::nullopt;
     }
   return fit;
 }

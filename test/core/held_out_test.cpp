@@ -1,0 +1,162 @@
+#include "suspension_health_monitor/discrepancy/held_out.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "recorded_drive.h"
+#include "simulated_drive.h"
+#include "suspension_health_monitor/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kPeriod = 0.01;
+constexpr int kEnd = BandlimitedInterpolator::kHalfWidth;
+const double kHalfSecond = std::pow(2.0 * kPi / 0.5, 2);  // b0 of a natural period of 50 samples
+
+// 1500 usable samples: fifteen blocks of 100, of which 2, 5, 8, 11, 14 are held out; z'' is 1 in every second sample.
+DriveRecord blocks() {
+  return recorded(1500 + 2 * kEnd, kPeriod, [](int k) { return (k - kEnd) % 2 + 0.0; },
+                  [](int k) { return std::sin(0.2 * kPi * k); });
+}
+
+std::vector<std::vector<double>> unitResidualAt(std::size_t k) {
+  std::vector<std::vector<double>> residuals{std::vector<double>(1500, 0.0)};
+  residuals[0][k] = 2.0;
+  return residuals;
+}
+
+TEST(ComparePaired, IsAsWorkedByHand) {
+  // Differences 1, 2, 0, 1: mean 1, variance 2/3.
+  const PairedComparison result = comparePaired({4.0, 6.0, 8.0, 2.0}, {3.0, 4.0, 8.0, 1.0});
+  EXPECT_NEAR(result.removed_share, 0.2, 1e-12);
+  EXPECT_NEAR(result.t, 1.0 / std::sqrt(2.0 / 3.0 / 4.0), 1e-12);
+  EXPECT_NEAR(result.log_ratio, 4.0 * std::log(20.0 / 16.0), 1e-12);
+  const PairedComparison worse = comparePaired({3.0, 4.0, 8.0, 1.0}, {4.0, 6.0, 8.0, 2.0});
+  EXPECT_NEAR(worse.removed_share, -0.25, 1e-12);
+  EXPECT_LT(worse.t, -2.4);
+  EXPECT_LT(worse.log_ratio, 0.0);
+}
+
+TEST(IsSignificant, UsesTheQuantilesOfBothStatistics) {
+  EXPECT_TRUE(isSignificant({0.1, 2.33, 0.0}, 0.01));   // normal: 2.326
+  EXPECT_FALSE(isSignificant({0.1, 2.32, 0.0}, 0.01));
+  EXPECT_FALSE(isSignificant({0.1, -9.0, 0.0}, 0.01));
+  EXPECT_TRUE(isSignificant({0.1, 0.0, 9.22}, 0.01));   // chi square of 2: -2 ln 0.01 = 9.210
+  EXPECT_FALSE(isSignificant({0.1, 0.0, 9.20}, 0.01));
+}
+
+TEST(HeldOut, EveryThirdBlockIsHeldOut) {
+  const DriveRecord record = blocks();
+  const auto held_out = holdOut({&record}, kHalfSecond);
+  ASSERT_TRUE(held_out);
+  const SampleMask& mask = held_out->training.at(0).at(0);
+  ASSERT_EQ(mask.size(), 1500u);
+  for (std::size_t k = 0; k < mask.size(); ++k) ASSERT_EQ(mask[k] != 0, k / 100 % 3 != 2) << k;
+}
+
+TEST(HeldOut, StretchesLastOneNaturalPeriodAndHoldTheirOwnSamples) {
+  const DriveRecord record = blocks();
+  const auto held_out = holdOut({&record}, kHalfSecond);
+  const auto errorsAt = [&](std::size_t k) { return held_out->stretchErrors(unitResidualAt(k)); };
+  ASSERT_EQ(errorsAt(0).size(), 10u);
+  EXPECT_EQ(errorsAt(200)[0], 4.0);
+  EXPECT_EQ(errorsAt(249)[0], 4.0);
+  EXPECT_EQ(errorsAt(250)[1], 4.0);
+  EXPECT_EQ(errorsAt(299)[1], 4.0);
+  EXPECT_EQ(errorsAt(500)[2], 4.0);
+  EXPECT_EQ(errorsAt(1499)[9], 4.0);
+}
+
+TEST(HeldOut, EverySampleIsEitherTrainedOnOrJudgedBy) {
+  const DriveRecord record = blocks();
+  const auto held_out = holdOut({&record}, kHalfSecond);
+  for (const std::size_t k : {0u, 199u, 200u, 299u, 300u, 1399u, 1400u, 1499u}) {
+    const std::vector<double> errors = held_out->stretchErrors(unitResidualAt(k));
+    const bool judged = k / 100 % 3 == 2;
+    EXPECT_EQ(std::accumulate(errors.begin(), errors.end(), 0.0), judged ? 4.0 : 0.0) << k;
+    EXPECT_EQ(held_out->trainingError(unitResidualAt(k)), judged ? 0.0 : 4.0) << k;
+  }
+}
+
+TEST(HeldOut, RmseIsPerHeldOutSampleAndFitPercentAgainstTheirDeviation) {
+  const DriveRecord record = blocks();
+  const auto held_out = holdOut({&record}, kHalfSecond);
+  EXPECT_NEAR(held_out->rmse(held_out->stretchErrors(unitResidualAt(250))), std::sqrt(4.0 / 500.0), 1e-12);
+  EXPECT_NEAR(held_out->fitPercent(0.1), 80.0, 1e-9);  // 0 and 1 in turns: deviation 0.5
+}
+
+TEST(HeldOut, SegmentsOfSeveralDrivesAreNumberedThrough) {
+  const DriveRecord first = blocks(), second = blocks();
+  const auto held_out = holdOut({&first, &second}, kHalfSecond);
+  ASSERT_EQ(held_out->training.size(), 2u);
+  std::vector<std::vector<double>> residuals(2, std::vector<double>(1500, 0.0));
+  residuals[1][200] = 2.0;
+  const std::vector<double> errors = held_out->stretchErrors(residuals);
+  ASSERT_EQ(errors.size(), 20u);
+  EXPECT_EQ(errors[10], 4.0);
+  residuals[1][200] = 0.0;
+  residuals[1][300] = 3.0;
+  EXPECT_EQ(held_out->trainingError(residuals), 9.0);
+}
+
+TEST(HeldOut, TooShortADriveCannotBeSplit) {
+  const DriveRecord record = blocks();
+  EXPECT_FALSE(holdOut({&record}, std::pow(2.0 * kPi / 1.0, 2)));  // 5 stretches of 1 s
+}
+
+TEST(HeldOut, WhatIsHeldOutDoesNotReachTheFit) {
+  SimulationOptions options = scenario("iso_road", 20.0);
+  options.rate = 100.0;
+  options.damping_ramp = false;
+  const DriveRecord truth = recorded(options);
+  const auto held_out = holdOut({&truth}, 63.3);
+  ASSERT_TRUE(held_out);
+  const SampleMask& mask = held_out->training[0][0];
+  DriveRecord spoilt(1.0 / options.rate, 1);
+  for (const DriveSample& sample : drive(options)) {
+    const auto k = static_cast<std::size_t>(std::lround(toSeconds(sample.stamp) * options.rate)) - kEnd;
+    const bool hidden = k < mask.size() && mask[k] == 0;
+    spoilt.push({sample.stamp, sample.sprung->acceleration + (hidden ? 1.0 : 0.0), sample.unsprung->acceleration});
+  }
+  spoilt.finish();
+  const StrutModel start{5.0, 70.0, {}, {}};
+  const auto fit = fitOutputError({&truth}, held_out->training, start);
+  const auto again = fitOutputError({&spoilt}, held_out->training, start);
+  ASSERT_TRUE(fit && again);
+  EXPECT_EQ(fit->model.damping_to_mass, again->model.damping_to_mass);
+  EXPECT_EQ(fit->model.stiffness_to_mass, again->model.stiffness_to_mass);
+  const auto unmasked = fitOutputError({&spoilt}, {}, start);
+  ASSERT_TRUE(unmasked);
+  EXPECT_NE(fit->model.stiffness_to_mass, unmasked->model.stiffness_to_mass);
+}
+
+TEST(EstimateNoiseFloor, IsAboutWhatTheTrueModelLeaves) {
+  for (const char* vehicle : {"paper", "golden_car"}) {
+    SimulationOptions options = scenario("iso_road", 120.0);
+    options.vehicle = vehicle;
+    options.rate = 100.0;
+    options.noise = 0.05;
+    options.noise_distribution = "gaussian";
+    options.damping_ramp = false;
+    const DriveRecord record = recorded(options);
+    const QuarterCar car = makeScenario(options).vehicle;
+    const StrutModel truth{car.dampingToMass(), car.stiffnessToMass(), {}, {}};
+    std::vector<double> predicted;
+    const DriveSegment& segment = record.segments().front();
+    ASSERT_TRUE(runFree(truth, record, segment, {}, predicted));
+    double square = 0.0;
+    constexpr std::size_t settled = 500;
+    for (std::size_t k = settled; k < predicted.size(); ++k) square += std::pow(segment.sprung[k] - predicted[k], 2);
+    const double left = std::sqrt(square / static_cast<double>(predicted.size() - settled));
+    // A predictor that sees noisy samples only leaves a little more than the noise.
+    const double floor = estimateNoiseFloor({&record}, truth);
+    EXPECT_GT(floor, 0.97 * left) << vehicle;
+    EXPECT_LT(floor, 1.12 * left) << vehicle;
+  }
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
