@@ -7,10 +7,12 @@
 #include <cmath>
 #include <complex>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "simulated_drive.h"
+#include "suspension_health_monitor/model/effect_catalogue.h"
 #include "suspension_health_monitor/pi.h"
 
 namespace suspension_health_monitor {
@@ -193,6 +195,66 @@ TEST(DriveSimulator, EndStopsLimitTheTravelByTheirEnergy) {
   const double give = (7.6 + std::sqrt(7.6 * 7.6 + 1000.0 * fastest_arrival * fastest_arrival)) / 1000.0;
   EXPECT_GT(farthest, 0.09);
   EXPECT_LT(farthest, 0.09 + give);
+}
+
+TEST(DriveSimulator, HiddenEffectAddsItsForceAndNothingElse) {
+  for (const char* vehicle : {"paper", "golden_car"}) {
+    SimulationOptions options = scenario("iso_road", 5.0);
+    options.vehicle = vehicle;
+    options.hidden = {{findEffect(forceEffects(), "asymmetric_damping"), -0.7, {}},
+                      {findEffect(forceEffects(), "bump_stop"), 40.0, {0.001}}};
+    double largest = 0.0;
+    for (const DriveSample& sample : drive(options)) {
+      const DriveTruth& truth = sample.truth;
+      const double linear = truth.damping_to_mass * truth.travel_rate + truth.stiffness_to_mass * truth.travel;
+      const double hidden = -0.7 * std::abs(truth.travel_rate) + 40.0 * std::max(0.0, truth.travel - 0.001);
+      ASSERT_NEAR(truth.sprung_acceleration, linear + hidden, 1e-12) << vehicle;
+      largest = std::max(largest, std::abs(hidden));
+    }
+    EXPECT_GT(largest, 0.01) << vehicle;
+  }
+}
+
+TEST(DriveSimulator, HiddenForceActsBackOnTheWheel) {
+  SimulationOptions options = scenario("iso_road", 1.0);
+  options.vehicle = "golden_car";
+  ForceEffect lift = findEffect(forceEffects(), "asymmetric_spring");
+  lift.force = [](const StrutMotion&, const double*) { return 1.0; };  // [m/s^2]
+  const DriveTruth plain = drive(options).front().truth;
+  options.hidden = {{lift, 2.0, {}}};
+  const DriveTruth lifted = drive(options).front().truth;
+  EXPECT_NEAR(lifted.sprung_acceleration - plain.sprung_acceleration, 2.0, 1e-12);
+  EXPECT_NEAR(lifted.unsprung_acceleration - plain.unsprung_acceleration, -2.0 * 250.0 / 37.5, 1e-9);
+}
+
+TEST(DriveSimulator, HiddenMemoriesFollowTheirLaws) {
+  SimulationOptions options = scenario("iso_road", 4.0);
+  options.vehicle = "golden_car";
+  options.rate = 2000.0;
+  options.hidden = {{findEffect(forceEffects(), "damping_drift"), 0.1, {}},
+                    {findEffect(forceEffects(), "viscoelastic_mount"), 30.0, {0.05}}};
+  double memory = 0.0, travel = 0.0, largest = 0.0;
+  for (const DriveSample& sample : drive(options)) {
+    const DriveTruth& truth = sample.truth;
+    const double t = toSeconds(sample.stamp);
+    // s' = (d - s) / tau by the trapezoid rule.
+    const double a = 0.0005 / (2.0 * 0.05);
+    if (t > 0.0) memory = (memory * (1.0 - a) + a * (travel + truth.travel)) / (1.0 + a);
+    travel = truth.travel;
+    const double linear = (truth.damping_to_mass + 0.1 * t) * truth.travel_rate + truth.stiffness_to_mass * travel;
+    ASSERT_NEAR(truth.sprung_acceleration, linear + 30.0 * (travel - memory), 1e-3) << t;
+    largest = std::max(largest, std::abs(30.0 * (travel - memory)));
+  }
+  EXPECT_GT(largest, 0.1);
+}
+
+TEST(DriveSimulator, MoreHiddenEffectsThanItHoldsAreRefused) {
+  SimulationOptions options = scenario("iso_road", 1.0);
+  const ActiveEffect effect{findEffect(forceEffects(), "asymmetric_damping"), 0.1, {}};
+  options.hidden.assign(4, effect);
+  EXPECT_NO_THROW(drive(options));
+  options.hidden.assign(5, effect);
+  EXPECT_THROW(drive(options), std::invalid_argument);
 }
 
 TEST(DriveSimulator, SameOptionsGiveIdenticalSamples) {

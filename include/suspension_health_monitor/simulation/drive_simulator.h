@@ -43,10 +43,8 @@ class DriveSimulator {
   std::optional<DriveSample> next();
 
  private:
-  static constexpr std::size_t kMostHidden = 4;
-
   // z, z' and, of a wheel on a tyre, w, w'; then the memories of hidden effects. Places that are not needed stay 0.
-  using State = std::array<double, 4 + kMostHidden>;
+  using State = std::array<double, 4 + kMostHiddenEffects>;
 
   struct Motion {
     DriveTruth truth;

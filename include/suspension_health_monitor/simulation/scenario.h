@@ -37,7 +37,7 @@ struct SimulationOptions {
   double clock_offset = 0.0;
   double clock_skew = 0.0;
 
-  std::vector<ActiveEffect> hidden = {};  ///< effects that the model does not know of
+  std::vector<ActiveEffect> hidden = {};  ///< effects that the model lacks, at most kMostHiddenEffects
 };
 
 inline constexpr std::array kSimulationFields{
@@ -91,7 +91,8 @@ inline constexpr std::array kSimulationFields{
                                    &SimulationOptions::clock_skew, -0.01, 0.01},
 };
 
-/// Checks ranges (kSimulationFields), the order of the ramp's ends, and that jitter keeps the stamps in order.
+/// Checks ranges (kSimulationFields), the order of the ramp's ends, that jitter keeps the stamps in order, and the number
+/// of hidden effects.
 /// @throws std::invalid_argument  naming option, value and what is allowed.
 void validate(const SimulationOptions& options);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -25,12 +26,15 @@ struct EndStops {
   double forcePerMass(double travel) const;
 };
 
+/// As many hidden effects a strut can have.
+inline constexpr std::size_t kMostHiddenEffects = 4;
+
 /// The true strut of a simulated drive: everything between wheel and body, equation (27) and what the model lacks.
 struct Strut {
   Ramp damping_to_mass;      ///< b1 [1/s]
   double stiffness_to_mass;  ///< b0 [1/s^2]
   std::optional<EndStops> end_stops;
-  std::vector<ActiveEffect> hidden;  ///< what the model lacks, at most 4
+  std::vector<ActiveEffect> hidden;  ///< what the model lacks, at most kMostHiddenEffects
 
   /// The one place where the simulated force is written:  z'' = b1(t) v + b0 d + stops(d) + sum_j c_j f_j(d, v, t, s_j).
   /// @param travel  d [m], compression positive.

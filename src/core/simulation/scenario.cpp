@@ -73,6 +73,10 @@ void validate(const SimulationOptions& options) {
   if (options.stamp_jitter >= 1.0 / options.rate) {
     refuse("stamp_jitter", options.stamp_jitter, "s", "less than one sample period, 1 / rate", 1.0 / options.rate);
   }
+  if (options.hidden.size() > kMostHiddenEffects) {
+    refuse("number of hidden effects", static_cast<double>(options.hidden.size()), "-", "at most",
+           static_cast<double>(kMostHiddenEffects));
+  }
 }
 
 Scenario makeScenario(const SimulationOptions& options) {
@@ -82,7 +86,8 @@ Scenario makeScenario(const SimulationOptions& options) {
   result.vehicle = vehicle.car;
   if (options.damping_to_mass) result.vehicle.damping = *options.damping_to_mass * vehicle.car.sprung_mass;
   if (options.stiffness_to_mass) result.vehicle.stiffness = *options.stiffness_to_mass * vehicle.car.sprung_mass;
-  result.strut = {dampingRamp(options, result.vehicle.dampingToMass()), result.vehicle.stiffnessToMass(), std::nullopt, options.hidden};
+  result.strut = {dampingRamp(options, result.vehicle.dampingToMass()), result.vehicle.stiffnessToMass(), std::nullopt,
+                  options.hidden};
   result.road = makeRoad(options, vehicle);
   if (options.scenario == "paper_saturation") result.strut.end_stops = kPaperStops;
   if (options.scenario == "paper_outliers") {

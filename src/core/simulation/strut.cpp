@@ -16,8 +16,10 @@ double EndStops::forcePerMass(double travel) const {
 double Strut::forcePerMass(double travel, double travel_rate, double t, const double* memory) const {
   double force = damping_to_mass.at(t) * travel_rate + stiffness_to_mass * travel;
   if (end_stops) force += end_stops->forcePerMass(travel);
-  for (std::size_t j = 0; j < hidden.size(); ++j)
-    force += hidden[j].coefficient * hidden[j].effect.force({travel, travel_rate, t, memory[j]}, hidden[j].shapes.data());
+  for (std::size_t j = 0; j < hidden.size(); ++j) {
+    const ActiveEffect& active = hidden[j];
+    force += active.coefficient * active.effect.force({travel, travel_rate, t, memory[j]}, active.shapes.data());
+  }
   return force;
 }
 
