@@ -12,7 +12,8 @@ struct StrutEstimate {
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
   double effective_rows = 0.0;                     ///< rows in the estimator's memory
   double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
-  bool valid = false;      ///< enough rows, enough explained, and a strut: b1 > 0, b0 > 0
+  bool valid = false;      ///< enough rows, enough explained, a strut (b1 > 0, b0 > 0); LA: and its free run
+                           ///< fits better than a constant does
 
   /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
   double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }

@@ -121,6 +121,8 @@ void SuspensionMonitor::compare(const CornerSample& sample) {
   comparison_.add(comparison.measured, *comparison.predicted);
   comparison.rmse = comparison_.rmse();
   comparison.fit_percent = comparison_.fitPercent();
+  // Parameters whose free run is worse than a constant are not those of this strut, however small the rows' residuals.
+  if (comparison.fit_percent < 0.0 && comparison_.isFull()) report_.la.valid = false;
 }
 
 }  // namespace suspension_health_monitor

@@ -35,13 +35,16 @@ void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
     push(reading);
     return;
   }
+  if (!measurement_.add(side, reading.stamp)) {
+    rejected_.add(reading.stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp);
+    return;
+  }
   if (early_.size() == kMostEarly) {  // one IMU is silent
     for (std::size_t i = 0; i < early_.size(); ++i) rejected_.add(RejectReason::kMissingPartner);
     early_.clear();
     measurement_ = PeriodMeasurement(kSpacingsForPeriod);
   }
   early_.push_back(reading);
-  measurement_.add(side, reading.stamp);
   if (const std::optional<double> period = measurement_.period()) {
     start(*period);
     for (const Reading& waiting : std::exchange(early_, {})) push(waiting);

@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint32_t kQueueSize = 1000;
 constexpr double kLeadSamples = 200.0;  // how far the drive may run ahead of the monitor that sets the pace
 constexpr std::chrono::milliseconds kPoll{1};
+constexpr double kLongestSleep = 0.05;  // [s], so that unloading the nodelet need not wait for a slow drive
 constexpr std::chrono::milliseconds kLongestWaitForPace{500};
 
 }  // namespace
@@ -71,19 +72,25 @@ void SimulatorNodelet::waitForStart(const PublishingOptions& options) const {
 }
 
 void SimulatorNodelet::waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now,
-                                   Clock::time_point wall_start) const {
+                                   Clock::time_point wall_start) {
   const double factor = options.publishing.real_time_factor;
   if (factor > 0.0) {
-    const std::chrono::duration<double> since_start((now - start).toSec() / factor);
-    std::this_thread::sleep_until(wall_start + std::chrono::duration_cast<Clock::duration>(since_start));
+    const double due = (now - start).toSec() / factor;  // wall seconds since the start
+    const auto left = [&] { return due - std::chrono::duration<double>(Clock::now() - wall_start).count(); };
+    while (running_ && ros::ok() && left() > 0.0)
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left(), kLongestSleep)));
     return;
   }
-  if (pace_.getNumPublishers() == 0) return;
+  if (pace_.getNumPublishers() == 0 || pace_is_lost_) return;
   const double lead = kLeadSamples / options.drive.rate;
   const Clock::time_point give_up = Clock::now() + kLongestWaitForPace;
   while (running_ && ros::ok() && now.toSec() - std::max(paced_until_.load(), start.toSec()) > lead &&
          Clock::now() < give_up)
     std::this_thread::sleep_for(kPoll);
+  if (Clock::now() < give_up) return;
+  pace_is_lost_ = true;
+  NODELET_WARN("%s sets no pace (is publish_every above %g?): going on without it", pace_.getTopic().c_str(),
+               kLeadSamples);
 }
 
 void SimulatorNodelet::publishClock(ros::Time now) const {
@@ -93,9 +100,7 @@ void SimulatorNodelet::publishClock(ros::Time now) const {
 }
 
 void SimulatorNodelet::publish(const DriveMessages& messages, bool publish_clock) {
-  if (publish_clock) {
-    publishClock(messages.time);
-  }
+  if (publish_clock) publishClock(messages.time);
   if (messages.sprung) sprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.sprung));
   if (messages.unsprung) unsprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.unsprung));
   truth_.publish(boost::make_shared<const SimulationTruth>(messages.truth));

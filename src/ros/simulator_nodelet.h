@@ -25,7 +25,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
 
   void drive(SimulatorOptions options);
   void waitForStart(const PublishingOptions& options) const;
-  void waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now, Clock::time_point wall_start) const;
+  void waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now, Clock::time_point wall_start);
   void publishClock(ros::Time now) const;
   void publish(const DriveMessages& messages, bool publish_clock);
 
@@ -33,6 +33,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   ros::Subscriber pace_;
   std::atomic<double> paced_until_{0.0};  // stamp of the newest estimate of the monitor that sets the pace [s]
   std::atomic<bool> running_{true};
+  bool pace_is_lost_ = false;  // the drive's thread only
   std::thread thread_;
 };
 

@@ -147,8 +147,10 @@ void identify(const Arguments& arguments) {
         csv->stream());
   }
   Digest digest;
+  bool ever_valid = false;
   ImuPipeline pipeline(options.pipeline, [&](const MonitorReport& report) {
     if (!report.has_row) return;
+    ever_valid = ever_valid || report.la.valid || report.ls.valid;
     if (csv) writeRow(csv->stream(), report);
     digest.add(report);
   });
@@ -166,6 +168,8 @@ void identify(const Arguments& arguments) {
   std::printf("\nat the end, over the last %.0f rows:\n", pipeline.monitor()->report().la.effective_rows);
   printResult("LS", pipeline.monitor()->report().ls, options.pipeline.monitor.sprung_mass);
   printResult("LA", pipeline.monitor()->report().la, options.pipeline.monitor.sprung_mass);
+  if (!ever_valid)
+    throw TooLittleError("no estimate was ever valid: too short, too little motion, or not the two sides of one strut");
 }
 
 }  // namespace suspension_health_monitor

@@ -16,6 +16,12 @@ namespace {
 // Long enough to meet some road, short enough to cost little beside the reading itself.
 constexpr std::size_t kSurveyedMessages = 100000;
 constexpr std::size_t kFewestSpacings = 10;
+
+// The horizon is surveyed in blocks: the first ones all, later ones now and then, so that a drive that begins parked is
+// surveyed on the road, too. What stands still weighs little beside what moves.
+constexpr std::size_t kBlock = 5000;  // [samples]
+constexpr std::size_t kFirstBlocks = 8;
+constexpr std::size_t kEveryBlock = 8;
 constexpr int kLongestHorizon = 4096;  // [samples]
 
 double measurePeriod(const ImuBags& bags) {
@@ -52,11 +58,14 @@ int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
         acceleration ? grid.push(side, toStamp(imu.header.stamp), *acceleration) : std::nullopt;
     if (sample) {
       const Continuity follows = last ? continuity(sample->stamp - *last, fromSeconds(period)) : Continuity::kGap;
-      if (follows == Continuity::kGap || follows == Continuity::kClockJumped) survey.interrupt();
-      if (follows != Continuity::kTooSoon) survey.push(*sample);
+      const std::size_t block = count++ / kBlock;
+      const bool surveyed = block < kFirstBlocks || block % kEveryBlock == 0;
+      const bool continues = follows == Continuity::kContinues || follows == Continuity::kTooSoon;
+      if (!continues || !surveyed) survey.interrupt();
+      if (follows != Continuity::kTooSoon && surveyed) survey.push(*sample);
       last = sample->stamp;
     }
-    return ++count < kSurveyedMessages;
+    return true;
   });
   const std::optional<int> samples = survey.horizonSamples();
   if (!samples)

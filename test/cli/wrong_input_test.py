@@ -89,11 +89,18 @@ def test_too_short(program, tmp_path, settings):
         program.refuse(4, ["identify", bag, *settings, "--csv", tmp_path / "rows.csv"], [], tmp_path)
 
 
-def test_one_row_is_enough_and_one_sample_less_is_not(program, tmp_path):
-    for length in (61, 60):
-        imu_bag.write_bag(tmp_path / f"{length}.bag", [column[:length] for column in imu_bag.paper_drive()])
-    program.succeed("identify", tmp_path / "61.bag", *SETTINGS)
-    program.refuse(4, ["identify", tmp_path / "60.bag", *SETTINGS], ["61 samples", "60"], tmp_path)
+def test_rows_without_a_valid_estimate_are_shown_but_are_too_little(program, tmp_path):
+    bag = imu_bag.write_bag(tmp_path / "61.bag", [column[:61] for column in imu_bag.paper_drive()])
+    result = program("identify", bag, *SETTINGS, "--csv", tmp_path / "rows.csv")
+    assert result.returncode == 4
+    assert "no estimate was ever valid" in result.stderr
+    assert "NOT VALID" in result.stdout
+    assert len((tmp_path / "rows.csv").read_text().splitlines()) == 2  # the header and the one row that 2 L + 1 give
+
+
+def test_one_sample_less_gives_no_row(program, tmp_path):
+    bag = imu_bag.write_bag(tmp_path / "60.bag", [column[:60] for column in imu_bag.paper_drive()])
+    program.refuse(4, ["identify", bag, *SETTINGS], ["61 samples", "60"], tmp_path)
 
 
 def test_start_behind_the_end(program, paper_bag, tmp_path):

@@ -49,6 +49,17 @@ TEST(HealthAssessment, JudgesEachParameterByItsOwnThresholds) {
   EXPECT_EQ(levels(-0.21, 0.41), std::pair(HealthLevel::kError, HealthLevel::kError));
 }
 
+TEST(HealthAssessment, AnEstimateThatCannotTellConfirmsNoAlarm) {
+  HealthAssessment assessment(options());
+  const StrutEstimate lost;  // not valid
+  for (double t = 0.0; t <= 5.0; t += 0.02) assessment.update(at(t), estimate(0.0, 0.0));
+  for (double t = 5.02; t <= 5.1; t += 0.02) assessment.update(at(t), estimate(-0.17, 0.0));
+  for (double t = 5.12; t <= 6.05; t += 0.02)
+    ASSERT_EQ(assessment.update(at(t), lost).level, HealthLevel::kOk) << "at " << t;
+  for (double t = 6.14; t <= 9.0; t += 0.02)
+    ASSERT_EQ(assessment.update(at(t), lost).level, HealthLevel::kStale) << "at " << t;
+}
+
 TEST(HealthAssessment, ReportsTheWorseOfTheTwoAndTheSignOfTheChange) {
   const HealthReport damper = judged(estimate(-0.31, 0.05));
   EXPECT_EQ(damper.level, HealthLevel::kError);

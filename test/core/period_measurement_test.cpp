@@ -45,9 +45,9 @@ TEST(PeriodMeasurement, PassesOverGapsRepeatedStampsAndClocksThatJump) {
   EXPECT_NEAR(*measurement.period(), 0.02, 1e-6);
 }
 
-// Stamps are late by up to 40 % of a period: spacings have a triangular density of half-width 0.4 T about T, and so
-// their median a standard deviation of 1 / (2 f(T) sqrt(n)) = 0.4 T / (2 sqrt(n)), for n = 100 spacings 2 % of T.
-TEST(PeriodMeasurement, IsTheMeanSpacingUnderJitter) {
+// Stamps are late by up to J = 40 % of a period. The spacings add up to the time between the first and the last stamp,
+// so that their mean is wrong by J / n at most: 0.4 % of T for n = 100.
+TEST(PeriodMeasurement, TakesTheJitterOfManyStampsDown) {
   std::mt19937_64 engine(5);
   std::uniform_real_distribution<double> late(0.0, 0.4 * 0.02);
   PeriodMeasurement measurement(100);
@@ -55,7 +55,14 @@ TEST(PeriodMeasurement, IsTheMeanSpacingUnderJitter) {
     measurement.add(Side::kSprung, at(0.02 * k + late(engine)));
     measurement.add(Side::kUnsprung, at(0.02 * k + late(engine)));
   }
-  EXPECT_NEAR(*measurement.period(), 0.02, 4 * 0.02 * 0.02);
+  EXPECT_NEAR(*measurement.period(), 0.02, 0.004 * 0.02);
+}
+
+TEST(PeriodMeasurement, TellsOfAStampThatStandsStill) {
+  PeriodMeasurement measurement(2);
+  EXPECT_TRUE(measurement.add(Side::kSprung, at(0.0)));
+  EXPECT_FALSE(measurement.add(Side::kSprung, at(0.0)));
+  EXPECT_TRUE(measurement.add(Side::kUnsprung, at(0.0)));  // the streams are told apart
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ TEST(SuspensionMonitor, SurvivesTheLargestReadingThatItTakes) {
   addAll(monitor, drive);
   const Stamp next = drive.back().stamp + kPeriod;
   ASSERT_NE(monitor.addSample({next, 0.99e60, -0.99e60}), nullptr);
-  for (int pass = 0; pass < 40; ++pass)
+  for (int pass = 0; pass < 60; ++pass)
     addAll(monitor, later(drive, next + kPeriod + pass * (drive.back().stamp + kPeriod)));
   EXPECT_TRUE(std::isfinite(monitor.report().ls.damping_to_mass));
   EXPECT_TRUE(std::isfinite(monitor.report().la.damping_to_mass_stddev));

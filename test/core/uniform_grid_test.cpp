@@ -261,5 +261,23 @@ TEST(UniformGrid, RefusesAPeriodThatIsNone) {
     EXPECT_THROW(UniformGrid{period}, std::invalid_argument) << period;
 }
 
+TEST(UniformGrid, KeepsAnAbsurdSpikeOutAndTakesANewLevelAfterThree) {
+  UniformGrid grid(0.02);
+  const auto push = [&](int k, double wheel) {
+    grid.push(Side::kSprung, at(20 * k), 9.81);
+    return grid.push(Side::kUnsprung, at(20 * k), wheel).has_value();
+  };
+  for (int k = 0; k < 200; ++k) ASSERT_TRUE(push(k, 9.0));
+  EXPECT_TRUE(push(200, -8e6));  // large, but not a million times the usual
+  EXPECT_FALSE(push(201, 1e15));
+  EXPECT_EQ(grid.rejected().count(RejectReason::kAbsurd), 1u);
+  EXPECT_TRUE(push(202, 9.0));
+  EXPECT_FALSE(push(203, 1e15));
+  EXPECT_FALSE(push(204, 1e15));
+  EXPECT_FALSE(push(205, -1e15));
+  EXPECT_TRUE(push(206, 1e15));  // then it is how the sensor reads now
+  EXPECT_EQ(grid.rejected().count(RejectReason::kAbsurd), 4u);
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor

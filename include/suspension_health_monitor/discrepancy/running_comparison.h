@@ -15,6 +15,9 @@ class RunningComparison {
 
   void add(double measured, double predicted);
 
+  /// @return true once at least half a window's weight of samples is in.
+  bool isFull() const { return means_.weight() > half_weight_; }
+
   /// @return root mean square of (measured - predicted) about its mean; 0 before the first sample.
   double rmse() const;
 
@@ -28,6 +31,7 @@ class RunningComparison {
   double deviation(Mean value, Mean square) const;
 
   RunningMeans<kNumMeans> means_;
+  double half_weight_;
 };
 
 }  // namespace suspension_health_monitor

@@ -53,7 +53,7 @@ class HorizonIntegral {
   double same_weight_ = 1.0;   // of taps at an even distance from the newest sample, inside the horizon
   double other_weight_ = 1.0;  // of taps at an odd distance
   std::array<double, 3> end_corrections_{};
-  int num_corrections_ = 1;
+  bool corrects_neighbours_ = false;  // not only the two ends
   // Running sums over the window by parity of the sample's index, and the ones that will replace them.
   std::array<double, 2> sums_{};
   std::array<double, 2> fresh_{};

@@ -10,14 +10,16 @@
 
 namespace suspension_health_monitor {
 
-/// The sampling time of two streams, measured from their stamps: the median spacing, of the slower stream.
-/// The median passes over gaps, repeated stamps and clocks that jump, as long as they are the minority.
+/// The sampling time of two streams, measured from their stamps, of the slower stream: the mean of all spacings within
+/// half and one and a half times their median. The median passes over gaps and clocks that jump, as long as they are
+/// the minority; the mean takes the jitter of n stamps down to 1/n of it.
 class PeriodMeasurement {
  public:
   /// @param spacings_wanted  of each stream before a period is given, >= 1.
   explicit PeriodMeasurement(std::size_t spacings_wanted) : spacings_wanted_(spacings_wanted) {}
 
-  void add(Side side, Stamp stamp);
+  /// @return false if the stamp is the same as the one before: it tells nothing.
+  bool add(Side side, Stamp stamp);
 
   /// @return the sampling time [s], nothing until both streams have shown enough spacings.
   std::optional<double> period() const;

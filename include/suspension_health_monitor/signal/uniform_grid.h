@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/corner_sample.h"
+#include "suspension_health_monitor/identification/running_mean.h"
 
 namespace suspension_health_monitor {
 
@@ -17,14 +18,15 @@ enum class Side : std::size_t { kSprung = 0, kUnsprung = 1 };
 enum class RejectReason : std::size_t {
   kNotMeasured,     ///< the message says that it carries no acceleration (covariance -1)
   kNotFinite,       ///< NaN, infinite or absurdly large (isUsable())
+  kAbsurd,          ///< a million times what this sensor has read on average, for at most three readings
   kZeroStamp,       ///< stamp 0 in a series that has stamps
   kRepeatedStamp,   ///< same stamp as the reading before
   kTimeWentBack,    ///< older than the reading before; a jump far back starts a new series
   kMissingPartner,  ///< no reading of the other sensor within half a sample
   kTooSoon,         ///< less than half a sample after the one before: sample_period is too long for this input
 };
-inline constexpr std::array<std::string_view, 7> kRejectReasonNames{
-    "not_measured", "not_finite", "zero_stamp", "repeated_stamp", "time_went_back",
+inline constexpr std::array<std::string_view, 8> kRejectReasonNames{
+    "not_measured", "not_finite", "absurd", "zero_stamp", "repeated_stamp", "time_went_back",
     "missing_partner", "too_soon"};
 
 /// Number of rejected readings by reason.
@@ -58,6 +60,8 @@ class UniformGrid {
   const RejectCounts& rejected() const { return rejected_; }
 
  private:
+  static constexpr double kUsualMemory = 0.999;  // forgetting factor
+
   struct Reading {
     Stamp stamp;
     double acceleration;
@@ -84,6 +88,7 @@ class UniformGrid {
   };
 
   bool admit(Side side, Stamp stamp, double acceleration);
+  bool isAbsurd(std::size_t index, double acceleration);
   std::optional<CornerSample> match();
   void drop(Queue& queue);
   void startNewSeries();
@@ -91,6 +96,8 @@ class UniformGrid {
   Stamp period_;
   std::array<Queue, 2> waiting_;
   std::array<std::optional<Stamp>, 2> last_;
+  std::array<RunningMean, 2> usual_{RunningMean(kUsualMemory), RunningMean(kUsualMemory)};  // |acceleration|
+  std::array<int, 2> absurd_in_a_row_{};
   RejectCounts rejected_;
 };
 

@@ -6,7 +6,8 @@
 
 namespace suspension_health_monitor {
 
-RunningComparison::RunningComparison(double forgetting_factor) : means_(forgetting_factor) {}
+RunningComparison::RunningComparison(double forgetting_factor)
+    : means_(forgetting_factor), half_weight_(0.5 / (1.0 - std::min(forgetting_factor, 1.0 - 1e-12))) {}
 
 void RunningComparison::add(double measured, double predicted) {
   const double residual = measured - predicted;

@@ -23,8 +23,9 @@ HealthLevel judge(const std::optional<double>& change, double warn, double error
   return std::abs(*change) < error ? HealthLevel::kWarn : HealthLevel::kError;
 }
 
-// Both worse than `level`, or both better.
-bool areBeyond(HealthLevel level, HealthLevel a, HealthLevel b) {
+// Both worse than `level`, or both better. Not being able to tell confirms nothing but itself.
+bool confirmEachOther(HealthLevel level, HealthLevel a, HealthLevel b) {
+  if ((a == HealthLevel::kStale) != (b == HealthLevel::kStale)) return false;
   return (a > level && b > level) || (a < level && b < level);
 }
 
@@ -58,7 +59,11 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
     now.level = std::max(now.damping_level, now.stiffness_level);
   }
   const HealthLevel reported = report_.level;
-  if (stamp < pending_since_ || !areBeyond(reported, now.level, pending_)) {
+  if (now.level == reported && pending_ == reported && stamp >= pending_since_) {  // nothing new, as nearly always
+    report_ = now;
+    return report_;
+  }
+  if (stamp < pending_since_ || !confirmEachOther(reported, now.level, pending_)) {
     pending_ = now.level;
     pending_since_ = stamp;
   } else {

@@ -39,7 +39,7 @@ HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule r
     case IntegrationRule::kCubic:
       if (intervals < 5) refuseIntervals(intervals, "at least 5 for integration_rule cubic");
       end_corrections_ = {-5.0 / 8, 1.0 / 6, -1.0 / 24};
-      num_corrections_ = 3;
+      corrects_neighbours_ = true;
       break;
   }
 }
@@ -56,8 +56,10 @@ double HorizonIntegral::update(const DelayLine& signal) {
     since_refresh_ = 0;
   }
   double integral = same_weight_ * sums_[parity_] + other_weight_ * sums_[1 - parity_];
-  for (int j = 0; j < num_corrections_; ++j)
-    integral += end_corrections_[static_cast<std::size_t>(j)] * (signal.at(j) + signal.at(intervals_ - j));
+  integral += end_corrections_[0] * (newest + signal.at(intervals_));
+  if (corrects_neighbours_)
+    integral += end_corrections_[1] * (signal.at(1) + signal.at(intervals_ - 1)) +
+                end_corrections_[2] * (signal.at(2) + signal.at(intervals_ - 2));
   parity_ = 1 - parity_;
   return period_ * integral;
 }

@@ -23,16 +23,19 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
 
 double RecursiveEstimator::innovate(const RegressionRow& row) {
   double innovation = row.output;
-  for (Eigen::Index i = 0; i < theta_.size(); ++i) innovation -= row.regressor[i] * theta_[i];
+  const double* const phi = row.regressor.data();
+  const double* const theta = theta_.data();
+  for (Eigen::Index i = 0, p = theta_.size(); i < p; ++i) innovation -= phi[i] * theta[i];
   means_.add({std::abs(innovation), innovation * innovation, std::abs(row.output)});
   return innovation;
 }
 
 void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {
   if (num_released_ < numParameters()) releaseExcited(row.regressor);
-  const Eigen::VectorXd& gain =
-      covariance_.update(row.regressor, options_.forgetting_factor / weight, options_.forgetting_factor);
-  for (Eigen::Index i = 0; i < theta_.size(); ++i) theta_[i] += gain[i] * innovation;
+  const double* const gain =
+      covariance_.update(row.regressor, options_.forgetting_factor / weight, options_.forgetting_factor).data();
+  double* const theta = theta_.data();
+  for (Eigen::Index i = 0, p = theta_.size(); i < p; ++i) theta[i] += gain[i] * innovation;
 }
 
 void RecursiveEstimator::releaseExcited(const Eigen::VectorXd& regressor) {

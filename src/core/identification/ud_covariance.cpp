@@ -16,26 +16,31 @@ void UdCovariance::release(int i, double variance) {
 }
 
 const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor) {
+  // Plain pointers: the compiler cannot know that writing a number does not move a vector.
   const Eigen::Index p = diagonal_.size();
+  const double* const phi = regressor.data();
+  const double* const ceiling = ceiling_.data();
+  double* const diagonal = diagonal_.data();
+  double* const gain = gain_.data();
+  double* column = upper_.data();  // of U; its part above the diagonal
   double alpha = noise;
-  for (Eigen::Index j = 0; j < p; ++j) {
-    double* const column = upper_.data() + j * p;  // of U; its part above the diagonal
-    double f = regressor[j];                       // entry j of U' phi
-    for (Eigen::Index i = 0; i < j; ++i) f += column[i] * regressor[i];
-    const double v = diagonal_[j] * f;
+  for (Eigen::Index j = 0; j < p; ++j, column += p) {
+    double f = phi[j];  // entry j of U' phi
+    for (Eigen::Index i = 0; i < j; ++i) f += column[i] * phi[i];
+    const double v = diagonal[j] * f;
     const double alpha_before = alpha;
     alpha += f * v;
-    diagonal_[j] = std::min(diagonal_[j] * alpha_before / (alpha * forgetting_factor), ceiling_[j]);
+    diagonal[j] = std::min(diagonal[j] * alpha_before / (alpha * forgetting_factor), ceiling[j]);
     const double multiplier = -f / alpha_before;
-    gain_[j] = v;
+    gain[j] = v;
     for (Eigen::Index i = 0; i < j; ++i) {
       const double old = column[i];
-      column[i] += multiplier * gain_[i];
-      gain_[i] += old * v;
+      column[i] += multiplier * gain[i];
+      gain[i] += old * v;
     }
   }
   const double scale = 1.0 / alpha;
-  for (Eigen::Index j = 0; j < p; ++j) gain_[j] *= scale;
+  for (Eigen::Index j = 0; j < p; ++j) gain[j] *= scale;
   return gain_;
 }
 

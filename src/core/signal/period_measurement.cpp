@@ -4,19 +4,29 @@
 
 namespace suspension_health_monitor {
 
-void PeriodMeasurement::add(Side side, Stamp stamp) {
+bool PeriodMeasurement::add(Side side, Stamp stamp) {
   const auto index = static_cast<std::size_t>(side);
+  if (last_[index] == stamp) return false;
   if (last_[index] && stamp > *last_[index]) spacings_[index].push_back(stamp - *last_[index]);
   last_[index] = stamp;
+  return true;
 }
 
 std::optional<double> PeriodMeasurement::period() const {
+  if (spacings_[0].size() < spacings_wanted_ || spacings_[1].size() < spacings_wanted_) return std::nullopt;
   double slower = 0.0;
   for (std::vector<Stamp> spacings : spacings_) {
-    if (spacings.size() < spacings_wanted_) return std::nullopt;
     const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
     std::nth_element(spacings.begin(), middle, spacings.end());
-    slower = std::max(slower, toSeconds(*middle));
+    const Stamp median = *middle;
+    Stamp sum{};
+    int count = 0;
+    for (const Stamp spacing : spacings) {
+      if (2 * spacing <= median || 2 * spacing >= 3 * median) continue;
+      sum += spacing;
+      ++count;
+    }
+    slower = std::max(slower, toSeconds(sum) / count);
   }
   return slower;
 }

@@ -12,6 +12,11 @@ namespace {
 // message that was overtaken.
 constexpr int kReorderedPeriods = 50;
 
+// A spike of this size takes an estimator with forgetting thousands of rows to forget; no road makes one.
+constexpr double kAbsurdRatio = 1e6;
+constexpr double kFewestForUsual = 100.0;
+constexpr int kMostAbsurd = 3;  // in a row; after that it is how the sensor reads now
+
 // Before the conversion to whole nanoseconds, which is undefined for NaN and what does not fit.
 Stamp checked(double period) {
   if (!(period >= 1e-9 && period <= 1e9))
@@ -52,8 +57,19 @@ bool UniformGrid::admit(Side side, Stamp stamp, double acceleration) {
     if (*last - stamp <= kReorderedPeriods * period_) return false;
     startNewSeries();
   }
+  if (isAbsurd(static_cast<std::size_t>(side), acceleration)) return reject(RejectReason::kAbsurd);
   last = stamp;
   return true;
+}
+
+bool UniformGrid::isAbsurd(std::size_t index, double acceleration) {
+  const double size = std::abs(acceleration);
+  RunningMean& usual = usual_[index];
+  const bool absurd = usual.weight() >= kFewestForUsual && usual.mean() > 0.0 && size > kAbsurdRatio * usual.mean() &&
+                      absurd_in_a_row_[index] < kMostAbsurd;
+  absurd_in_a_row_[index] = absurd ? absurd_in_a_row_[index] + 1 : 0;
+  if (!absurd) usual.add(size);
+  return absurd;
 }
 
 std::optional<CornerSample> UniformGrid::match() {

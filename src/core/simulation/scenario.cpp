@@ -22,8 +22,7 @@ struct Vehicle {
 //   International Roughness Index from longitudinal road profile", TRR 1501, 1995): beta/M = 6.0 1/s, K/M = 63.3 1/s^2,
 //   K0/M = 653 1/s^2, m/M = 0.15; only ratios are given there, M = 250 kg is ours.
 // rover, ugv: our own choice of a small slow rover (body 1.7 Hz) and of a softer, faster one (1.0 Hz) on bad ground,
-// with
-//   the golden car's ratio K0/K of about 10.
+//   with the golden car's ratio K0/K of about 10.
 constexpr Vehicle kVehicles[] = {
     {"paper", {50.0, 5.0, 150.0, 690.0, std::nullopt}, 'C', 5.0},
     {"golden_car", {250.0, 37.5, 1500.0, 15825.0, 163250.0}, 'C', 15.0},
