@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "first_run.h"
 #include "parameterization.h"
 #include "segment_cost.h"
 
@@ -15,76 +16,8 @@ namespace {
 
 constexpr double kRunaway = 1e3;  // times the drive's largest measured acceleration
 
-using Records = std::vector<const DriveRecord*>;
-using Masks = std::vector<std::vector<SampleMask>>;
-
-const SampleMask* maskOf(const Masks& masks, std::size_t record, std::size_t segment) {
-  return masks.empty() ? nullptr : &masks[record][segment];
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// What a first run from rest, the effects not acting yet, shows of the drives: rms values.
-struct Sizes {
-  double travel = 0.0, travel_rate = 0.0;
-  std::vector<double> forces;  // of the effects, per unit of their coefficient
-  double acceleration = 0.0;   // of the measured z'', what is fitted only
-  double residual = 0.0;       // robust, what is fitted only
-};
-
-/// Sums squares over one segment.
-void addSegment(const StrutModel& start, const DriveRecord& record, const DriveSegment& segment,
-                const std::vector<StrutState>& motion, Sizes& sums) {
-  for (std::size_t k = 0; k < segment.size(); ++k) {
-    const StrutState& state = motion[k];
-    sums.travel += state.travel * state.travel;
-    sums.travel_rate += state.travel_rate * state.travel_rate;
-    const double time = segment.start + static_cast<double>(k) * record.period();
-    for (std::size_t j = 0; j < start.effects.size(); ++j) {
-      const ActiveEffect& active = start.effects[j];
-      const double f =
-          active.effect.force({state.travel, state.travel_rate, time, state.memory[j]}, active.shapes.data());
-      sums.forces[j] += f * f;
-    }
-  }
-}
-
-/// @return nothing if the model runs away or there is nothing to fit.
-std::optional<Sizes> firstRun(const Records& records, const Masks& masks, const StrutModel& start) {
-  StrutModel linear = start;  // the effects' memories run along
-  for (ActiveEffect& active : linear.effects) active.coefficient = 0.0;
-  Sizes sizes;
-  sizes.forces.resize(start.effects.size(), 0.0);
-  double count = 0.0;
-  std::vector<double> absolute, predicted;
-  std::vector<StrutState> motion;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    for (std::size_t s = 0; s < records[r]->segments().size(); ++s) {
-      const DriveSegment& segment = records[r]->segments()[s];
-      if (!runFree(linear, *records[r], segment, {}, predicted, &motion)) return std::nullopt;
-      addSegment(start, *records[r], segment, motion, sizes);
-      count += static_cast<double>(segment.size());
-      const SampleMask* mask = maskOf(masks, r, s);
-      for (std::size_t k = 0; k < segment.size(); ++k) {
-        if (mask != nullptr && (*mask)[k] == 0) continue;
-        sizes.acceleration += segment.sprung[k] * segment.sprung[k];
-        absolute.push_back(std::abs(segment.sprung[k] - predicted[k]));
-      }
-    }
-  if (absolute.empty()) return std::nullopt;
-  for (double* square : {&sizes.travel, &sizes.travel_rate}) *square = std::sqrt(*square / count);
-  for (double& square : sizes.forces) square = std::sqrt(square / count);
-  sizes.acceleration = std::sqrt(sizes.acceleration / static_cast<double>(absolute.size()));
-  sizes.residual = 1.4826 * median(absolute);
-  return sizes;
-}
-
 /// @return nothing if an effect never acts in these drives.
-std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const Sizes& sizes, double period) {
+std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const DriveSizes& sizes, double period) {
   std::vector<double> scales;
   for (const double force : sizes.forces) {
     if (force == 0.0) return std::nullopt;
@@ -124,7 +57,7 @@ Eigen::VectorXd standardDeviations(const ceres::Problem& problem, const Paramete
 
 /// Fits the model `x` and the initial states in place.
 /// @return the model's standard deviations; nothing if the solver fails.
-std::optional<Eigen::VectorXd> solve(const Records& records, const Masks& masks, const StrutModel& start,
+std::optional<Eigen::VectorXd> solve(const FitRecords& records, const FitMasks& masks, const StrutModel& start,
                                      const Parameterization& parameters, const CostScales& scales, int max_iterations,
                                      Eigen::VectorXd& x, std::vector<std::array<double, 2>>& initial) {
   ceres::Problem problem;
@@ -188,7 +121,7 @@ bool runFree(const StrutModel& model, const DriveRecord& record, const DriveSegm
 std::optional<ModelFit> fitOutputError(const std::vector<const DriveRecord*>& records,
                                        const std::vector<std::vector<SampleMask>>& masks, const StrutModel& start,
                                        const FitOptions& options) {
-  const std::optional<Sizes> sizes = firstRun(records, masks, start);
+  const std::optional<DriveSizes> sizes = firstRun(records, masks, start);
   if (!sizes) return std::nullopt;
   const auto coefficient_scales = coefficientScales(start, *sizes, records.front()->period());
   if (!coefficient_scales) return std::nullopt;

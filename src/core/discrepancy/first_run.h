@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/discrepancy/output_error_fit.h"
+
+namespace suspension_health_monitor {
+
+using FitRecords = std::vector<const DriveRecord*>;
+using FitMasks = std::vector<std::vector<SampleMask>>;
+
+/// @return the mask of a segment; none if all samples are fitted.
+inline const SampleMask* maskOf(const FitMasks& masks, std::size_t record, std::size_t segment) {
+  return masks.empty() ? nullptr : &masks[record][segment];
+}
+
+/// What a first run from rest, the effects not acting yet, shows of the drives: rms values.
+struct DriveSizes {
+  double travel = 0.0, travel_rate = 0.0;
+  std::vector<double> forces;  ///< of the effects, per unit of their coefficient
+  double acceleration = 0.0;   ///< of the measured z'', what is fitted only
+  double residual = 0.0;       ///< robust, what is fitted only
+};
+
+/// @return nothing if the model runs away or there is nothing to fit.
+std::optional<DriveSizes> firstRun(const FitRecords& records, const FitMasks& masks, const StrutModel& start);
+
+}  // namespace suspension_health_monitor
