@@ -88,8 +88,7 @@ TEST(EffectSearch, NothingIsMissingFromALinearDrive) {
 }
 
 TEST(EffectSearch, TwoEffectsAreBothNamed) {
-  const SearchResult result =
-      search(recorded(driveWith({{"asymmetric_damping", {}}, {"bump_stop", {0.012}}})));
+  const SearchResult result = search(recorded(driveWith({{"asymmetric_damping", {}}, {"bump_stop", {0.012}}})));
   EXPECT_EQ(result.verdict, Verdict::kEffectFound);
   Names selected = result.selected;
   std::sort(selected.begin(), selected.end());
@@ -122,8 +121,9 @@ TEST(EffectSearch, AForceFromElsewhereStaysUnexplained) {
   EXPECT_TRUE(sine.selected.empty());
   EXPECT_FALSE(sine.extended);
   EXPECT_GT(sine.structured_share, 0.5);
-  const SearchResult bursts = searchWithDisturbance(
-      [](double t) { return 0.6 * std::sin(2.0 * kPi * (0.9 * t + 0.7 * std::sin(0.31 * t))) * std::sin(0.17 * t * t); });
+  const SearchResult bursts = searchWithDisturbance([](double t) {
+    return 0.6 * std::sin(2.0 * kPi * (0.9 * t + 0.7 * std::sin(0.31 * t))) * std::sin(0.17 * t * t);
+  });
   EXPECT_EQ(bursts.verdict, Verdict::kUnexplained);
   EXPECT_TRUE(bursts.selected.empty());
 }

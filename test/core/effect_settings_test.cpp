@@ -46,11 +46,13 @@ TEST(EffectSettings, MessagesNameTheMistakeAndWhatIsKnown) {
   expectNamed(refusal({{"effects/gremlin/coefficient", 1.0}}), {"gremlin", "bump_stop", "hysteresis"});
   expectNamed(refusal({{"effects/bump_stop/coefficient", 1.0}}), {"effects/bump_stop/g", "missing", "coefficient, g"});
   expectNamed(refusal({{"effects/bump_stop/g", 1.0}}), {"effects/bump_stop/coefficient", "missing"});
-  expectNamed(refusal({{"effects/bump_stop/coefficient", 1.0}, {"effects/bump_stop/g", 0.1}, {"effects/bump_stop/h", 1.0}}),
-              {"effects/bump_stop/h", "unknown", "coefficient, g"});
+  expectNamed(
+      refusal({{"effects/bump_stop/coefficient", 1.0}, {"effects/bump_stop/g", 0.1}, {"effects/bump_stop/h", 1.0}}),
+      {"effects/bump_stop/h", "unknown", "coefficient, g"});
   expectNamed(refusal({{"effects/bump_stop/coefficient", 1.0}, {"effects/bump_stop/g", 0.0}}),
               {"effects/bump_stop/g", "[m]", "above 0"});
-  expectNamed(refusal({{"effects/bump_stop/coefficient", std::string("much")}}), {"effects/bump_stop/coefficient", "much"});
+  expectNamed(refusal({{"effects/bump_stop/coefficient", std::string("much")}}),
+              {"effects/bump_stop/coefficient", "much"});
   expectNamed(refusal({{"effects/bump_stop", 1.0}}), {"effects/bump_stop", "NAME/coefficient"});
 }
 
@@ -68,7 +70,8 @@ TEST(EffectSettings, AssignmentBecomesSettings) {
 }
 
 TEST(EffectSettings, AssignmentsOfAnotherFormAreRefused) {
-  for (const char* wrong : {"", "hysteresis", "=1", "hysteresis=", "hysteresis=1,x", "hysteresis=1,=2", "hysteresis=1,,x=2"}) {
+  for (const char* wrong :
+       {"", "hysteresis", "=1", "hysteresis=", "hysteresis=1,x", "hysteresis=1,=2", "hysteresis=1,,x=2"}) {
     OptionMap values;
     EXPECT_THROW(setEffect(values, wrong), std::invalid_argument) << wrong;
   }

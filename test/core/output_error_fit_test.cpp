@@ -130,7 +130,8 @@ TEST(FitOutputError, OutliersHardlyMoveTheResult) {
   DriveRecord record(0.01, 1);
   int k = 0;
   for (const DriveSample& sample : drive(options))
-    record.push({sample.stamp, sample.sprung->acceleration + (++k % 50 == 0 ? 20.0 : 0.0), sample.unsprung->acceleration});
+    record.push(
+        {sample.stamp, sample.sprung->acceleration + (++k % 50 == 0 ? 20.0 : 0.0), sample.unsprung->acceleration});
   record.finish();
   const auto fit = fitOutputError({&record}, {}, kRough);
   ASSERT_TRUE(fit);
