@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/model/effect_settings.h"
 #include "suspension_health_monitor/option_table.h"
 #include "suspension_health_monitor/simulation/scenario.h"
 
@@ -44,6 +46,7 @@ struct SimulatorOptions {
   /// @throws std::invalid_argument  naming an unknown name, or a value that is wrong and what is allowed.
   static SimulatorOptions fromValues(OptionMap values) {
     SimulatorOptions options;
+    options.drive.hidden = takeEffects(values, forceEffects());
     takeOptions(values, kSimulationFields, options.drive);
     takeOptions(values, kPublishingFields, options.publishing);
     refuseUnknown(values, describe());

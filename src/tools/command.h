@@ -21,6 +21,8 @@ struct Command {
 
 void simulate(const Arguments& arguments);
 void identify(const Arguments& arguments);
+void diagnose(const Arguments& arguments);
+void effects(const Arguments& arguments);
 void horizon(const Arguments& arguments);
 void options(const Arguments& arguments);
 

@@ -56,6 +56,8 @@ void simulate(const Arguments& arguments) {
   add("config", po::value<std::string>()->default_value(""), "YAML file like config/simulator.yaml");
   add("set", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
       "NAME=VALUE: any option of `suspension_bag options simulator`");
+  add("effect", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
+      "NAME=COEFFICIENT[,SHAPE=VALUE]...: hide this effect in the strut (`suspension_bag effects`)");
   for (const OptionDescription& option : SimulatorOptions::describe())
     if (std::find(kFlags.begin(), kFlags.end(), option.name) != kFlags.end())
       add(option.name.c_str(), po::value<std::string>(),
@@ -66,6 +68,7 @@ void simulate(const Arguments& arguments) {
   requireSeparateFiles(*values, {"config"}, {"output"});
   OptionMap settings =
       gatherOptions((*values)["config"].as<std::string>(), (*values)["set"].as<std::vector<std::string>>());
+  for (const std::string& effect : (*values)["effect"].as<std::vector<std::string>>()) setEffect(settings, effect);
   for (const char* flag : kFlags)
     if (values->count(flag) != 0) settings[flag] = (*values)[flag].as<std::string>();
   const SimulatorOptions options = SimulatorOptions::fromValues(settings);

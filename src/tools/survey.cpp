@@ -4,7 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "../ros/imu_pipeline.h"
+#include "../ros/conversions.h"
+#include "bag_samples.h"
 #include "errors.h"
 #include "suspension_health_monitor/identification/horizon_survey.h"
 #include "suspension_health_monitor/signal/continuity.h"
@@ -47,24 +48,17 @@ double measurePeriod(const ImuBags& bags) {
 
 int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
   const double period = *options.monitor.sample_period;
-  const std::array<StrutAxis, 2> axes{StrutAxis(options.shell.sprung_axis), StrutAxis(options.shell.unsprung_axis)};
   HorizonSurvey survey(period, integrationRule(options.monitor.integration_rule), kLongestHorizon);
-  UniformGrid grid(period);
   std::optional<Stamp> last;
   std::size_t count = 0;
-  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
-    const std::optional<double> acceleration = axes[static_cast<std::size_t>(side)].acceleration(imu);
-    const std::optional<CornerSample> sample =
-        acceleration ? grid.push(side, toStamp(imu.header.stamp), *acceleration) : std::nullopt;
-    if (sample) {
-      const Continuity follows = last ? continuity(sample->stamp - *last, fromSeconds(period)) : Continuity::kGap;
-      const std::size_t block = count++ / kBlock;
-      const bool surveyed = block < kFirstBlocks || block % kEveryBlock == 0;
-      const bool continues = follows == Continuity::kContinues || follows == Continuity::kTooSoon;
-      if (!continues || !surveyed) survey.interrupt();
-      if (follows != Continuity::kTooSoon && surveyed) survey.push(*sample);
-      last = sample->stamp;
-    }
+  readSamples(bags, options, [&](const CornerSample& sample) {
+    const Continuity follows = last ? continuity(sample.stamp - *last, fromSeconds(period)) : Continuity::kGap;
+    const std::size_t block = count++ / kBlock;
+    const bool surveyed = block < kFirstBlocks || block % kEveryBlock == 0;
+    const bool continues = follows == Continuity::kContinues || follows == Continuity::kTooSoon;
+    if (!continues || !surveyed) survey.interrupt();
+    if (follows != Continuity::kTooSoon && surveyed) survey.push(sample);
+    last = sample.stamp;
     return true;
   });
   const std::optional<int> samples = survey.horizonSamples();

@@ -22,7 +22,8 @@ PairedComparison comparePaired(const std::vector<double>& before, const std::vec
 /// weak where an effect acts in a few violent moments, the likelihood ratio where it acts gently all the time.
 bool isSignificant(const PairedComparison& comparison, double probability);
 
-/// Which samples are fitted and which are kept to judge: contiguous blocks, every third one held out.
+/// Which samples are fitted and which are kept to judge: contiguous blocks, every third one held out
+/// (but for the first two natural periods of a segment).
 /// The held-out blocks are cut into stretches of one natural period, about as long as the free run remembers.
 class HeldOut {
  public:

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kBlocks = 15;  // per record
 constexpr std::size_t kFewestStretches = 8;
+constexpr std::size_t kSettlingPeriods = 2;  // natural periods
 constexpr int kPredictorLength = 16;
 
 }  // namespace
@@ -54,7 +55,8 @@ std::optional<HeldOut> holdOut(const std::vector<const DriveRecord*>& records, d
     for (const DriveSegment& segment : record->segments()) {
       SampleMask mask(segment.size(), 1);
       for (std::size_t k = 0; k < segment.size(); ++k) {
-        if ((position + k) / block % 3 != 2) continue;
+        // The beginning of a segment is always fitted: nothing else tells its initial state.
+        if (k < kSettlingPeriods * period || (position + k) / block % 3 != 2) continue;
         mask[k] = 0;
         sum += segment.sprung[k];
         square += segment.sprung[k] * segment.sprung[k];

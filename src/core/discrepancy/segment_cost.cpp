@@ -38,9 +38,13 @@ bool SegmentCost::differentiate(const Eigen::VectorXd& shared, const Eigen::Vect
   Eigen::VectorXd moved(num_residuals());
   for (Eigen::Index i = 0; i < varied.size(); ++i) {
     const double kept = varied[i];
-    const double step = kDifference * std::max(1.0, std::abs(kept));
+    double step = kDifference * std::max(1.0, std::abs(kept));
     varied[i] = kept + step;
-    if (!evaluate(shared, local, moved)) return false;
+    if (!evaluate(shared, local, moved)) {  // at the edge of stability: look the other way
+      step = -step;
+      varied[i] = kept + step;
+      if (!evaluate(shared, local, moved)) return false;
+    }
     varied[i] = kept;
     for (int k = 0; k < num_residuals(); ++k) columns(k, i) = (moved[k] - base[k]) / step * dampSlope(base[k]);
   }

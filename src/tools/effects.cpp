@@ -1,0 +1,29 @@
+#include <cstdio>
+
+#include "command.h"
+#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/model/measurement_effect.h"
+
+namespace suspension_health_monitor {
+
+void effects(const Arguments& arguments) {
+  boost::program_options::options_description description("options");
+  if (!parse(arguments, "effects", description)) return;
+  std::printf("| name | law | unit of c | shape | what a workshop would find |\n|---|---|---|---|---|\n");
+  const auto row = [](const std::string& name, std::string law, const std::string& unit, const std::string& shapes,
+                      const std::string& finding) {
+    for (std::size_t bar = law.find('|'); bar != std::string::npos; bar = law.find('|', bar + 2)) law.insert(bar, "\\");
+    std::printf("| `%s` | %s | %s | %s | %s |\n", name.c_str(), law.c_str(), unit.c_str(), shapes.c_str(),
+                finding.c_str());
+  };
+  for (const ForceEffect& effect : forceEffects()) {
+    std::string shapes;
+    for (const ShapeParameter& shape : effect.shapes)
+      shapes += (shapes.empty() ? "" : ", ") + shape.name + " [" + shape.unit + "]";
+    row(effect.name, effect.law, effect.unit, shapes, effect.finding);
+  }
+  for (const MeasurementEffect& effect : measurementEffects())
+    row(effect.name, effect.law, effect.unit, "", effect.finding);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,156 @@
+#include "search_report.h"
+
+#include <string>
+
+namespace suspension_health_monitor {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kShownCandidates = 8;
+
+std::string join(const std::vector<std::string>& names, const char* separator) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
+  return text;
+}
+
+/// Calls take(name, coefficient) for every effect and shape(name, value) for every shape of it.
+template <class TakeCoefficient, class TakeShape>
+void visit(const StrutModel& model, const TakeCoefficient& take, const TakeShape& shape) {
+  for (const ActiveEffect& active : model.effects) {
+    take(active.effect.name, active.coefficient, active.effect.unit);
+    for (std::size_t i = 0; i < active.shapes.size(); ++i) shape(active.effect.name, active.effect.shapes[i], active.shapes[i]);
+  }
+  for (const ActiveMeasurementEffect& reading : model.reading)
+    take(reading.effect.name, reading.coefficient, reading.effect.unit);
+}
+
+json parametersOf(const StrutModel& model) {
+  return {{"damping_to_mass", model.damping_to_mass}, {"stiffness_to_mass", model.stiffness_to_mass}};
+}
+
+void addNumbers(const StrutModel& model, json& into) {
+  json coefficients = json::object(), shapes = json::object();
+  visit(
+      model, [&](const std::string& name, double value, const std::string&) { coefficients[name] = value; },
+      [&](const std::string& name, const ShapeParameter& shape, double value) {
+        shapes[name + "/" + shape.name] = value;
+      });
+  into["coefficients"] = coefficients;
+  into["shapes"] = shapes;
+}
+
+json standardDeviations(const ModelFit& fit) {
+  json result{{"damping_to_mass", fit.stddev[0]}, {"stiffness_to_mass", fit.stddev[1]}};
+  Eigen::Index i = 2;
+  visit(
+      fit.model, [&](const std::string& name, double, const std::string&) { result[name] = fit.stddev[i++]; },
+      [&](const std::string& name, const ShapeParameter& shape, double) {
+        result[name + "/" + shape.name] = fit.stddev[i++];
+      });
+  return result;
+}
+
+const char* nameOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kEffectFound:
+      return "effect_found";
+    case Verdict::kNothingMissing:
+      return "nothing_missing";
+    case Verdict::kUnexplained:
+      break;
+  }
+  return "unexplained";
+}
+
+std::string sentence(const SearchResult& result) {
+  switch (result.verdict) {
+    case Verdict::kEffectFound:
+      return "Missing from the model: " + join(result.selected, " and ") + ".";
+    case Verdict::kNothingMissing:
+      return "Nothing is missing: what the model leaves is noise.";
+    case Verdict::kUnexplained:
+      break;
+  }
+  return "Something is missing, but no known effect explains most of it: no name is given.";
+}
+
+}  // namespace
+
+void printSearch(const SearchResult& result) {
+  std::printf("%s\n", sentence(result).c_str());
+  for (const std::vector<std::string>& group : result.indistinguishable)
+    std::printf("These drives cannot tell apart: %s.\n", join(group, ", ").c_str());
+  std::printf("\nmodel as it is: held-out rmse %.4g m/s^2, fit %.1f %%, noise floor about %.4g m/s^2\n",
+              result.base.held_out_rmse, result.base_fit_percent, result.noise_floor);
+  std::printf("\nadded alone                    held-out rmse   error removed   significant\n");
+  for (std::size_t i = 0; i < std::min(kShownCandidates, result.ranking.size()); ++i) {
+    const RankedModel& ranked = result.ranking[i];
+    std::printf("%-30s %13.4g %14.1f %%   %s\n", join(ranked.effects, " + ").c_str(), ranked.held_out_rmse,
+                ranked.error_removed_percent, ranked.significant ? "yes" : "no");
+  }
+  if (!result.extended || !result.final_fit) return;
+  std::printf("\nwith %s: held-out rmse %.4g m/s^2, fit %.1f %%\n", join(result.selected, " and ").c_str(),
+              result.extended->held_out_rmse, result.extended_fit_percent);
+  const ModelFit& fit = *result.final_fit;
+  std::printf("  damping/mass    %.5g +- %.2g 1/s\n  stiffness/mass  %.5g +- %.2g 1/s^2\n", fit.model.damping_to_mass,
+              fit.stddev[0], fit.model.stiffness_to_mass, fit.stddev[1]);
+  Eigen::Index i = 2;
+  visit(
+      fit.model,
+      [&](const std::string& name, double value, const std::string& unit) {
+        std::printf("  %s  c = %.5g +- %.2g %s\n", name.c_str(), value, fit.stddev[i++], unit.c_str());
+      },
+      [&](const std::string&, const ShapeParameter& shape, double value) {
+        std::printf("    %s = %.5g +- %.2g %s\n", shape.name.c_str(), value, fit.stddev[i++], shape.unit.c_str());
+      });
+}
+
+json toJson(const SearchResult& result) {
+  json ranking = json::array();
+  for (const RankedModel& ranked : result.ranking) {
+    json row{{"effects", ranked.effects},
+             {"held_out_rmse", ranked.held_out_rmse},
+             {"error_removed_percent", ranked.error_removed_percent},
+             {"significant", ranked.significant}};
+    addNumbers(ranked.model, row);
+    ranking.push_back(row);
+  }
+  json whole{{"verdict", nameOf(result.verdict)},
+             {"base",
+              {{"held_out_rmse", result.base.held_out_rmse},
+               {"fit_percent", result.base_fit_percent},
+               {"parameters", parametersOf(result.base.model)}}},
+             {"noise_floor", result.noise_floor},
+             {"structured_share", result.structured_share},
+             {"ranking", ranking},
+             {"selected", result.selected},
+             {"indistinguishable", result.indistinguishable}};
+  if (result.extended && result.final_fit) {
+    json extended{{"held_out_rmse", result.extended->held_out_rmse},
+                  {"fit_percent", result.extended_fit_percent},
+                  {"parameters", parametersOf(result.final_fit->model)},
+                  {"stddevs", standardDeviations(*result.final_fit)}};
+    addNumbers(result.final_fit->model, extended);
+    whole["extended"] = extended;
+  }
+  return whole;
+}
+
+void writeModel(const SearchResult& result, std::FILE* out) {
+  const StrutModel& model = result.final_fit ? result.final_fit->model : result.base.model;
+  std::fprintf(out, "damping_to_mass: %.17g\nstiffness_to_mass: %.17g\n", model.damping_to_mass,
+               model.stiffness_to_mass);
+  if (model.effects.empty()) return;
+  std::fputs("effects:\n", out);
+  for (const ActiveEffect& active : model.effects) {
+    std::fprintf(out, "  %s:\n    coefficient: %.17g  # [%s]\n", active.effect.name.c_str(), active.coefficient,
+                 active.effect.unit.c_str());
+    for (std::size_t i = 0; i < active.shapes.size(); ++i)
+      std::fprintf(out, "    %s: %.17g  # [%s]\n", active.effect.shapes[i].name.c_str(), active.shapes[i],
+                   active.effect.shapes[i].unit.c_str());
+  }
+}
+
+}  // namespace suspension_health_monitor
