@@ -120,7 +120,7 @@ void SuspensionMonitor::compare(const CornerSample& sample) {
   if (!comparison.predicted) return;
   comparison_.add(comparison.measured, *comparison.predicted);
   comparison.rmse = comparison_.rmse();
-  comparison.fit_percent = comparison_.fitPercent();
+  comparison.fit_percent = comparison_.fitPercent(comparison.rmse);
   // Parameters whose free run is worse than a constant are not those of this strut, however small the rows' residuals.
   if (comparison.fit_percent < 0.0 && comparison_.isFull()) report_.la.valid = false;
 }

@@ -11,6 +11,10 @@
 namespace suspension_health_monitor {
 namespace {
 
+// Not in long double, as is Boost's habit: its tables are set up when the library is loaded, and that fails where long
+// double is no longer than double, under valgrind for one.
+using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
 constexpr std::size_t kBlocks = 15;  // per record
 constexpr std::size_t kFewestStretches = 8;
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
@@ -57,8 +61,8 @@ PairedComparison comparePaired(const std::vector<double>& before, const std::vec
 }
 
 bool isSignificant(const PairedComparison& comparison, double probability) {
-  const boost::math::normal normal;
-  const boost::math::chi_squared chi_squared(2.0);  // a coefficient and a shape
+  const boost::math::normal_distribution<double, InDouble> normal;
+  const boost::math::chi_squared_distribution<double, InDouble> chi_squared(2.0);  // a coefficient and a shape
   return comparison.t > boost::math::quantile(boost::math::complement(normal, probability)) ||
          comparison.log_ratio > boost::math::quantile(boost::math::complement(chi_squared, probability));
 }
