@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <mutex>
 #include <thread>
 
 #include "suspension_health_monitor/discrepancy/held_out.h"
@@ -13,15 +12,9 @@ namespace {
 
 constexpr double kFalseName = 0.001;         // chance of a false name, before correction for the number of candidates
 constexpr double kWorthHaving = 0.02;        // of the mean square
-constexpr double kStructured = 0.25;        // of the mean square; below it, what is left counts as noise
+constexpr double kStructured = 0.25;         // of the mean square; below it, what is left counts as noise
 constexpr double kExplained = 0.5;           // of the structure, or there is no name
 constexpr double kIndistinguishable = 0.02;  // of the mean square, or not significant
-
-/// One thing that could be added, with one set of starting shapes.
-struct Trial {
-  std::string name;
-  StrutModel start;
-};
 
 struct Sizes {
   double travel = 0.0, travel_rate = 0.0;
@@ -87,22 +80,21 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::vector<Trial> makeTrials(const EffectCandidates& candidates, const StrutModel& current, const Sizes& sizes) {
-  std::vector<Trial> trials;
+/// The current model with one thing added, for every thing that could be and every set of its starting shapes.
+std::vector<StrutModel> makeTrials(const EffectCandidates& candidates, const StrutModel& current, const Sizes& sizes) {
+  std::vector<StrutModel> trials;
   const std::vector<std::string> present = namesOf(current);
   for (const ForceEffect& effect : candidates.forces) {
     if (has(present, effect.name) || current.effects.size() >= StrutState::kMostEffects) continue;
     for (const std::vector<double>& shapes : startingShapes(effect, sizes, current.stiffness_to_mass)) {
-      Trial trial{effect.name, current};
-      trial.start.effects.push_back({effect, 0.0, shapes});
-      trials.push_back(trial);
+      trials.push_back(current);
+      trials.back().effects.push_back({effect, 0.0, shapes});
     }
   }
   for (const MeasurementEffect& effect : candidates.readings) {
     if (has(present, effect.name)) continue;
-    Trial trial{effect.name, current};
-    trial.start.reading.push_back({effect, 0.0});
-    trials.push_back(trial);
+    trials.push_back(current);
+    trials.back().reading.push_back({effect, 0.0});
   }
   return trials;
 }
@@ -130,7 +122,7 @@ class Search {
   };
 
   std::optional<Judged> judge(const StrutModel& start, const Judged* before) const;
-  std::vector<Judged> judgeAll(const std::vector<Trial>& trials, const Judged& before) const;
+  std::vector<Judged> judgeAll(const std::vector<StrutModel>& trials, const Judged& before) const;
   Judged select(const std::vector<Judged>& ranking, SearchResult& result) const;
   void conclude(const Judged& base, const Judged& last, SearchResult& result) const;
 
@@ -160,11 +152,11 @@ std::optional<Search::Judged> Search::judge(const StrutModel& start, const Judge
   return judged;
 }
 
-std::vector<Search::Judged> Search::judgeAll(const std::vector<Trial>& trials, const Judged& before) const {
+std::vector<Search::Judged> Search::judgeAll(const std::vector<StrutModel>& trials, const Judged& before) const {
   std::vector<std::optional<Judged>> results(trials.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    for (std::size_t i = next++; i < trials.size(); i = next++) results[i] = judge(trials[i].start, &before);
+    for (std::size_t i = next++; i < trials.size(); i = next++) results[i] = judge(trials[i], &before);
   };
   std::vector<std::thread> helpers;
   for (int i = 1; i < options_.threads; ++i) helpers.emplace_back(work);
