@@ -11,7 +11,7 @@
 #include "search_report.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/model/effect_library.h"
 #include "suspension_health_monitor/signal/continuity.h"
 #include "whole_file.h"
 
@@ -103,7 +103,7 @@ void diagnose(const Arguments& arguments) {
   SearchOptions search;
   search.threads = threads;
   Progress progress("fitting", 1.0);
-  const std::optional<SearchResult> result = EffectSearch({forceEffects(), measurementEffects()}, search)
+  const std::optional<SearchResult> result = EffectSearch(builtInEffects(), search)
                                                  .run(pointers, rough, [&](double share) { progress.update(share); });
   if (!result)
     throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");

@@ -20,7 +20,7 @@ using Names = std::vector<std::string>;
 constexpr double kNoise = 0.03;  // [m/s^2]
 
 SearchResult search(const DriveRecord& record) {
-  const EffectSearch search({forceEffects(), measurementEffects()}, {2, 2});
+  const EffectSearch search(builtInEffects(), {2, 2});
   std::optional<SearchResult> result = search.run({&record}, {6.6, 60.0, {}, {}});
   EXPECT_TRUE(result);
   return result.value_or(SearchResult{});

@@ -6,14 +6,9 @@
 #include <vector>
 
 #include "suspension_health_monitor/discrepancy/output_error_fit.h"
+#include "suspension_health_monitor/model/effect_library.h"
 
 namespace suspension_health_monitor {
-
-/// What may be missing: the catalogue's records, or a user's.
-struct EffectCandidates {
-  std::vector<ForceEffect> forces;
-  std::vector<MeasurementEffect> readings;
-};
 
 enum class Verdict { kEffectFound, kNothingMissing, kUnexplained };
 
@@ -57,7 +52,7 @@ class EffectSearch {
  public:
   using Progress = std::function<void(double share)>;
 
-  EffectSearch(EffectCandidates candidates, const SearchOptions& options);
+  EffectSearch(EffectLibrary candidates, const SearchOptions& options);
 
   /// @param records  drives of one vehicle.  @param start  rough b1, b0, e.g. of LS.
   /// @return nothing if the drives are too short to hold out a part of them, or not even the base model can be fitted.
@@ -65,7 +60,7 @@ class EffectSearch {
                                   const Progress& progress = {}) const;
 
  private:
-  EffectCandidates candidates_;
+  EffectLibrary candidates_;
   SearchOptions options_;
 };
 

@@ -81,7 +81,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 }
 
 /// The current model with one thing added, for every thing that could be and every set of its starting shapes.
-std::vector<StrutModel> makeTrials(const EffectCandidates& candidates, const StrutModel& current, const Sizes& sizes) {
+std::vector<StrutModel> makeTrials(const EffectLibrary& candidates, const StrutModel& current, const Sizes& sizes) {
   std::vector<StrutModel> trials;
   const std::vector<std::string> present = namesOf(current);
   for (const ForceEffect& effect : candidates.forces) {
@@ -108,7 +108,7 @@ std::size_t complexity(const StrutModel& model) {
 
 class Search {
  public:
-  Search(const EffectCandidates& candidates, const SearchOptions& options,
+  Search(const EffectLibrary& candidates, const SearchOptions& options,
          const std::vector<const DriveRecord*>& records, const EffectSearch::Progress& progress)
       : candidates_(candidates), options_(options), records_(records), progress_(progress) {}
 
@@ -126,7 +126,7 @@ class Search {
   Judged select(const std::vector<Judged>& ranking, SearchResult& result) const;
   void conclude(const Judged& base, const Judged& last, SearchResult& result) const;
 
-  const EffectCandidates& candidates_;
+  const EffectLibrary& candidates_;
   const SearchOptions& options_;
   const std::vector<const DriveRecord*>& records_;
   const EffectSearch::Progress& progress_;
@@ -246,7 +246,7 @@ void Search::conclude(const Judged& base, const Judged& last, SearchResult& resu
 
 }  // namespace
 
-EffectSearch::EffectSearch(EffectCandidates candidates, const SearchOptions& options)
+EffectSearch::EffectSearch(EffectLibrary candidates, const SearchOptions& options)
     : candidates_(std::move(candidates)), options_(options) {}
 
 std::optional<SearchResult> EffectSearch::run(const std::vector<const DriveRecord*>& records, const StrutModel& start,
