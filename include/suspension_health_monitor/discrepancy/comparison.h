@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/discrepancy/compared_segment.h"
 #include "suspension_health_monitor/discrepancy/drive_record.h"
+#include "suspension_health_monitor/discrepancy/prediction_error.h"
 #include "suspension_health_monitor/discrepancy/residual_views.h"
 #include "suspension_health_monitor/discrepancy/where_it_fails.h"
 
@@ -19,12 +21,6 @@ struct ComparisonOptions {
   std::optional<int> horizon_samples;
 };
 
-/// How far a prediction is from the measurement.
-struct PredictionError {
-  double rmse = 0.0;         ///< [m/s^2]
-  double fit_percent = 0.0;  ///< 100 (1 - |y - yhat| / |y - mean y|): 100 is perfect, 0 no better than a constant
-};
-
 /// A model beside the measurement: how good it is, and where it fails.
 struct Comparison {
   StrutModel model;        ///< as it was compared: with fitted numbers, or as given
@@ -34,8 +30,7 @@ struct Comparison {
   PredictionError free_run;
   /// The same on blocks that the fit has not seen (held_out.h). Nothing if the drives are too short to hold a part out.
   std::optional<double> held_out_rmse;  ///< [m/s^2]
-  /// One-step: the rows I_2^2 y of the regression against phi' theta, with the same numbers and f_j of the free run,
-  ///   I_2^2 y = b1 I_1^2 u + b0 I_0^2 u + sum_j c_j I_2^2 f_j.
+  /// One-step: the rows of the regression, with the same numbers; see oneStepError().
   /// Nothing if no segment is longer than the filter.
   std::optional<PredictionError> one_step;
   int horizon_samples = 0;  ///< L of the rows
@@ -49,9 +44,10 @@ struct Comparison {
 };
 
 /// Compares a model with drives of one vehicle.
-/// @param model  b1, b0 > 0.  @param records  of one sampling period.
-/// @return nothing if the drives hold too little (no segment, nothing moves), or the model runs away on them.
+/// @param records  of one sampling period.  @param progress  told how much is done, 0 .. 1.
+/// @return nothing if the drives hold too little (no segment, nothing moves), or the model is not stable on them.
 std::optional<Comparison> compareModel(const std::vector<const DriveRecord*>& records, const StrutModel& model,
-                                       const ComparisonOptions& options = {});
+                                       const ComparisonOptions& options = {},
+                                       const std::function<void(double share)>& progress = {});
 
 }  // namespace suspension_health_monitor

@@ -9,37 +9,37 @@
 
 namespace suspension_health_monitor {
 
-/// The residual where some quantity x lies between two values. The residual's mean over all drives is taken off before:
-/// an offset of a sensor would be everywhere.
+/// The samples where some quantity x lies between two values. Means over all drives are taken off before: an offset of a
+/// sensor would be everywhere.
 struct ResidualBin {
   double from = 0.0, to = 0.0;  ///< of x
-  double mean = 0.0;            ///< [m/s^2]
-  double rms = 0.0;             ///< about 0, not about the mean [m/s^2]
-  double standard_error = 0.0;  ///< of the mean, with the residual's correlation over time counted in [m/s^2]
+  double mean = 0.0;            ///< of the missing force (compared_segment.h); over time, of the residual [m/s^2]
+  double standard_error = 0.0;  ///< of the mean, correlation over time counted in [m/s^2]
+  double rms = 0.0;             ///< of the residual, about 0 and not about the mean [m/s^2]
   std::size_t count = 0;
 };
 
 /// A stretch of time of one drive, and by how much the strut's own numbers seem to differ from the model's in it:
-/// least squares of the residual on (v, d). A drift shows as a slope over the stretches.
+/// least squares of the missing force on (v, d). A drift shows as a slope over the stretches.
 struct TimeBin : ResidualBin {
   std::size_t record = 0;
   double damping_error = 0.0, damping_error_stddev = 0.0;      ///< to be added to b1 [1/s]
   double stiffness_error = 0.0, stiffness_error_stddev = 0.0;  ///< to be added to b0 [1/s^2]
 };
 
-/// Mean residual over the plane of travel and travel rate: the force per unit mass that the model lacks, as far as it
-/// is a force of d and v alone. Row i, column j: travel in travel_edges[i, i + 1], rate in rate_edges[j, j + 1].
+/// Mean missing force over the plane of travel and travel rate. Row i, column j: travel in travel_edges[i, i + 1], rate in rate_edges[j, j + 1].
 /// The outermost edges take in the extremes. A cell without samples has count 0; its other entries say nothing.
 struct ForceSurface {
   std::vector<double> travel_edges;  ///< [m], one more than rows
   std::vector<double> rate_edges;    ///< [m/s], one more than columns
   Eigen::MatrixXd mean;              ///< [m/s^2]
-  Eigen::MatrixXd standard_error;    ///< [m/s^2]
+  Eigen::MatrixXd standard_error;    ///< of the mean [m/s^2]
+  Eigen::MatrixXd rms;               ///< of the residual [m/s^2]
   Eigen::MatrixXi count;
-  double explained_share = 0.0;  ///< of the residual's mean square, by these means; what chance alone gives is taken off
+  double explained_share = 0.0;  ///< of the missing force's mean square (its noise is in there), by these means
 };
 
-/// Residual against travel, apart for the two directions of motion. For a force of travel alone both curves are one.
+/// Missing force against travel, apart for the two directions of motion. For a force of travel alone both curves are one.
 struct DirectionLoop {
   std::vector<ResidualBin> compressing, extending;  ///< v > 0, v < 0; over the same travel
   double gap = 0.0;                 ///< mean of (compressing - extending), every bin counting by its samples [m/s^2]
@@ -74,6 +74,7 @@ struct ResidualViews {
   double offset = 0.0;                ///< mean residual [m/s^2], taken off in all views
   double offset_standard_error = 0.0; ///< [m/s^2]
   double rms = 0.0;                   ///< of what is left [m/s^2]
+  std::size_t num_samples = 0;
   double independent_share = 1.0;     ///< independent samples per sample, by the residual's autocorrelation
   std::vector<TimeBin> time;                ///< even, drive after drive [s]
   std::vector<ResidualBin> travel;          ///< [m], by quantiles, finer towards the ends
