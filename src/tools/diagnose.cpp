@@ -11,7 +11,7 @@
 #include "search_report.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
-#include "suspension_health_monitor/model/effect_library.h"
+#include "suspension_health_monitor/model/model_settings.h"
 #include "suspension_health_monitor/signal/continuity.h"
 #include "whole_file.h"
 
@@ -80,31 +80,33 @@ std::deque<DriveRecord> makeRecords(const std::vector<std::vector<CornerSample>>
 void diagnose(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
+  addModelOptions(description);
   auto add = description.add_options();
   add("output,o", po::value<std::string>(), "write the model that was found as YAML");
   add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       "processor cores to use");
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "config"}, {"json", "output"});
+  requireSeparateFiles(*values, {"bag", "config", kEffectsFile, kModel}, {"json", "output"});
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
+  const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values);
   std::optional<TextFile> json, model;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
   if (values->count("output") != 0) model.emplace((*values)["output"].as<std::string>());
 
   const std::vector<std::vector<CornerSample>> drives = readDrives(options);
-  const StrutModel rough = roughModel(drives, options.pipeline.monitor);
-  const std::deque<DriveRecord> records = makeRecords(drives, *options.pipeline.monitor.sample_period, rough);
+  const StrutModel start = models.model ? *models.model : roughModel(drives, options.pipeline.monitor);
+  const std::deque<DriveRecord> records = makeRecords(drives, *options.pipeline.monitor.sample_period, start);
   std::vector<const DriveRecord*> pointers;
   for (const DriveRecord& record : records) pointers.push_back(&record);
   SearchOptions search;
   search.threads = threads;
   Progress progress("fitting", 1.0);
-  const std::optional<SearchResult> result = EffectSearch(builtInEffects(), search)
-                                                 .run(pointers, rough, [&](double share) { progress.update(share); });
+  const std::optional<SearchResult> result = EffectSearch(models.library, search)
+                                                 .run(pointers, start, [&](double share) { progress.update(share); });
   if (!result)
     throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");
 
@@ -114,7 +116,7 @@ void diagnose(const Arguments& arguments) {
     json->commit();
   }
   if (model) {
-    writeModel(*result, model->stream());
+    std::fputs(toYaml(result->final_fit ? result->final_fit->model : result->base.model).c_str(), model->stream());
     model->commit();
   }
 }
