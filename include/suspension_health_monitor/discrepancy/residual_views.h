@@ -66,7 +66,7 @@ struct ResidualCorrelation {
   std::vector<double> value;         ///< -1 .. 1
   std::vector<double> lower, upper;  ///< band
   double share_outside = 0.0;        ///< of the lags
-  bool within = true;                ///< no more lags outside than chance puts there in 99 of 100 cases
+  bool within = true;                ///< no more lags outside than chance puts there in 99 of 100 cases, and none far
 };
 
 /// The residual seen from all sides.

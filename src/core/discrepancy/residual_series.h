@@ -23,9 +23,22 @@ struct ResidualSeries {
 /// @return nothing if there are fewer than 64 samples, or nothing moves.
 std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise);
 
-/// @return sum over k of a(k) b(k - lag) within segments, over the root of both sums of squares.
-double correlation(const ResidualSeries& series, const std::vector<double>& a, const std::vector<double>& b, int lag);
-
 double sumOfSquares(const std::vector<double>& values);
+
+/// The correlation of two of the series.
+class Correlation {
+ public:
+  /// The arguments must outlive it.
+  Correlation(const ResidualSeries& series, const std::vector<double>& a, const std::vector<double>& b);
+
+  /// @return sum over k of a(k) b(k - lag) within segments, over the root of both sums of squares.
+  double at(int lag) const;
+
+ private:
+  const ResidualSeries& series_;
+  const std::vector<double>& a_;
+  const std::vector<double>& b_;
+  double scale_;
+};
 
 }  // namespace suspension_health_monitor
