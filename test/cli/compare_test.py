@@ -86,5 +86,5 @@ def test_wrong_usage_and_wrong_input(program, tmp_path, stop_bag):
 
 
 def test_too_short_a_drive(program, tmp_path):
-    program.succeed("simulate", *DRIVE, "--duration", "3", "-o", tmp_path / "short.bag")
+    program.succeed("simulate", *DRIVE, "--duration", "1", "-o", tmp_path / "short.bag")
     program.refuse(4, ["compare", tmp_path / "short.bag"], [], tmp_path)

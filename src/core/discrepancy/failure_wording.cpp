@@ -7,8 +7,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kFollows = 0.5;   // coherence
-constexpr double kNearZero = 0.05;  // of the range of most samples
+constexpr double kFollows = 0.5;     // coherence
+constexpr double kRounding = 0.005;  // of the samples, in the bins' edges
+constexpr double kNearZero = 0.05;   // of the range of most samples
 
 /// Where the bins have passed a share of the samples.
 double quantile(const std::vector<ResidualBin>& bins, double share) {
@@ -16,7 +17,7 @@ double quantile(const std::vector<ResidualBin>& bins, double share) {
   for (const ResidualBin& bin : bins) all += static_cast<double>(bin.count);
   for (const ResidualBin& bin : bins) {
     passed += static_cast<double>(bin.count);
-    if (passed >= share * all) return bin.to;
+    if (passed >= (share - kRounding) * all) return bin.to;
   }
   return bins.back().to;
 }
