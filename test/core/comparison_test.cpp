@@ -22,7 +22,8 @@ ComparisonOptions asGiven() {
   return options;
 }
 
-Comparison compared(const DriveRecord& record, const StrutModel& model = kRough, const ComparisonOptions& options = {}) {
+Comparison compared(const DriveRecord& record, const StrutModel& model = kRough,
+                    const ComparisonOptions& options = {}) {
   std::optional<Comparison> comparison = compareModel({&record}, model, options);
   EXPECT_TRUE(comparison);
   return comparison.value_or(Comparison{});
@@ -102,8 +103,8 @@ TEST(CompareModel, TheMissingForceIsTheHiddenOne) {
   double product = 0.0, square = 0.0, plain = 0.0;
   for (std::size_t k = 500; k + 500 < segment.size(); ++k) {
     const DriveTruth& truth = samples[k + BandlimitedInterpolator::kHalfWidth].truth;
-    const double force = hidden.coefficient *
-                         hidden.effect.force({truth.travel, truth.travel_rate, 0.0, 0.0}, hidden.shapes.data());
+    const double force =
+        hidden.coefficient * hidden.effect.force({truth.travel, truth.travel_rate, 0.0, 0.0}, hidden.shapes.data());
     product += force * segment.missing_force[k];
     plain += force * segment.residual(k);
     square += force * force;
@@ -195,7 +196,8 @@ TEST(CompareModel, SeveralDrivesAreKeptApart) {
 }
 
 TEST(CompareModel, TooLittleIsNothing) {
-  const DriveRecord calm = recorded(2000, 0.01, [](int) { return 9.81; }, [](int) { return 9.81; });
+  const DriveRecord calm = recorded(
+      2000, 0.01, [](int) { return 9.81; }, [](int) { return 9.81; });
   const DriveRecord brief = recorded(carDrive(1.0, kNoise));
   EXPECT_FALSE(compareModel({}, kRough));
   EXPECT_FALSE(compareModel({&calm}, kRough));

@@ -28,8 +28,8 @@ ComparedSegment segmentWith(const Force& force, double noise = kNoise, unsigned 
   for (std::size_t k = 0; k < count; ++k) {
     const double t = segment.time(k);
     const double d = 0.010 * std::sin(5.1 * t) + 0.008 * std::sin(7.7 * t + 1.0) + 0.004 * std::sin(13.3 * t);
-    const double v = 0.010 * 5.1 * std::cos(5.1 * t) + 0.008 * 7.7 * std::cos(7.7 * t + 1.0) +
-                     0.004 * 13.3 * std::cos(13.3 * t);
+    const double v =
+        0.010 * 5.1 * std::cos(5.1 * t) + 0.008 * 7.7 * std::cos(7.7 * t + 1.0) + 0.004 * 13.3 * std::cos(13.3 * t);
     const double missing = force(t, d, v) + noise * normal(generator);
     segment.travel.push_back(d);
     segment.travel_rate.push_back(v);
@@ -99,7 +99,8 @@ TEST(ResidualViews, LocalErrorsOfTheParametersFollowADrift) {
 }
 
 TEST(ResidualViews, TheSpectrumHoldsTheMeanSquare) {
-  const ComparedSegment segment = segmentWith([](double t, double, double) { return 0.2 * std::sin(2.0 * kPi * 11.0 * t); });
+  const ComparedSegment segment =
+      segmentWith([](double t, double, double) { return 0.2 * std::sin(2.0 * kPi * 11.0 * t); });
   const ResidualViews views = viewsOf(segment);
   ASSERT_TRUE(views.spectrum);
   const ResidualSpectrum& spectrum = *views.spectrum;
@@ -192,8 +193,7 @@ TEST(WhereItFails, AnOffsetIsASensors) {
 TEST(WhereItFails, ANoisyMinuteIsNamedByItsTime) {
   ComparedSegment segment = segmentWith(kNothing);
   const ComparedSegment other = segmentWith(kNothing, kNoise, 99);
-  for (std::size_t k = 6000; k < 8000; ++k)
-    segment.measured[k] += 2.0 * (other.measured[k] - other.predicted[k]);
+  for (std::size_t k = 6000; k < 8000; ++k) segment.measured[k] += 2.0 * (other.measured[k] - other.predicted[k]);
   const std::vector<FailureRegion> where = whereItFails(viewsOf(segment), kCar);
   EXPECT_EQ(where[0].view, FailureView::kTime);
   EXPECT_NEAR(where[0].from, 60.0, 5.01);

@@ -88,8 +88,7 @@ std::optional<Comparison> compareModel(const std::vector<const DriveRecord*>& re
   // Noise cannot leave more than this very model does.
   comparison.noise_floor = std::min(estimateNoiseFloor(records, comparison.model), comparison.free_run.rmse);
   if (!(comparison.noise_floor > 0.0)) return std::nullopt;
-  comparison.structured_share =
-      std::max(0.0, 1.0 - std::pow(comparison.noise_floor / comparison.free_run.rmse, 2));
+  comparison.structured_share = std::max(0.0, 1.0 - std::pow(comparison.noise_floor / comparison.free_run.rmse, 2));
   report(0.85);
   const ExpectedNoise noise{comparison.noise_floor, comparison.model.damping_to_mass,
                             comparison.model.stiffness_to_mass};

@@ -10,9 +10,9 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kFewestLags = 20.0, kMostLags = 500.0;
-constexpr double kBand = 1.96;     // 95 % of a normal variable
-constexpr double kOutside = 0.05;  // of the lags, by chance
-constexpr double kUnlikely = 2.33; // 99 %
+constexpr double kBand = 1.96;      // 95 % of a normal variable
+constexpr double kOutside = 0.05;   // of the lags, by chance
+constexpr double kUnlikely = 2.33;  // 99 %
 
 /// Response of z'' to a unit sample of w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): e^{At}, held over a sample.
 std::vector<double> impulseResponse(const ExpectedNoise& noise, double period, std::size_t length) {
@@ -63,8 +63,8 @@ void addLag(int lag, double period, double value, double expected, double band, 
 
 ResidualCorrelations correlate(const ResidualSeries& series, const ExpectedNoise& noise) {
   const auto count = static_cast<double>(series.size());
-  const int lags = static_cast<int>(
-      std::min(std::clamp(std::round(series.natural_period), kFewestLags, kMostLags), count / 4.0));
+  const int lags =
+      static_cast<int>(std::min(std::clamp(std::round(series.natural_period), kFewestLags, kMostLags), count / 4.0));
   const std::vector<double> through = impulseResponse(noise, series.period, 8 * static_cast<std::size_t>(lags));
   const double share = 1.0 / (1.0 + sumOfSquares(through));  // of the floor's mean square: the body's own sensor
 
@@ -93,7 +93,8 @@ ResidualCorrelations correlate(const ResidualSeries& series, const ExpectedNoise
   for (int lag = -lags; lag <= lags; ++lag) {
     // Noise on w'' is in the model's input with its own sign, so in the residual with the opposite one.
     const double noise_square = share * noise.floor * noise.floor;
-    const double left = lag > 0 && sizes > 0.0 ? -noise_square * through[static_cast<std::size_t>(lag) - 1] / sizes : 0.0;
+    const double left =
+        lag > 0 && sizes > 0.0 ? -noise_square * through[static_cast<std::size_t>(lag) - 1] / sizes : 0.0;
     addLag(lag, series.period, cross.at(lag), left, cross_band, result.cross);
   }
   judge(cross_band, 1.0 + wheel_squares, result.cross);

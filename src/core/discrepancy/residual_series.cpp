@@ -24,7 +24,8 @@ double centre(std::vector<double>& values) {
 /// 1 + 2 sum of rho over the lags before the correlation first vanishes: by so much the variance of a mean grows.
 double memoryOf(const ResidualSeries& series, const std::vector<double>& values) {
   const double vanished = 1.96 / std::sqrt(static_cast<double>(values.size()));
-  const double most = std::min({kMemoryPeriods * series.natural_period, kMostLags, 0.125 * static_cast<double>(values.size())});
+  const double most =
+      std::min({kMemoryPeriods * series.natural_period, kMostLags, 0.125 * static_cast<double>(values.size())});
   const Correlation correlation(series, values, values);
   double sum = 1.0;
   for (int lag = 1; lag <= static_cast<int>(most); ++lag) {

@@ -11,10 +11,10 @@ namespace suspension_health_monitor {
 /// All segments one after the other, one entry per sample, the means of residual and missing force taken off.
 struct ResidualSeries {
   std::vector<double> residual, missing, travel, rate, wheel;
-  std::vector<std::size_t> begins;  ///< of the segments, and the end of the last one
-  double period = 0.0;              ///< T [s]
-  double natural_period = 0.0;      ///< of the strut, in samples
-  double offset = 0.0;              ///< mean residual [m/s^2]
+  std::vector<std::size_t> begins;                     ///< of the segments, and the end of the last one
+  double period = 0.0;                                 ///< T [s]
+  double natural_period = 0.0;                         ///< of the strut, in samples
+  double offset = 0.0;                                 ///< mean residual [m/s^2]
   double residual_memory = 1.0, missing_memory = 1.0;  ///< samples per independent one, >= 1
 
   std::size_t size() const { return residual.size(); }
