@@ -1,12 +1,14 @@
 // Cost of SuspensionMonitor::addSample with LS, LA, free run and health.
 //   add_sample                        Google Benchmark, ns per sample at L = 30, 300, 3000
-//   add_sample --loop HORIZON COUNT   feeds COUNT samples and ends, for counting instructions (scripts/benchmark)
+//   add_sample --loop HORIZON COUNT [EFFECT]   feeds COUNT samples and ends, for counting instructions
+//                                              (scripts/benchmark), with an effect that has no shapes in the model
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
 #include <string_view>
 #include <vector>
 
+#include "suspension_health_monitor/model/effect_catalogue.h"
 #include "suspension_health_monitor/simulation/drive_simulator.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
@@ -28,6 +30,8 @@ std::vector<CornerSample> drive() {
 class Feeder {
  public:
   explicit Feeder(int horizon_samples) : samples_(drive()), monitor_(options(horizon_samples)) {}
+
+  void addEffect(std::string_view name) { monitor_.setEffects({{findEffect(forceEffects(), name), 0.0, {}}}); }
 
   void feed() {
     CornerSample sample = samples_[next_];
@@ -58,8 +62,17 @@ void addSample(benchmark::State& state) {
 }
 BENCHMARK(addSample)->Arg(30)->Arg(300)->Arg(3000);
 
-int loop(int horizon_samples, long count) {
+void addSampleWithEffect(benchmark::State& state) {
+  Feeder feeder(30);
+  feeder.addEffect("quadratic_damping");
+  for (int i = 0; i < 1000; ++i) feeder.feed();
+  for (auto _ : state) feeder.feed();
+}
+BENCHMARK(addSampleWithEffect);
+
+int loop(int horizon_samples, long count, const char* effect) {
   Feeder feeder(horizon_samples);
+  if (effect != nullptr) feeder.addEffect(effect);
   for (long i = 0; i < count; ++i) feeder.feed();
   return EXIT_SUCCESS;
 }
@@ -68,8 +81,8 @@ int loop(int horizon_samples, long count) {
 }  // namespace suspension_health_monitor
 
 int main(int argc, char** argv) {
-  if (argc == 4 && std::string_view(argv[1]) == "--loop")
-    return suspension_health_monitor::loop(std::atoi(argv[2]), std::atol(argv[3]));
+  if (argc >= 4 && std::string_view(argv[1]) == "--loop")
+    return suspension_health_monitor::loop(std::atoi(argv[2]), std::atol(argv[3]), argc > 4 ? argv[4] : nullptr);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -17,6 +17,7 @@
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
+#include "suspension_health_monitor/model/effect_catalogue.h"
 #include "suspension_health_monitor/model/strut_integrator.h"
 #include "suspension_health_monitor/model/user_effects.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
@@ -138,6 +139,27 @@ TEST(SamplePath, AllocatesNothingInLawsOfTheUser) {
             }),
             0);
   EXPECT_NE(state.memory[0], 0.0);
+}
+
+TEST(SamplePath, AllocatesNothingInAMonitorWithEffectsOverGapsAndRunaways) {
+  MonitorOptions options;
+  options.sample_period = 0.02;
+  SuspensionMonitor monitor(options);
+  std::vector<ActiveEffect> effects;
+  for (const char* name : {"quadratic_damping", "hysteresis", "viscoelastic_mount", "damping_drift"}) {
+    const ForceEffect& effect = findEffect(forceEffects(), name);
+    effects.push_back({effect, 0.0, std::vector<double>(effect.shapes.size(), 0.1)});
+  }
+  effects.front().coefficient = -500.0;
+  monitor.setEffects(effects);
+  Stamp stamp{};
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              stamp += std::chrono::milliseconds(monitor.input().samples % 400 == 399 ? 100 : 20);
+              monitor.addSample({stamp, sample.sprung_acceleration, sample.unsprung_acceleration});
+            }),
+            0);
+  EXPECT_GE(monitor.input().gaps, 2u);
+  EXPECT_GT(monitor.report().la.effective_rows, 40.0);
 }
 
 }  // namespace
