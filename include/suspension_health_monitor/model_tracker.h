@@ -37,8 +37,8 @@ struct ModelReport {
 /// One model of the strut, plain or with effects, followed through a drive: free run, regression rows, LS and LA, and
 /// how well the free run with LA's parameters predicts.
 ///
-/// Rows of the plain model are those of the newest sample. The columns of effects need travel and travel rate, which the
-/// free run tells FreeRun::kDelay samples late; so does a model with effects give its rows.
+/// Rows of the plain model are those of the newest sample. The columns of effects need travel and travel rate, which
+/// the free run tells FreeRun::kDelay samples late; so does a model with effects give its rows.
 /// Cost per sample: O(1) whatever the horizon; no allocation.
 class ModelTracker {
  public:
@@ -55,7 +55,7 @@ class ModelTracker {
   const std::vector<ActiveEffect>& effects() const { return free_run_.model().effects; }
 
   /// Takes in the next sample of an uninterrupted uniform series.
-  /// @param time  of the newest sample since the start of the drive [s].
+  /// @param time  of the newest sample since the start of the drive [s]; of no effect on the plain model.
   /// @param compared  the sample FreeRun::kDelay before the newest; nullptr: the series is too short yet.
   void add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report);
 

@@ -63,16 +63,15 @@ const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
 // @return the sample that the report is about; nullptr: none yet.
 const CornerSample* SuspensionMonitor::track(const CornerSample& sample) {
   if (!first_stamp_) first_stamp_ = sample.stamp;
-  const double time = toSeconds(sample.stamp - *first_stamp_);
   const CornerSample* compared = remember(sample);
   if (!extended_) {
-    plain_.add(sample, time, compared, report_);
+    plain_.add(sample, 0.0, compared, report_);
     if (report_.has_row) ++input_.rows;
     return &sample;
   }
-  plain_.add(sample, time, compared, base_);
+  plain_.add(sample, 0.0, compared, base_);
   extended_->lead(base_.la);
-  extended_->add(sample, time, compared, report_);
+  extended_->add(sample, toSeconds(sample.stamp - *first_stamp_), compared, report_);
   if (report_.has_row) ++input_.rows;
   report_.comparison.base_rmse = base_.comparison.rmse;
   report_.comparison.base_fit_percent = base_.comparison.fit_percent;

@@ -18,8 +18,8 @@ namespace po = boost::program_options;
 
 constexpr std::size_t kTableLines = 12;
 
-/// One line per regression row, full precision. The comparison of a row's sample comes some samples after the row: lines
-/// wait for it, and go without when their series ends before.
+/// One line per regression row, full precision. The comparison of a row's sample comes some samples after the row:
+/// lines wait for it, and go without when their series ends before.
 class RowTable {
  public:
   /// @param out  nullptr: no table is wanted.

@@ -231,7 +231,8 @@ class FineStrut {
     for (; time_ < time - kStep / 2; time_ += kStep) {
       const double middle = wheel_acceleration(time_ + kStep / 2);
       const double velocity = kStep * middle;
-      integrateStrut(model_, time_, kStep, {kStep * velocity / 8, velocity / 2, kStep * velocity / 2, velocity}, state_);
+      const WheelStep wheel{kStep * velocity / 8, velocity / 2, kStep * velocity / 2, velocity};
+      integrateStrut(model_, time_, kStep, wheel, state_);
     }
     return model_.force(state_.travel, state_.travel_rate, time_, state_.memory.data());
   }
@@ -309,7 +310,6 @@ TEST(FreeRun, ThatRunsAwayStartsAnewAndCounts) {
   }
   EXPECT_GT(run.runaways(), 1u);
   EXPECT_LE(largest, 1e3 * 10.81);
-  EXPECT_FALSE(run.settled() && run.runaways() == 0);
   run.setCoefficient(1, 5.0);
   const std::uint64_t before = run.runaways();
   for (int k = 0; k < 1000; ++k) run.push(std::sin(0.1 * k) + 9.81);
@@ -319,8 +319,8 @@ TEST(FreeRun, ThatRunsAwayStartsAnewAndCounts) {
 
 TEST(FreeRun, RefusesEffectsThatItCannotHold) {
   FreeRun run = paperModel();
-  EXPECT_THROW(run.setEffects(std::vector<ActiveEffect>(StrutState::kMostEffects + 1, active("asymmetric_spring", 1.0))),
-               std::invalid_argument);
+  const std::vector<ActiveEffect> many(StrutState::kMostEffects + 1, active("asymmetric_spring", 1.0));
+  EXPECT_THROW(run.setEffects(many), std::invalid_argument);
   EXPECT_THROW(run.setEffects({active("bump_stop", 1.0)}), std::invalid_argument);
   EXPECT_THROW(run.setEffects({active("bump_stop", std::nan(""), {0.1})}), std::invalid_argument);
   EXPECT_TRUE(run.model().effects.empty());

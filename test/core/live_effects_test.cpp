@@ -77,8 +77,8 @@ void addAll(SuspensionMonitor& monitor, const std::vector<CornerSample>& samples
   }
 }
 
-// A memory of 1000 rows, ten seconds. White residuals promise the coefficients to 1 to 4 %; neighbouring rows share their
-// noise, which makes it two to three times as much, and noise in the regressors adds a bias of 1 to 4 %.
+// A memory of 1000 rows, ten seconds. White residuals promise the coefficients to 1 to 4 %; neighbouring rows share
+// their noise, which makes it two to three times as much, and noise in the regressors adds a bias of 1 to 4 %.
 void expectRecovered(const HiddenDrive& drive) {
   SCOPED_TRACE(drive.effect.effect.name);
   SuspensionMonitor monitor(carMonitor(0.999));

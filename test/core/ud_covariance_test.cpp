@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -135,6 +137,25 @@ TEST(UdCovariance, ScalesTheCeilingWithTheCovariance) {
   EXPECT_DOUBLE_EQ(covariance.variance(0), 2.0);
   covariance.update(Eigen::VectorXd::Zero(1), 1.0, 0.5);
   EXPECT_DOUBLE_EQ(covariance.variance(0), 2.0);
+}
+
+TEST(UdCovariance, OfOtherParametersKeepsWhatIsKnownOfThoseThatStay) {
+  UdCovariance before = released(4, 1e5);
+  std::mt19937_64 engine(5);
+  for (int k = 0; k < 50; ++k) before.update(randomRegressor(4, engine), 0.9, 0.98);
+  const std::vector<std::optional<int>> sources{2, std::nullopt, 0, 3};
+  UdCovariance after(before, sources);
+  const Eigen::MatrixXd p = before.matrix(), kept = after.matrix();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const auto &from = sources[static_cast<std::size_t>(i)], &to = sources[static_cast<std::size_t>(j)];
+      EXPECT_NEAR(kept(i, j), from && to ? p(*from, *to) : 0.0, 1e-12 * p.norm()) << i << ", " << j;
+    }
+  EXPECT_TRUE(after.isReleased(0));
+  EXPECT_FALSE(after.isReleased(1));
+  after.update(randomRegressor(4, engine), 0.9, 0.98);
+  EXPECT_EQ(after.variance(1), 0.0);
+  EXPECT_GT(after.variance(2), 0.0);
 }
 
 }  // namespace

@@ -20,10 +20,10 @@ namespace suspension_health_monitor {
 /// would leave errors of the size of the sensor noise on a rough road: the run answers kDelay samples late.
 /// Integration: integrateStrut(), split so that no step is longer than 0.35 / sqrt(b0) or 0.35 / b1.
 ///
-/// A constant a in w'' (gravity, tilt, offset) moves the travel by a / b0 and comes out again as a in the prediction. The
-/// linear laws let it pass, others do not: with effects in the model travel is counted from a / b0, with a the mean of
-/// w'', of all samples at first, then with a memory of 100 natural periods 2 pi / sqrt(b0). The error of a does not
-/// reach the linear part of the prediction: when a changes, the travel changes by as much the other way.
+/// A constant a in w'' (gravity, tilt, offset) moves the travel by a / b0 and comes out again as a in the prediction.
+/// The linear laws let it pass, others do not: with effects in the model travel is counted from a / b0, with a the
+/// mean of w'', of all samples at first, then with a memory of 100 natural periods 2 pi / sqrt(b0). The error of a
+/// does not reach the linear part of the prediction: when a changes, the travel changes by as much the other way.
 /// Cost per sample: O(1) for a given model, no allocation.
 class FreeRun {
  public:
@@ -58,14 +58,14 @@ class FreeRun {
 
   /// Takes in the next sample of an uninterrupted uniform series of w'' [m/s^2].
   /// @param time  of this sample since the start of the drive [s], for the laws that depend on it.
-  /// @return the predicted body acceleration z'' at the sample kDelay before this one [m/s^2]; nothing before a model is
-  /// set and 2 kDelay samples have come.
+  /// @return the predicted body acceleration z'' at the sample kDelay before this one [m/s^2]; nothing before a model
+  /// is set and 2 kDelay samples have come.
   std::optional<double> push(double unsprung_acceleration, double time = 0.0);
 
   /// @return true once the unknown initial travel has decayed to 1e-3 of itself.
   bool settled() const { return decayed_ >= kSettledDecay; }
 
-  /// How often the run has left all bounds: the prediction was not finite, or larger than a thousand times the largest
+  /// How often the run has left all bounds: a prediction was not finite, or larger than a thousand times the largest
   /// w'' of the run. Effects can do that, whose coefficients accepts() does not judge. The run then starts anew.
   std::uint64_t runaways() const { return runaways_; }
 

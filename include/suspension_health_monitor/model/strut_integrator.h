@@ -36,18 +36,18 @@ class WheelInterpolator {
 
   /// @param around  kWidth samples of w'' [m/s^2], the oldest first; the step begins `from` after number kWidth / 2 - 1.
   WheelStep operator()(const double* around) const {
-    Eigen::Vector2d middle = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
-#pragma GCC unroll 24  // the counting would cost as much as the sums; a compiler that does not know it may go on
-    for (Eigen::Index i = 0; i < kWidth; ++i) {
-      middle += around[i] * weights_.col(2 * i);
-      end += around[i] * weights_.col(2 * i + 1);
+    Eigen::Array<double, 2, 4> sums = Eigen::Array<double, 2, 4>::Zero();
+#pragma GCC unroll 12  // counting would cost a third of the sums; a compiler that does not know it may go on
+    for (Eigen::Index i = 0; i < kWidth / 2; ++i) {
+      const Eigen::Array2d pair(around[2 * i], around[2 * i + 1]);
+      for (Eigen::Index row = 0; row < 4; ++row) sums.col(row) += weights_.col(4 * i + row) * pair;
     }
-    return {middle[0], middle[1], end[0], end[1]};
+    const auto total = [&](Eigen::Index row) { return sums(0, row) + sums(1, row); };
+    return {total(0), total(1), total(2), total(3)};
   }
 
  private:
-  // Of position and velocity (rows); a column for the middle and one for the end, sample by sample.
-  Eigen::Matrix<double, 2, 2 * kWidth> weights_;
+  Eigen::Array<double, 2, 2 * kWidth> weights_;  // of two samples for the numbers of a WheelStep, then of the next two
 };
 
 /// One step of the strut under the wheel's motion:

@@ -11,13 +11,13 @@ SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options,
 const RegressionRow* SuspensionRegression::push(const CornerSample& sample, const double* effect_forces) {
   sprung_.push(sample.sprung_acceleration);
   relative_.push(sample.unsprung_acceleration - sample.sprung_acceleration);
-  for (std::size_t j = 0; j < effects_.size(); ++j) effects_[j].push(effect_forces[j]);
+  for (LinearIntegralFilter& effect : effects_) effect.push(*effect_forces++);
   if (!sprung_.full()) return nullptr;
+  double* column = row_.regressor.data() + kNumStrutParameters;
   row_.output = sprung_.output(2);
   row_.regressor[kDampingToMass] = relative_.output(1);
   row_.regressor[kStiffnessToMass] = relative_.output(0);
-  for (std::size_t j = 0; j < effects_.size(); ++j)
-    row_.regressor[kNumStrutParameters + static_cast<Eigen::Index>(j)] = effects_[j].output(2);
+  for (const LinearIntegralFilter& effect : effects_) *column++ = effect.output(2);
   return &row_;
 }
 

@@ -152,7 +152,9 @@ void FreeRun::advance(double time) {
 }
 
 double FreeRun::predict(double time) {
-  if (withEffects()) countTravelFrom(mean_);
+  if (!withEffects())
+    return model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
+  countTravelFrom(mean_);
   double prediction = offset_ + model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
   for (std::size_t j = 0; j < model_.effects.size(); ++j) {
     const ActiveEffect& active = model_.effects[j];

@@ -68,17 +68,17 @@ void integrate(const StrutModel& model, double time, double step, const WheelSte
 }  // namespace
 
 WheelInterpolator::WheelInterpolator(double from, double to, double period) {
-  const auto set = [&](Eigen::Index row, Eigen::Index first_column, double end, int power) {
+  const auto set = [&](Eigen::Index row, double end, int power) {
     const BandlimitedInterpolator integral = BandlimitedInterpolator::integral(from, end, power);
     for (Eigen::Index i = 0; i < kWidth; ++i)
-      weights_(row, 2 * i + first_column) =
+      weights_(i % 2, 4 * (i / 2) + row) =
           std::pow(period, 1 + power) * integral.weights()[static_cast<std::size_t>(i)];
   };
   const double middle = (from + to) / 2;
-  set(0, 0, middle, 1);
-  set(1, 0, middle, 0);
-  set(0, 1, to, 1);
-  set(1, 1, to, 0);
+  set(0, middle, 1);
+  set(1, middle, 0);
+  set(2, to, 1);
+  set(3, to, 0);
 }
 
 void integrateStrut(const StrutModel& model, double time, double step, const WheelStep& wheel, StrutState& state) {
