@@ -22,17 +22,22 @@ namespace po = boost::program_options;
 
 constexpr double kLongestStep = 0.35;  // of the strut's fastest time, for the free run's integration
 
+/// What the body's IMU measures across the strut, by bag.
+using BodyMotions = std::vector<std::vector<BodyMotion>>;
+
 /// All samples of each bag.
-std::vector<std::vector<CornerSample>> readDrives(const BagOptions& options) {
+std::vector<std::vector<CornerSample>> readDrives(const BagOptions& options, BodyMotions& bodies) {
   std::vector<std::vector<CornerSample>> drives;
   for (const std::string& path : options.bags.paths) {
     ImuBags bag = options.bags;
     bag.paths = {path};
     drives.emplace_back();
-    readSamples(bag, options.pipeline, [&](const CornerSample& sample) {
+    bodies.emplace_back();
+    const auto take = [&](const CornerSample& sample) {
       drives.back().push_back(sample);
       return true;
-    });
+    };
+    readSamples(bag, options.pipeline, take, [&](const BodyMotion& motion) { bodies.back().push_back(motion); });
   }
   return drives;
 }
@@ -75,6 +80,13 @@ std::deque<DriveRecord> makeRecords(const std::vector<std::vector<CornerSample>>
   return records;
 }
 
+void requireTestable(const StrutModel& model, const std::vector<UntestableEffect>& untestable) {
+  for (const ActiveMeasurementEffect& reading : model.reading)
+    for (const UntestableEffect& effect : untestable)
+      if (effect.name == reading.effect.name)
+        throw InputError("the model has " + effect.name + ", but " + effect.reason + " in these drives");
+}
+
 }  // namespace
 
 void diagnose(const Arguments& arguments) {
@@ -91,17 +103,23 @@ void diagnose(const Arguments& arguments) {
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
-  const ModelOptions models = readModelOptions(*values);
+  ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values);
   std::optional<TextFile> json, model;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
   if (values->count("output") != 0) model.emplace((*values)["output"].as<std::string>());
 
-  const std::vector<std::vector<CornerSample>> drives = readDrives(options);
+  BodyMotions bodies;
+  const std::vector<std::vector<CornerSample>> drives = readDrives(options, bodies);
   const StrutModel start = models.model ? *models.model : roughModel(drives, options.pipeline.monitor);
-  const std::deque<DriveRecord> records = makeRecords(drives, *options.pipeline.monitor.sample_period, start);
+  std::deque<DriveRecord> records = makeRecords(drives, *options.pipeline.monitor.sample_period, start);
   std::vector<const DriveRecord*> pointers;
-  for (const DriveRecord& record : records) pointers.push_back(&record);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    records[i].addBodyMotion(bodies[i]);
+    pointers.push_back(&records[i]);
+  }
+  const std::vector<UntestableEffect> untestable = takeUntestable(models.library, pointers);
+  requireTestable(start, untestable);
   SearchOptions search;
   search.threads = threads;
   Progress progress("fitting", 1.0);
@@ -111,8 +129,13 @@ void diagnose(const Arguments& arguments) {
     throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");
 
   printSearch(*result);
+  for (const UntestableEffect& effect : untestable)
+    std::printf("not tried: %s, %s\n", effect.name.c_str(), effect.reason.c_str());
   if (json) {
-    std::fprintf(json->stream(), "%s\n", toJson(*result).dump(2).c_str());
+    nlohmann::json whole = toJson(*result);
+    whole["not_tried"] = nlohmann::json::object();
+    for (const UntestableEffect& effect : untestable) whole["not_tried"][effect.name] = effect.reason;
+    std::fprintf(json->stream(), "%s\n", whole.dump(2).c_str());
     json->commit();
   }
   if (model) {

@@ -20,10 +20,15 @@ template <class TakeCoefficient, class TakeShape>
 void visit(const StrutModel& model, const TakeCoefficient& take, const TakeShape& shape) {
   for (const ActiveEffect& active : model.effects) {
     take(active.effect.name, active.coefficient, active.effect.unit);
-    for (std::size_t i = 0; i < active.shapes.size(); ++i) shape(active.effect.name, active.effect.shapes[i], active.shapes[i]);
+    for (std::size_t i = 0; i < active.shapes.size(); ++i)
+      shape(active.effect.name, active.effect.shapes[i], active.shapes[i]);
   }
-  for (const ActiveMeasurementEffect& reading : model.reading)
-    take(reading.effect.name, reading.coefficient, reading.effect.unit);
+  for (const ActiveMeasurementEffect& reading : model.reading) {
+    const auto& names = reading.effect.coefficients;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      take(names.size() == 1 ? reading.effect.name : reading.effect.name + '/' + names[i].name,
+           reading.coefficients[i], names[i].unit);
+  }
 }
 
 json parametersOf(const StrutModel& model) {

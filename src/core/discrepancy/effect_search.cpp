@@ -102,14 +102,15 @@ std::vector<StrutModel> makeTrials(const EffectLibrary& candidates, const StrutM
   for (const MeasurementEffect& effect : candidates.readings) {
     if (has(present, effect.name)) continue;
     trials.push_back(current);
-    trials.back().reading.push_back({effect, 0.0});
+    trials.back().reading.push_back({effect, std::vector<double>(effect.coefficients.size(), 0.0)});
   }
   return trials;
 }
 
 /// Free parameters of a model: the simpler of two equal ones is preferred.
 std::size_t complexity(const StrutModel& model) {
-  std::size_t count = model.reading.size();
+  std::size_t count = 0;
+  for (const ActiveMeasurementEffect& reading : model.reading) count += reading.coefficients.size();
   for (const ActiveEffect& active : model.effects) count += 1 + active.shapes.size();
   return count;
 }

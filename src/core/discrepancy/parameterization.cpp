@@ -7,7 +7,8 @@ namespace suspension_health_monitor {
 int Parameterization::size() const {
   int count = 2;
   for (const ActiveEffect& active : start_.effects) count += 1 + static_cast<int>(active.shapes.size());
-  return count + static_cast<int>(start_.reading.size());
+  for (const ActiveMeasurementEffect& reading : start_.reading) count += static_cast<int>(reading.coefficients.size());
+  return count;
 }
 
 Eigen::VectorXd Parameterization::initial() const {
@@ -18,7 +19,9 @@ Eigen::VectorXd Parameterization::initial() const {
     x[i] = start_.effects[j].coefficient / coefficient_scales_[j];
     i += 1 + static_cast<int>(start_.effects[j].shapes.size());
   }
-  for (std::size_t j = 0; j < start_.reading.size(); ++j) x[i++] = start_.reading[j].coefficient / readingScale(j);
+  std::size_t scale = start_.effects.size();
+  for (const ActiveMeasurementEffect& reading : start_.reading)
+    for (const double coefficient : reading.coefficients) x[i++] = coefficient / coefficient_scales_[scale++];
   return x;
 }
 
@@ -31,7 +34,9 @@ void Parameterization::apply(const double* x, StrutModel& model) const {
     for (std::size_t s = 0; s < start_.effects[j].shapes.size(); ++s)
       model.effects[j].shapes[s] = start_.effects[j].shapes[s] * std::exp(x[i++]);
   }
-  for (std::size_t j = 0; j < start_.reading.size(); ++j) model.reading[j].coefficient = x[i++] * readingScale(j);
+  std::size_t scale = start_.effects.size();
+  for (ActiveMeasurementEffect& reading : model.reading)
+    for (double& coefficient : reading.coefficients) coefficient = x[i++] * coefficient_scales_[scale++];
 }
 
 Eigen::VectorXd Parameterization::slopes(const double* x) const {
@@ -45,7 +50,8 @@ Eigen::VectorXd Parameterization::slopes(const double* x) const {
     slope[i++] = coefficient_scales_[j];
     for (const double shape : model.effects[j].shapes) slope[i++] = shape;
   }
-  for (std::size_t j = 0; j < start_.reading.size(); ++j) slope[i++] = readingScale(j);
+  for (std::size_t scale = start_.effects.size(); scale < coefficient_scales_.size(); ++scale)
+    slope[i++] = coefficient_scales_[scale];
   return slope;
 }
 

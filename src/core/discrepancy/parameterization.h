@@ -28,8 +28,6 @@ class Parameterization {
   Eigen::VectorXd slopes(const double* x) const;
 
  private:
-  double readingScale(std::size_t j) const { return coefficient_scales_[start_.effects.size() + j]; }
-
   StrutModel start_;
   std::vector<double> coefficient_scales_;
 };
