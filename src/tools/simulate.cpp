@@ -5,10 +5,11 @@
 #include <stdexcept>
 
 #include "../ros/drive_messages.h"
+#include "../ros/whole_file.h"
 #include "command.h"
 #include "option_sources.h"
 #include "progress.h"
-#include "whole_file.h"
+#include "separate_files.h"
 
 namespace suspension_health_monitor {
 namespace {

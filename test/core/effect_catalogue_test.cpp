@@ -152,15 +152,39 @@ const MeasurementEffect& reading(const std::string& name) {
   throw std::invalid_argument(name);
 }
 
-TEST(MeasurementEffect, PositiveClockOffsetDelaysASine) {
-  constexpr double period = 0.01, omega = 10.0;
-  for (const double delay : {0.003, -0.004, 0.023}) {
-    std::vector<double> predicted;
-    for (int k = 0; k < 200; ++k) predicted.push_back(std::sin(omega * k * period));
-    reading("clock_offset").apply(&delay, {}, period, predicted);
-    // The parabola's error is at most 0.0642 (omega T)^3.
-    for (std::size_t k = 5; k < 195; ++k)
-      ASSERT_NEAR(predicted[k], std::sin(omega * (static_cast<double>(k) * period - delay)), 6.5e-5) << delay;
+TEST(MeasurementEffect, PositiveClockOffsetDelaysASineUpToThreeQuartersOfNyquistsFrequency) {
+  constexpr double period = 0.01;
+  for (const double omega : {10.0, 100.0, 0.5 * 314.0, 0.75 * 314.0})
+    for (const double delay : {0.0, 0.003, -0.004, 0.023, 0.02}) {
+      std::vector<double> predicted;
+      for (int k = 0; k < 200; ++k) predicted.push_back(3.0 + std::sin(omega * k * period));
+      reading("clock_offset").apply(&delay, {}, period, predicted);
+      for (std::size_t k = 16; k < 184; ++k)
+        ASSERT_NEAR(predicted[k], 3.0 + std::sin(omega * (static_cast<double>(k) * period - delay)), 2e-3)
+            << omega << ' ' << delay;
+    }
+}
+
+TEST(MeasurementEffect, ClockOffsetIsSmoothInTheOffset) {
+  std::vector<double> y;
+  for (int k = 0; k < 60; ++k) y.push_back(std::sin(1.3 * k));
+  const auto middle = [&](double delay) {
+    std::vector<double> predicted = y;
+    reading("clock_offset").apply(&delay, {}, 1.0, predicted);
+    return predicted[30];
+  };
+  for (const double delay : {-1.0, -0.4, 0.0, 0.7, 1.0}) {  // y' = -1.3 cos(1.3 (30 - delay)), on either side
+    constexpr double h = 1e-6;
+    EXPECT_NEAR((middle(delay + h) - middle(delay)) / h, -1.3 * std::cos(1.3 * (30.0 - delay)), 1e-2) << delay;
+    EXPECT_NEAR((middle(delay) - middle(delay - h)) / h, -1.3 * std::cos(1.3 * (30.0 - delay)), 1e-2) << delay;
+  }
+}
+
+TEST(MeasurementEffect, ClockOffsetOfMoreThanTheSeriesIsFinite) {
+  for (const double delay : {1e9, -1e9}) {
+    std::vector<double> predicted{1.0, 2.0, 4.0};
+    reading("clock_offset").apply(&delay, {}, 0.01, predicted);
+    for (const double y : predicted) EXPECT_TRUE(std::isfinite(y));
   }
 }
 

@@ -75,6 +75,7 @@ void DriveRecord::addSegment(const Stretch& stretch) {
   for (std::size_t k = kEnd; k <= last; ++k) {
     segment.sprung.push_back(stretch.sprung[k] - mean_wheel_);
     segment.stamps.push_back(stretch.stamps[k]);
+    segment.unsprung.push_back(wheel[k]);
     if (k < last)
       for (const WheelInterpolator& interpolate : interpolators)
         segment.wheel.push_back(interpolate(&wheel[k + 1 - kEnd]));
