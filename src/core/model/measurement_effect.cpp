@@ -13,7 +13,7 @@ namespace {
 constexpr int kReach = 12;  // samples on either side that a value between samples is made of
 
 /// Weight of a sample at a distance of x samples: a sinc in a Hann window. In closed form, so that a fit can
-/// differentiate by the delay; good to 1e-3 up to 3/4 of Nyquist's frequency, where a rough road still shakes a car.
+/// differentiate by the delay; good to 3e-3 up to 3/4 of Nyquist's frequency, where a rough road still shakes a car.
 double weightAt(double x) {
   if (std::abs(x) >= kReach) return 0.0;
   const double window = std::cos(kPi * x / (2.0 * kReach));
