@@ -9,6 +9,7 @@
 #include "progress.h"
 #include "search_report.h"
 #include "separate_files.h"
+#include "suspension_health_monitor/discrepancy/body_motion.h"
 #include "suspension_health_monitor/model/model_settings.h"
 
 namespace suspension_health_monitor {
