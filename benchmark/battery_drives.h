@@ -80,9 +80,9 @@ class BatteryDriver {
       if (reading == known.end())
         options_.hidden.push_back(sized(findEffect(forceEffects(), name)));
       else
-        readings.push_back({*reading, 0.15 * (name == "clock_offset"  ? linear_ / jerk_
-                                              : name == "scale_error" ? 1.0
-                                                                      : linear_)});
+        readings.push_back({*reading, {0.15 * (name == "clock_offset"  ? linear_ / jerk_
+                                               : name == "scale_error" ? 1.0
+                                                                       : linear_)}});
     }
     return record(options_.hidden, readings);
   }
@@ -166,12 +166,12 @@ class BatteryDriver {
     DriveSimulator simulator(options);
     std::vector<DriveTruth> truths;
     while (const auto sample = simulator.next()) truths.push_back(sample->truth);
-    const auto shift = late ? static_cast<std::size_t>(std::lround(readings.front().coefficient * options.rate)) : 0;
+    const auto shift = late ? static_cast<std::size_t>(std::lround(readings.front().coefficients[0] * options.rate)) : 0;
     for (std::size_t k = shift, i = 0; k < truths.size(); k += static_cast<std::size_t>(finer), ++i) {
       double sprung = truths[k - shift].sprung_acceleration;
       for (const ActiveMeasurementEffect& reading : readings) {
-        if (reading.effect.name == "scale_error") sprung *= 1.0 + reading.coefficient;
-        if (reading.effect.name == "accelerometer_bias") sprung += reading.coefficient;
+        if (reading.effect.name == "scale_error") sprung *= 1.0 + reading.coefficients[0];
+        if (reading.effect.name == "accelerometer_bias") sprung += reading.coefficients[0];
       }
       drive.record.push({fromSeconds(static_cast<double>(i) / options_.rate), sprung + sensor_noise_ * noise_.gaussian(),
                          truths[k].unsprung_acceleration + sensor_noise_ * noise_.gaussian()});

@@ -136,7 +136,8 @@ Tally runKind(const std::string& kind, const BatteryVehicle& vehicle, int seed) 
   const std::vector<ForceEffect>& effects = forceEffects();
   if (kind == "single") {
     for (const ForceEffect& effect : effects) hide({effect.name});
-    for (const MeasurementEffect& effect : measurementEffects()) hide({effect.name});
+    for (const MeasurementEffect& effect : measurementEffects())
+      if (effect.channels.empty()) hide({effect.name});  // these drives have no other axes
   } else if (kind == "none") {
     hide({});
   } else if (kind == "two") {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/discrepancy/body_motion.h"
 #include "suspension_health_monitor/simulation/drive_simulator.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
@@ -30,6 +31,9 @@ class StrutAxis {
   /// @return acceleration along the axis, gravity included as measured (REP 145) [m/s^2]; nothing if the message says
   /// that it carries none (covariance -1, sensor_msgs/Imu).
   std::optional<double> acceleration(const sensor_msgs::Imu& imu) const;
+
+  /// @return what the IMU measures across the axis; NaN what it says it does not measure.
+  BodyMotion across(const sensor_msgs::Imu& imu) const;
 
  private:
   char letter_;

@@ -13,7 +13,10 @@ ros::Time stampAt(Stamp stamp) { return toRosTime(std::max(stamp, Stamp::zero())
 }  // namespace
 
 DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp start)
-    : simulator_(options.drive), gravity_(options.publishing.gravity), start_(start) {}
+    : simulator_(options.drive),
+      gravity_(options.publishing.gravity),
+      has_gyro_(options.drive.body_rate > 0.0),
+      start_(start) {}
 
 std::optional<DriveMessages> DriveMessageSource::next() {
   const std::optional<DriveSample> sample = simulator_.next();
@@ -21,8 +24,19 @@ std::optional<DriveMessages> DriveMessageSource::next() {
   std_msgs::Header header;
   header.stamp = stampAt(start_ + sample->stamp);
   header.frame_id = "sprung_imu";
-  return DriveMessages{header.stamp, toMessage(sample->sprung, "sprung_imu"),
-                       toMessage(sample->unsprung, "unsprung_imu"), toMsg(sample->truth, header)};
+  DriveMessages messages{header.stamp, toMessage(sample->sprung, "sprung_imu"),
+                         toMessage(sample->unsprung, "unsprung_imu"), toMsg(sample->truth, header)};
+  if (messages.sprung) addSway(sample->body, *messages.sprung);
+  return messages;
+}
+
+void DriveMessageSource::addSway(const Sway& sway, sensor_msgs::Imu& imu) const {
+  imu.linear_acceleration.x = sway.acceleration[0];
+  imu.linear_acceleration.y = sway.acceleration[1];
+  if (!has_gyro_) return;
+  imu.angular_velocity.x = sway.angular_rate[0];
+  imu.angular_velocity.y = sway.angular_rate[1];
+  imu.angular_velocity_covariance[0] = 0.0;
 }
 
 std::optional<sensor_msgs::Imu> DriveMessageSource::toMessage(const std::optional<AccelerometerReading>& reading,

@@ -30,8 +30,11 @@ class DriveMessageSource {
   std::optional<sensor_msgs::Imu> toMessage(const std::optional<AccelerometerReading>& reading,
                                             const char* frame) const;
 
+  void addSway(const Sway& sway, sensor_msgs::Imu& imu) const;
+
   DriveSimulator simulator_;
   double gravity_;
+  bool has_gyro_;
   Stamp start_;
 };
 

@@ -51,7 +51,9 @@ struct SimulatorOptions {
   static SimulatorOptions fromValues(OptionMap values) {
     SimulatorOptions options;
     takeOptions(values, kPublishingFields, options.publishing);
-    options.drive.hidden = takeEffects(values, readEffectsFile(options.publishing.effects_file).forces);
+    const EffectLibrary library = readEffectsFile(options.publishing.effects_file);
+    options.drive.hidden = takeEffects(values, library.forces);
+    options.drive.hidden_faults = takeReadings(values, library.readings);
     takeOptions(values, kSimulationFields, options.drive);
     refuseUnknown(values, describe());
     validate(options.drive);

@@ -9,6 +9,7 @@
 #include "progress.h"
 #include "search_report.h"
 #include "separate_files.h"
+#include "suspension_health_monitor/discrepancy/body_motion.h"
 #include "suspension_health_monitor/model/model_settings.h"
 
 namespace suspension_health_monitor {
@@ -32,13 +33,14 @@ void diagnose(const Arguments& arguments) {
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
-  const ModelOptions models = readModelOptions(*values);
+  ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values);
   std::optional<TextFile> json, model;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
   if (values->count("output") != 0) model.emplace((*values)["output"].as<std::string>());
 
   const BagDrives drives = readDrives(options, models.model);
+  const std::vector<UntestableEffect> untestable = takeUntestable(models.library, pointersTo(drives.records));
   SearchOptions search;
   search.threads = threads;
   Progress progress("fitting", 1.0);
@@ -49,8 +51,13 @@ void diagnose(const Arguments& arguments) {
     throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");
 
   printSearch(*result);
+  for (const UntestableEffect& effect : untestable)
+    std::printf("not tried: %s, %s\n", effect.name.c_str(), effect.reason.c_str());
   if (json) {
-    std::fprintf(json->stream(), "%s\n", toJson(*result).dump(2).c_str());
+    nlohmann::json whole = toJson(*result);
+    whole["not_tried"] = nlohmann::json::object();
+    for (const UntestableEffect& effect : untestable) whole["not_tried"][effect.name] = effect.reason;
+    std::fprintf(json->stream(), "%s\n", whole.dump(2).c_str());
     json->commit();
   }
   if (model) {

@@ -24,8 +24,12 @@ void effects(const Arguments& arguments) {
       shapes += (shapes.empty() ? "" : ", ") + shape.name + " [" + shape.unit + "]";
     row(effect.name, effect.law, effect.unit, shapes, effect.finding);
   }
-  for (const MeasurementEffect& effect : library.readings)
-    row(effect.name, effect.law, effect.unit, "", effect.finding);
+  for (const MeasurementEffect& effect : library.readings) {
+    std::string units;
+    for (const MeasurementEffect::Coefficient& c : effect.coefficients)
+      units += effect.coefficients.size() == 1 ? c.unit : (units.empty() ? "" : ", ") + c.name + " [" + c.unit + "]";
+    row(effect.name, effect.law, units, "", effect.finding);
+  }
 }
 
 }  // namespace suspension_health_monitor

@@ -8,7 +8,8 @@
 namespace suspension_health_monitor {
 
 /// Calls take(name, coefficient, unit) for every effect and fault of the reading of a model, and
-/// shape(name, description, value) for every shape of it: the order in which ModelFit has standard deviations.
+/// shape(name, description, value) for every shape of it (a fault with several coefficients has one name for each, such
+/// as mount_tilt/c_x): the order in which ModelFit has standard deviations.
 template <class TakeCoefficient, class TakeShape>
 void visit(const StrutModel& model, const TakeCoefficient& take, const TakeShape& shape) {
   for (const ActiveEffect& active : model.effects) {
@@ -16,8 +17,12 @@ void visit(const StrutModel& model, const TakeCoefficient& take, const TakeShape
     for (std::size_t i = 0; i < active.shapes.size(); ++i)
       shape(active.effect.name, active.effect.shapes[i], active.shapes[i]);
   }
-  for (const ActiveMeasurementEffect& reading : model.reading)
-    take(reading.effect.name, reading.coefficient, reading.effect.unit);
+  for (const ActiveMeasurementEffect& reading : model.reading) {
+    const auto& known = reading.effect.coefficients;
+    for (std::size_t i = 0; i < known.size(); ++i)
+      take(known.size() == 1 ? reading.effect.name : reading.effect.name + '/' + known[i].name,
+           reading.coefficients[i], known[i].unit);
+  }
 }
 
 /// @return damping_to_mass and stiffness_to_mass by name.

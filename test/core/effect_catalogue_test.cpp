@@ -87,11 +87,23 @@ TEST(EffectCatalogue, NamesAreUniqueAndTextsFilled) {
     EXPECT_TRUE(names.insert(effect.name).second) << effect.name;
     EXPECT_FALSE(effect.name.empty());
     EXPECT_NE(effect.law.find_first_of("cy"), std::string::npos) << effect.name;
-    EXPECT_FALSE(effect.unit.empty()) << effect.name;
     EXPECT_FALSE(effect.finding.empty()) << effect.name;
   };
-  for (const ForceEffect& effect : forceEffects()) check(effect);
-  for (const MeasurementEffect& effect : measurementEffects()) check(effect);
+  for (const ForceEffect& effect : forceEffects()) {
+    check(effect);
+    EXPECT_FALSE(effect.unit.empty()) << effect.name;
+  }
+  for (const MeasurementEffect& effect : measurementEffects()) {
+    check(effect);
+    EXPECT_FALSE(effect.coefficients.empty()) << effect.name;
+    for (const MeasurementEffect::Coefficient& coefficient : effect.coefficients) {
+      EXPECT_FALSE(coefficient.unit.empty()) << effect.name;
+      if (effect.coefficients.size() == 1)
+        EXPECT_EQ(coefficient.name, "coefficient") << effect.name;
+      else
+        EXPECT_NE(effect.law.find(coefficient.name), std::string::npos) << effect.name;
+    }
+  }
 }
 
 TEST(EffectCatalogue, ShapesHaveNamesUnitsAndPositiveRangesAndStandInTheLaw) {
@@ -140,30 +152,86 @@ const MeasurementEffect& reading(const std::string& name) {
   throw std::invalid_argument(name);
 }
 
-TEST(MeasurementEffect, PositiveClockOffsetDelaysASine) {
-  constexpr double period = 0.01, omega = 10.0;
-  for (const double delay : {0.003, -0.004, 0.023}) {
-    std::vector<double> predicted;
-    for (int k = 0; k < 200; ++k) predicted.push_back(std::sin(omega * k * period));
-    reading("clock_offset").apply(delay, period, predicted);
-    // The parabola's error is at most 0.0642 (omega T)^3.
-    for (std::size_t k = 5; k < 195; ++k)
-      ASSERT_NEAR(predicted[k], std::sin(omega * (static_cast<double>(k) * period - delay)), 6.5e-5) << delay;
+TEST(MeasurementEffect, PositiveClockOffsetDelaysASineUpToThreeQuartersOfNyquistsFrequency) {
+  constexpr double period = 0.01;
+  for (const double omega : {10.0, 100.0, 0.5 * 314.0, 0.75 * 314.0})
+    for (const double delay : {0.0, 0.003, -0.004, 0.023, 0.02}) {
+      std::vector<double> predicted;
+      for (int k = 0; k < 200; ++k) predicted.push_back(3.0 + std::sin(omega * k * period));
+      reading("clock_offset").apply(&delay, {}, period, predicted);
+      for (std::size_t k = 16; k < 184; ++k)
+        ASSERT_NEAR(predicted[k], 3.0 + std::sin(omega * (static_cast<double>(k) * period - delay)), 4e-3)
+            << omega << ' ' << delay;
+    }
+}
+
+TEST(MeasurementEffect, ClockOffsetIsSmoothInTheOffset) {
+  std::vector<double> y;
+  for (int k = 0; k < 60; ++k) y.push_back(std::sin(1.3 * k));
+  const auto middle = [&](double delay) {
+    std::vector<double> predicted = y;
+    reading("clock_offset").apply(&delay, {}, 1.0, predicted);
+    return predicted[30];
+  };
+  for (const double delay : {-1.0, -0.4, 0.0, 0.7, 1.0}) {  // y' = -1.3 cos(1.3 (30 - delay)), on either side
+    constexpr double h = 1e-6;
+    EXPECT_NEAR((middle(delay + h) - middle(delay)) / h, -1.3 * std::cos(1.3 * (30.0 - delay)), 1e-2) << delay;
+    EXPECT_NEAR((middle(delay) - middle(delay - h)) / h, -1.3 * std::cos(1.3 * (30.0 - delay)), 1e-2) << delay;
+  }
+}
+
+TEST(MeasurementEffect, ClockOffsetOfMoreThanTheSeriesIsFinite) {
+  for (const double delay : {1e9, -1e9}) {
+    std::vector<double> predicted{1.0, 2.0, 4.0};
+    reading("clock_offset").apply(&delay, {}, 0.01, predicted);
+    for (const double y : predicted) EXPECT_TRUE(std::isfinite(y));
   }
 }
 
 TEST(MeasurementEffect, BiasAddsAndScaleErrorMultiplies) {
   std::vector<double> biased{1.0, -2.0, 4.0}, scaled = biased;
-  reading("accelerometer_bias").apply(0.5, 0.01, biased);
+  const double bias = 0.5, gain = -0.25;
+  reading("accelerometer_bias").apply(&bias, {}, 0.01, biased);
   EXPECT_EQ(biased, (std::vector<double>{1.5, -1.5, 4.5}));
-  reading("scale_error").apply(-0.25, 0.01, scaled);
+  reading("scale_error").apply(&gain, {}, 0.01, scaled);
   EXPECT_EQ(scaled, (std::vector<double>{0.75, -1.5, 3.0}));
 }
 
 TEST(MeasurementEffect, ScalesAreThoseOfTheResidual) {
-  EXPECT_NEAR(reading("clock_offset").scale(0.2, 2.0, 0.01), 0.001, 1e-15);  // [s]
-  EXPECT_NEAR(reading("accelerometer_bias").scale(0.2, 2.0, 0.01), 0.2, 1e-15);
-  EXPECT_NEAR(reading("scale_error").scale(0.2, 2.0, 0.01), 0.1, 1e-15);
+  const ReadingSizes sizes{0.2, 2.0, 0.01, {4.0, 5.0, 8.0, 10.0}};
+  EXPECT_NEAR(reading("clock_offset").scale(sizes, 0), 0.001, 1e-15);  // [s]
+  EXPECT_NEAR(reading("accelerometer_bias").scale(sizes, 0), 0.2, 1e-15);
+  EXPECT_NEAR(reading("scale_error").scale(sizes, 0), 0.1, 1e-15);
+  EXPECT_NEAR(reading("mount_tilt").scale(sizes, 0), 0.05, 1e-15);
+  EXPECT_NEAR(reading("mount_tilt").scale(sizes, 1), 0.04, 1e-15);
+  EXPECT_NEAR(reading("lever_arm").scale(sizes, 0), 0.02, 1e-15);   // r_x goes with w_y'
+  EXPECT_NEAR(reading("lever_arm").scale(sizes, 1), 0.025, 1e-15);  // r_y with w_x'
+}
+
+TEST(MeasurementEffect, TiltLeaksTheAccelerationsAcross) {
+  const double c[] = {0.1, -0.01};
+  std::vector<double> predicted{1.0, 2.0};
+  reading("mount_tilt").apply(c, {{{3.0, 4.0}, {5.0, -6.0}, {7.0, 7.0}, {8.0, 8.0}}}, 0.01, predicted);
+  EXPECT_NEAR(predicted[0], 1.0 + 0.3 - 0.05, 1e-15);
+  EXPECT_NEAR(predicted[1], 2.0 + 0.4 + 0.06, 1e-15);
+}
+
+TEST(MeasurementEffect, LeverArmAddsTheVerticalPartOfTheAngularAcceleration) {
+  // Turning about y takes the nose down: a sensor ahead of the strut (r_x > 0) is accelerated downwards.
+  const double r[] = {0.5, 0.2};
+  std::vector<double> predicted{1.0, 2.0};
+  reading("lever_arm").apply(r, {{{3.0, 3.0}, {5.0, 5.0}, {7.0, -1.0}, {-8.0, 4.0}}}, 0.01, predicted);
+  EXPECT_NEAR(predicted[0], 1.0 + 0.2 * 7.0 + 0.5 * 8.0, 1e-15);
+  EXPECT_NEAR(predicted[1], 2.0 - 0.2 * 1.0 - 0.5 * 4.0, 1e-15);
+}
+
+TEST(MeasurementEffect, UnknownChannelsLeakNothing) {
+  const double c[] = {0.1, 0.1};
+  for (const char* name : {"mount_tilt", "lever_arm"}) {
+    std::vector<double> predicted{1.0, 2.0};
+    reading(name).apply(c, {}, 0.01, predicted);
+    EXPECT_EQ(predicted, (std::vector<double>{1.0, 2.0})) << name;
+  }
 }
 
 }  // namespace

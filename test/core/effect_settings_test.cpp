@@ -58,8 +58,8 @@ TEST(EffectSettings, MessagesNameTheMistakeAndWhatIsKnown) {
 
 TEST(EffectSettings, AssignmentBecomesSettings) {
   OptionMap values;
-  setEffect(values, "hysteresis=-2.5,x=0.01");
-  setEffect(values, "asymmetric_spring=3e2");
+  setEffect(values, "hysteresis=-2.5,x=0.01", measurementEffects());
+  setEffect(values, "asymmetric_spring=3e2", measurementEffects());
   const std::vector<ActiveEffect> effects = takeEffects(values, forceEffects());
   ASSERT_EQ(effects.size(), 2u);
   EXPECT_EQ(effects[0].effect.name, "asymmetric_spring");
@@ -69,11 +69,27 @@ TEST(EffectSettings, AssignmentBecomesSettings) {
   EXPECT_EQ(effects[1].shapes, std::vector<double>{0.01});
 }
 
+TEST(EffectSettings, AssignmentOfAFaultBecomesAReading) {
+  OptionMap values;
+  setEffect(values, "clock_offset=0.004", measurementEffects());
+  setEffect(values, "mount_tilt=0.02", measurementEffects());
+  setEffect(values, "lever_arm=0.3,r_y=-0.1", measurementEffects());
+  const std::vector<ActiveMeasurementEffect> readings = takeReadings(values, measurementEffects());
+  EXPECT_TRUE(values.empty());
+  ASSERT_EQ(readings.size(), 3u);  // by name
+  EXPECT_EQ(readings[0].effect.name, "clock_offset");
+  EXPECT_EQ(readings[0].coefficients, std::vector<double>{0.004});
+  EXPECT_EQ(readings[1].effect.name, "lever_arm");
+  EXPECT_EQ(readings[1].coefficients, (std::vector<double>{0.3, -0.1}));
+  EXPECT_EQ(readings[2].effect.name, "mount_tilt");
+  EXPECT_EQ(readings[2].coefficients, (std::vector<double>{0.02, 0.0}));
+}
+
 TEST(EffectSettings, AssignmentsOfAnotherFormAreRefused) {
   for (const char* wrong :
        {"", "hysteresis", "=1", "hysteresis=", "hysteresis=1,x", "hysteresis=1,=2", "hysteresis=1,,x=2"}) {
     OptionMap values;
-    EXPECT_THROW(setEffect(values, wrong), std::invalid_argument) << wrong;
+    EXPECT_THROW(setEffect(values, wrong, measurementEffects()), std::invalid_argument) << wrong;
   }
 }
 

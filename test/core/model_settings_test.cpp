@@ -38,7 +38,7 @@ ActiveEffect active(const std::string& name, double coefficient, std::vector<dou
 
 StrutModel exampleModel() {
   return {0.1 + 0.2, 63.3, {active("bump_stop", 1.0 / 3.0, {0.02}), active("asymmetric_damping", -4e-12)},
-          {{findEffect(measurementEffects(), "clock_offset"), -0.0041}}};
+          {{findEffect(measurementEffects(), "clock_offset"), {-0.0041}}}};
 }
 
 std::string refusal(OptionMap values) {
@@ -78,7 +78,7 @@ TEST(ModelSettings, YamlAndBackKeepsEveryBit) {
     model.damping_to_mass = -std::min(number, 1e14);
     model.effects[0].coefficient = number;
     model.effects[0].shapes[0] = number;
-    model.reading[0].coefficient = -number;
+    model.reading[0].coefficients = {-number};
     OptionMap values = parse(toYaml(model));
     const StrutModel back = takeModel(values, builtInEffects());
     EXPECT_TRUE(values.empty());
@@ -92,7 +92,7 @@ TEST(ModelSettings, YamlAndBackKeepsEveryBit) {
     EXPECT_EQ(back.effects[1].shapes, std::vector<double>{number});
     ASSERT_EQ(back.reading.size(), 1u);
     EXPECT_EQ(back.reading[0].effect.name, "clock_offset");
-    EXPECT_EQ(back.reading[0].coefficient, -number);
+    EXPECT_EQ(back.reading[0].coefficients, std::vector<double>{-number});
   }
 }
 

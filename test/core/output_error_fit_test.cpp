@@ -81,12 +81,12 @@ TEST(FitOutputError, RecoversAReadingsScaleAndDelay) {
     record.push({samples[k].stamp, 1.1 * samples[k - 2].sprung->acceleration, samples[k].unsprung->acceleration});
   record.finish();
   StrutModel start{6.0, 63.3, {}, {}};
-  start.reading = {{measurementEffects()[0], 0.0}, {measurementEffects()[2], 0.0}};
+  start.reading = {{measurementEffects()[0], {0.0}}, {measurementEffects()[2], {0.0}}};
   ASSERT_EQ(start.reading[0].effect.name + start.reading[1].effect.name, "clock_offsetscale_error");
   const auto fit = fitOutputError({&record}, {}, start);
   ASSERT_TRUE(fit);
-  EXPECT_NEAR(fit->model.reading[0].coefficient, 0.02, 5e-4);
-  EXPECT_NEAR(fit->model.reading[1].coefficient, 0.1, 0.01);
+  EXPECT_NEAR(fit->model.reading[0].coefficients[0], 0.02, 5e-4);
+  EXPECT_NEAR(fit->model.reading[1].coefficients[0], 0.1, 0.01);
 }
 
 TEST(FitOutputError, SegmentsAndDrivesShareTheModelButNotTheirStarts) {

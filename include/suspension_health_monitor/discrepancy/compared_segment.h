@@ -20,6 +20,7 @@ struct ComparedSegment {
   std::vector<double> travel;         ///< d of the free run, from its mean position [m], compression positive
   std::vector<double> travel_rate;    ///< v of the free run [m/s]
   std::vector<double> added_force;    ///< sum c_j f_j, the effects' part of the model [m/s^2]
+  BodyChannels body;                  ///< what else the body's IMU measured, as far as it is known
   std::vector<double> missing_force;  ///< what the model lacks, per unit mass [m/s^2]; see compareSegments()
 
   std::size_t size() const { return measured.size(); }

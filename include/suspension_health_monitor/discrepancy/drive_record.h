@@ -9,12 +9,16 @@
 
 namespace suspension_health_monitor {
 
+struct BodyMotion;
+
 /// An uninterrupted, uniformly sampled stretch of a drive, prepared for free runs.
 struct DriveSegment {
   double start = 0.0;            ///< time of its first sample since the start of the drive [s]
   std::vector<double> sprung;    ///< z'' less the drive's mean w'' [m/s^2], one per sample
   std::vector<double> unsprung;  ///< w'' less its mean [m/s^2], one per sample
   std::vector<WheelStep> wheel;  ///< what the wheel does, one per integration step
+  std::vector<Stamp> stamps;     ///< one per sample
+  BodyChannels body;             ///< what else the body's IMU measured (addBodyMotion)
 
   std::size_t size() const { return sprung.size(); }
 };
@@ -37,6 +41,13 @@ class DriveRecord {
   /// To be called once after the last sample: interpolates.
   void finish();
 
+  /// Puts the body's motion beside the samples of the finished record, by linear interpolation between the messages.
+  /// Accelerations lose their mean over the drive. Angular rates are differentiated by the slope of a cubic through the
+  /// neighbours (least squares), of 2 to 12 on either side: as few as the noise of the rate allows.
+  /// A channel that is not measured, or never changes, stays empty.
+  /// @param motion  in the order of the stamps, by the clock of the record's samples (body_motion.h).
+  void addBodyMotion(const std::vector<BodyMotion>& motion);
+
   double period() const { return period_; }
   int steps() const { return steps_; }
   const std::vector<DriveSegment>& segments() const { return segments_; }
@@ -47,6 +58,7 @@ class DriveRecord {
   struct Stretch {
     double start = 0.0;  // [s]
     std::vector<double> sprung, wheel;
+    std::vector<Stamp> stamps;
   };
 
   void endBeforeStuckReadings();

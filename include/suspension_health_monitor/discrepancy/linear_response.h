@@ -31,13 +31,16 @@ class LinearResponse {
   /// @return change of z'' at every sample for an additional force `f` [m/s^2].
   Eigen::VectorXd respond(const Eigen::VectorXd& force) const;
 
-  /// @return change of the predicted reading per unit of a measurement effect's coefficient.
-  Eigen::VectorXd readingSlope(const MeasurementEffect& effect) const;
+  /// @return change of the predicted reading per unit of a measurement effect's coefficients, one column each; 0 where
+  /// the effect cannot show.
+  Eigen::MatrixXd readingSlopes(const MeasurementEffect& effect) const;
 
   /// Ends of the segments: segment i is [ends[i - 1], ends[i]).
   const std::vector<std::size_t>& ends() const { return ends_; }
 
  private:
+  void measureSizes();
+
   const ModelFit* fit_;
   double period_;
   double travel_ = 0.0, travel_rate_ = 0.0;
@@ -45,6 +48,8 @@ class LinearResponse {
   std::vector<double> predicted_;
   std::vector<double> slope_travel_, slope_rate_;  // F_d [1/s^2], F_v [1/s]
   std::vector<std::size_t> ends_;
+  std::vector<const BodyChannels*> bodies_;  // by segment
+  ReadingSizes sizes_;                       // of what is predicted
 };
 
 }  // namespace suspension_health_monitor

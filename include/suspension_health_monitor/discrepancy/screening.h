@@ -37,15 +37,16 @@ class Screening {
   double surfaceGain() const;
 
  private:
-  /// How a column explains the residual beside the model's own columns.
+  /// How columns explain the residual beside the model's own ones.
   struct Projection {
     double gain = 0.0;  // of the training sum of squares
-    double coefficient = 0.0;
+    Eigen::VectorXd coefficients;
     Eigen::VectorXd common;  // changes of b1, b0 and the effects' coefficients that go along
   };
 
-  std::optional<Projection> project(const Eigen::VectorXd& column) const;
-  ScreenedModel expect(const Eigen::VectorXd& column, const Projection& projection) const;
+  using Columns = Eigen::Ref<const Eigen::MatrixXd>;
+  std::optional<Projection> project(const Columns& columns) const;
+  ScreenedModel expect(const Columns& columns, const Projection& projection) const;
   StrutModel changed(const Eigen::VectorXd& common) const;
 
   const HeldOut* held_out_;

@@ -1,25 +1,53 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace suspension_health_monitor {
 
+/// What the body's IMU measures besides z'', in the strut's frame: z up along the strut, x and y across it.
+enum class BodyChannel {
+  kAccelerationX,         ///< a_x [m/s^2], less its mean
+  kAccelerationY,         ///< a_y [m/s^2], less its mean
+  kAngularAccelerationX,  ///< w_x' [rad/s^2]
+  kAngularAccelerationY   ///< w_y' [rad/s^2]
+};
+inline constexpr std::size_t kNumBodyChannels = 4;
+
+/// By BodyChannel one value per sample; empty where the channel is not known.
+using BodyChannels = std::array<std::vector<double>, kNumBodyChannels>;
+
+/// rms values of a drive that tell which size of a coefficient matters.
+struct ReadingSizes {
+  double residual = 0.0;  ///< what a model leaves [m/s^2]
+  double y = 0.0;         ///< of the measured z'' [m/s^2]
+  double period = 0.0;    ///< T [s]
+  std::array<double, kNumBodyChannels> body{};
+};
+
 /// Something that is wrong with the reading of the body's sensor, not with the strut: acts on the predicted z''.
 /// Never to be called a damper.
 struct MeasurementEffect {
+  struct Coefficient {
+    std::string name;  ///< "coefficient" if there is only one
+    std::string unit;
+  };
+
   /// Changes a predicted series in place.
-  /// @param coefficient  c.  @param period  sampling time [s].
-  using Apply = void (*)(double coefficient, double period, std::vector<double>& predicted);
+  /// @param c  one value per coefficient.  @param body  of the same samples.  @param period  sampling time [s].
+  using Apply = void (*)(const double* c, const BodyChannels& body, double period, std::vector<double>& predicted);
 
   std::string name;
   std::string law;  ///< what is read instead of y
-  std::string unit;
+  std::vector<Coefficient> coefficients;
   std::string finding;
   Apply apply;
-  /// Size of c that changes the reading about as much as `residual` [m/s^2] does, for a signal of rms `y` and period T.
-  double (*scale)(double residual, double y, double period);
+  /// Size of coefficient i that changes the reading about as much as the residual does.
+  double (*scale)(const ReadingSizes& sizes, std::size_t i);
+  std::vector<BodyChannel> channels = {};  ///< without which the effect cannot be told
 };
 
 /// The built-in measurement effects, one record each in measurement_effect.cpp.

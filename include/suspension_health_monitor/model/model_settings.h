@@ -9,7 +9,7 @@
 namespace suspension_health_monitor {
 
 /// A model as settings, all in SI:
-///   damping_to_mass, stiffness_to_mass, effects/NAME/coefficient, effects/NAME/SHAPE, readings/NAME/coefficient.
+///   damping_to_mass, stiffness_to_mass, effects/NAME/coefficient, effects/NAME/SHAPE, readings/NAME/COEFFICIENT.
 /// Takes them out of `values`.
 /// @param library  what the model may be made of.
 /// @throws std::invalid_argument  naming a setting that is missing, unknown or wrong, its value, and what is allowed.

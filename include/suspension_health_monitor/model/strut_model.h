@@ -18,7 +18,7 @@ struct ActiveEffect {
 /// A fault of the measurement, with its size.
 struct ActiveMeasurementEffect {
   MeasurementEffect effect;
-  double coefficient = 0.0;
+  std::vector<double> coefficients;  ///< one per effect.coefficients
 };
 
 /// The strut as it is modelled: z'' = b1 v + b0 d + sum_j c_j f_j, and how its acceleration is read.

@@ -5,7 +5,9 @@
 
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/simulation/accelerometer.h"
+#include "suspension_health_monitor/simulation/body_sway.h"
 #include "suspension_health_monitor/simulation/scenario.h"
+#include "suspension_health_monitor/simulation/sensor_faults.h"
 
 namespace suspension_health_monitor {
 
@@ -25,6 +27,7 @@ struct DriveSample {
   Stamp stamp{};                                 ///< true time since the start of the drive
   std::optional<AccelerometerReading> sprung;    ///< none: message lost
   std::optional<AccelerometerReading> unsprung;  ///< none: message lost
+  Sway body;                                     ///< what the body's IMU reads besides, noise included
   DriveTruth truth;
 };
 
@@ -51,13 +54,20 @@ class DriveSimulator {
     State derivative;
   };
   Motion motionAt(const State& state, double t);
-  void integrate(double from, double to);
+  void integrate(State& state, double from, double to);
+  double readBody(double t, const Sway& sway);
+  Sway readSway(Sway sway);
 
   SimulationOptions options_;
   Scenario scenario_;
   Accelerometer sprung_;
   Accelerometer unsprung_;
+  BodySway sway_;
+  SensorFaults faults_;
+  RandomStream sway_noise_;
   State state_{};
+  State delayed_state_{};  // as the body's IMU sees it, faults_.delay ago
+  double delayed_time_ = 0.0;
   double max_step_;  // [s]
   long long next_index_ = 0;
 };

@@ -12,6 +12,8 @@ enum class RandomPurpose : unsigned {
   kUnsprungNoise,
   kSprungDelivery,
   kUnsprungDelivery,
+  kSway,
+  kSwayNoise,
 };
 
 /// Reproducible random numbers, the same with every standard library: engine and seeding are fixed by the C++ standard,

@@ -37,7 +37,12 @@ struct SimulationOptions {
   double clock_offset = 0.0;
   double clock_skew = 0.0;
 
+  double body_acceleration = 0.0;
+  double body_rate = 0.0;
+  double gyro_noise = 0.001;
+
   std::vector<ActiveEffect> hidden = {};  ///< effects that the model lacks, at most kMostHiddenEffects
+  std::vector<ActiveMeasurementEffect> hidden_faults = {};  ///< what is wrong with the body's IMU (sensor_faults.h)
 };
 
 inline constexpr std::array kSimulationFields{
@@ -89,10 +94,18 @@ inline constexpr std::array kSimulationFields{
                                    &SimulationOptions::clock_offset, -10.0, 10.0},
     OptionField<SimulationOptions>{"clock_skew", "s/s", "how much faster than true time the sprung sensor's clock runs",
                                    &SimulationOptions::clock_skew, -0.01, 0.01},
+    OptionField<SimulationOptions>{"body_acceleration", "m/s^2",
+                                   "rms of braking and cornering, on x and y of the body's IMU; 0: none",
+                                   &SimulationOptions::body_acceleration, 0.0, 1e3},
+    OptionField<SimulationOptions>{"body_rate", "rad/s",
+                                   "rms of roll and pitch rate, on x and y of the body's IMU; 0: it has no gyro",
+                                   &SimulationOptions::body_rate, 0.0, 1e3},
+    OptionField<SimulationOptions>{"gyro_noise", "rad/s", "standard deviation of the white noise on both rates",
+                                   &SimulationOptions::gyro_noise, 0.0, 1e3},
 };
 
-/// Checks ranges (kSimulationFields), the order of the ramp's ends, that jitter keeps the stamps in order, and the number
-/// of hidden effects.
+/// Checks ranges (kSimulationFields), the order of the ramp's ends, that jitter keeps the stamps in order, the number of
+/// hidden effects, and that hidden faults are known and have a motion to act on.
 /// @throws std::invalid_argument  naming option, value and what is allowed.
 void validate(const SimulationOptions& options);
 

@@ -63,7 +63,7 @@ void addMissingForce(const StrutModel& model, const std::vector<StrutState>& mot
     force[k] = model.force(segment.travel[k] - wrong.twice[k], segment.travel_rate[k] - wrong.once[k], segment.time(k),
                            motion[k].memory.data());
   for (const ActiveMeasurementEffect& reading : model.reading)
-    reading.effect.apply(reading.coefficient, segment.period, force);
+    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, force);
   for (std::size_t k = 0; k < segment.size(); ++k) force[k] = segment.measured[k] - force[k];
 }
 
@@ -74,6 +74,7 @@ ComparedSegment makeSegment(const StrutModel& model, const DriveRecord& record, 
   segment.period = record.period();
   segment.measured = source.sprung;
   segment.wheel = source.unsprung;
+  segment.body = source.body;
   for (std::size_t k = 0; k < source.size(); ++k) {
     const StrutState& state = motion[k];
     segment.travel.push_back(state.travel);

@@ -35,6 +35,7 @@ void DriveRecord::push(const CornerSample& sample) {
   if (stretch.wheel.empty()) stretch.start = toSeconds(sample.stamp - first_);
   stretch.sprung.push_back(sample.sprung_acceleration);
   stretch.wheel.push_back(sample.unsprung_acceleration);
+  stretch.stamps.push_back(sample.stamp);
 }
 
 void DriveRecord::endBeforeStuckReadings() {
@@ -43,6 +44,7 @@ void DriveRecord::endBeforeStuckReadings() {
   const std::size_t kept = stretch.wheel.size() - std::min<std::size_t>(stretch.wheel.size(), kStuckRepeats);
   stretch.sprung.resize(kept);
   stretch.wheel.resize(kept);
+  stretch.stamps.resize(kept);
   stretches_.emplace_back();
 }
 
@@ -72,6 +74,7 @@ void DriveRecord::addSegment(const Stretch& stretch) {
   const std::size_t last = wheel.size() - 1 - kEnd;
   for (std::size_t k = kEnd; k <= last; ++k) {
     segment.sprung.push_back(stretch.sprung[k] - mean_wheel_);
+    segment.stamps.push_back(stretch.stamps[k]);
     segment.unsprung.push_back(wheel[k]);
     if (k < last)
       for (const WheelInterpolator& interpolate : interpolators)

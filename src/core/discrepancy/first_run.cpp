@@ -39,6 +39,8 @@ std::optional<DriveSizes> firstRun(const FitRecords& records, const FitMasks& ma
       const DriveSegment& segment = records[r]->segments()[s];
       if (!runFree(linear, *records[r], segment, {}, predicted, &motion)) return std::nullopt;
       addSegment(start, *records[r], segment, motion, sizes);
+      for (std::size_t c = 0; c < kNumBodyChannels; ++c)
+        for (const double value : segment.body[c]) sizes.body[c] += value * value;
       count += static_cast<double>(segment.size());
       const SampleMask* mask = maskOf(masks, r, s);
       for (std::size_t k = 0; k < segment.size(); ++k) {
@@ -50,6 +52,7 @@ std::optional<DriveSizes> firstRun(const FitRecords& records, const FitMasks& ma
   if (absolute.empty()) return std::nullopt;
   for (double* square : {&sizes.travel, &sizes.travel_rate}) *square = std::sqrt(*square / count);
   for (double& square : sizes.forces) square = std::sqrt(square / count);
+  for (double& square : sizes.body) square = std::sqrt(square / count);
   sizes.acceleration = std::sqrt(sizes.acceleration / static_cast<double>(absolute.size()));
   sizes.residual = kSigmaPerMedian * median(absolute);
   return sizes;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct DriveSizes {
   std::vector<double> forces;  ///< of the effects, per unit of their coefficient
   double acceleration = 0.0;   ///< of the measured z'', what is fitted only
   double residual = 0.0;       ///< robust, what is fitted only
+  std::array<double, kNumBodyChannels> body{};  ///< 0 where a channel is not known
 };
 
 /// @return nothing if the model runs away or there is nothing to fit.

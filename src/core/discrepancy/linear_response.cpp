@@ -57,7 +57,9 @@ LinearResponse::LinearResponse(const std::vector<const DriveRecord*>& records, c
         memory.push_back(states[k].memory);
       }
       ends_.push_back(motion_.size());
+      bodies_.push_back(&segment.body);
     }
+  measureSizes();
   travel_ = rms(motion_, &StrutMotion::travel);
   travel_rate_ = rms(motion_, &StrutMotion::travel_rate);
   const double by_travel = kDifference * travel_, by_rate = kDifference * travel_rate_;
@@ -66,6 +68,21 @@ LinearResponse::LinearResponse(const std::vector<const DriveRecord*>& records, c
     const auto at = [&](double d, double v) { return force.force(m.travel + d, m.travel_rate + v, m.time, memory[k].data()); };
     slope_travel_.push_back((at(by_travel, 0.0) - at(-by_travel, 0.0)) / (2.0 * by_travel));
     slope_rate_.push_back((at(0.0, by_rate) - at(0.0, -by_rate)) / (2.0 * by_rate));
+  }
+}
+
+void LinearResponse::measureSizes() {
+  const auto count = static_cast<double>(predicted_.size());
+  double square = 0.0;
+  for (const double y : predicted_) square += y * y;
+  sizes_.y = std::sqrt(square / count);
+  sizes_.residual = kDifference * sizes_.y;
+  sizes_.period = period_;
+  for (std::size_t c = 0; c < kNumBodyChannels; ++c) {
+    double sum = 0.0;
+    for (const BodyChannels* body : bodies_)
+      for (const double value : (*body)[c]) sum += value * value;
+    sizes_.body[c] = std::sqrt(sum / count);
   }
 }
 
@@ -108,24 +125,28 @@ Eigen::VectorXd LinearResponse::respond(const Eigen::VectorXd& force) const {
   return response;
 }
 
-Eigen::VectorXd LinearResponse::readingSlope(const MeasurementEffect& effect) const {
-  Eigen::VectorXd slope(numSamples());
-  double square = 0.0;
-  for (const double y : predicted_) square += y * y;
-  const double size = std::sqrt(square / static_cast<double>(predicted_.size()));
-  const double step = effect.scale(kDifference * size, size, period_);
-  std::size_t begin = 0;
-  for (const std::size_t end : ends_) {
-    std::vector<double> before(predicted_.begin() + static_cast<std::ptrdiff_t>(begin),
-                               predicted_.begin() + static_cast<std::ptrdiff_t>(end));
-    std::vector<double> after = before;
-    effect.apply(-step, period_, before);
-    effect.apply(step, period_, after);
-    for (std::size_t k = 0; k < after.size(); ++k)
-      slope[static_cast<Eigen::Index>(begin + k)] = (after[k] - before[k]) / (2.0 * step);
-    begin = end;
+Eigen::MatrixXd LinearResponse::readingSlopes(const MeasurementEffect& effect) const {
+  const auto count = static_cast<Eigen::Index>(effect.coefficients.size());
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(numSamples(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double step = effect.scale(sizes_, static_cast<std::size_t>(i));
+    if (!std::isfinite(step)) continue;  // a channel that is not known
+    std::vector<double> coefficients(effect.coefficients.size(), 0.0);
+    std::size_t begin = 0;
+    for (std::size_t s = 0; s < ends_.size(); ++s) {
+      std::vector<double> before(predicted_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                 predicted_.begin() + static_cast<std::ptrdiff_t>(ends_[s]));
+      std::vector<double> after = before;
+      coefficients[static_cast<std::size_t>(i)] = -step;
+      effect.apply(coefficients.data(), *bodies_[s], period_, before);
+      coefficients[static_cast<std::size_t>(i)] = step;
+      effect.apply(coefficients.data(), *bodies_[s], period_, after);
+      for (std::size_t k = 0; k < after.size(); ++k)
+        slopes(static_cast<Eigen::Index>(begin + k), i) = (after[k] - before[k]) / (2.0 * step);
+      begin = ends_[s];
+    }
   }
-  return slope;
+  return slopes;
 }
 
 }  // namespace suspension_health_monitor

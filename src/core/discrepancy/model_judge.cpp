@@ -30,7 +30,8 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 std::size_t complexity(const StrutModel& model) {
-  std::size_t count = model.reading.size();
+  std::size_t count = 0;
+  for (const ActiveMeasurementEffect& reading : model.reading) count += reading.coefficients.size();
   for (const ActiveEffect& active : model.effects) count += 1 + active.shapes.size();
   return count;
 }

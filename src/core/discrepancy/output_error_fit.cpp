@@ -16,15 +16,19 @@ namespace {
 
 constexpr double kRunaway = 1e3;  // times the drive's largest measured acceleration
 
-/// @return nothing if an effect never acts in these drives.
+/// @return nothing if an effect never acts in these drives, or a fault of the measurement cannot show in them.
 std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const DriveSizes& sizes, double period) {
   std::vector<double> scales;
   for (const double force : sizes.forces) {
     if (force == 0.0) return std::nullopt;
     scales.push_back(0.1 * sizes.acceleration / force);
   }
+  const ReadingSizes reading_sizes{sizes.residual, sizes.acceleration, period, sizes.body};
   for (const ActiveMeasurementEffect& reading : start.reading)
-    scales.push_back(reading.effect.scale(sizes.residual, sizes.acceleration, period));
+    for (std::size_t i = 0; i < reading.coefficients.size(); ++i) {
+      scales.push_back(reading.effect.scale(reading_sizes, i));
+      if (!std::isfinite(scales.back())) return std::nullopt;
+    }
   return scales;
 }
 
@@ -134,7 +138,7 @@ bool runFree(const StrutModel& model, const DriveRecord& record, const DriveSegm
     }
   }
   for (const ActiveMeasurementEffect& reading : model.reading)
-    reading.effect.apply(reading.coefficient, record.period(), predicted);
+    reading.effect.apply(reading.coefficients.data(), segment.body, record.period(), predicted);
   return true;
 }
 

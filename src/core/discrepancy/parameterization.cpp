@@ -24,7 +24,8 @@ Parameterization::Parameterization(const StrutModel& start, const std::vector<do
 int Parameterization::size() const {
   int count = 2;
   for (const ActiveEffect& active : start_.effects) count += 1 + static_cast<int>(active.shapes.size());
-  return count + static_cast<int>(start_.reading.size());
+  for (const ActiveMeasurementEffect& reading : start_.reading) count += static_cast<int>(reading.coefficients.size());
+  return count;
 }
 
 Eigen::VectorXd Parameterization::initial() const {
@@ -38,7 +39,9 @@ Eigen::VectorXd Parameterization::initial() const {
       x[i++] = std::log(place / (1.0 - place));
     }
   }
-  for (std::size_t j = 0; j < start_.reading.size(); ++j) x[i++] = start_.reading[j].coefficient / readingScale(j);
+  std::size_t scale = start_.effects.size();
+  for (const ActiveMeasurementEffect& reading : start_.reading)
+    for (const double coefficient : reading.coefficients) x[i++] = coefficient / coefficient_scales_[scale++];
   return x;
 }
 
@@ -51,7 +54,9 @@ void Parameterization::apply(const double* x, StrutModel& model) const {
     for (std::size_t s = 0; s < ranges_[j].size(); ++s)
       model.effects[j].shapes[s] = std::exp(ranges_[j][s].lower + ranges_[j][s].width / (1.0 + std::exp(-x[i++])));
   }
-  for (std::size_t j = 0; j < start_.reading.size(); ++j) model.reading[j].coefficient = x[i++] * readingScale(j);
+  std::size_t scale = start_.effects.size();
+  for (ActiveMeasurementEffect& reading : model.reading)
+    for (double& coefficient : reading.coefficients) coefficient = x[i++] * coefficient_scales_[scale++];
 }
 
 Eigen::VectorXd Parameterization::slopes(const double* x) const {
@@ -68,7 +73,8 @@ Eigen::VectorXd Parameterization::slopes(const double* x) const {
       slope[i] = model.effects[j].shapes[s] * ranges_[j][s].width * place * (1.0 - place);
     }
   }
-  for (std::size_t j = 0; j < start_.reading.size(); ++j) slope[i++] = readingScale(j);
+  for (std::size_t scale = start_.effects.size(); scale < coefficient_scales_.size(); ++scale)
+    slope[i++] = coefficient_scales_[scale];
   return slope;
 }
 

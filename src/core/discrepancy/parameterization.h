@@ -35,8 +35,6 @@ class Parameterization {
     double lower, width;
   };
 
-  double readingScale(std::size_t j) const { return coefficient_scales_[start_.effects.size() + j]; }
-
   StrutModel start_;
   std::vector<double> coefficient_scales_;
   std::vector<std::vector<Range>> ranges_;  // by effect and shape

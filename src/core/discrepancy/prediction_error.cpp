@@ -32,7 +32,7 @@ class ErrorSums {
 std::vector<double> trueReading(const ComparedSegment& segment, const StrutModel& model) {
   std::vector<double> faulty = segment.measured;
   for (const ActiveMeasurementEffect& reading : model.reading)
-    reading.effect.apply(reading.coefficient, segment.period, faulty);
+    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, faulty);
   for (std::size_t k = 0; k < faulty.size(); ++k) faulty[k] = 2.0 * segment.measured[k] - faulty[k];
   return faulty;
 }

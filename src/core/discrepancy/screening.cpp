@@ -79,18 +79,19 @@ Screening::Screening(const std::vector<const DriveRecord*>& records, const HeldO
   own_ = weighted.transpose() * residual_;
 }
 
-std::optional<Screening::Projection> Screening::project(const Eigen::VectorXd& column) const {
-  const Eigen::VectorXd weighted = weight_.cwiseProduct(column);
-  const Eigen::VectorXd cross = common_.transpose() * weighted;
-  const Eigen::VectorXd carried = gram_.solve(cross);
-  const double square = column.dot(weighted);
-  const double independent = square - cross.dot(carried);
-  if (!(independent > kIndependent * square)) return std::nullopt;  // 0 and NaN, too
+std::optional<Screening::Projection> Screening::project(const Columns& columns) const {
+  const Eigen::MatrixXd weighted = weight_.asDiagonal() * columns;
+  const Eigen::MatrixXd cross = common_.transpose() * weighted;
+  const Eigen::MatrixXd carried = gram_.solve(cross);
+  const Eigen::MatrixXd square = columns.transpose() * weighted;
+  const Eigen::MatrixXd independent = square - cross.transpose() * carried;
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    if (!(independent(i, i) > kIndependent * square(i, i))) return std::nullopt;  // 0 and NaN, too
   Projection result;
-  const double moment = weighted.dot(residual_) - own_.dot(carried);
-  result.coefficient = moment / independent;
-  result.gain = moment * result.coefficient;
-  result.common = gram_.solve(own_) - result.coefficient * carried;
+  const Eigen::VectorXd moment = weighted.transpose() * residual_ - carried.transpose() * own_;
+  result.coefficients = independent.ldlt().solve(moment);
+  result.gain = moment.dot(result.coefficients);
+  result.common = gram_.solve(own_) - carried * result.coefficients;
   return result;
 }
 
@@ -105,11 +106,11 @@ StrutModel Screening::changed(const Eigen::VectorXd& common) const {
   return model;
 }
 
-ScreenedModel Screening::expect(const Eigen::VectorXd& column, const Projection& projection) const {
+ScreenedModel Screening::expect(const Columns& columns, const Projection& projection) const {
   ScreenedModel screened;
   screened.model = changed(projection.common);
   screened.training_gain = projection.gain;
-  screened.residuals = split(residual_ - projection.coefficient * column - common_ * projection.common, response_.ends());
+  screened.residuals = split(residual_ - columns * projection.coefficients - common_ * projection.common, response_.ends());
   return screened;
 }
 
@@ -129,16 +130,17 @@ std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const 
   }
   if (!best) return std::nullopt;
   ScreenedModel screened = expect(best_column, *best);
-  screened.model.effects.push_back({effect, best->coefficient, best_shapes});
+  screened.model.effects.push_back({effect, best->coefficients[0], best_shapes});
   return screened;
 }
 
 std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) const {
-  const Eigen::VectorXd column = response_.readingSlope(effect);
-  const std::optional<Projection> projection = project(column);
+  const Eigen::MatrixXd columns = response_.readingSlopes(effect);
+  const std::optional<Projection> projection = project(columns);
   if (!projection) return std::nullopt;
-  ScreenedModel screened = expect(column, *projection);
-  screened.model.reading.push_back({effect, projection->coefficient});
+  ScreenedModel screened = expect(columns, *projection);
+  const Eigen::VectorXd& found = projection->coefficients;
+  screened.model.reading.push_back({effect, {found.data(), found.data() + found.size()}});
   return screened;
 }
 

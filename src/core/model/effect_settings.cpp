@@ -36,24 +36,39 @@ std::vector<ActiveEffect> takeEffects(OptionMap& values, const std::vector<Force
 
 std::vector<ActiveMeasurementEffect> takeReadings(OptionMap& values, const std::vector<MeasurementEffect>& catalogue) {
   std::vector<ActiveMeasurementEffect> result;
-  for (const auto& [name, settings] : takeGroups(values, kReadings))
-    result.push_back({findEffect(catalogue, name),
-                      takeNumbers(std::string(kReadings) + '/' + name, settings, {kCoefficient}).front()});
+  for (const auto& [name, settings] : takeGroups(values, kReadings)) {
+    const MeasurementEffect& effect = findEffect(catalogue, name);
+    std::vector<std::string> wanted;
+    for (const MeasurementEffect::Coefficient& coefficient : effect.coefficients) wanted.push_back(coefficient.name);
+    result.push_back({effect, takeNumbers(std::string(kReadings) + '/' + name, settings, wanted)});
+  }
   return result;
 }
 
-void setEffect(OptionMap& values, const std::string& assignment) {
+void setEffect(OptionMap& values, const std::string& assignment, const std::vector<MeasurementEffect>& faults) {
+  const auto refuse = [&] {
+    throw std::invalid_argument("--effect " + assignment + ", must be NAME=COEFFICIENT[,SHAPE=VALUE]...");
+  };
   std::istringstream parts(assignment);
-  std::string part, name;
+  std::string part, group, first = kCoefficient;
   while (std::getline(parts, part, ',')) {
     const std::size_t equals = part.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
-      throw std::invalid_argument("--effect " + assignment + ", must be NAME=COEFFICIENT[,SHAPE=VALUE]...");
-    const std::string key = name.empty() ? kCoefficient : part.substr(0, equals);
-    if (name.empty()) name = part.substr(0, equals);
-    values[std::string(kEffects) + '/' + name + '/' + key] = part.substr(equals + 1);
+    if (equals == std::string::npos || equals == 0 || equals + 1 == part.size()) refuse();
+    const std::string name = part.substr(0, equals), value = part.substr(equals + 1);
+    if (!group.empty()) {
+      values[group + name] = value;
+      continue;
+    }
+    group = std::string(kEffects) + '/' + name + '/';
+    for (const MeasurementEffect& fault : faults) {
+      if (fault.name != name) continue;
+      group = std::string(kReadings) + '/' + name + '/';
+      first = fault.coefficients.front().name;
+      for (const MeasurementEffect::Coefficient& c : fault.coefficients) values[group + c.name] = 0.0;
+    }
+    values[group + first] = value;
   }
-  if (name.empty()) throw std::invalid_argument("--effect " + assignment + ", must be NAME=COEFFICIENT[,SHAPE=VALUE]...");
+  if (group.empty()) refuse();
 }
 
 }  // namespace suspension_health_monitor

@@ -68,8 +68,12 @@ std::string toYaml(const StrutModel& model) {
       text += line("    ", active.effect.shapes[i].name, active.shapes[i], active.effect.shapes[i].unit);
   }
   if (!model.reading.empty()) text += "readings:\n";
-  for (const ActiveMeasurementEffect& active : model.reading)
-    text += "  " + active.effect.name + ":\n" + line("    ", "coefficient", active.coefficient, active.effect.unit);
+  for (const ActiveMeasurementEffect& active : model.reading) {
+    text += "  " + active.effect.name + ":\n";
+    for (std::size_t i = 0; i < active.coefficients.size(); ++i)
+      text += line("    ", active.effect.coefficients[i].name, active.coefficients[i],
+                   active.effect.coefficients[i].unit);
+  }
   return text;
 }
 

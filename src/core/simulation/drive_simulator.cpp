@@ -30,27 +30,34 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       scenario_(makeScenario(options)),
       sprung_(options, Accelerometer::Place::kSprung),
       unsprung_(options, Accelerometer::Place::kUnsprung),
+      sway_(options),
+      faults_(SensorFaults::from(options.hidden_faults)),
+      sway_noise_(options.seed, RandomPurpose::kSwayNoise),
       max_step_(longestStep(scenario_)) {
   const RoadPoint start = scenario_.road(0.0);
   state_ = {start.height, start.rate, start.height, start.rate};
+  delayed_state_ = state_;
 }
 
 std::optional<DriveSample> DriveSimulator::next() {
   // A duration that is a whole number of periods must not lose its last sample to rounding.
   if (static_cast<double>(next_index_) > options_.duration * options_.rate + 1e-6) return std::nullopt;
   const double t = static_cast<double>(next_index_) / options_.rate;
-  if (next_index_ > 0) integrate(static_cast<double>(next_index_ - 1) / options_.rate, t);
+  if (next_index_ > 0) integrate(state_, static_cast<double>(next_index_ - 1) / options_.rate, t);
   ++next_index_;
 
   DriveSample sample;
   sample.stamp = fromSeconds(t);
   sample.truth = motionAt(state_, t).truth;
-  sample.sprung = sprung_.read(t, sample.truth.sprung_acceleration);
+  const Sway sway = sway_.at(t);
+  sample.sprung = sprung_.read(t, readBody(t, sway));
+  sample.body = readSway(sway);
   sample.unsprung = unsprung_.read(t, sample.truth.unsprung_acceleration);
   for (const TimeWindow& window : scenario_.zero_readings) {
     if (!window.contains(t)) continue;
     if (sample.sprung) sample.sprung->acceleration = 0.0;
     if (sample.unsprung) sample.unsprung->acceleration = 0.0;
+    sample.body = {};
   }
   return sample;
 }
@@ -85,13 +92,30 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
   return motion;
 }
 
-void DriveSimulator::integrate(double from, double to) {
+double DriveSimulator::readBody(double t, const Sway& sway) {
+  if (faults_.delay == 0.0) return faults_.read(motionAt(state_, t).truth.sprung_acceleration, sway);
+  const double then = std::max(0.0, t - faults_.delay);  // nothing was before the drive
+  if (then > delayed_time_) integrate(delayed_state_, delayed_time_, then);
+  delayed_time_ = then;
+  return faults_.read(motionAt(delayed_state_, then).truth.sprung_acceleration, sway);
+}
+
+Sway DriveSimulator::readSway(Sway sway) {
+  const auto add = [this](std::array<double, 2>& values, double noise) {
+    for (double& value : values) value += noise * sway_noise_.gaussian();
+  };
+  if (options_.body_acceleration > 0.0) add(sway.acceleration, options_.noise);
+  if (options_.body_rate > 0.0) add(sway.angular_rate, options_.gyro_noise);
+  return sway;
+}
+
+void DriveSimulator::integrate(State& state, double from, double to) {
   namespace odeint = boost::numeric::odeint;
   const double first_step = std::min(max_step_, to - from);
   const auto stepper =
       odeint::make_controlled(kAbsoluteTolerance, kRelativeTolerance, max_step_, odeint::runge_kutta_dopri5<State>());
   const auto system = [this](const State& x, State& derivative, double t) { derivative = motionAt(x, t).derivative; };
-  odeint::integrate_adaptive(stepper, system, state_, from, to, first_step);
+  odeint::integrate_adaptive(stepper, system, state, from, to, first_step);
 }
 
 }  // namespace suspension_health_monitor

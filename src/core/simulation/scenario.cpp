@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/simulation/iso_road.h"
+#include "suspension_health_monitor/simulation/sensor_faults.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -76,6 +77,12 @@ void validate(const SimulationOptions& options) {
     refuse("number of hidden effects", static_cast<double>(options.hidden.size()), "-", "at most",
            static_cast<double>(kMostHiddenEffects));
   }
+  const SensorFaults faults = SensorFaults::from(options.hidden_faults);
+  const auto acts = [](const std::array<double, 2>& sizes) { return sizes[0] != 0.0 || sizes[1] != 0.0; };
+  if (acts(faults.tilt) && options.body_acceleration == 0.0)
+    throw std::invalid_argument("body_acceleration = 0 [m/s^2], must be above 0 for mount_tilt to show");
+  if (acts(faults.position) && options.body_rate == 0.0)
+    throw std::invalid_argument("body_rate = 0 [rad/s], must be above 0 for lever_arm to show");
 }
 
 Scenario makeScenario(const SimulationOptions& options) {

@@ -1,0 +1,64 @@
+// Faults of the body's sensor are found as such, by the search with the whole library.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "body_drive.h"
+#include "suspension_health_monitor/discrepancy/effect_search.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using Names = std::vector<std::string>;
+
+SearchResult search(const DriveRecord& record, EffectLibrary library = builtInEffects()) {
+  takeUntestable(library, {&record});
+  std::optional<SearchResult> result = EffectSearch(library, {2, 2}).run({&record}, {4.4, 44.0, {}, {}});
+  EXPECT_TRUE(result);
+  return result.value_or(SearchResult{});
+}
+
+/// @param tolerance  of the coefficients, in their unit.
+void expectFound(const ActiveMeasurementEffect& hidden, double tolerance) {
+  SimulationOptions options = swayingDrive("ugv", 4);
+  options.hidden_faults = {hidden};
+  const SearchResult result = search(recordedWithBody(options));
+  EXPECT_EQ(result.verdict, Verdict::kEffectFound);
+  ASSERT_EQ(result.selected, Names{hidden.effect.name});
+  EXPECT_TRUE(result.final_fit->model.effects.empty());
+  EXPECT_NEAR(result.final_fit->model.damping_to_mass, 4.0, 0.05);
+  EXPECT_NEAR(result.final_fit->model.stiffness_to_mass, 40.0, 0.5);
+  const std::vector<double>& found = result.final_fit->model.reading.at(0).coefficients;
+  ASSERT_EQ(found.size(), hidden.coefficients.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], hidden.coefficients[i], tolerance) << i;
+}
+
+TEST(ReadingSearch, ClockOffsetIsFound) { expectFound(fault("clock_offset", {0.006}), 3e-4); }
+
+TEST(ReadingSearch, BiasIsFound) { expectFound(fault("accelerometer_bias", {0.1}), 0.005); }
+
+TEST(ReadingSearch, TiltIsFound) { expectFound(fault("mount_tilt", {0.06, -0.04}), 0.003); }
+
+TEST(ReadingSearch, LeverArmIsFound) { expectFound(fault("lever_arm", {-0.15, 0.3}), 0.01); }
+
+TEST(ReadingSearch, NothingIsProposedWhereTheBodySwaysAndNothingIsHidden) {
+  const SearchResult result = search(recordedWithBody(swayingDrive("ugv", 5)));
+  EXPECT_EQ(result.verdict, Verdict::kNothingMissing);
+  EXPECT_TRUE(result.selected.empty());
+}
+
+TEST(ReadingSearch, WithoutTheChannelsTheFaultHasNoName) {
+  SimulationOptions options = swayingDrive("ugv", 4);
+  options.hidden_faults = {fault("lever_arm", {-0.15, 0.3})};
+  DriveRecord record(0.01, 1);
+  for (const DriveSample& sample : drive(options))
+    record.push({sample.stamp, sample.sprung->acceleration, sample.unsprung->acceleration});
+  record.finish();
+  const SearchResult result = search(record);
+  EXPECT_EQ(result.verdict, Verdict::kUnexplained);
+  EXPECT_TRUE(result.selected.empty());
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
