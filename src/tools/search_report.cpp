@@ -2,18 +2,14 @@
 
 #include <string>
 
+#include "../ros/search_words.h"
+
 namespace suspension_health_monitor {
 namespace {
 
 using nlohmann::json;
 
 constexpr std::size_t kShownCandidates = 8;
-
-std::string join(const std::vector<std::string>& names, const char* separator) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
-  return text;
-}
 
 /// Calls take(name, coefficient) for every effect and shape(name, value) for every shape of it.
 template <class TakeCoefficient, class TakeShape>
@@ -50,30 +46,6 @@ json standardDeviations(const ModelFit& fit) {
         result[name + "/" + shape.name] = fit.stddev[i++];
       });
   return result;
-}
-
-const char* nameOf(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kEffectFound:
-      return "effect_found";
-    case Verdict::kNothingMissing:
-      return "nothing_missing";
-    case Verdict::kUnexplained:
-      break;
-  }
-  return "unexplained";
-}
-
-std::string sentence(const SearchResult& result) {
-  switch (result.verdict) {
-    case Verdict::kEffectFound:
-      return "Missing from the model: " + join(result.selected, " and ") + ".";
-    case Verdict::kNothingMissing:
-      return "Nothing is missing: what the model leaves is noise.";
-    case Verdict::kUnexplained:
-      break;
-  }
-  return "Something is missing, but no known effect explains most of it: no name is given.";
 }
 
 }  // namespace
