@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "search_words.h"
+#include "suspension_health_monitor/identification/suspension_regression.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -11,7 +11,7 @@
 #include "search_report.h"
 #include "separate_files.h"
 #include "suspension_health_monitor/discrepancy/search_drives.h"
-#include "suspension_health_monitor/model/effect_library.h"
+#include "suspension_health_monitor/model/model_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -48,30 +48,32 @@ StrutModel roughStrut(const std::vector<DriveSamples>& drives, const MonitorOpti
 void diagnose(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
+  addModelOptions(description);
   auto add = description.add_options();
   add("output,o", po::value<std::string>(), "write the model that was found as YAML");
   add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       "processor cores to use");
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "config"}, {"json", "output"});
+  requireSeparateFiles(*values, {"bag", "config", kEffectsFile, kModel}, {"json", "output"});
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
+  const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values);
   std::optional<TextFile> json, model;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
   if (values->count("output") != 0) model.emplace((*values)["output"].as<std::string>());
 
   const std::vector<DriveSamples> drives = readDrives(options);
-  const StrutModel rough = roughStrut(drives, options.pipeline.monitor);
-  const std::deque<DriveRecord> records = makeRecords(drives, *options.pipeline.monitor.sample_period, rough);
+  const StrutModel start = models.model ? *models.model : roughStrut(drives, options.pipeline.monitor);
+  const std::deque<DriveRecord> records = makeRecords(drives, *options.pipeline.monitor.sample_period, start);
   SearchOptions search;
   search.threads = threads;
   Progress progress("fitting", 1.0);
   const std::optional<SearchResult> result =
-      EffectSearch(builtInEffects(), search)
-          .run(pointersTo(records), rough, [&](double share) { progress.update(share); });
+      EffectSearch(models.library, search)
+          .run(pointersTo(records), start, [&](double share) { progress.update(share); });
   if (!result)
     throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");
 
@@ -81,7 +83,7 @@ void diagnose(const Arguments& arguments) {
     json->commit();
   }
   if (model) {
-    writeModel(*result, model->stream());
+    std::fputs(toYaml(result->final_fit ? result->final_fit->model : result->base.model).c_str(), model->stream());
     model->commit();
   }
 }

@@ -110,19 +110,4 @@ json toJson(const SearchResult& result) {
   return whole;
 }
 
-void writeModel(const SearchResult& result, std::FILE* out) {
-  const StrutModel& model = result.final_fit ? result.final_fit->model : result.base.model;
-  std::fprintf(out, "damping_to_mass: %.17g\nstiffness_to_mass: %.17g\n", model.damping_to_mass,
-               model.stiffness_to_mass);
-  if (model.effects.empty()) return;
-  std::fputs("effects:\n", out);
-  for (const ActiveEffect& active : model.effects) {
-    std::fprintf(out, "  %s:\n    coefficient: %.17g  # [%s]\n", active.effect.name.c_str(), active.coefficient,
-                 active.effect.unit.c_str());
-    for (std::size_t i = 0; i < active.shapes.size(); ++i)
-      std::fprintf(out, "    %s: %.17g  # [%s]\n", active.effect.shapes[i].name.c_str(), active.shapes[i],
-                   active.effect.shapes[i].unit.c_str());
-  }
-}
-
 }  // namespace suspension_health_monitor
