@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+
+#include "suspension_health_monitor/model/strut_integrator.h"
 
 namespace suspension_health_monitor {
 
@@ -10,6 +14,9 @@ struct StrutEstimate {
   double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
   double damping_to_mass_stddev = std::nan("");    ///< [1/s], for residuals taken as white
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
+  std::size_t num_effects = 0;                     ///< in the model
+  std::array<double, StrutState::kMostEffects> coefficients{};         ///< c_j [unit of the effect's coefficient]
+  std::array<double, StrutState::kMostEffects> coefficient_stddevs{};  ///< likewise
   double effective_rows = 0.0;                     ///< rows in the estimator's memory
   double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
   bool valid = false;      ///< enough rows, enough explained, a strut (b1 > 0, b0 > 0); LA: and its free run

@@ -1,35 +1,23 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "suspension_health_monitor/corner_sample.h"
-#include "suspension_health_monitor/discrepancy/running_comparison.h"
 #include "suspension_health_monitor/health/assessment.h"
-#include "suspension_health_monitor/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/identification/suspension_regression.h"
-#include "suspension_health_monitor/model/free_run.h"
+#include "suspension_health_monitor/identification/running_mean.h"
+#include "suspension_health_monitor/model_tracker.h"
 #include "suspension_health_monitor/monitor_options.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
-#include "suspension_health_monitor/strut_estimate.h"
 
 namespace suspension_health_monitor {
 
-/// The model, driven by the measured wheel acceleration, against the measured body acceleration at one sample.
-struct ComparisonReport {
-  double measured = 0.0;            ///< z'' [m/s^2]
-  std::optional<double> predicted;  ///< by the free run with LA's parameters [m/s^2]; empty until it has settled
-  double rmse = std::nan("");       ///< over the window [m/s^2]
-  double fit_percent = std::nan("");
-};
-
 /// Everything that is known after one sample.
-struct MonitorReport {
-  Stamp stamp{};
-  bool has_row = false;  ///< the sample gave a regression row; false while the filter fills: the estimates then hold
-  StrutEstimate ls, la;
-  ComparisonReport comparison;
+struct MonitorReport : ModelReport {
+  Stamp stamp{};           ///< of the row's sample: the newest; with effects in the model FreeRun::kDelay before it
+  double measured = 0.0;   ///< z'' at this stamp [m/s^2]
   HealthReport health;
 };
 
@@ -46,6 +34,7 @@ struct InputStatus {
 ///
 /// Per sample, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then
 /// the free run with LA's parameters against the measurement, and the judgement of health by LA's parameters.
+/// With effects in the model (ModelTracker) the plain one runs along, with LS and LA of its own, to be compared with.
 /// Cost per sample: O(1) whatever the horizon; no allocation, no lock.
 class SuspensionMonitor {
  public:
@@ -53,11 +42,21 @@ class SuspensionMonitor {
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   explicit SuspensionMonitor(const MonitorOptions& options);
 
+  /// Has these effects in the model from now on; none: the plain model. Estimates carry over, coefficients are start
+  /// values, shapes stay as they are given. Not for the sample path: allocates.
+  /// @throws std::invalid_argument  naming what is wrong with the effects; the model then stays as it was.
+  void setEffects(const std::vector<ActiveEffect>& effects);
+
+  /// @return the effects in the model, with the coefficients that the free run has now.
+  const std::vector<ActiveEffect>& effects() const { return tracker().effects(); }
+
   /// Takes in the next sample. A gap or a clock that goes back empties the filter (2 L samples without rows follow);
   /// estimates hold meanwhile, marked as not valid. They do so, too, after L rows of output exactly 0: without any
   /// noise there is no motion but a sensor that is stuck or a simulated vehicle at rest, and rows that LA hits exactly
   /// would weigh so much that it could not leave them for minutes.
-  /// @return the report, owned by this object and valid until the next call; nullptr if the sample was rejected.
+  /// @return the report, owned by this object and valid until the next call; nullptr if the sample was rejected, and,
+  ///         with effects in the model, for the first FreeRun::kDelay samples of a series and after setEffects(): so
+  ///         late are its reports, and no stamp comes twice.
   const MonitorReport* addSample(const CornerSample& sample);
 
   const MonitorReport& report() const { return report_; }
@@ -70,23 +69,22 @@ class SuspensionMonitor {
  private:
   bool continues(Stamp stamp);
   void startNewSeries();
-  void estimate(const RegressionRow& row);
-  void compare(const CornerSample& sample);
-  bool isValid(const StrutEstimate& estimate) const;
+  const CornerSample* remember(const CornerSample& sample);
+  const CornerSample* track(const CornerSample& sample);
+  const ModelTracker& tracker() const { return extended_ ? *extended_ : plain_; }
 
   MonitorOptions options_;
   Stamp period_;
   int horizon_samples_;
-  double min_rows_;
-  int silent_rows_ = 0;  // rows of output 0 without a break; counts up to L and stays there
-  SuspensionRegression regression_;
-  RecursiveLeastSquares least_squares_;
-  RecursiveLeastAbsolute least_absolute_;
-  FreeRun free_run_;
-  RunningComparison comparison_;
+  ModelTracker plain_;
+  std::optional<ModelTracker> extended_;  // with effects
+  ModelReport base_;                      // of the plain model while there is an extended one
+  std::array<CornerSample, 16> recent_{};  // by their number in the series, modulo
+  std::size_t in_series_ = 0;
   HealthAssessment health_;
   RunningMean spacing_;
-  std::optional<Stamp> last_stamp_;
+  std::optional<Stamp> first_stamp_, last_stamp_;
+  std::optional<Stamp> reported_until_;  // by the model before the effects were set
   InputStatus input_;
   RejectCounts rejected_;
   MonitorReport report_;

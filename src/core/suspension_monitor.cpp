@@ -1,8 +1,9 @@
 #include "suspension_health_monitor/suspension_monitor.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "suspension_health_monitor/signal/continuity.h"
 
@@ -15,34 +16,32 @@ const MonitorOptions& checked(const MonitorOptions& options) {
   return options;
 }
 
-/// lambda with a memory 1 / (1 - lambda) of `seconds`.
-double windowFactor(double seconds, double period) { return 1.0 - std::min(1.0, period / seconds); }
-
-template <class Estimator>
-void describeStrut(const Estimator& estimator, StrutEstimate& estimate) {
-  estimate.damping_to_mass = estimator.parameters()[kDampingToMass];
-  estimate.stiffness_to_mass = estimator.parameters()[kStiffnessToMass];
-  estimate.damping_to_mass_stddev = std::sqrt(estimator.parameterVariance(kDampingToMass));
-  estimate.stiffness_to_mass_stddev = std::sqrt(estimator.parameterVariance(kStiffnessToMass));
-  estimate.effective_rows = estimator.effectiveRows();
-  const double output = estimator.meanAbsoluteOutput();
-  estimate.explained = output > 0.0 ? 1.0 - estimator.meanAbsoluteResidual() / output : 0.0;
-}
-
 }  // namespace
 
 SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
     : options_(checked(options)),
       period_(fromSeconds(*options.sample_period)),
       horizon_samples_(options.horizonSamples(*options.sample_period)),
-      min_rows_(std::min<double>(options.valid_min_rows, 0.9 / (1.0 - std::min(options.forgetting_factor, 1 - 1e-12)))),
-      regression_(options.filter(*options.sample_period)),
-      least_squares_(kNumStrutParameters, options.recursive()),
-      least_absolute_(kNumStrutParameters, options.recursive(), options.leastAbsolute()),
-      free_run_(*options.sample_period),
-      comparison_(windowFactor(options.comparison_window, *options.sample_period)),
+      plain_(options),
       health_(options.health()),
-      spacing_(windowFactor(options.comparison_window, *options.sample_period)) {}
+      spacing_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {}
+
+void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
+  if (effects.empty()) {
+    if (extended_) static_cast<ModelReport&>(report_) = base_;
+    extended_.reset();
+    return;
+  }
+  ModelTracker next = tracker();
+  ModelReport report = report_;
+  next.setEffects(effects, report);
+  if (!extended_) {
+    base_ = report_;
+    reported_until_ = last_stamp_;
+  }
+  static_cast<ModelReport&>(report_) = report;
+  extended_.emplace(std::move(next));
+}
 
 const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
   if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) {
@@ -51,14 +50,42 @@ const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
   }
   if (!continues(sample.stamp)) return nullptr;
   last_stamp_ = sample.stamp;
-  report_.stamp = sample.stamp;
   ++input_.samples;
-  const RegressionRow* row = regression_.push(sample);
-  report_.has_row = row != nullptr;
-  if (row != nullptr) estimate(*row);
-  compare(sample);
-  report_.health = health_.update(sample.stamp, report_.la);
+  const CornerSample* of_row = track(sample);
+  if (of_row == nullptr || (reported_until_ && of_row->stamp <= *reported_until_)) return nullptr;
+  report_.stamp = of_row->stamp;
+  report_.measured = of_row->sprung_acceleration;
+  report_.health = health_.update(report_.stamp, report_.la);
   return &report_;
+}
+
+// Leads the sample through the models.
+// @return the sample that the report is about; nullptr: none yet.
+const CornerSample* SuspensionMonitor::track(const CornerSample& sample) {
+  if (!first_stamp_) first_stamp_ = sample.stamp;
+  const double time = toSeconds(sample.stamp - *first_stamp_);
+  const CornerSample* compared = remember(sample);
+  if (!extended_) {
+    plain_.add(sample, time, compared, report_);
+    if (report_.has_row) ++input_.rows;
+    return &sample;
+  }
+  plain_.add(sample, time, compared, base_);
+  extended_->lead(base_.la);
+  extended_->add(sample, time, compared, report_);
+  if (report_.has_row) ++input_.rows;
+  report_.comparison.base_rmse = base_.comparison.rmse;
+  report_.comparison.base_fit_percent = base_.comparison.fit_percent;
+  return compared;
+}
+
+// @return the sample FreeRun::kDelay before this one; nullptr: the series is too short yet.
+const CornerSample* SuspensionMonitor::remember(const CornerSample& sample) {
+  constexpr std::size_t kMask = std::tuple_size_v<decltype(recent_)> - 1;
+  static_assert(kMask >= FreeRun::kDelay && (kMask & (kMask + 1)) == 0);
+  const std::size_t number = in_series_++;
+  recent_[number & kMask] = sample;
+  return number >= FreeRun::kDelay ? &recent_[(number - FreeRun::kDelay) & kMask] : nullptr;
 }
 
 bool SuspensionMonitor::continues(Stamp stamp) {
@@ -78,6 +105,7 @@ bool SuspensionMonitor::continues(Stamp stamp) {
       break;
     case Continuity::kClockJumped:
       ++input_.restarts;
+      first_stamp_.reset();
       startNewSeries();
       break;
   }
@@ -85,44 +113,10 @@ bool SuspensionMonitor::continues(Stamp stamp) {
 }
 
 void SuspensionMonitor::startNewSeries() {
-  regression_.reset();
-  free_run_.reset();
-  report_.ls.valid = false;
-  report_.la.valid = false;
-}
-
-void SuspensionMonitor::estimate(const RegressionRow& row) {
-  ++input_.rows;
-  silent_rows_ = row.output == 0.0 ? std::min(silent_rows_ + 1, horizon_samples_) : 0;
-  const bool moves = silent_rows_ < horizon_samples_;
-  if (moves) {
-    least_squares_.update(row);
-    least_absolute_.update(row);
-    describeStrut(least_squares_, report_.ls);
-    describeStrut(least_absolute_, report_.la);
-  }
-  report_.ls.valid = moves && isValid(report_.ls);
-  report_.la.valid = moves && isValid(report_.la);
-}
-
-bool SuspensionMonitor::isValid(const StrutEstimate& estimate) const {
-  return estimate.effective_rows >= min_rows_ && estimate.explained >= options_.valid_min_explained &&
-         estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
-}
-
-void SuspensionMonitor::compare(const CornerSample& sample) {
-  ComparisonReport& comparison = report_.comparison;
-  const StrutEstimate& la = report_.la;
-  if (la.valid) free_run_.trySetModel(la.damping_to_mass, la.stiffness_to_mass);
-  comparison.measured = sample.sprung_acceleration;
-  comparison.predicted = free_run_.push(sample.unsprung_acceleration);
-  if (!free_run_.settled()) comparison.predicted.reset();
-  if (!comparison.predicted) return;
-  comparison_.add(comparison.measured, *comparison.predicted);
-  comparison.rmse = comparison_.rmse();
-  comparison.fit_percent = comparison_.fitPercent(comparison.rmse);
-  // Parameters whose free run is worse than a constant are not those of this strut, however small the rows' residuals.
-  if (comparison.fit_percent < 0.0 && comparison_.isFull()) report_.la.valid = false;
+  in_series_ = 0;
+  reported_until_.reset();
+  plain_.startNewSeries(extended_ ? base_ : report_);
+  if (extended_) extended_->startNewSeries(report_);
 }
 
 }  // namespace suspension_health_monitor

@@ -27,7 +27,7 @@ std::optional<double> StrutAxis::acceleration(const sensor_msgs::Imu& imu) const
 }
 
 ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, const std_msgs::Header& header,
-                        const std::optional<double>& sprung_mass) {
+                        const std::vector<ActiveEffect>& effects, const std::optional<double>& sprung_mass) {
   ParameterEstimate msg;
   msg.header = header;
   msg.estimator = estimator;
@@ -39,19 +39,27 @@ ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, co
   msg.stiffness = estimate.stiffness_to_mass * sprung_mass.value_or(kUnknown);
   msg.natural_frequency = estimate.naturalFrequency();
   msg.damping_ratio = estimate.dampingRatio();
+  for (std::size_t j = 0; j < estimate.num_effects; ++j) {
+    msg.effect_names.push_back(effects[j].effect.name);
+    msg.effect_coefficients.push_back(estimate.coefficients[j]);
+    msg.effect_stddevs.push_back(estimate.coefficient_stddevs[j]);
+  }
   msg.effective_rows = estimate.effective_rows;
   msg.valid = estimate.valid;
   return msg;
 }
 
-ModelComparison toMsg(const ComparisonReport& comparison, const std_msgs::Header& header) {
+ModelComparison toMsg(const ComparisonReport& comparison, const std::string& frame_id) {
   ModelComparison msg;
-  msg.header = header;
+  msg.header.stamp = toRosTime(comparison.stamp);
+  msg.header.frame_id = frame_id;
   msg.measured = comparison.measured;
   msg.predicted = comparison.predicted.value_or(kUnknown);
   msg.residual = msg.measured - msg.predicted;
-  msg.rmse = msg.base_rmse = comparison.rmse;
-  msg.fit_percent = msg.base_fit_percent = comparison.fit_percent;
+  msg.rmse = comparison.rmse;
+  msg.fit_percent = comparison.fit_percent;
+  msg.base_rmse = comparison.base_rmse;
+  msg.base_fit_percent = comparison.base_fit_percent;
   return msg;
 }
 

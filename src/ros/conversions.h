@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "suspension_health_monitor/simulation/drive_simulator.h"
 #include "suspension_health_monitor/suspension_monitor.h"
@@ -35,10 +36,11 @@ class StrutAxis {
   double sign_;
 };
 
-/// @param sprung_mass  [kg], for damping and stiffness in SI.
+/// @param effects  those in the model.  @param sprung_mass  [kg], for damping and stiffness in SI.
 ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, const std_msgs::Header& header,
-                        const std::optional<double>& sprung_mass);
-ModelComparison toMsg(const ComparisonReport& comparison, const std_msgs::Header& header);
+                        const std::vector<ActiveEffect>& effects, const std::optional<double>& sprung_mass);
+/// @param frame_id  of the sprung sensor; the stamp is that of the compared sample.
+ModelComparison toMsg(const ComparisonReport& comparison, const std::string& frame_id);
 SuspensionHealth toMsg(const MonitorReport& report, const MonitorOptions& options, const std_msgs::Header& header);
 SimulationTruth toMsg(const DriveTruth& truth, const std_msgs::Header& header);
 

@@ -103,9 +103,11 @@ void MonitorNodelet::publish(const MonitorReport& report) {
     auto msg = make();
     publisher.publish(boost::make_shared<const decltype(msg)>(std::move(msg)));
   };
-  send(ls_, [&] { return toMsg(report.ls, "ls", header, mass); });
-  send(la_, [&] { return toMsg(report.la, "la", header, mass); });
-  send(comparison_, [&] { return toMsg(report.comparison, header); });
+  const std::vector<ActiveEffect>& effects = pipeline_->monitor()->effects();
+  send(ls_, [&] { return toMsg(report.ls, "ls", header, effects, mass); });
+  send(la_, [&] { return toMsg(report.la, "la", header, effects, mass); });
+  if (report.comparison.has_sample)
+    send(comparison_, [&] { return toMsg(report.comparison, header.frame_id); });
   send(health_, [&] { return toMsg(report, options_.monitor, header); });
 }
 

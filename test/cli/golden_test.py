@@ -63,6 +63,8 @@ def test_csv_holds_the_measurement_and_what_the_model_leaves(program, tmp_path, 
     np.testing.assert_array_equal(with_rows["measured"], sprung[60:] + 9.81)  # the first row is at sample 2 L
     predicts = np.isfinite(with_rows["predicted"])
     assert predicts.mean() > 0.8
+    assert not predicts[-12:].any()  # the comparison is that late
+    assert predicts[-13]
     np.testing.assert_array_equal(np.isfinite(with_rows["residual"]), predicts)
     np.testing.assert_allclose((with_rows["predicted"] + with_rows["residual"])[predicts],
                                with_rows["measured"][predicts], rtol=1e-12)

@@ -181,6 +181,8 @@ TEST(RecursiveInstrumentalLeastAbsolute, IsConsistentAndShrugsOffOutliers) {
   EXPECT_LT((recursive.parameters() - kTheta).norm(), 0.3);
 }
 
+constexpr std::size_t kLate = FreeRun::kDelay;  // of the instruments
+
 // The paper's drive without fault, trapezoid rule, short horizons. LS first, then instruments from the model it found.
 struct StrutEstimates {
   Eigen::VectorXd least_squares, instrumental;
@@ -197,9 +199,9 @@ StrutEstimates meanOverSeeds(int horizon) {
     auxiliary.setModel(ls[kDampingToMass], ls[kStiffnessToMass]);
     SuspensionRegression regression(filter);
     std::vector<RegressionRow> rows, instruments;
-    for (const CornerSample& sample : drive) {
-      const RegressionRow* row = regression.push(sample);
-      const Eigen::VectorXd* instrument = auxiliary.push(sample.unsprung_acceleration);
+    for (std::size_t k = 0; k < drive.size(); ++k) {
+      const RegressionRow* row = k < kLate ? nullptr : regression.push(drive[k - kLate]);
+      const Eigen::VectorXd* instrument = auxiliary.push(drive[k].unsprung_acceleration);
       if (row == nullptr || instrument == nullptr) continue;
       rows.push_back(*row);
       instruments.push_back({*instrument, 0.0});
@@ -229,10 +231,13 @@ TEST(AuxiliaryInstruments, EqualTheNoiseFreeRegressorOnceTheFreeRunHasSettled) {
   SuspensionRegression regression(filter);
   auxiliary.setModel(kPaperB1, kPaperB0);
   double time = 0.0;
-  for (const CornerSample& sample : healthyPaperDrive(30.0, 0.0)) {
-    const RegressionRow* row = regression.push(sample);
-    const Eigen::VectorXd* instrument = auxiliary.push(sample.unsprung_acceleration);
-    time = toSeconds(sample.stamp);
+  const std::vector<CornerSample> drive = healthyPaperDrive(30.0, 0.0);
+  for (std::size_t k = kLate; k < drive.size(); ++k) {
+    if (k == kLate)
+      for (std::size_t early = 0; early < kLate; ++early) auxiliary.push(drive[early].unsprung_acceleration);
+    const RegressionRow* row = regression.push(drive[k - kLate]);
+    const Eigen::VectorXd* instrument = auxiliary.push(drive[k].unsprung_acceleration);
+    time = toSeconds(drive[k].stamp);
     if (time < 20.0) continue;
     for (const int i : {0, 1}) EXPECT_NEAR((*instrument)[i], row->regressor[i], 1e-4) << "time " << time;
   }
@@ -246,10 +251,9 @@ TEST(AuxiliaryInstruments, ComeAfterTheFilterIsFullAndNotBeforeAModelIsSet) {
   EXPECT_THROW(auxiliary.setModel(-1.0, 10.0), std::invalid_argument);
   auxiliary.setModel(3.0, 10.0);
   auxiliary.reset();
-  for (int k = 0; k < 20; ++k) EXPECT_EQ(auxiliary.push(1.0), nullptr);
-  const Eigen::VectorXd* instrument = nullptr;
-  for (int k = 0; k < 4; ++k) instrument = auxiliary.push(1.0);
-  EXPECT_NE(instrument, nullptr);
+  // 24 samples give the first prediction, 20 more fill the filter.
+  for (int k = 0; k < 24 + 19; ++k) EXPECT_EQ(auxiliary.push(1.0), nullptr);
+  EXPECT_NE(auxiliary.push(1.0), nullptr);
 }
 
 }  // namespace

@@ -45,8 +45,9 @@ void expectSameEstimates(const std::string& scenario, const Sensors& sensors) {
     expectNear(actual.la, expected.la, 1e-9);
     if (testing::Test::HasFatalFailure()) return;
   }
+  // A constant is subject to the step error of the free run, 1e-6 of it, which moves a little with b1 and b0.
   EXPECT_NEAR(monitor.report().comparison.rmse, std::abs(sensors.gain) * reference.report().comparison.rmse,
-              1e-9 * std::abs(sensors.gain));
+              1e-8 * std::abs(sensors.gain));
 }
 
 TEST(MonitorInvariance, EstimatesAndFitAreTheSameInAnyUnit) {

@@ -58,20 +58,28 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
 TEST(SuspensionMonitor, ComparesTheFreeRunOfLeastAbsoluteWithTheBody) {
   SuspensionMonitor monitor(liveOptions());
   FreeRun free_run(0.02);
-  for (const CornerSample& sample : healthyPaperDrive(30.0, 0.024)) {
-    const MonitorReport& report = *monitor.addSample(sample);
-    if (report.la.valid) free_run.setModel(report.la.damping_to_mass, report.la.stiffness_to_mass);
-    const std::optional<double> predicted = free_run.push(sample.unsprung_acceleration);
+  const std::vector<CornerSample> drive = healthyPaperDrive(30.0, 0.024);
+  for (std::size_t k = 0; k < drive.size(); ++k) {
+    const std::optional<double> predicted = free_run.push(drive[k].unsprung_acceleration);
+    const MonitorReport& report = *monitor.addSample(drive[k]);
     ASSERT_EQ(report.comparison.predicted.has_value(), predicted && free_run.settled());
     if (report.comparison.predicted) {
       ASSERT_EQ(report.comparison.predicted, predicted);
     }
-    ASSERT_EQ(report.comparison.measured, sample.sprung_acceleration);
+    if (report.la.valid) free_run.setModel(report.la.damping_to_mass, report.la.stiffness_to_mass);
+    ASSERT_EQ(report.measured, drive[k].sprung_acceleration);
+    ASSERT_EQ(report.comparison.has_sample, k >= FreeRun::kDelay);
+    if (k < FreeRun::kDelay) continue;
+    const CornerSample& compared = drive[k - FreeRun::kDelay];
+    ASSERT_EQ(report.comparison.stamp, compared.stamp);
+    ASSERT_EQ(report.comparison.measured, compared.sprung_acceleration);
   }
   // Noise 0.024 of the body's sensor, and of the wheel's through model and parameters: about 1.0 to 1.1 of it. The rms
   // of the 500 samples of the window scatters by 3 %.
   EXPECT_GT(monitor.report().comparison.rmse, 0.9 * 0.024);
   EXPECT_LT(monitor.report().comparison.rmse, 1.2 * 0.024);
+  EXPECT_EQ(monitor.report().comparison.base_rmse, monitor.report().comparison.rmse);
+  EXPECT_EQ(monitor.report().comparison.base_fit_percent, monitor.report().comparison.fit_percent);
 }
 
 TEST(SuspensionMonitor, ComesCloseToTheTruthAndKnowsHowClose) {

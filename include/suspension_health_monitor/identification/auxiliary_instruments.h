@@ -27,8 +27,9 @@ class AuxiliaryInstruments {
   void setModel(double damping_to_mass, double stiffness_to_mass);
 
   /// Takes in the next w'' [m/s^2] of an uninterrupted uniform series.
-  /// @return z for this sample, (2), owned by this object and valid until the next call; nullptr before a model is set
-  ///         and while the filter fills: 2 L samples after the first that the model predicts.
+  /// @return z for the sample FreeRun::kDelay before this one, (2), owned by this object and valid until the next call;
+  ///         nullptr before a model is set and while the filter fills: 2 L samples after the first that the model
+  ///         predicts.
   const Eigen::VectorXd* push(double unsprung_acceleration);
 
   /// Starts anew after a gap, with the same model.

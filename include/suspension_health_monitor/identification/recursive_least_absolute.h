@@ -37,6 +37,7 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
   double parameterVariance(int i) const;
 
  private:
+  bool leads() const { return rows_ == absolute_.start_rows; }  // else LS does
   void takeOver();
 
   LeastAbsoluteOptions absolute_;

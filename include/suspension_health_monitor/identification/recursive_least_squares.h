@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
 
 #include "suspension_health_monitor/identification/regression_row.h"
 #include "suspension_health_monitor/identification/running_mean.h"
@@ -25,11 +27,22 @@ struct RecursiveOptions {
   void validate() const;
 };
 
+/// Where a parameter comes from when the columns of a regression change.
+struct ColumnOrigin {
+  std::optional<int> before;  ///< its number before the change; none: it is new
+  double start = 0.0;         ///< what a new one starts from [unit of the parameter]
+};
+
 /// What LS and LA have in common: an estimate theta with its covariance, updated row by row with a weight.
 class RecursiveEstimator {
  public:
   /// @param num_parameters  p >= 1.
   RecursiveEstimator(int num_parameters, const RecursiveOptions& options);
+
+  /// Goes on with other columns: estimates and covariance of those that stay are kept. A new one stays at its start
+  /// until a regressor of it is not 0. Then its standard deviation is as large as the start itself, or, from 0 on, what
+  /// the initial variance says, in either case free of units. Allocates.
+  void changeColumns(const std::vector<ColumnOrigin>& columns);
 
   int numParameters() const { return static_cast<int>(theta_.size()); }
   const Eigen::VectorXd& parameters() const { return theta_; }  ///< theta, (p)
@@ -47,6 +60,13 @@ class RecursiveEstimator {
   /// epsilon = psi - phi' theta, Eq. (15) and (24); also takes the row into the running means.
   double innovate(const RegressionRow& row);
 
+  /// Gives parameters that this row is the first to excite their variance, to be called before correct().
+  /// @param residual_variance  what turns P_ii into the variance of theta_i.
+  /// @param unit  of the estimator's P, against that of LS.
+  void releaseExcited(const RegressionRow& row, double residual_variance, double unit) {
+    if (num_released_ < numParameters()) release(row.regressor, residual_variance, unit);
+  }
+
   /// theta <- theta + gain epsilon; the row counts as `weight` rows of an LS problem, weight > 0.
   void correct(const RegressionRow& row, double innovation, double weight);
 
@@ -55,7 +75,7 @@ class RecursiveEstimator {
   UdCovariance covariance_;
 
  private:
-  void releaseExcited(const Eigen::VectorXd& regressor);
+  void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
 
   enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kNumMeans };
 
@@ -68,7 +88,7 @@ class RecursiveEstimator {
 /// Source: Eq. (15)-(17), the covariance in factored form (UdCovariance).
 /// Assumes: residuals of zero mean and without outliers (else RecursiveLeastAbsolute), not correlated with the
 /// regressor (else instrumental variables).
-/// A parameter whose regressor entry has been 0 ever since stays at 0.
+/// A parameter whose regressor entry has been 0 ever since stays at its start, 0 unless changeColumns() said otherwise.
 /// Cost per update: O(p^2), no allocation.
 class RecursiveLeastSquares : public RecursiveEstimator {
  public:

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
 
 namespace suspension_health_monitor {
 
@@ -15,6 +17,9 @@ class UdCovariance {
   /// P = 0: no parameter may move until it is given a variance.
   /// @param size  p >= 1, number of parameters.
   explicit UdCovariance(int size);
+
+  /// P of other parameters: parameter i of the new ones is parameter sources[i] of `before`, or one that is fixed still.
+  UdCovariance(const UdCovariance& before, const std::vector<std::optional<int>>& sources);
 
   int size() const { return static_cast<int>(diagonal_.size()); }
 

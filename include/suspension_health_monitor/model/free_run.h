@@ -1,29 +1,42 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/model/strut_integrator.h"
 
 namespace suspension_health_monitor {
 
-/// The strut model (27) driven by the measured wheel acceleration alone:
-///   d'' = w''_measured - z''_model(d, v),   z''_model = b1 v + b0 d.
+/// The strut model (27), with or without effects, driven by the measured wheel acceleration alone:
+///   d'' = w''_measured - z''_model,   z''_model = b1 v + b0 d + sum_j c_j f_j(d, v, t, s_j).
 /// The spring holds the travel d, so nothing drifts, unlike an integration of the accelerations; the prediction is free
-/// of the noise on the body's sensor.
+/// of the noise on the body's sensor. It is the prediction that is compared with the measurement, the observer of the
+/// travel that effects depend on, and the source of instruments. Over a recorded drive runFree() takes the same steps.
 ///
-/// A constant a in w'' (gravity, tilt, offset) moves the travel by a / b0 and comes out again as a in the prediction.
-/// Between samples w'' follows the cubic through the newest four; straight lines would double the residual of a car on
-/// a rough road. Integration: classical Runge-Kutta, split so that no step is longer than 0.35 / sqrt(b0) or 0.35 / b1.
+/// Between samples w'' is interpolated from as many samples after an instant as before it, as a causal interpolation
+/// would leave errors of the size of the sensor noise on a rough road: the run answers kDelay samples late.
+/// Integration: integrateStrut(), split so that no step is longer than 0.35 / sqrt(b0) or 0.35 / b1.
+///
+/// A constant a in w'' (gravity, tilt, offset) moves the travel by a / b0 and comes out again as a in the prediction. The
+/// linear laws let it pass, others do not: with effects in the model travel is counted from a / b0, with a the mean of
+/// w'', of all samples at first, then with a memory of 100 natural periods 2 pi / sqrt(b0). The error of a does not
+/// reach the linear part of the prediction: when a changes, the travel changes by as much the other way.
 /// Cost per sample: O(1) for a given model, no allocation.
 class FreeRun {
  public:
+  static constexpr int kDelay = BandlimitedInterpolator::kHalfWidth;  ///< samples
+
   /// @param period  sampling time T > 0 [s].
   explicit FreeRun(double period);
 
-  /// @return true if the model is stable and the sampling can follow it: b1 > 0, b0 > 0, at most 32 steps per sample.
+  /// @return true if the linear part is stable and the sampling can follow it: b1 > 0, b0 > 0, at most 32 steps per
+  /// sample.
   bool accepts(double damping_to_mass, double stiffness_to_mass) const;
 
-  /// Changes the model if it is acceptable. The spring's force b0 d and the travel rate go on, so that gravity stays in
-  /// balance when an estimate of b0 moves: with the travel kept, 1 % of b0 would shake the prediction by 0.1 m/s^2.
+  /// Changes the linear part if it is acceptable. The spring's force b0 d and the travel rate go on.
   /// @return accepts(); if false, the model stays as it was.
   bool trySetModel(double damping_to_mass, double stiffness_to_mass);
 
@@ -32,39 +45,70 @@ class FreeRun {
   /// @throws std::invalid_argument  naming the value that makes the model unacceptable.
   void setModel(double damping_to_mass, double stiffness_to_mass);
 
+  /// Replaces the model's effects; the run goes on, their memories start at 0. Allocates.
+  /// @throws std::invalid_argument  if there are more than StrutState::kMostEffects, if an effect has not its number of
+  ///         shapes, or if a value is not finite.
+  void setEffects(const std::vector<ActiveEffect>& effects);
+
+  /// Changes c_j [unit of the effect's coefficient].
+  void setCoefficient(std::size_t j, double coefficient) { model_.effects[j].coefficient = coefficient; }
+
+  bool hasModel() const { return num_steps_ > 0; }
+  const StrutModel& model() const { return model_; }
+
   /// Takes in the next sample of an uninterrupted uniform series of w'' [m/s^2].
-  /// @return the predicted body acceleration z'' at this sample [m/s^2]; nothing before a model is set and four samples
-  /// have come.
-  std::optional<double> push(double unsprung_acceleration);
+  /// @param time  of this sample since the start of the drive [s], for the laws that depend on it.
+  /// @return the predicted body acceleration z'' at the sample kDelay before this one [m/s^2]; nothing before a model is
+  /// set and 2 kDelay samples have come.
+  std::optional<double> push(double unsprung_acceleration, double time = 0.0);
 
   /// @return true once the unknown initial travel has decayed to 1e-3 of itself.
   bool settled() const { return decayed_ >= kSettledDecay; }
 
-  double travel() const { return state_[0]; }      ///< d [m]
-  double travelRate() const { return state_[1]; }  ///< v [m/s]
+  /// How often the run has left all bounds: the prediction was not finite, or larger than a thousand times the largest
+  /// w'' of the run. Effects can do that, whose coefficients accepts() does not judge. The run then starts anew.
+  std::uint64_t runaways() const { return runaways_; }
 
-  /// Forgets travel and input, keeps the model: for a gap in the series.
+  /// At the sample that the last prediction belongs to:
+  double travel() const { return state_.travel; }           ///< d [m]; with effects less a / b0
+  double travelRate() const { return state_.travel_rate; }  ///< v [m/s]
+  double unsprungAcceleration() const { return window()[kDelay - 1]; }  ///< w'' as measured [m/s^2]
+  /// f_j, one per effect, per unit of its coefficient.
+  const double* effectForces() const { return forces_.data(); }
+
+  /// Forgets travel and input, keeps the model and the mean of w'': for a gap in the series.
   void reset();
 
  private:
-  using State = std::array<double, 2>;  // d, v
-
   static constexpr double kSettledDecay = 6.9;  // ln 1000
-  static constexpr std::size_t kNodes = 4;      // of the interpolating cubic
+  static constexpr std::size_t kWindow = WheelInterpolator::kWidth;
 
-  double exactSteps(double damping_to_mass, double stiffness_to_mass) const;
-  void advance();
-  double interpolate(double fraction) const;
-  State derivative(const State& state, double unsprung_acceleration) const;
+  bool withEffects() const { return !model_.effects.empty(); }
+  void split(double steps);
+  const double* window() const { return &input_[newest_ + 1]; }  // kWindow samples, the oldest first
+  void insert(double unsprung_acceleration);
+  void advance(double time);
+  double predict(double time);
+  void countTravelFrom(double offset);
+  void startAnew();
+  bool ranAway(double prediction);
 
   double period_;
-  double damping_to_mass_ = 0.0, stiffness_to_mass_ = 0.0;
-  double decay_rate_ = 0.0;  // of the slowest free motion [1/s]
-  int num_steps_ = 0;        // per sample; 0: no model yet
-  State state_{};
-  std::array<double, kNodes> input_{};  // newest first
+  StrutModel model_;
+  const WheelInterpolator* steps_ = nullptr;  // of one sample
+  int num_steps_ = 0;                         // 0: no model yet
+  double decay_rate_ = 0.0;                   // of the slowest free motion [1/s]
+  double mean_memory_ = std::numeric_limits<double>::infinity();  // [samples]
+  StrutState state_;
+  std::array<double, StrutState::kMostEffects> forces_{};
+  std::array<double, 2 * kWindow> input_{};  // every sample twice, kWindow apart: always kWindow in a row
+  std::size_t newest_ = kWindow - 1;         // its first place, < kWindow
   std::size_t num_inputs_ = 0;
-  double decayed_ = 0.0;  // e-foldings since the start
+  double mean_ = 0.0, mean_weight_ = 0.0;
+  double offset_ = 0.0;   // travel is counted from where this constant holds it [m/s^2]
+  double largest_ = 0.0;  // |w''| of this run [m/s^2]
+  double decayed_ = 0.0;  // e-foldings since the start; 0: not running
+  std::uint64_t runaways_ = 0;
 };
 
 }  // namespace suspension_health_monitor

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 
@@ -28,15 +29,25 @@ struct WheelStep {
 /// Turns samples of w'' into wheel steps.
 class WheelInterpolator {
  public:
+  static constexpr int kWidth = 2 * BandlimitedInterpolator::kHalfWidth;
+
   /// @param from, to  ends of the step in samples, 0 <= from < to <= 1.  @param period  T [s].
   WheelInterpolator(double from, double to, double period);
 
-  /// @param around  2 BandlimitedInterpolator::kHalfWidth samples of w'' [m/s^2].
-  WheelStep operator()(const double* around) const;
+  /// @param around  kWidth samples of w'' [m/s^2], the oldest first; the step begins `from` after number kWidth / 2 - 1.
+  WheelStep operator()(const double* around) const {
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
+#pragma GCC unroll 24  // the counting would cost as much as the sums; a compiler that does not know it may go on
+    for (Eigen::Index i = 0; i < kWidth; ++i) {
+      middle += around[i] * weights_.col(2 * i);
+      end += around[i] * weights_.col(2 * i + 1);
+    }
+    return {middle[0], middle[1], end[0], end[1]};
+  }
 
  private:
-  double period_;
-  BandlimitedInterpolator middle_position_, middle_velocity_, end_position_, end_velocity_;
+  // Of position and velocity (rows); a column for the middle and one for the end, sample by sample.
+  Eigen::Matrix<double, 2, 2 * kWidth> weights_;
 };
 
 /// One step of the strut under the wheel's motion:

@@ -30,6 +30,8 @@ class BandlimitedInterpolator {
   /// acceleration into the gain of velocity, power 1 into the gain of position. In samples; multiply by T^(1 + power).
   static BandlimitedInterpolator integral(double from, double to, int power);
 
+  const std::vector<double>& weights() const { return weights_; }  ///< one per sample, the oldest first
+
  private:
   explicit BandlimitedInterpolator(std::vector<double> weights) : weights_(std::move(weights)) {}
 

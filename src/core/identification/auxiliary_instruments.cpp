@@ -20,7 +20,7 @@ void AuxiliaryInstruments::setModel(double damping_to_mass, double stiffness_to_
 const Eigen::VectorXd* AuxiliaryInstruments::push(double unsprung_acceleration) {
   const std::optional<double> sprung_acceleration = auxiliary_.push(unsprung_acceleration);
   if (!sprung_acceleration) return nullptr;
-  relative_.push(unsprung_acceleration - *sprung_acceleration);
+  relative_.push(auxiliary_.unsprungAcceleration() - *sprung_acceleration);
   if (!relative_.full()) return nullptr;
   instrument_[kDampingToMass] = relative_.output(1);
   instrument_[kStiffnessToMass] = relative_.output(0);

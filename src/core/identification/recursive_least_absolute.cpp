@@ -22,10 +22,12 @@ RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const Recursi
 double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
   const double innovation = innovate(row);
-  if (rows_ < absolute_.start_rows) {
+  if (!leads()) {
+    releaseExcited(row, meanSquareResidual(), 1.0);
     correct(row, innovation, 1.0);
     if (++rows_ == absolute_.start_rows) takeOver();
   } else {
+    releaseExcited(row, meanAbsoluteResidual(), absolute_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
     correct(row, innovation,
             1.0 / boundedDivisor(innovation, absolute_.small_divisor_rule, absolute_.small_divisor,
                                  meanAbsoluteResidual()));
@@ -34,8 +36,7 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
 }
 
 double RecursiveLeastAbsolute::parameterVariance(int i) const {
-  const bool ls_leads = rows_ < absolute_.start_rows;
-  return (ls_leads ? meanSquareResidual() : meanAbsoluteResidual()) * covariance_.variance(i);
+  return (leads() ? meanAbsoluteResidual() : meanSquareResidual()) * covariance_.variance(i);
 }
 
 void RecursiveLeastAbsolute::takeOver() {

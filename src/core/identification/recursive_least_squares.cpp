@@ -31,25 +31,41 @@ double RecursiveEstimator::innovate(const RegressionRow& row) {
 }
 
 void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {
-  if (num_released_ < numParameters()) releaseExcited(row.regressor);
   const double* const gain =
       covariance_.update(row.regressor, options_.forgetting_factor / weight, options_.forgetting_factor).data();
   double* const theta = theta_.data();
   for (Eigen::Index i = 0, p = theta_.size(); i < p; ++i) theta[i] += gain[i] * innovation;
 }
 
-void RecursiveEstimator::releaseExcited(const Eigen::VectorXd& regressor) {
+void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residual_variance, double unit) {
   for (int i = 0; i < numParameters(); ++i) {
     if (covariance_.isReleased(i) || regressor[i] == 0.0) continue;
     const bool relative = options_.initial_variance_rule == InitialVariance::kRelative;
-    covariance_.release(i, options_.initial_variance / (relative ? regressor[i] * regressor[i] : 1.0));
+    if (theta_[i] != 0.0 && residual_variance > 0.0)
+      covariance_.release(i, theta_[i] * theta_[i] / residual_variance);
+    else
+      covariance_.release(i, unit * options_.initial_variance / (relative ? regressor[i] * regressor[i] : 1.0));
     ++num_released_;
   }
+}
+
+void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns) {
+  const Eigen::VectorXd before = theta_;
+  theta_.resize(static_cast<Eigen::Index>(columns.size()));
+  std::vector<std::optional<int>> sources;
+  for (const ColumnOrigin& column : columns) {
+    theta_[static_cast<Eigen::Index>(sources.size())] = column.before ? before[*column.before] : column.start;
+    sources.push_back(column.before);
+  }
+  covariance_ = UdCovariance(covariance_, sources);
+  num_released_ = 0;
+  for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;
 }
 
 double RecursiveLeastSquares::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
   const double innovation = innovate(row);
+  releaseExcited(row, meanSquareResidual(), 1.0);
   correct(row, innovation, 1.0);
   return innovation;
 }

@@ -2,22 +2,29 @@
 
 namespace suspension_health_monitor {
 
-SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options)
-    : sprung_(2, options, 2), relative_(2, options), row_{Eigen::VectorXd::Zero(kNumStrutParameters), 0.0} {}
+SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects)
+    : sprung_(2, options, 2),
+      relative_(2, options),
+      effects_(num_effects, sprung_),
+      row_{Eigen::VectorXd::Zero(kNumStrutParameters + static_cast<Eigen::Index>(num_effects)), 0.0} {}
 
-const RegressionRow* SuspensionRegression::push(const CornerSample& sample) {
+const RegressionRow* SuspensionRegression::push(const CornerSample& sample, const double* effect_forces) {
   sprung_.push(sample.sprung_acceleration);
   relative_.push(sample.unsprung_acceleration - sample.sprung_acceleration);
+  for (std::size_t j = 0; j < effects_.size(); ++j) effects_[j].push(effect_forces[j]);
   if (!sprung_.full()) return nullptr;
   row_.output = sprung_.output(2);
   row_.regressor[kDampingToMass] = relative_.output(1);
   row_.regressor[kStiffnessToMass] = relative_.output(0);
+  for (std::size_t j = 0; j < effects_.size(); ++j)
+    row_.regressor[kNumStrutParameters + static_cast<Eigen::Index>(j)] = effects_[j].output(2);
   return &row_;
 }
 
 void SuspensionRegression::reset() {
   sprung_.reset();
   relative_.reset();
+  for (LinearIntegralFilter& effect : effects_) effect.reset();
 }
 
 }  // namespace suspension_health_monitor

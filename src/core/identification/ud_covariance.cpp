@@ -10,6 +10,27 @@ UdCovariance::UdCovariance(int size)
       ceiling_(Eigen::VectorXd::Zero(size)),
       gain_(Eigen::VectorXd::Zero(size)) {}
 
+// The kept rows W of U make P = W D W', which has to become triangular again: modified weighted Gram-Schmidt, Bierman,
+// ch. VI.4.
+UdCovariance::UdCovariance(const UdCovariance& before, const std::vector<std::optional<int>>& sources)
+    : UdCovariance(static_cast<int>(sources.size())) {
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size(), before.size());
+  for (int i = 0; i < size(); ++i)
+    if (const std::optional<int>& source = sources[static_cast<std::size_t>(i)]) {
+      rows.row(i) = before.upper_.row(*source);
+      ceiling_[i] = before.ceiling_[*source];
+    }
+  for (int j = size() - 1; j >= 0; --j) {
+    const Eigen::VectorXd weighted = before.diagonal_.cwiseProduct(rows.row(j).transpose());
+    diagonal_[j] = rows.row(j).dot(weighted);
+    if (diagonal_[j] == 0.0) continue;
+    for (int i = 0; i < j; ++i) {
+      upper_(i, j) = rows.row(i).dot(weighted) / diagonal_[j];
+      rows.row(i) -= upper_(i, j) * rows.row(j);
+    }
+  }
+}
+
 void UdCovariance::release(int i, double variance) {
   diagonal_[i] = variance;
   ceiling_[i] = variance;

@@ -5,43 +5,93 @@
 #include <stdexcept>
 #include <string>
 
+#include "suspension_health_monitor/pi.h"
+
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kLongestStep = 0.35;  // in units of the model's fastest time; keeps the step error below 1e-4
-constexpr double kMostSteps = 31.0;
+constexpr std::size_t kNumSplits = 6;  // a sample is 1, 2, 4, .. 32 steps
+constexpr double kMostSteps = 1 << (kNumSplits - 1);
+constexpr double kMeanMemory = 100.0;  // natural periods
+constexpr double kRunaway = 1e3;       // times the largest input
+
+using Split = std::vector<WheelInterpolator>;
+
+// How many steps of kLongestStep a sample has; not above 0 or NaN unless both parameters are above 0.
+// @param frequency  sqrt(b0) [1/s], NaN if b0 is below 0.
+double exactSteps(double period, double damping_to_mass, double frequency) {
+  if (!(damping_to_mass > 0.0 && frequency > 0.0)) return 0.0;
+  return period * std::max(damping_to_mass, frequency) / kLongestStep;
+}
 
 bool isFewEnough(double steps) { return steps > 0.0 && steps <= kMostSteps; }  // not NaN
+
+// In samples; made once, so that no run has to do it while samples come.
+const std::array<Split, kNumSplits>& splits() {
+  static const std::array<Split, kNumSplits> all = [] {
+    std::array<Split, kNumSplits> made;
+    for (std::size_t s = 0; s < kNumSplits; ++s) {
+      const int steps = 1 << s;
+      for (int i = 0; i < steps; ++i)
+        made[s].emplace_back(static_cast<double>(i) / steps, (i + 1.0) / steps, 1.0);
+    }
+    return made;
+  }();
+  return all;
+}
+
+// What a constant acceleration alone would do.
+void takeOff(double constant, double step, WheelStep& wheel) {
+  const double velocity = step * constant, position = step * velocity / 2;
+  wheel.middle_position -= position / 4;
+  wheel.middle_velocity -= velocity / 2;
+  wheel.end_position -= position;
+  wheel.end_velocity -= velocity;
+}
+
+void check(const ActiveEffect& active) {
+  if (active.shapes.size() != active.effect.shapes.size())
+    throw std::invalid_argument("effect " + active.effect.name + ": " + std::to_string(active.shapes.size()) +
+                                " shapes, must be " + std::to_string(active.effect.shapes.size()));
+  bool finite = std::isfinite(active.coefficient);
+  for (const double shape : active.shapes) finite = finite && std::isfinite(shape);
+  if (!finite) throw std::invalid_argument("effect " + active.effect.name + ": coefficient and shapes must be finite");
+}
 
 }  // namespace
 
 FreeRun::FreeRun(double period) : period_(period) {
   if (!(std::isfinite(period) && period > 0.0))
     throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be above 0");
-}
-
-// How many steps of kLongestStep a sample has; not above 0 or NaN unless both parameters are above 0.
-double FreeRun::exactSteps(double damping_to_mass, double stiffness_to_mass) const {
-  if (!(damping_to_mass > 0.0 && stiffness_to_mass > 0.0)) return 0.0;
-  return period_ * std::max(damping_to_mass, std::sqrt(stiffness_to_mass)) / kLongestStep;
+  splits();
 }
 
 bool FreeRun::accepts(double damping_to_mass, double stiffness_to_mass) const {
-  return isFewEnough(exactSteps(damping_to_mass, stiffness_to_mass));
+  return isFewEnough(exactSteps(period_, damping_to_mass, std::sqrt(stiffness_to_mass)));
 }
 
 bool FreeRun::trySetModel(double damping_to_mass, double stiffness_to_mass) {
-  const double steps = exactSteps(damping_to_mass, stiffness_to_mass);
+  const double frequency = std::sqrt(stiffness_to_mass);
+  const double steps = exactSteps(period_, damping_to_mass, frequency);
   if (!isFewEnough(steps)) return false;
-  if (num_steps_ > 0) state_[0] *= stiffness_to_mass_ / stiffness_to_mass;
-  damping_to_mass_ = damping_to_mass;
-  stiffness_to_mass_ = stiffness_to_mass;
-  num_steps_ = 1 + static_cast<int>(steps);
+  if (hasModel()) state_.travel *= model_.stiffness_to_mass / stiffness_to_mass;
+  model_.damping_to_mass = damping_to_mass;
+  model_.stiffness_to_mass = stiffness_to_mass;
+  if (!hasModel() || !(steps <= num_steps_ && 2 * steps > num_steps_)) split(steps);
   // Roots of s^2 + b1 s + b0; an overdamped strut has a slow real one.
   const double half = damping_to_mass / 2;
   const double discriminant = half * half - stiffness_to_mass;
   decay_rate_ = discriminant > 0.0 ? stiffness_to_mass / (half + std::sqrt(discriminant)) : half;
+  mean_memory_ = kMeanMemory * 2 * kPi / (period_ * frequency);
   return true;
+}
+
+void FreeRun::split(double steps) {
+  std::size_t i = 0;
+  while (steps > 1 << i) ++i;
+  num_steps_ = 1 << i;
+  steps_ = splits()[i].data();
 }
 
 void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
@@ -52,51 +102,89 @@ void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
                               std::to_string(period_) + " [s]");
 }
 
-std::optional<double> FreeRun::push(double unsprung_acceleration) {
-  std::copy_backward(input_.begin(), input_.end() - 1, input_.end());
-  input_.front() = unsprung_acceleration;
-  if (num_inputs_ < kNodes) ++num_inputs_;
-  if (num_steps_ == 0 || num_inputs_ < kNodes) return std::nullopt;
-  if (decayed_ == 0.0) state_ = {input_[1] / stiffness_to_mass_, 0.0};  // at rest under a constant such as gravity
-  advance();
-  decayed_ += decay_rate_ * period_;
-  return damping_to_mass_ * state_[1] + stiffness_to_mass_ * state_[0];
+void FreeRun::setEffects(const std::vector<ActiveEffect>& effects) {
+  if (effects.size() > StrutState::kMostEffects)
+    throw std::invalid_argument(std::to_string(effects.size()) + " effects, must be at most " +
+                                std::to_string(StrutState::kMostEffects));
+  for (const ActiveEffect& active : effects) check(active);
+  model_.effects = effects;
+  state_.memory = {};
+  forces_ = {};
+  if (decayed_ > 0.0) countTravelFrom(effects.empty() ? 0.0 : mean_);
 }
 
-void FreeRun::advance() {
-  const double h = period_ / num_steps_;
-  const auto moved = [&](double by, const State& slope) {
-    return State{state_[0] + by * slope[0], state_[1] + by * slope[1]};
-  };
-  double at_start = input_[1];
-  for (int step = 0; step < num_steps_; ++step) {
-    const double at_middle = interpolate((step + 0.5) / num_steps_);
-    const double at_end = step + 1 == num_steps_ ? input_[0] : interpolate((step + 1.0) / num_steps_);
-    const State k1 = derivative(state_, at_start);
-    const State k2 = derivative(moved(h / 2, k1), at_middle);
-    const State k3 = derivative(moved(h / 2, k2), at_middle);
-    const State k4 = derivative(moved(h, k3), at_end);
-    for (std::size_t i = 0; i < state_.size(); ++i) state_[i] += h / 6 * (k1[i] + 2 * (k2[i] + k3[i]) + k4[i]);
-    at_start = at_end;
+std::optional<double> FreeRun::push(double unsprung_acceleration, double time) {
+  const double answered = time - kDelay * period_;
+  if (decayed_ > 0.0) advance(answered - period_);
+  insert(unsprung_acceleration);
+  if (num_inputs_ < kWindow || !hasModel()) return std::nullopt;
+  if (decayed_ == 0.0) startAnew();
+  const double prediction = predict(answered);
+  decayed_ += decay_rate_ * period_;
+  if (withEffects() && ranAway(prediction)) {
+    ++runaways_;
+    startAnew();
+    return std::nullopt;
+  }
+  return prediction;
+}
+
+void FreeRun::insert(double unsprung_acceleration) {
+  newest_ = newest_ + 1 == kWindow ? 0 : newest_ + 1;
+  input_[newest_] = input_[newest_ + kWindow] = unsprung_acceleration;
+  if (num_inputs_ < kWindow) ++num_inputs_;
+  mean_weight_ = std::min(mean_weight_, mean_memory_) + 1.0;
+  mean_ += (unsprung_acceleration - mean_) / mean_weight_;
+}
+
+// From the sample at `time` to the next.
+void FreeRun::advance(double time) {
+  const double h = period_ / num_steps_, square = period_ * period_;
+  for (int i = 0; i < num_steps_; ++i) {
+    WheelStep wheel = steps_[i](window());  // in samples
+    wheel.middle_position *= square;
+    wheel.middle_velocity *= period_;
+    wheel.end_position *= square;
+    wheel.end_velocity *= period_;
+    if (withEffects()) takeOff(offset_, h, wheel);
+    integrateStrut(model_, time + i * h, h, wheel, state_);
   }
 }
 
-// Lagrange's cubic through the newest four samples, at `fraction` of the way from the last but one to the newest.
-double FreeRun::interpolate(double fraction) const {
-  const double s = fraction - 1.0;  // in samples from the newest, -1 < s < 0
-  return input_[0] * (s + 1) * (s + 2) * (s + 3) / 6 - input_[1] * s * (s + 2) * (s + 3) / 2 +
-         input_[2] * s * (s + 1) * (s + 3) / 2 - input_[3] * s * (s + 1) * (s + 2) / 6;
+double FreeRun::predict(double time) {
+  if (withEffects()) countTravelFrom(mean_);
+  double prediction = offset_ + model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
+  for (std::size_t j = 0; j < model_.effects.size(); ++j) {
+    const ActiveEffect& active = model_.effects[j];
+    forces_[j] = active.effect.force({state_.travel, state_.travel_rate, time, state_.memory[j]}, active.shapes.data());
+    prediction += active.coefficient * forces_[j];
+  }
+  return prediction;
 }
 
-FreeRun::State FreeRun::derivative(const State& state, double unsprung_acceleration) const {
-  return {state[1], unsprung_acceleration - damping_to_mass_ * state[1] - stiffness_to_mass_ * state[0]};
+void FreeRun::countTravelFrom(double offset) {
+  state_.travel -= (offset - offset_) / model_.stiffness_to_mass;
+  offset_ = offset;
+}
+
+bool FreeRun::ranAway(double prediction) {
+  largest_ = std::max(largest_, std::abs(input_[newest_]));
+  return !(std::abs(prediction) <= kRunaway * largest_);  // NaN, too
+}
+
+// At rest under the constant part of the input.
+void FreeRun::startAnew() {
+  state_ = {};
+  offset_ = mean_;
+  if (!withEffects()) countTravelFrom(0.0);
+  decayed_ = 0.0;
 }
 
 void FreeRun::reset() {
   state_ = {};
-  input_ = {};
-  num_inputs_ = 0;
   decayed_ = 0.0;
+  num_inputs_ = 0;
+  largest_ = 0.0;
 }
 
 }  // namespace suspension_health_monitor

@@ -26,20 +26,25 @@ double bandMean(double x) {
   return sum;
 }
 
+// Mean over the band of |sum_i h_i e^(j w i) - e^(j w D)|^2 is a quadratic form in h with these entries.
+Eigen::LDLT<Eigen::MatrixXd> factoredGram(Eigen::Index n) {
+  Eigen::MatrixXd gram(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) gram(i, j) = bandMean(static_cast<double>(i - j));
+    gram(i, i) += kRidge;
+  }
+  return gram.ldlt();
+}
+
 }  // namespace
 
 BandlimitedInterpolator::BandlimitedInterpolator(double fraction) : weights_(2 * kHalfWidth) {
   constexpr Eigen::Index n = 2 * kHalfWidth;
-  // Mean over the band of |sum_i h_i e^(j w i) - e^(j w D)|^2 is a quadratic form in h with these entries.
-  Eigen::MatrixXd gram(n, n);
+  static const Eigen::LDLT<Eigen::MatrixXd> gram = factoredGram(n);
   Eigen::VectorXd target(n);
   const double wanted = kHalfWidth - 1 + fraction;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    target[i] = bandMean(static_cast<double>(i) - wanted);
-    for (Eigen::Index j = 0; j < n; ++j) gram(i, j) = bandMean(static_cast<double>(i - j));
-    gram(i, i) += kRidge;
-  }
-  const Eigen::VectorXd solution = gram.ldlt().solve(target);
+  for (Eigen::Index i = 0; i < n; ++i) target[i] = bandMean(static_cast<double>(i) - wanted);
+  const Eigen::VectorXd solution = gram.solve(target);
   // A constant, gravity say, comes out exactly.
   for (Eigen::Index i = 0; i < n; ++i) weights_[static_cast<std::size_t>(i)] = solution[i] / solution.sum();
 }

@@ -1,0 +1,146 @@
+#include "suspension_health_monitor/model_tracker.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace suspension_health_monitor {
+namespace {
+
+template <class Estimator>
+void describeStrut(const Estimator& estimator, StrutEstimate& estimate) {
+  estimate.damping_to_mass = estimator.parameters()[kDampingToMass];
+  estimate.stiffness_to_mass = estimator.parameters()[kStiffnessToMass];
+  estimate.damping_to_mass_stddev = std::sqrt(estimator.parameterVariance(kDampingToMass));
+  estimate.stiffness_to_mass_stddev = std::sqrt(estimator.parameterVariance(kStiffnessToMass));
+  estimate.num_effects = static_cast<std::size_t>(estimator.numParameters() - kNumStrutParameters);
+  for (std::size_t j = 0; j < estimate.num_effects; ++j) {
+    const int i = kNumStrutParameters + static_cast<int>(j);
+    estimate.coefficients[j] = estimator.parameters()[i];
+    estimate.coefficient_stddevs[j] = std::sqrt(estimator.parameterVariance(i));
+  }
+  estimate.effective_rows = estimator.effectiveRows();
+  const double output = estimator.meanAbsoluteOutput();
+  estimate.explained = output > 0.0 ? 1.0 - estimator.meanAbsoluteResidual() / output : 0.0;
+}
+
+std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const std::vector<ActiveEffect>& after) {
+  std::vector<ColumnOrigin> columns{{kDampingToMass, 0.0}, {kStiffnessToMass, 0.0}};
+  for (const ActiveEffect& active : after) {
+    const auto same = std::find_if(before.begin(), before.end(), [&](const ActiveEffect& other) {
+      return other.effect.name == active.effect.name && other.shapes == active.shapes;
+    });
+    ColumnOrigin column{std::nullopt, active.coefficient};
+    if (same != before.end()) column.before = kNumStrutParameters + static_cast<int>(same - before.begin());
+    columns.push_back(column);
+  }
+  return columns;
+}
+
+}  // namespace
+
+ModelTracker::ModelTracker(const MonitorOptions& options)
+    : filter_(options.filter(*options.sample_period)),
+      min_rows_(std::min<double>(options.valid_min_rows, 0.9 / (1.0 - std::min(options.forgetting_factor, 1 - 1e-12)))),
+      min_explained_(options.valid_min_explained),
+      rows_of_model_(std::numeric_limits<double>::infinity()),
+      regression_(filter_),
+      least_squares_(kNumStrutParameters, options.recursive()),
+      least_absolute_(kNumStrutParameters, options.recursive(), options.leastAbsolute()),
+      free_run_(*options.sample_period),
+      comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {}
+
+void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report) {
+  const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
+  free_run_.setEffects(effects);  // may throw: first
+  least_squares_.changeColumns(columns);
+  least_absolute_.changeColumns(columns);
+  regression_ = SuspensionRegression(filter_, effects.size());
+  rows_of_model_ = 0.0;
+  has_own_model_ = false;
+  starts_.clear();
+  for (std::size_t j = 0; j < effects.size(); ++j) {
+    starts_.push_back(least_absolute_.parameters()[kNumStrutParameters + static_cast<Eigen::Index>(j)]);
+    free_run_.setCoefficient(j, starts_[j]);
+  }
+  if (least_absolute_.effectiveRows() > 0.0) describe(report);
+  report.ls.valid = report.la.valid = false;
+}
+
+void ModelTracker::add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report) {
+  const std::optional<double> predicted = free_run_.push(newest.unsprung_acceleration, time);
+  const bool plain = effects().empty();
+  if (!plain && free_run_.runaways() != runaways_) fallBack();
+  // Without a model of the travel there are no columns.
+  const CornerSample* of_row = plain ? &newest : predicted ? compared : nullptr;
+  const RegressionRow* row = of_row != nullptr ? regression_.push(*of_row, free_run_.effectForces()) : nullptr;
+  report.has_row = row != nullptr;
+  if (row != nullptr) estimate(*row, report);
+  if (report.la.valid) takeModel(report.la);
+  report.comparison.has_sample = compared != nullptr;
+  if (compared != nullptr) compare(*compared, predicted, report);
+}
+
+void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
+  rows_of_model_ += 1.0;
+  silent_rows_ = row.output == 0.0 ? std::min(silent_rows_ + 1, filter_.horizon_samples) : 0;
+  const bool moves = silent_rows_ < filter_.horizon_samples;
+  if (moves) {
+    least_squares_.update(row);
+    least_absolute_.update(row);
+    describe(report);
+  }
+  report.ls.valid = moves && isValid(report.ls);
+  report.la.valid = moves && isValid(report.la);
+}
+
+void ModelTracker::describe(ModelReport& report) const {
+  describeStrut(least_squares_, report.ls);
+  describeStrut(least_absolute_, report.la);
+}
+
+bool ModelTracker::isValid(const StrutEstimate& estimate) const {
+  return std::min(estimate.effective_rows, rows_of_model_) >= min_rows_ && estimate.explained >= min_explained_ &&
+         estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
+}
+
+void ModelTracker::takeModel(const StrutEstimate& la) {
+  if (!free_run_.trySetModel(la.damping_to_mass, la.stiffness_to_mass)) return;
+  has_own_model_ = true;
+  for (std::size_t j = 0; j < la.num_effects; ++j) free_run_.setCoefficient(j, la.coefficients[j]);
+}
+
+void ModelTracker::lead(const StrutEstimate& plain) {
+  if (has_own_model_ || !plain.valid || !free_run_.trySetModel(plain.damping_to_mass, plain.stiffness_to_mass)) return;
+  for (std::size_t j = 0; j < starts_.size(); ++j) free_run_.setCoefficient(j, starts_[j]);
+}
+
+// The coefficients made the free run leave all bounds: on without them until the estimates have seen enough rows anew.
+void ModelTracker::fallBack() {
+  runaways_ = free_run_.runaways();
+  rows_of_model_ = 0.0;
+  has_own_model_ = false;
+  for (std::size_t j = 0; j < starts_.size(); ++j) free_run_.setCoefficient(j, starts_[j] = 0.0);
+}
+
+void ModelTracker::compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report) {
+  ComparisonReport& comparison = report.comparison;
+  comparison.stamp = sample.stamp;
+  comparison.measured = sample.sprung_acceleration;
+  comparison.predicted = predicted;
+  if (!free_run_.settled()) comparison.predicted.reset();
+  if (!comparison.predicted) return;
+  comparison_.add(comparison.measured, *comparison.predicted);
+  comparison.rmse = comparison.base_rmse = comparison_.rmse();
+  comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
+  // Parameters whose free run is worse than a constant are not those of this strut, however small the rows' residuals.
+  if (comparison.fit_percent < 0.0 && comparison_.isFull()) report.la.valid = false;
+}
+
+void ModelTracker::startNewSeries(ModelReport& report) {
+  regression_.reset();
+  free_run_.reset();
+  report.comparison.predicted.reset();
+  report.ls.valid = report.la.valid = false;
+}
+
+}  // namespace suspension_health_monitor
