@@ -39,18 +39,22 @@ void addExtended(const SearchResult& result, DiagnoseResponse& response) {
     addCoefficient(reading.effect.name, reading.coefficient);
 }
 
-}  // namespace
-
-Diagnosis searchEffects(const SearchTask& task, const SearchOptions& options, const EffectSearch::Progress& progress) {
-  const std::vector<DriveSamples> drives{task.samples};
-  const StrutModel rough = roughModel(drives, task.options);
+StrutModel roughStrut(const SearchTask& task) {
+  StrutModel rough = roughModel(std::vector<DriveSamples>{task.samples}, task.options);
   if (!isDampedSpring(rough))
     throw std::runtime_error(spanOf(task.samples) + " show no damped spring yet (least squares: damping/mass " +
                              std::to_string(rough.damping_to_mass) + ", stiffness/mass " +
                              std::to_string(rough.stiffness_to_mass) + "): drive on");
-  const std::deque<DriveRecord> records = makeRecords(drives, *task.options.sample_period, rough);
-  std::optional<SearchResult> result =
-      EffectSearch(task.library, options).run(pointersTo(records), rough, progress);
+  return rough;
+}
+
+}  // namespace
+
+Diagnosis searchEffects(const SearchTask& task, const SearchOptions& options, const EffectSearch::Progress& progress) {
+  const std::vector<DriveSamples> drives{task.samples};
+  const StrutModel start = task.model ? *task.model : roughStrut(task);
+  const std::deque<DriveRecord> records = makeRecords(drives, *task.options.sample_period, start);
+  std::optional<SearchResult> result = EffectSearch(task.library, options).run(pointersTo(records), start, progress);
   if (!result)
     throw std::runtime_error(spanOf(task.samples) +
                              " are too short to hold a part of them out, or no stable model fits them: drive on");
@@ -66,6 +70,7 @@ DiagnoseResponse toResponse(const SearchResult& result) {
   response.base_fit_percent = result.base_fit_percent;
   response.noise_floor = result.noise_floor;
   response.structured_share = result.structured_share;
+  response.surface_share = result.surface_share;
   for (const RankedModel& ranked : result.ranking) {
     response.ranked_effects.push_back(join(ranked.effects, " + "));
     response.ranked_held_out_rmse.push_back(ranked.held_out_rmse);
@@ -75,6 +80,7 @@ DiagnoseResponse toResponse(const SearchResult& result) {
   response.selected = result.selected;
   for (const std::vector<std::string>& group : result.indistinguishable)
     response.indistinguishable.push_back(join(group, ", "));
+  response.suggested_drive = result.suggested_drive;
   if (result.extended && result.final_fit) addExtended(result, response);
   return response;
 }

@@ -12,6 +12,7 @@ struct SearchTask {
   DriveSamples samples;
   MonitorOptions options;  ///< with sample_period given
   EffectLibrary library;
+  std::optional<StrutModel> model;  ///< whose effects stay; nothing: the linear strut
 };
 
 /// What it found, and in which samples.
@@ -20,7 +21,7 @@ struct Diagnosis {
   Stamp from{}, to{};
 };
 
-/// Searches one drive for the effects that the linear strut lacks, as `suspension_bag diagnose` does.
+/// Searches one drive for the effects that a model lacks, as `suspension_bag diagnose` does.
 /// @param progress  called in the calling thread now and then; what it throws ends the search.
 /// @throws std::runtime_error  in words for people, if the samples are too short or too poor.
 Diagnosis searchEffects(const SearchTask& task, const SearchOptions& options, const EffectSearch::Progress& progress);

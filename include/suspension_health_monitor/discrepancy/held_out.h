@@ -55,11 +55,4 @@ class HeldOut {
 /// @return nothing if there are fewer than eight held-out stretches.
 std::optional<HeldOut> holdOut(const std::vector<const DriveRecord*>& records, double stiffness_to_mass);
 
-/// Estimates what the noise of both sensors leaves of a free run [m/s^2].
-///
-/// The noise of the body's sensor is what a long linear predictor of z'' from its own past and from w'' (past and
-/// future) cannot foresee: forces that are missing from the model change slowly against the sampling and are foreseen,
-/// white noise is not. The wheel's sensor is taken to be as noisy; its noise comes through the model.
-double estimateNoiseFloor(const std::vector<const DriveRecord*>& records, const StrutModel& model);
-
 }  // namespace suspension_health_monitor

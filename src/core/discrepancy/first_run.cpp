@@ -1,16 +1,11 @@
 #include "first_run.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "median.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Sums squares over one segment.
 void addSegment(const StrutModel& start, const DriveRecord& record, const DriveSegment& segment,

@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/discrepancy/held_out.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -18,29 +17,6 @@ using InDouble = boost::math::policies::policy<boost::math::policies::promote_do
 constexpr std::size_t kBlocks = 15;  // per record
 constexpr std::size_t kFewestStretches = 8;
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
-constexpr int kPredictorLength = 16;
-constexpr Eigen::Index kPredictorTerms = 3 * kPredictorLength + 1;
-
-/// Calls take(row, z'') with what the predictor of every z'' may use: its own past, the wheel's motion during the steps
-/// before and after it (which stands for w''), and a constant.
-template <class Take>
-void forEachPredictorRow(const std::vector<const DriveRecord*>& records, const Take& take) {
-  Eigen::VectorXd row(kPredictorTerms);
-  for (const DriveRecord* record : records)
-    for (const DriveSegment& segment : record->segments()) {
-      const auto last = static_cast<int>(segment.size()) - kPredictorLength - 1;
-      for (int k = kPredictorLength; k < last; ++k) {
-        for (int i = 0; i < kPredictorLength; ++i) row[i] = segment.sprung[static_cast<std::size_t>(k - 1 - i)];
-        for (int i = 0; i < 2 * kPredictorLength; ++i) {
-          const auto step = static_cast<std::size_t>((k - kPredictorLength + i) * record->steps());
-          row[kPredictorLength + i] = segment.wheel[step].end_velocity / record->period();
-        }
-        row[kPredictorTerms - 1] = 1.0;
-        take(row, segment.sprung[static_cast<std::size_t>(k)]);
-      }
-    }
-}
-
 }  // namespace
 
 PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after) {
@@ -132,34 +108,6 @@ double HeldOut::rmse(const std::vector<double>& stretch_errors) const {
   double sum = 0.0;
   for (const double error : stretch_errors) sum += error;
   return std::sqrt(sum / samples_);
-}
-
-double estimateNoiseFloor(const std::vector<const DriveRecord*>& records, const StrutModel& model) {
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(kPredictorTerms, kPredictorTerms);
-  Eigen::VectorXd moment = Eigen::VectorXd::Zero(kPredictorTerms);
-  double count = 0.0;
-  forEachPredictorRow(records, [&](const Eigen::VectorXd& row, double measured) {
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(row);
-    moment += measured * row;
-    count += 1.0;
-  });
-  if (count <= 2.0 * kPredictorTerms) return 0.0;
-  gram.diagonal() *= 1.0 + 1e-12;
-  const Eigen::VectorXd solution = gram.selfadjointView<Eigen::Lower>().ldlt().solve(moment);
-  std::vector<double> innovations;
-  innovations.reserve(static_cast<std::size_t>(count));
-  forEachPredictorRow(records, [&](const Eigen::VectorXd& row, double measured) {
-    innovations.push_back(std::abs(measured - row.dot(solution)));
-  });
-  // From the median, so that a blow into an end stop is no noise. 0.6745: the median of |x| for a unit normal x.
-  const auto middle = innovations.begin() + static_cast<std::ptrdiff_t>(innovations.size() / 2);
-  std::nth_element(innovations.begin(), middle, innovations.end());
-  const double deviation = *middle / 0.6745 * std::sqrt(count / (count - kPredictorTerms));
-  const double b1 = model.damping_to_mass;
-  const double b0 = model.stiffness_to_mass;
-  // White noise on w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): its variance grows by T (b1^2 + b0) / (2 b1).
-  const double through = records.front()->period() * (b1 * b1 + b0) / (2.0 * b1);
-  return deviation * std::sqrt(1.0 + through);
 }
 
 }  // namespace suspension_health_monitor
