@@ -13,7 +13,10 @@ ros::Time stampAt(Stamp stamp) { return toRosTime(std::max(stamp, Stamp::zero())
 }  // namespace
 
 DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp start)
-    : simulator_(options.drive), gravity_(options.publishing.gravity), start_(start) {}
+    : simulator_(options.drive),
+      hidden_(options.drive.hidden),
+      gravity_(options.publishing.gravity),
+      start_(start) {}
 
 std::optional<DriveMessages> DriveMessageSource::next() {
   const std::optional<DriveSample> sample = simulator_.next();
@@ -22,7 +25,7 @@ std::optional<DriveMessages> DriveMessageSource::next() {
   header.stamp = stampAt(start_ + sample->stamp);
   header.frame_id = "sprung_imu";
   return DriveMessages{header.stamp, toMessage(sample->sprung, "sprung_imu"),
-                       toMessage(sample->unsprung, "unsprung_imu"), toMsg(sample->truth, header)};
+                       toMessage(sample->unsprung, "unsprung_imu"), toMsg(sample->truth, hidden_, header)};
 }
 
 std::optional<sensor_msgs::Imu> DriveMessageSource::toMessage(const std::optional<AccelerometerReading>& reading,

@@ -4,6 +4,7 @@
 #include <suspension_health_monitor/SimulationTruth.h>
 
 #include <optional>
+#include <vector>
 
 #include "simulator_options.h"
 #include "suspension_health_monitor/simulation/drive_simulator.h"
@@ -31,6 +32,7 @@ class DriveMessageSource {
                                             const char* frame) const;
 
   DriveSimulator simulator_;
+  std::vector<ActiveEffect> hidden_;
   double gravity_;
   Stamp start_;
 };
