@@ -3,6 +3,7 @@
 #include <string>
 
 #include "../ros/search_words.h"
+#include "model_numbers.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -10,32 +11,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kShownCandidates = 8;
-
-/// Calls take(name, coefficient) for every effect and shape(name, value) for every shape of it.
-template <class TakeCoefficient, class TakeShape>
-void visit(const StrutModel& model, const TakeCoefficient& take, const TakeShape& shape) {
-  for (const ActiveEffect& active : model.effects) {
-    take(active.effect.name, active.coefficient, active.effect.unit);
-    for (std::size_t i = 0; i < active.shapes.size(); ++i) shape(active.effect.name, active.effect.shapes[i], active.shapes[i]);
-  }
-  for (const ActiveMeasurementEffect& reading : model.reading)
-    take(reading.effect.name, reading.coefficient, reading.effect.unit);
-}
-
-json parametersOf(const StrutModel& model) {
-  return {{"damping_to_mass", model.damping_to_mass}, {"stiffness_to_mass", model.stiffness_to_mass}};
-}
-
-void addNumbers(const StrutModel& model, json& into) {
-  json coefficients = json::object(), shapes = json::object();
-  visit(
-      model, [&](const std::string& name, double value, const std::string&) { coefficients[name] = value; },
-      [&](const std::string& name, const ShapeParameter& shape, double value) {
-        shapes[name + "/" + shape.name] = value;
-      });
-  into["coefficients"] = coefficients;
-  into["shapes"] = shapes;
-}
 
 json standardDeviations(const ModelFit& fit) {
   json result{{"damping_to_mass", fit.stddev[0]}, {"stiffness_to_mass", fit.stddev[1]}};

@@ -13,6 +13,7 @@ namespace suspension_health_monitor {
 struct DriveSegment {
   double start = 0.0;            ///< time of its first sample since the start of the drive [s]
   std::vector<double> sprung;    ///< z'' less the drive's mean w'' [m/s^2], one per sample
+  std::vector<double> unsprung;  ///< w'' less its mean [m/s^2], one per sample
   std::vector<WheelStep> wheel;  ///< what the wheel does, one per integration step
 
   std::size_t size() const { return sprung.size(); }

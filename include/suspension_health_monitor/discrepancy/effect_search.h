@@ -14,7 +14,7 @@ enum class Verdict { kEffectFound, kNothingMissing, kUnexplained };
 
 /// A model with some effects added, fitted on the training blocks and judged on the held-out ones.
 struct RankedModel {
-  std::vector<std::string> effects;  ///< names, in the order of selection
+  std::vector<std::string> effects;  ///< names of all that is in the model
   StrutModel model;
   bool fitted = false;                ///< false: screened only (screening.h), the figures are what a fit is expected to give
   double held_out_rmse = 0.0;         ///< [m/s^2]
@@ -32,7 +32,7 @@ struct SearchResult {
   double structured_share = 0.0;  ///< share of the base's held-out mean square that is not noise
   double surface_share = 0.0;     ///< share of that structure which a free-form force over travel and travel rate takes
   std::vector<RankedModel> ranking;                       ///< single effects, best first
-  std::vector<std::string> selected;
+  std::vector<std::string> selected;                      ///< what was added to the start
   std::vector<std::vector<std::string>> indistinguishable;  ///< groups that these drives cannot tell apart
   std::string suggested_drive;                            ///< a sentence: what would separate them; may be empty
   std::optional<RankedModel> extended;
@@ -59,7 +59,8 @@ class EffectSearch {
 
   EffectSearch(EffectLibrary candidates, const SearchOptions& options);
 
-  /// @param records  drives of one vehicle.  @param start  rough b1, b0, e.g. of LS; effects in it stay in the model.
+  /// @param records  drives of one vehicle.  @param start  rough b1, b0, e.g. of LS; effects that it has stay in the
+  /// model and are fitted again, and the search is for what is missing beside them.
   /// @return nothing if the drives are too short to hold out a part of them, or not even the base model can be fitted.
   std::optional<SearchResult> run(const std::vector<const DriveRecord*>& records, const StrutModel& start,
                                   const Progress& progress = {}) const;

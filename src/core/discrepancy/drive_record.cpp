@@ -72,6 +72,7 @@ void DriveRecord::addSegment(const Stretch& stretch) {
   const std::size_t last = wheel.size() - 1 - kEnd;
   for (std::size_t k = kEnd; k <= last; ++k) {
     segment.sprung.push_back(stretch.sprung[k] - mean_wheel_);
+    segment.unsprung.push_back(wheel[k]);
     if (k < last)
       for (const WheelInterpolator& interpolate : interpolators)
         segment.wheel.push_back(interpolate(&wheel[k + 1 - kEnd]));

@@ -16,6 +16,15 @@ constexpr double kIndistinguishable = 0.02;  // of the mean square, or not signi
 
 double square(double x) { return x * x; }
 
+/// What is in a model and was not in the one that the search started with.
+std::vector<std::string> namesBeyond(const Judged& base, const Judged& judged) {
+  std::vector<std::string> added;
+  for (const std::string& name : judged.ranked.effects)
+    if (std::find(base.ranked.effects.begin(), base.ranked.effects.end(), name) == base.ranked.effects.end())
+      added.push_back(name);
+  return added;
+}
+
 class Search {
  public:
   Search(const EffectLibrary& candidates, const SearchOptions& options,
@@ -35,7 +44,7 @@ class Search {
   };
 
   static Selection select(const std::vector<Judged>& ranking);
-  static Judged withoutSuperfluous(const ModelJudge& judge, Judged current);
+  static Judged withoutSuperfluous(const ModelJudge& judge, const Judged& base, Judged current);
   static Judged reconsidered(const ModelJudge& judge, Judged current, const std::vector<std::string>& added,
                              const ModelJudge::Tick& tick, SearchResult& result);
   static bool isExplained(const ModelJudge& judge, const Judged& before, const Judged& after, double noise_floor);
@@ -54,20 +63,19 @@ Search::Selection Search::select(const std::vector<Judged>& ranking) {
     if (!rival.ranked.fitted) continue;
     const PairedComparison loss = comparePaired(rival.stretches, best.stretches);
     if (loss.removed_share > kIndistinguishable || isSignificant(loss, 0.01)) continue;
-    selection.group.push_back(rival.ranked.effects.back());
+    selection.group.push_back(rival.added);
     if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
   }
   return selection;
 }
 
 // What the first effect explained, the later ones may explain better together.
-Judged Search::withoutSuperfluous(const ModelJudge& judge, Judged current) {
-  for (std::size_t i = 0; i + 1 < current.ranked.effects.size();) {
-    const std::optional<Judged> without = judge.without(current, current.ranked.effects[i]);
-    if (!without || judge.isWorthHaving(*without, current))
-      ++i;
-    else
-      current = *without;
+Judged Search::withoutSuperfluous(const ModelJudge& judge, const Judged& base, Judged current) {
+  const std::string newest = current.added;
+  for (const std::string& name : namesBeyond(base, current)) {
+    if (name == newest) continue;
+    const std::optional<Judged> without = judge.without(current, name);
+    if (without && !judge.isWorthHaving(*without, current)) current = *without;
   }
   return current;
 }
@@ -102,7 +110,6 @@ std::optional<SearchResult> Search::run(const StrutModel& start) {
   result.base_fit_percent = held_out->fitPercent(base->ranked.held_out_rmse);
   result.noise_floor = estimateNoiseFloor(records_, base->ranked.model);
   Judged current = *base;
-  const std::size_t num_given = base->ranked.effects.size();
   for (int round = 0; round < options_.most_effects; ++round) {
     const double done = 0.1 + 0.85 * round / options_.most_effects;
     const auto tick = [&](double share) { report(done + 0.85 * share / options_.most_effects); };
@@ -114,10 +121,9 @@ std::optional<SearchResult> Search::run(const StrutModel& start) {
     if (ranking.empty() || !ranking.front().ranked.significant) break;
     const Selection selection = select(ranking);
     if (round == 0 && selection.group.size() > 1) result.indistinguishable.push_back(selection.group);
-    current = withoutSuperfluous(judge, selection.chosen);
+    current = withoutSuperfluous(judge, *base, selection.chosen);
   }
-  const std::vector<std::string> added(current.ranked.effects.begin() + static_cast<std::ptrdiff_t>(num_given),
-                                       current.ranked.effects.end());
+  const std::vector<std::string> added = namesBeyond(*base, current);
   if (added.size() > 1) {
     result.indistinguishable.clear();
     current = reconsidered(judge, current, added, [&](double) { report(0.95); }, result);
@@ -142,10 +148,10 @@ void Search::conclude(const ModelJudge& judge, const Judged& base, const Judged&
   const double structure = before - square(result.noise_floor);
   result.structured_share = std::clamp(structure / before, 0.0, 1.0);
   if (structure > 0.0) result.surface_share = std::min(1.0, judge.surfaceGain(base) * before / structure);
-  const bool found = last.ranked.effects.size() > base.ranked.effects.size();
-  if (found && isExplained(judge, base, last, result.noise_floor)) {
+  const std::vector<std::string> added = namesBeyond(base, last);
+  if (!added.empty() && isExplained(judge, base, last, result.noise_floor)) {
     result.verdict = Verdict::kEffectFound;
-    result.selected = last.ranked.effects;
+    result.selected = added;
     result.extended = last.ranked;
     result.extended_fit_percent = judge.heldOut().fitPercent(last.ranked.held_out_rmse);
     FitOptions fit;
@@ -154,7 +160,7 @@ void Search::conclude(const ModelJudge& judge, const Judged& base, const Judged&
     return;
   }
   result.indistinguishable.clear();
-  result.verdict = found || result.structured_share > kStructured ? Verdict::kUnexplained : Verdict::kNothingMissing;
+  result.verdict = !added.empty() || result.structured_share > kStructured ? Verdict::kUnexplained : Verdict::kNothingMissing;
 }
 
 }  // namespace

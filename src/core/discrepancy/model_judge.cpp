@@ -80,15 +80,15 @@ std::vector<Judged> ModelJudge::screenAll(const Judged& current, const Tick& tic
   const std::size_t num_forces = candidates_.forces.size(), count = num_forces + candidates_.readings.size();
   std::vector<std::optional<Judged>> results(count);
   const auto screen = [&](std::size_t i) {
-    std::optional<ScreenedModel> screened;
-    if (i >= num_forces) {
-      const MeasurementEffect& reading = candidates_.readings[i - num_forces];
-      if (!has(current.ranked.effects, reading.name)) screened = screening.screen(reading);
-    } else if (!has(current.ranked.effects, candidates_.forces[i].name) &&
-               current.fit.model.effects.size() < StrutState::kMostEffects) {
-      screened = screening.screen(candidates_.forces[i]);
-    }
-    if (screened) results[i] = asScreened(*screened, current);
+    const bool is_force = i < num_forces;
+    const std::string& name = is_force ? candidates_.forces[i].name : candidates_.readings[i - num_forces].name;
+    if (has(current.ranked.effects, name)) return;
+    if (is_force && current.fit.model.effects.size() >= StrutState::kMostEffects) return;
+    const std::optional<ScreenedModel> screened = is_force ? screening.screen(candidates_.forces[i])
+                                                           : screening.screen(candidates_.readings[i - num_forces]);
+    if (!screened) return;
+    results[i] = asScreened(*screened, current);
+    results[i]->added = name;
   };
   double done = 0.0;
   forEachInParallel(count, threads_, screen, [&] { tick(++done / static_cast<double>(count)); });
@@ -108,7 +108,10 @@ void ModelJudge::fitAll(const std::vector<std::size_t>& wanted, const Judged& cu
       [&](std::size_t i) {
         Judged& candidate = ranking[wanted[i]];
         std::optional<Judged> judged = judge(candidate.ranked.model, current.fit.initial, &current);
-        if (judged) candidate = std::move(*judged);
+        if (judged) {
+          judged->added = candidate.added;
+          candidate = std::move(*judged);
+        }
         candidate.tried = true;
       },
       [&] { tick(++done / static_cast<double>(wanted.size())); });

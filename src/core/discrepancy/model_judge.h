@@ -14,6 +14,7 @@ namespace suspension_health_monitor {
 /// A model and how it did, or is expected to do, on what was held out.
 struct Judged {
   RankedModel ranked;
+  std::string added;              ///< what it has and the model before had not
   double training_gain = 0.0;     ///< as ScreenedModel has it
   bool tried = false;             ///< a fit was tried; it may have failed
   ModelFit fit;                   ///< empty unless ranked.fitted

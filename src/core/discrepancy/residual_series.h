@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/discrepancy/residual_views.h"
+
+namespace suspension_health_monitor {
+
+/// All segments one after the other, one entry per sample, the means of residual and missing force taken off.
+struct ResidualSeries {
+  std::vector<double> residual, missing, travel, rate, wheel;
+  std::vector<std::size_t> begins;  ///< of the segments, and the end of the last one
+  double period = 0.0;              ///< T [s]
+  double natural_period = 0.0;      ///< of the strut, in samples
+  double offset = 0.0;              ///< mean residual [m/s^2]
+  double residual_memory = 1.0, missing_memory = 1.0;  ///< samples per independent one, >= 1
+
+  std::size_t size() const { return residual.size(); }
+};
+
+/// @return nothing if there are fewer than 64 samples, or nothing moves.
+std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise);
+
+/// @return sum over k of a(k) b(k - lag) within segments, over the root of both sums of squares.
+double correlation(const ResidualSeries& series, const std::vector<double>& a, const std::vector<double>& b, int lag);
+
+double sumOfSquares(const std::vector<double>& values);
+
+}  // namespace suspension_health_monitor
