@@ -147,7 +147,7 @@ std::optional<ModelFit> fitOutputError(const std::vector<const DriveRecord*>& re
   if (!sizes) return std::nullopt;
   const auto coefficient_scales = coefficientScales(start, *sizes, records.front()->period());
   if (!coefficient_scales) return std::nullopt;
-  const MotionScales motion{sizes->travel, sizes->travel_rate, 1.0 / std::sqrt(start.stiffness_to_mass)};
+  const MotionScale motion{sizes->travel, sizes->travel_rate, 1.0 / std::sqrt(start.stiffness_to_mass)};
   const Parameterization parameters(start, *coefficient_scales, motion);
   const CostScales scales{sizes->travel, sizes->travel_rate,
                           std::max(options.outlier_scale * sizes->residual, 1e-9 * sizes->acceleration)};

@@ -6,14 +6,14 @@
 namespace suspension_health_monitor {
 
 Parameterization::Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales,
-                                   const MotionScales& motion)
+                                   const MotionScale& motion)
     : start_(start), coefficient_scales_(coefficient_scales) {
   constexpr double margin = 0.02;  // between a start and the end of a range that is widened for it
   for (const ActiveEffect& active : start.effects) {
     ranges_.emplace_back();
     for (std::size_t s = 0; s < active.shapes.size(); ++s) {
       const ShapeParameter& shape = active.effect.shapes[s];
-      const double at = std::log(active.shapes[s]), scale = std::log(motion.of(shape));
+      const double at = std::log(active.shapes[s]), scale = std::log(motion.unit(shape.scale));
       const double lower = std::min(std::log(shape.min) + scale, at - margin);
       const double upper = std::max(std::log(shape.max) + scale, at + margin);
       ranges_.back().push_back({lower, upper - lower});

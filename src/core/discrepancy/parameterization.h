@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "shape_scan.h"
+#include "suspension_health_monitor/discrepancy/motion_scale.h"
 #include "suspension_health_monitor/model/strut_model.h"
 
 namespace suspension_health_monitor {
@@ -16,7 +16,7 @@ class Parameterization {
  public:
   /// @param coefficient_scales  of the effects, then of the reading's [unit of the coefficient].
   /// @param motion  what the shapes' ranges are counted in; ranges are widened to hold the start.
-  Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales, const MotionScales& motion);
+  Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales, const MotionScale& motion);
 
   int size() const;
 

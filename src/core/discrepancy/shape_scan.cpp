@@ -11,21 +11,7 @@ constexpr double kMostCombinations = 64.0;
 
 }  // namespace
 
-double MotionScales::of(const ShapeParameter& shape) const {
-  switch (shape.scale) {
-    case ShapeScale::kTravel:
-      return travel;
-    case ShapeScale::kTravelRate:
-      return travel_rate;
-    case ShapeScale::kTime:
-      return natural_time;
-    case ShapeScale::kNone:
-      break;
-  }
-  return 1.0;
-}
-
-std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const MotionScales& scales) {
+std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const MotionScale& scales) {
   const auto dimensions = static_cast<double>(effect.shapes.size());
   const auto most = dimensions > 0.0 ? static_cast<int>(std::pow(kMostCombinations, 1.0 / dimensions) + 1e-9) : 1;
   std::vector<std::vector<double>> result{{}};
@@ -36,7 +22,7 @@ std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const Mot
     for (const std::vector<double>& shapes : result)
       for (int i = 0; i < count; ++i) {
         longer.push_back(shapes);
-        longer.back().push_back(scales.of(shape) * shape.min * std::pow(ratio, (i + 0.5) / count));
+        longer.back().push_back(scales.unit(shape.scale) * shape.min * std::pow(ratio, (i + 0.5) / count));
       }
     result = std::move(longer);
   }
