@@ -48,8 +48,8 @@ double middle(const std::string& name, const ShapeParameter& shape, const LiveMo
   const std::optional<MotionScale> motion = scale();
   if (!motion)
     throw std::invalid_argument(name + " [" + shape.unit +
-                                "] is not known yet: give it, give a model_file that has it, call ~diagnose, or wait "
-                                "until the monitor has a valid estimate");
+                                "] is not known yet: give it, give a model_file that has it, call ~diagnose, or drive "
+                                "on until the monitor can tell how far the strut moves");
   return plain * motion->unit(shape.scale);
 }
 

@@ -252,7 +252,8 @@ class LiveSearchTest(unittest.TestCase):
     def test_shapes_of_the_drive_are_taken_where_none_are_given(self):
         estimates = Collector("/shaped/la", ParameterEstimate)
         with load_monitor("shaped"):
-            estimates.wait_for(lambda message: message.valid, 20.0, "a valid estimate")
+            first = estimates.wait_for(lambda message: message.valid, 20.0, "a valid estimate").header.stamp
+            estimates.wait_for(lambda message: (message.header.stamp - first).to_sec() > 10.0, 20.0, "motion")
             services = Services("shaped")
             for names, shapes in ((["bump_stop"], {}), (["bump_stop", EFFECT], {"bump_stop/g": 0.02}), ([], {})):
                 answer = services.set_effects(names, list(shapes), list(shapes.values()))
