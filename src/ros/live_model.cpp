@@ -15,6 +15,15 @@
 namespace suspension_health_monitor {
 namespace {
 
+/// Puts the option's name before the words of what take() throws.
+void named(const std::string& option, const std::function<void()>& take) {
+  try {
+    take();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(option + error.what());
+  }
+}
+
 /// The names of a text with commas.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> names;
@@ -55,19 +64,17 @@ double middle(const std::string& name, const ShapeParameter& shape, const LiveMo
 
 }  // namespace
 
-LiveModel::LiveModel(const ShellOptions& options)
-    : model_file_(options.model_file), library_(readEffectsFile(options.effects_file)) {
-  if (!model_file_.empty() && std::filesystem::exists(model_file_)) loaded_ = readModelFile(model_file_, library_);
+LiveModel::LiveModel(const ShellOptions& options) : model_file_(options.model_file) {
+  named("effects_file = ", [&] { library_ = readEffectsFile(options.effects_file); });
+  if (!model_file_.empty() && std::filesystem::exists(model_file_))
+    named("model_file = ", [&] { loaded_ = readModelFile(model_file_, library_); });
   if (loaded_) effects_ = loaded_->effects;
   std::vector<std::string> names;
   for (const ActiveEffect& active : effects_) names.push_back(active.effect.name);
   for (const std::string& name : split(options.effects))
     if (find(effects_, name) == nullptr) names.push_back(name);
-  try {
-    effects_ = choose(names, {}, [] { return std::nullopt; });
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("effects = \"" + options.effects + "\": " + error.what());
-  }
+  named("effects = \"" + options.effects + "\": ",
+        [&] { effects_ = choose(names, {}, [] { return std::nullopt; }); });
 }
 
 const ActiveEffect* LiveModel::known(const std::string& name) const {
@@ -120,6 +127,17 @@ std::string LiveModel::describe() const {
   std::vector<std::string> names;
   for (const ActiveEffect& active : effects_) names.push_back(active.effect.name);
   return names.empty() ? "the linear strut" : "the linear strut with " + join(names, ", ");
+}
+
+std::vector<std::string> LiveModel::remarks() const {
+  std::vector<std::string> all;
+  if (!model_file_.empty() && !loaded_)
+    all.push_back("model_file " + model_file_ + " is not there yet: starting with " + describe());
+  if (loaded_)
+    for (const ActiveMeasurementEffect& reading : loaded_->reading)
+      all.push_back(model_file_ + ": " + reading.effect.name +
+                    " is a fault of a sensor, which the live model cannot have: mend the sensor");
+  return all;
 }
 
 std::vector<std::string> LiveModel::missing() const {

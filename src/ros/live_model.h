@@ -32,10 +32,13 @@ class LiveModel {
   /// @return what the model is, in a few words.
   std::string describe() const;
 
-  /// Effects by name. A shape is as given, else as the last diagnosis fitted it, else as in model_file, else as it is in
-  /// the model, else the middle (geometric mean) of its range for the drive's scale.
+  /// @return what of model_file is not as somebody may think: that it is not there, that it has faults of a reading.
+  std::vector<std::string> remarks() const;
+
+  /// Effects by name. A shape is as given, else as the last diagnosis fitted it, else as in model_file, else as the
+  /// model has it, else the middle (geometric mean) of its range for the drive's scale.
   /// @param scale  asked only for such a middle.
-  /// @throws std::invalid_argument  naming what is unknown or twice, and what is allowed; a shape that is not known yet.
+  /// @throws std::invalid_argument  naming what is unknown or twice, and what is allowed; a shape not known yet.
   std::vector<ActiveEffect> choose(const std::vector<std::string>& names, Shapes given, const Scale& scale) const;
 
   const std::optional<Diagnosis>& diagnosis() const { return diagnosis_; }

@@ -31,7 +31,10 @@ MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::N
                                        const std::string& name, const ShellOptions& options,
                                        const std::array<ros::Subscriber, 2>& imu,
                                        const LiveModel& model)
-    : options_(options), model_(model), topics_{imu[0].getTopic(), imu[1].getTopic()}, updater_(node, private_node, name) {
+    : options_(options),
+      model_(model),
+      topics_{imu[0].getTopic(), imu[1].getTopic()},
+      updater_(node, private_node, name) {
   updater_.setHardwareID(options.hardware_id);
   updater_.add("Input", this, &MonitorDiagnostics::describeInput);
   updater_.add("Health", this, &MonitorDiagnostics::describeHealth);

@@ -35,6 +35,7 @@ void MonitorNodelet::onInit() {
     model_.emplace(options_.shell);
     makePipeline();
   });
+  for (const std::string& remark : model_->remarks()) NODELET_WARN("%s", remark.c_str());
   const auto queue_size = static_cast<std::uint32_t>(options_.shell.queue_size);
   ls_ = private_node.advertise<ParameterEstimate>("ls", queue_size);
   la_ = private_node.advertise<ParameterEstimate>("la", queue_size);

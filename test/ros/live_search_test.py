@@ -9,7 +9,7 @@ import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from ros_session import PACKAGE, Collector, load_nodelet, statuses, values, wait_until
+from ros_session import PACKAGE, Collector, load_nodelet, start_node, statuses, values, wait_until
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
@@ -97,7 +97,7 @@ class LiveSearchTest(unittest.TestCase):
         """Waits until that much of the drive has been compared; the comparisons of this part."""
         begin = len(cls.comparison.messages)
         stamp = cls.now() + rospy.Duration(seconds)
-        cls.comparison.wait_for(lambda message: message.header.stamp >= stamp, 30.0 + seconds, f"{seconds} s of driving")
+        cls.comparison.wait_for(lambda message: message.header.stamp >= stamp, 30.0 + seconds, f"{seconds} s of drive")
         return cls.comparison.messages[begin:]
 
     @classmethod
@@ -263,6 +263,33 @@ class LiveSearchTest(unittest.TestCase):
                     lambda message: message.header.stamp > stamp and message.effect_names == names, 10.0, f"{names}")
                 self.assertEqual(len(newest.effect_coefficients), len(names))
         estimates.stop()
+
+    def test_law_of_the_user_is_in_the_model_from_the_start(self):
+        path = os.path.join(self.folder.name, "laws.yaml")
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write('effects: {my_damper: {force: "v * abs(v)", unit: "1/m"}}')
+        estimates = Collector("/own/la", ParameterEstimate)
+        with load_monitor("own", effects_file=path, effects=["my_damper", EFFECT]):
+            estimates.wait_for(lambda message: message.effect_names == ["my_damper", EFFECT], 20.0, "both effects")
+            answer = Services("own").set_effects(["my_damper"], [], [])
+            self.assertTrue(answer.success, answer.message)
+            last = estimates.wait_for(lambda message: message.effect_names == ["my_damper"] and message.valid, 20.0,
+                                      "the one effect")
+            self.assertAlmostEqual(last.effect_coefficients[0], COEFFICIENT, delta=2.0 * COEFFICIENT)
+        estimates.stop()
+        os.remove(path)
+
+    def test_end_of_the_node_ends_a_search(self):
+        comparisons = Collector("/node/comparison", ModelComparison)
+        with start_node("monitor_node", "node", SETTINGS) as node:
+            first = comparisons.wait_for(lambda message: True, 20.0, "a comparison")
+            comparisons.wait_for(lambda message: (message.header.stamp - first.header.stamp).to_sec() > 40.0, 30.0,
+                                 "enough to search in")
+            calls = two_searches("node")
+            wait_until(lambda: any(call.ended() for call in calls), 10.0, "a refusal of the second call")
+            node.stop()
+            self.assertEqual(node.wait_for_end(0.0), 0, node.output())
+        comparisons.stop()
 
     def test_unloading_ends_a_search(self):
         comparisons = Collector("/short_lived/comparison", ModelComparison)
