@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "median.h"
 #include "model_judge.h"
 #include "suspension_health_monitor/discrepancy/noise_floor.h"
 
@@ -23,6 +24,23 @@ std::vector<std::string> namesBeyond(const Judged& base, const Judged& judged) {
     if (std::find(base.ranked.effects.begin(), base.ranked.effects.end(), name) == base.ranked.effects.end())
       added.push_back(name);
   return added;
+}
+
+/// The residual from which on a fit counts outliers.
+double outlierOf(const ModelFit& fit) {
+  std::vector<double> absolute;
+  for (const std::vector<double>& segment : fit.residuals)
+    for (const double r : segment) absolute.push_back(std::abs(r));
+  const double size = median(std::move(absolute));
+  return size > 0.0 ? FitOptions{}.outlier_scale * kSigmaPerMedian * size : 1.0;
+}
+
+std::vector<RankedModel> asReported(const std::vector<Judged>& ranking) {
+  std::vector<RankedModel> models;
+  for (const Judged& judged : ranking) models.push_back(judged.ranked);
+  std::stable_sort(models.begin(), models.end(),
+                   [](const RankedModel& a, const RankedModel& b) { return a.held_out_rmse < b.held_out_rmse; });
+  return models;
 }
 
 class Search {
@@ -61,7 +79,7 @@ Search::Selection Search::select(const std::vector<Judged>& ranking) {
   Selection selection{best, {}};
   for (const Judged& rival : ranking) {
     if (!rival.ranked.fitted) continue;
-    const PairedComparison loss = comparePaired(rival.stretches, best.stretches);
+    const PairedComparison loss = rival.gainOf(best);
     if (loss.removed_share > kIndistinguishable || isSignificant(loss, 0.01)) continue;
     selection.group.push_back(rival.added);
     if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
@@ -100,7 +118,7 @@ std::optional<SearchResult> Search::run(const StrutModel& start) {
   if (!rough) return std::nullopt;
   const std::optional<HeldOut> held_out = holdOut(records_, rough->model.stiffness_to_mass);
   if (!held_out) return std::nullopt;
-  const ModelJudge judge(records_, *held_out, candidates_, options_.threads);
+  const ModelJudge judge(records_, *held_out, outlierOf(*rough), candidates_, options_.threads);
   const std::optional<Judged> base = judge.judge(rough->model, rough->initial, nullptr);
   if (!base) return std::nullopt;
   report(0.1);
@@ -115,7 +133,7 @@ std::optional<SearchResult> Search::run(const StrutModel& start) {
     const auto tick = [&](double share) { report(done + 0.85 * share / options_.most_effects); };
     const std::vector<Judged> ranking = judge.rankAdditions(current, tick);
     if (round == 0)
-      for (const Judged& judged : ranking) result.ranking.push_back(judged.ranked);
+      result.ranking = asReported(ranking);
     // Whatever a free run leaves of data that it was not fitted to is above the floor.
     if (!ranking.empty()) result.noise_floor = std::min(result.noise_floor, ranking.front().ranked.held_out_rmse);
     if (ranking.empty() || !ranking.front().ranked.significant) break;

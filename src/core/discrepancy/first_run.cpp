@@ -51,7 +51,7 @@ std::optional<DriveSizes> firstRun(const FitRecords& records, const FitMasks& ma
   for (double* square : {&sizes.travel, &sizes.travel_rate}) *square = std::sqrt(*square / count);
   for (double& square : sizes.forces) square = std::sqrt(square / count);
   sizes.acceleration = std::sqrt(sizes.acceleration / static_cast<double>(absolute.size()));
-  sizes.residual = 1.4826 * median(absolute);
+  sizes.residual = kSigmaPerMedian * median(absolute);
   return sizes;
 }
 

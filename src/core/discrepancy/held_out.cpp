@@ -19,7 +19,7 @@ constexpr std::size_t kFewestStretches = 8;
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
 }  // namespace
 
-PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after) {
+PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after, double independent) {
   double sum = 0.0, square = 0.0, total = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double difference = before[i] - after[i];
@@ -31,7 +31,7 @@ PairedComparison comparePaired(const std::vector<double>& before, const std::vec
   const double variance = std::max(0.0, (square - sum * sum / n) / (n - 1.0));
   PairedComparison result;
   if (total > 0.0) result.removed_share = sum / total;
-  if (total > sum && total > 0.0) result.log_ratio = n * std::log(total / (total - sum));
+  if (total > sum && total > 0.0) result.log_ratio = independent * std::log(total / (total - sum));
   if (variance > 0.0) result.t = sum / std::sqrt(n * variance);
   return result;
 }
@@ -81,15 +81,46 @@ std::optional<HeldOut> holdOut(const std::vector<const DriveRecord*>& records, d
   return result;
 }
 
-std::vector<double> HeldOut::stretchErrors(const std::vector<std::vector<double>>& residuals) const {
-  std::vector<double> errors;
+template <class Loss>
+std::vector<double> HeldOut::sumByStretch(const std::vector<std::vector<double>>& residuals, const Loss& loss) const {
+  std::vector<double> sums;
   for (const Stretch& stretch : stretches_) {
     double sum = 0.0;
-    for (std::size_t k = stretch.first; k < stretch.last; ++k)
-      sum += residuals[stretch.segment][k] * residuals[stretch.segment][k];
-    errors.push_back(sum);
+    for (std::size_t k = stretch.first; k < stretch.last; ++k) sum += loss(residuals[stretch.segment][k]);
+    sums.push_back(sum);
   }
-  return errors;
+  return sums;
+}
+
+std::vector<double> HeldOut::stretchErrors(const std::vector<std::vector<double>>& residuals) const {
+  return sumByStretch(residuals, [](double r) { return r * r; });
+}
+
+std::vector<double> HeldOut::stretchLosses(const std::vector<std::vector<double>>& residuals, double outlier) const {
+  return sumByStretch(residuals, [outlier](double r) {
+    const double q = r / outlier;
+    return 2.0 * r * r / (std::sqrt(1.0 + q * q) + 1.0);  // without the cancellation of the formula as it is written
+  });
+}
+
+double HeldOut::independentSquares(const std::vector<std::vector<double>>& residuals) const {
+  double square = 0.0;
+  std::size_t most_lags = 0;
+  for (const Stretch& stretch : stretches_) {
+    most_lags = std::max(most_lags, stretch.last - stretch.first);
+    for (std::size_t k = stretch.first; k < stretch.last; ++k)
+      square += residuals[stretch.segment][k] * residuals[stretch.segment][k];
+  }
+  if (square == 0.0) return samples_;
+  double coloured = 1.0;
+  for (std::size_t lag = 1; lag < most_lags; ++lag) {
+    double product = 0.0;  // with the samples before the stretch, held out or not
+    for (const Stretch& stretch : stretches_)
+      for (std::size_t k = std::max(stretch.first, lag); k < stretch.last; ++k)
+        product += residuals[stretch.segment][k] * residuals[stretch.segment][k - lag];
+    coloured += 2.0 * (product / square) * (product / square);
+  }
+  return samples_ / coloured;
 }
 
 double HeldOut::trainingError(const std::vector<std::vector<double>>& residuals) const {

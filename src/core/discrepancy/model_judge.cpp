@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "parallel.h"
 
@@ -12,7 +13,7 @@ constexpr double kFalseName = 0.001;       // chance of a false name, before cor
 constexpr double kWorthHaving = 0.02;      // of the mean square
 constexpr std::size_t kFitted = 4;         // best candidates that are fitted in any case
 constexpr double kPromising = 0.8;         // share of the best candidate's gain that is worth a fit, too
-constexpr double kScreeningError = 1.1;    // by how much screening may overestimate an rmse
+constexpr double kScreeningError = 1.2;    // by how much screening may overestimate a loss
 constexpr double kScreeningTime = 0.4;     // of a round
 
 std::vector<std::string> namesOf(const StrutModel& model) {
@@ -34,15 +35,23 @@ std::size_t complexity(const StrutModel& model) {
   return count;
 }
 
+void ModelJudge::weigh(const std::vector<std::vector<double>>& residuals, Judged& judged) const {
+  judged.ranked.held_out_rmse = held_out_.rmse(held_out_.stretchErrors(residuals));
+  judged.stretches = held_out_.stretchLosses(residuals, outlier_);
+  judged.independent = held_out_.independentSquares(residuals);
+  judged.loss = std::accumulate(judged.stretches.begin(), judged.stretches.end(), 0.0);
+}
+
 void ModelJudge::rank(const Judged& before, Judged& judged) const {
-  const PairedComparison gain = comparePaired(before.stretches, judged.stretches);
-  judged.ranked.error_removed_percent = 100.0 * gain.removed_share;
+  const PairedComparison gain = before.gainOf(judged);
+  const double ratio = judged.ranked.held_out_rmse / before.ranked.held_out_rmse;
+  judged.ranked.error_removed_percent = 100.0 * (1.0 - ratio * ratio);
   judged.ranked.significance = gain.t;
   judged.ranked.significant = judged.ranked.fitted && isWorthHaving(before, judged);
 }
 
 bool ModelJudge::isWorthHaving(const Judged& before, const Judged& after) const {
-  const PairedComparison gain = comparePaired(before.stretches, after.stretches);
+  const PairedComparison gain = before.gainOf(after);
   const auto tests = static_cast<double>(candidates_.forces.size() + candidates_.readings.size());
   return gain.removed_share > kWorthHaving && isSignificant(gain, kFalseName / tests);
 }
@@ -58,8 +67,7 @@ std::optional<Judged> ModelJudge::judge(const StrutModel& start, const std::vect
   judged.ranked.model = fit->model;
   judged.ranked.effects = namesOf(fit->model);
   judged.ranked.fitted = true;
-  judged.stretches = held_out_.stretchErrors(fit->residuals);
-  judged.ranked.held_out_rmse = held_out_.rmse(judged.stretches);
+  weigh(fit->residuals, judged);
   if (before != nullptr) rank(*before, judged);
   return judged;
 }
@@ -69,8 +77,7 @@ Judged ModelJudge::asScreened(const ScreenedModel& screened, const Judged& befor
   judged.ranked.model = screened.model;
   judged.ranked.effects = namesOf(screened.model);
   judged.training_gain = screened.training_gain;
-  judged.stretches = held_out_.stretchErrors(screened.residuals);
-  judged.ranked.held_out_rmse = held_out_.rmse(judged.stretches);
+  weigh(screened.residuals, judged);
   rank(before, judged);
   return judged;
 }
@@ -126,18 +133,18 @@ std::vector<Judged> ModelJudge::rankAdditions(const Judged& current, const Tick&
   while (!wanted.empty()) {
     fitAll(wanted, current, ranking, [&](double share) { tick(kScreeningTime + (1.0 - kScreeningTime) * share); });
     // None that was only screened may look better than the best that was fitted.
-    double limit = current.ranked.held_out_rmse;
+    double limit = current.loss;
     for (const Judged& judged : ranking)
-      if (judged.ranked.fitted) limit = std::min(limit, kScreeningError * judged.ranked.held_out_rmse);
+      if (judged.ranked.fitted) limit = std::min(limit, kScreeningError * judged.loss);
     wanted.clear();
     for (std::size_t i = 0; i < ranking.size(); ++i)
-      if (!ranking[i].tried && ranking[i].training_gain > least_gain && ranking[i].ranked.held_out_rmse < limit)
+      if (!ranking[i].tried && ranking[i].training_gain > least_gain && ranking[i].loss < limit)
         wanted.push_back(i);
   }
   const auto failed = [](const Judged& judged) { return judged.tried && !judged.ranked.fitted; };
   ranking.erase(std::remove_if(ranking.begin(), ranking.end(), failed), ranking.end());
   std::stable_sort(ranking.begin(), ranking.end(), [](const Judged& a, const Judged& b) {
-    return a.ranked.held_out_rmse < b.ranked.held_out_rmse;
+    return a.loss < b.loss;
   });
   return ranking;
 }

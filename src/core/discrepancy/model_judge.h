@@ -18,7 +18,11 @@ struct Judged {
   double training_gain = 0.0;     ///< as ScreenedModel has it
   bool tried = false;             ///< a fit was tried; it may have failed
   ModelFit fit;                   ///< empty unless ranked.fitted
-  std::vector<double> stretches;  ///< held-out sum of squares by stretch
+  std::vector<double> stretches;  ///< held-out loss by stretch
+  double loss = 0.0;              ///< their sum
+  double independent = 0.0;       ///< HeldOut::independentSquares()
+
+  PairedComparison gainOf(const Judged& after) const { return comparePaired(stretches, after.stretches, independent); }
 };
 
 /// Free parameters of a model beyond b1 and b0: the simpler of two equal ones is preferred.
@@ -29,10 +33,10 @@ class ModelJudge {
  public:
   using Tick = std::function<void(double share)>;
 
-  /// The arguments must outlive this object.
-  ModelJudge(const std::vector<const DriveRecord*>& records, const HeldOut& held_out, const EffectLibrary& candidates,
-             int threads)
-      : records_(records), held_out_(held_out), candidates_(candidates), threads_(threads) {}
+  /// @param outlier  residual that begins to count as an outlier [m/s^2].  The other arguments must outlive this object.
+  ModelJudge(const std::vector<const DriveRecord*>& records, const HeldOut& held_out, double outlier,
+             const EffectLibrary& candidates, int threads)
+      : records_(records), held_out_(held_out), outlier_(outlier), candidates_(candidates), threads_(threads) {}
 
   /// @param initial  first guess of the initial states.  @param before  the model to compare with, if any.
   std::optional<Judged> judge(const StrutModel& start, const std::vector<StrutState>& initial,
@@ -56,10 +60,12 @@ class ModelJudge {
   Judged asScreened(const ScreenedModel& screened, const Judged& before) const;
   void fitAll(const std::vector<std::size_t>& wanted, const Judged& current, std::vector<Judged>& ranking,
               const Tick& tick) const;
+  void weigh(const std::vector<std::vector<double>>& residuals, Judged& judged) const;
   void rank(const Judged& before, Judged& judged) const;
 
   const std::vector<const DriveRecord*>& records_;
   const HeldOut& held_out_;
+  double outlier_;
   const EffectLibrary& candidates_;
   int threads_;
 };

@@ -12,7 +12,6 @@ namespace {
 constexpr Eigen::Index kReach = 16;  // samples to either side
 constexpr Eigen::Index kTerms = 4 * kReach + 1;
 constexpr Eigen::Index kMostRows = 20000;  // of long drives every so many
-constexpr double kHalfOfNormal = 0.6745;   // the median of |x| for a unit normal x
 constexpr double kOutlier = 4.0;           // standard deviations
 constexpr int kReweightings = 3;
 
@@ -62,7 +61,7 @@ double innovation(const Rows& rows) {
     gram.diagonal() *= 1.0 + 1e-12;
     const Eigen::VectorXd solution = gram.ldlt().solve(weighted.transpose() * rows.measured);
     const Eigen::VectorXd error = (rows.measured - rows.neighbours * solution).cwiseAbs();
-    deviation = median({error.data(), error.data() + error.size()}) / kHalfOfNormal;
+    deviation = median({error.data(), error.data() + error.size()}) * kSigmaPerMedian;
     if (deviation == 0.0) return 0.0;
     weight = error.unaryExpr([&](double e) { return 1.0 / (1.0 + std::pow(e / (kOutlier * deviation), 4)); });
   }

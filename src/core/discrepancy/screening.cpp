@@ -9,7 +9,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kOutlier = 4.0;       // robust standard deviations at which a residual loses weight
 constexpr double kIndependent = 1e-6;  // share of a column that the model's own columns must leave
 constexpr int kSurfaceNodes = 6;       // per axis
 constexpr double kSurfaceEdge = 2.5;   // of the rms motion
@@ -37,7 +36,7 @@ std::vector<std::vector<double>> split(const Eigen::VectorXd& all, const std::ve
 Eigen::VectorXd trainingWeights(const HeldOut& held_out, const Eigen::VectorXd& residual) {
   std::vector<double> absolute(residual.data(), residual.data() + residual.size());
   for (double& r : absolute) r = std::abs(r);
-  const double limit = kOutlier * 1.4826 * median(std::move(absolute));
+  const double limit = FitOptions{}.outlier_scale * kSigmaPerMedian * median(std::move(absolute));
   Eigen::VectorXd weight(residual.size());
   Eigen::Index k = 0;
   for (const std::vector<SampleMask>& record : held_out.training)
