@@ -14,6 +14,7 @@ ros::Time stampAt(Stamp stamp) { return toRosTime(std::max(stamp, Stamp::zero())
 
 DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp start)
     : simulator_(options.drive),
+      hidden_(options.drive.hidden),
       gravity_(options.publishing.gravity),
       has_gyro_(options.drive.body_rate > 0.0),
       start_(start) {}
@@ -25,7 +26,7 @@ std::optional<DriveMessages> DriveMessageSource::next() {
   header.stamp = stampAt(start_ + sample->stamp);
   header.frame_id = "sprung_imu";
   DriveMessages messages{header.stamp, toMessage(sample->sprung, "sprung_imu"),
-                         toMessage(sample->unsprung, "unsprung_imu"), toMsg(sample->truth, header)};
+                         toMessage(sample->unsprung, "unsprung_imu"), toMsg(sample->truth, hidden_, header)};
   if (messages.sprung) addSway(sample->body, *messages.sprung);
   return messages;
 }

@@ -4,6 +4,7 @@
 #include <suspension_health_monitor/SimulationTruth.h>
 
 #include <optional>
+#include <vector>
 
 #include "simulator_options.h"
 #include "suspension_health_monitor/simulation/drive_simulator.h"
@@ -33,6 +34,7 @@ class DriveMessageSource {
   void addSway(const Sway& sway, sensor_msgs::Imu& imu) const;
 
   DriveSimulator simulator_;
+  std::vector<ActiveEffect> hidden_;
   double gravity_;
   bool has_gyro_;
   Stamp start_;

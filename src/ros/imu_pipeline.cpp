@@ -1,5 +1,7 @@
 #include "imu_pipeline.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace suspension_health_monitor {
@@ -22,6 +24,26 @@ void ImuPipeline::start(double period) {
   options_.monitor.sample_period = period;
   monitor_.emplace(options_.monitor);
   grid_.emplace(period);
+  if (!effects_.empty()) monitor_->setEffects(effects_);
+  if (kept_span_) keepSamples(*kept_span_);
+}
+
+void ImuPipeline::setEffects(const std::vector<ActiveEffect>& effects) {
+  if (monitor_)
+    monitor_->setEffects(effects);
+  else
+    effects_ = effects;
+}
+
+void ImuPipeline::keepSamples(double span) {
+  kept_span_ = span;
+  if (!monitor_) return;
+  const double wanted = std::ceil(span / monitor_->period()) + 1.0;
+  recent_.emplace(static_cast<std::size_t>(std::min(wanted, static_cast<double>(kMostKept))));
+}
+
+DriveSamples ImuPipeline::newestSamples(double span) const {
+  return recent_ ? recent_->newest(fromSeconds(span)) : DriveSamples{};
 }
 
 void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
@@ -54,6 +76,8 @@ void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
 void ImuPipeline::push(const Reading& reading) {
   const std::optional<CornerSample> sample = grid_->push(reading.side, reading.stamp, reading.acceleration);
   if (!sample) return;
+  if (recent_ && isUsable(sample->sprung_acceleration) && isUsable(sample->unsprung_acceleration))
+    recent_->push(*sample);
   if (const MonitorReport* report = monitor_->addSample(*sample)) sink_(*report);
 }
 

@@ -8,7 +8,9 @@
 
 #include "conversions.h"
 #include "shell_options.h"
+#include "suspension_health_monitor/discrepancy/search_drives.h"
 #include "suspension_health_monitor/signal/period_measurement.h"
+#include "suspension_health_monitor/signal/recent_samples.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
@@ -26,6 +28,17 @@ class ImuPipeline {
   ImuPipeline(const PipelineOptions& options, Sink sink);
 
   void push(Side side, const sensor_msgs::Imu& imu);
+
+  /// Has these effects in the model from now on, see SuspensionMonitor::setEffects().
+  /// @throws std::invalid_argument  as there; while the sample period is being measured, the samples that end this do.
+  void setEffects(const std::vector<ActiveEffect>& effects);
+
+  /// From now on keeps the newest samples: those of `span` [s], at most kMostKept.
+  void keepSamples(double span);
+  static constexpr std::size_t kMostKept = 4000000;  // 24 bytes each
+
+  /// @return the samples kept that are at most `span` [s] older than the newest one, in the order of time.
+  DriveSamples newestSamples(double span) const;
 
   /// @return the monitor; nullptr while the sample period is being measured.
   const SuspensionMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
@@ -50,6 +63,9 @@ class ImuPipeline {
   std::vector<Reading> early_;  // readings that wait for the sample period
   std::optional<UniformGrid> grid_;
   std::optional<SuspensionMonitor> monitor_;
+  std::vector<ActiveEffect> effects_;  // until there is a monitor
+  std::optional<double> kept_span_;    // [s]
+  std::optional<RecentSamples> recent_;
   RejectCounts rejected_;
 };
 

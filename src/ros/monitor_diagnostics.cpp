@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "search_words.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -27,11 +29,16 @@ void addJudgement(diagnostic_updater::DiagnosticStatusWrapper& status, const std
 
 MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                        const std::string& name, const ShellOptions& options,
-                                       const std::array<ros::Subscriber, 2>& imu)
-    : options_(options), topics_{imu[0].getTopic(), imu[1].getTopic()}, updater_(node, private_node, name) {
+                                       const std::array<ros::Subscriber, 2>& imu,
+                                       const LiveModel& model)
+    : options_(options),
+      model_(model),
+      topics_{imu[0].getTopic(), imu[1].getTopic()},
+      updater_(node, private_node, name) {
   updater_.setHardwareID(options.hardware_id);
   updater_.add("Input", this, &MonitorDiagnostics::describeInput);
   updater_.add("Health", this, &MonitorDiagnostics::describeHealth);
+  updater_.add("Model", this, &MonitorDiagnostics::describeModel);
 }
 
 bool MonitorDiagnostics::noteLevel(HealthLevel level) {
@@ -109,8 +116,39 @@ void MonitorDiagnostics::describeHealth(Status& status) {
   const MonitorOptions& options = monitor->options();
   addJudgement(status, "damping_to_mass", options.nominal_damping_to_mass, report.health.damping_change);
   addJudgement(status, "stiffness_to_mass", options.nominal_stiffness_to_mass, report.health.stiffness_change);
-  status.addf("free run rmse [m/s^2]", "%.4g", report.comparison.rmse);
-  status.addf("free run fit [%]", "%.2f", report.comparison.fit_percent);
+}
+
+void MonitorDiagnostics::describeModel(Status& status) {
+  const SuspensionMonitor* monitor = pipeline_->monitor();
+  if (monitor == nullptr) {
+    status.summary(DiagnosticStatus::STALE, "measuring the sample period");
+    return;
+  }
+  status.summary(DiagnosticStatus::OK, model_.describe());
+  const ComparisonReport& comparison = monitor->report().comparison;
+  status.addf("rmse [m/s^2]", "%.4g", comparison.rmse);
+  status.addf("fit [%]", "%.2f", comparison.fit_percent);
+  status.addf("base rmse [m/s^2]", "%.4g", comparison.base_rmse);
+  status.addf("base fit [%]", "%.2f", comparison.base_fit_percent);
+  for (const ActiveEffect& active : monitor->effects())
+    status.addf(active.effect.name + " [" + active.effect.unit + "]", "%.5g", active.coefficient);
+  describeDiagnosis(status);
+}
+
+void MonitorDiagnostics::describeDiagnosis(Status& status) const {
+  const std::optional<Diagnosis>& diagnosis = model_.diagnosis();
+  if (!diagnosis) return;
+  const SearchResult& result = diagnosis->result;
+  if (const std::vector<std::string> missing = model_.missing(); !missing.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, "the last diagnosis found, not in the model: " + join(missing, ", "));
+  if (result.verdict == Verdict::kUnexplained)
+    status.mergeSummary(DiagnosticStatus::WARN, "the last diagnosis: something is missing that no effect explains");
+  status.add("diagnosed", nameOf(result.verdict));
+  status.add("diagnosed effects", join(result.selected, ", "));
+  status.addf("diagnosed structured share [%]", "%.1f", 100.0 * result.structured_share);
+  status.addf("diagnosed noise floor [m/s^2]", "%.4g", result.noise_floor);
+  status.addf("diagnosed from stamp [s]", "%.3f", toSeconds(diagnosis->from));
+  status.addf("diagnosed to stamp [s]", "%.3f", toSeconds(diagnosis->to));
 }
 
 }  // namespace suspension_health_monitor

@@ -8,15 +8,17 @@
 #include <string>
 
 #include "imu_pipeline.h"
+#include "live_model.h"
 
 namespace suspension_health_monitor {
 
-/// What /diagnostics says of one strut: one task for the input, one for the strut's health.
+/// What /diagnostics says of one strut: a task each for the input, the strut's health, and the model.
 class MonitorDiagnostics {
  public:
-  /// @param imu  the two subscriptions, for their topic names.
+  /// @param imu  the two subscriptions, for their topic names.  @param model  outlives this object.
   MonitorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name,
-                     const ShellOptions& options, const std::array<ros::Subscriber, 2>& imu);
+                     const ShellOptions& options, const std::array<ros::Subscriber, 2>& imu,
+                     const LiveModel& model);
 
   void noteMessage(Side side) { last_message_[static_cast<std::size_t>(side)] = ros::WallTime::now(); }
 
@@ -36,9 +38,12 @@ class MonitorDiagnostics {
 
   void describeInput(Status& status);
   void describeHealth(Status& status);
+  void describeModel(Status& status);
+  void describeDiagnosis(Status& status) const;
   void describeSilence(Status& status) const;
 
   ShellOptions options_;
+  const LiveModel& model_;
   std::array<std::string, 2> topics_;
   std::array<std::optional<ros::WallTime>, 2> last_message_;
   std::optional<HealthLevel> level_;

@@ -5,12 +5,26 @@
 #include "parameters.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+LiveModel::Shapes shapesOf(const SetEffectsRequest& request) {
+  if (request.shape_names.size() != request.shape_values.size())
+    throw std::invalid_argument(std::to_string(request.shape_values.size()) + " shape_values, must be as many as " +
+                                "shape_names: " + std::to_string(request.shape_names.size()));
+  LiveModel::Shapes shapes;
+  for (std::size_t i = 0; i < request.shape_names.size(); ++i)
+    shapes[request.shape_names[i]] = request.shape_values[i];
+  return shapes;
+}
+
+}  // namespace
 
 MonitorNodelet::~MonitorNodelet() {
   // Nothing may call back into members that are already gone.
+  diagnose_.reset();
   tick_.stop();
   for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
-  reset_.shutdown();
+  for (ros::ServiceServer& service : services_) service.shutdown();
 }
 
 void MonitorNodelet::onInit() {
@@ -18,21 +32,38 @@ void MonitorNodelet::onInit() {
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   startOrRefuse(private_node, [&] {
     options_ = PipelineOptions::fromValues(readParameters(private_node));
+    model_.emplace(options_.shell);
     makePipeline();
   });
+  for (const std::string& remark : model_->remarks()) NODELET_WARN("%s", remark.c_str());
   const auto queue_size = static_cast<std::uint32_t>(options_.shell.queue_size);
   ls_ = private_node.advertise<ParameterEstimate>("ls", queue_size);
   la_ = private_node.advertise<ParameterEstimate>("la", queue_size);
   comparison_ = private_node.advertise<ModelComparison>("comparison", queue_size);
   health_ = private_node.advertise<SuspensionHealth>("health", queue_size);
-  reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
   subscribe();
-  diagnostics_.emplace(node, private_node, getName(), options_.shell, imu_);
+  diagnostics_.emplace(node, private_node, getName(), options_.shell, imu_, *model_);
+  advertiseServices();
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
 }
 
 void MonitorNodelet::makePipeline() {
   pipeline_.emplace(options_, [this](const MonitorReport& report) { publish(report); });
+  pipeline_->setEffects(model_->effects());
+  pipeline_->keepSamples(options_.shell.diagnose_window);
+}
+
+void MonitorNodelet::advertiseServices() {
+  ros::NodeHandle& private_node = getPrivateNodeHandle();
+  services_ = {private_node.advertiseService("reset", &MonitorNodelet::onReset, this),
+               private_node.advertiseService("set_effects", &MonitorNodelet::onSetEffects, this),
+               private_node.advertiseService("save_model", &MonitorNodelet::onSaveModel, this)};
+  SearchOptions search;
+  search.threads = options_.shell.diagnose_threads;
+  diagnose_.emplace(private_node, *getNodeHandle().getCallbackQueue(),
+                    DiagnoseService::Nodelet{[this](double window) { return giveSamples(window); },
+                                             [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); }},
+                    search);
 }
 
 void MonitorNodelet::subscribe() {
@@ -90,6 +121,63 @@ bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   response.success = true;
   response.message = "estimates, filters and counters start anew";
   return true;
+}
+
+bool MonitorNodelet::onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response) {
+  try {
+    std::vector<ActiveEffect> effects =
+        model_->choose(request.names, shapesOf(request), [this] { return motionScaleNow(); });
+    pipeline_->setEffects(effects);
+    model_->setEffects(std::move(effects));
+    response.success = true;
+    response.message = "the model is now " + model_->describe();
+    onTick();
+  } catch (const std::invalid_argument& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+std::optional<MotionScale> MonitorNodelet::motionScaleNow() const {
+  const SuspensionMonitor* monitor = pipeline_->monitor();
+  if (monitor == nullptr) return std::nullopt;
+  const StrutEstimate& la = monitor->report().la;
+  return motionScale(pipeline_->newestSamples(options_.shell.diagnose_window), monitor->period(), la.damping_to_mass,
+                     la.stiffness_to_mass);
+}
+
+bool MonitorNodelet::onSaveModel(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  const SuspensionMonitor* monitor = pipeline_->monitor();
+  try {
+    if (monitor == nullptr || !monitor->report().la.valid)
+      throw std::runtime_error("nothing to save: the monitor has no valid estimate");
+    const StrutEstimate& la = monitor->report().la;
+    model_->save({la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}});
+    response.success = true;
+    response.message = options_.shell.model_file + ": " + model_->describe();
+  } catch (const std::runtime_error& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+SearchTask MonitorNodelet::giveSamples(double window) const {
+  const double kept = options_.shell.diagnose_window;
+  if (!(window >= 0.0 && window <= kept))
+    throw std::invalid_argument("window = " + std::to_string(window) + " [s], must be in [0, " + std::to_string(kept) +
+                                "] (diagnose/window)");
+  const SuspensionMonitor* monitor = pipeline_->monitor();
+  if (monitor == nullptr) throw std::runtime_error("the sample period is still being measured: drive on");
+  SearchTask task{pipeline_->newestSamples(window > 0.0 ? window : kept), monitor->options(), model_->library(), {}};
+  const StrutEstimate& la = monitor->report().la;
+  if (!model_->effects().empty() && la.valid)
+    task.model = StrutModel{la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}};
+  return task;
+}
+
+void MonitorNodelet::takeDiagnosis(const Diagnosis& diagnosis) {
+  model_->setDiagnosis(diagnosis);
+  onTick();
 }
 
 }  // namespace suspension_health_monitor

@@ -4,19 +4,22 @@
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
+#include <suspension_health_monitor/SetEffects.h>
 
 #include <array>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "diagnose_service.h"
 #include "imu_pipeline.h"
+#include "live_model.h"
 #include "monitor_diagnostics.h"
 
 namespace suspension_health_monitor {
 
 /// Two IMU topics in; estimates, comparison, health and diagnostics out. One per strut.
-/// Every callback comes from one serial queue, so nothing here needs a lock.
+/// Every callback comes from one serial queue, so nothing here needs a lock; ~diagnose works beside it.
 class MonitorNodelet : public nodelet::Nodelet {
  public:
   ~MonitorNodelet() override;
@@ -29,17 +32,25 @@ class MonitorNodelet : public nodelet::Nodelet {
   void publish(const MonitorReport& report);
   void onTick();
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
+  bool onSaveModel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  SearchTask giveSamples(double window) const;
+  void takeDiagnosis(const Diagnosis& diagnosis);
+  std::optional<MotionScale> motionScaleNow() const;
+  void advertiseServices();
   void makePipeline();
   void subscribe();
   void stopListening(const std::string& reason);
 
   PipelineOptions options_;
+  std::optional<LiveModel> model_;
   std::optional<ImuPipeline> pipeline_;
   std::optional<MonitorDiagnostics> diagnostics_;
   std::uint64_t reports_ = 0;
   std::array<std::string, 2> frames_;
   ros::Publisher ls_, la_, comparison_, health_;
-  ros::ServiceServer reset_;
+  std::array<ros::ServiceServer, 3> services_;
+  std::optional<DiagnoseService> diagnose_;
   ros::WallTimer tick_;
   std::array<ros::Subscriber, 2> imu_;
 };

@@ -9,6 +9,17 @@
 namespace suspension_health_monitor {
 namespace {
 
+/// A list of texts as one text with commas, such as the names of effects.
+std::string joined(const std::string& name, XmlRpc::XmlRpcValue& list) {
+  std::string text;
+  for (int i = 0; i < list.size(); ++i) {
+    if (list[i].getType() != XmlRpc::XmlRpcValue::TypeString)
+      throw std::invalid_argument(name + " is a list, must be true or false, a number, a text or a list of texts");
+    text += (i == 0 ? "" : ", ") + static_cast<std::string>(list[i]);
+  }
+  return text;
+}
+
 void flatten(const std::string& name, XmlRpc::XmlRpcValue& value, OptionMap& result) {
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeStruct:
@@ -26,8 +37,11 @@ void flatten(const std::string& name, XmlRpc::XmlRpcValue& value, OptionMap& res
     case XmlRpc::XmlRpcValue::TypeString:
       result[name] = static_cast<std::string>(value);
       break;
+    case XmlRpc::XmlRpcValue::TypeArray:
+      result[name] = joined(name, value);
+      break;
     default:
-      throw std::invalid_argument(name + " is a list or binary, must be true or false, a number or a text");
+      throw std::invalid_argument(name + " is a date or binary, must be true or false, a number or a text");
   }
 }
 

@@ -9,8 +9,8 @@
 namespace suspension_health_monitor {
 
 /// @param private_node  the node's or nodelet's private namespace.
-/// @return all parameters below it, names joined with '/'.
-/// @throws std::invalid_argument  on a value that no option can have (a list, a date, binary), naming it.
+/// @return all parameters below it, names joined with '/', lists of texts with ", ".
+/// @throws std::invalid_argument  on a value that no option can have (a list of numbers, a date, binary), naming it.
 OptionMap readParameters(const ros::NodeHandle& private_node);
 
 /// Runs the part of a nodelet's onInit that may refuse parameters. The nodelet loader drops a nodelet that throws

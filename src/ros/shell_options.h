@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/discrepancy/effect_search.h"
 #include "suspension_health_monitor/monitor_options.h"
 
 namespace suspension_health_monitor {
@@ -16,6 +17,11 @@ struct ShellOptions {
   int queue_size = 1000;
   int publish_every = 1;
   std::string hardware_id = "suspension";
+  std::string effects;
+  std::string model_file;
+  std::string effects_file;
+  double diagnose_window = 120.0;
+  int diagnose_threads = SearchOptions{}.threads;
 };
 
 inline constexpr std::string_view kAxisNames = "x y z -x -y -z";
@@ -32,6 +38,16 @@ inline constexpr std::array kShellFields{
                1000000},
     ShellField{"publish_every", "-", "publish after every n-th sample", &ShellOptions::publish_every, 1, 1000000},
     ShellField{"hardware_id", "-", "name of the strut in /diagnostics", &ShellOptions::hardware_id},
+    ShellField{"effects", "-", "names of effects in the model from the start: a list, or a text with commas",
+               &ShellOptions::effects},
+    ShellField{"model_file", "-", "YAML file with the model: its effects are in from the start, ~save_model writes it",
+               &ShellOptions::model_file},
+    ShellField{"effects_file", "-", "YAML file with laws of your own, beside the catalogue",
+               &ShellOptions::effects_file},
+    ShellField{"diagnose/window", "s", "newest part of the drive that is kept for ~diagnose, at most 4 million samples",
+               &ShellOptions::diagnose_window, 0.01, 1e6},
+    ShellField{"diagnose/threads", "-", "processor cores that ~diagnose may use", &ShellOptions::diagnose_threads, 1,
+               1024},
 };
 
 /// What config/monitor.yaml can set.

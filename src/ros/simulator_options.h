@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <sstream>
 #include <string>
 
 #include "model_file.h"
@@ -20,6 +21,7 @@ struct PublishingOptions {
   double start_delay = 0.0;
   bool shutdown_at_end = false;
   std::string effects_file;
+  std::string hidden;
 };
 
 using PublishingField = OptionField<PublishingOptions>;
@@ -40,6 +42,8 @@ inline constexpr std::array kPublishingFields{
                     &PublishingOptions::shutdown_at_end},
     PublishingField{"effects_file", "-", "YAML file with laws of your own, to hide as effects/NAME/...",
                     &PublishingOptions::effects_file},
+    PublishingField{"hidden", "-", "the same in one text: NAME=COEFFICIENT[,SHAPE=VALUE]..., the next after ';'",
+                    &PublishingOptions::hidden},
 };
 
 /// What config/simulator.yaml can set.
@@ -51,6 +55,7 @@ struct SimulatorOptions {
   static SimulatorOptions fromValues(OptionMap values) {
     SimulatorOptions options;
     takeOptions(values, kPublishingFields, options.publishing);
+    setEffects(values, options.publishing.hidden);
     const EffectLibrary library = readEffectsFile(options.publishing.effects_file);
     options.drive.hidden = takeEffects(values, library.forces);
     options.drive.hidden_faults = takeReadings(values, library.readings);
@@ -58,6 +63,16 @@ struct SimulatorOptions {
     refuseUnknown(values, describe());
     validate(options.drive);
     return options;
+  }
+
+  /// Turns the option `hidden` into settings.
+  static void setEffects(OptionMap& values, const std::string& hidden) {
+    std::istringstream parts(hidden);
+    std::string part;
+    while (std::getline(parts, part, ';')) {
+      part.erase(0, part.find_first_not_of(' '));
+      if (!part.empty()) setEffect(values, part);
+    }
   }
 
   /// @return every option that fromValues() understands.

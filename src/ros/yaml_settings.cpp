@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -10,14 +11,29 @@ namespace {
 
 constexpr int kDeepest = 5;  // no name has more parts; an alias that contains itself has no end
 
+/// A list such as the names of effects; no option is a list of numbers.
+bool isListOfTexts(const YAML::Node& node) {
+  const auto isText = [](const YAML::Node& item) {
+    double number = 0.0;
+    return item.IsScalar() && !YAML::convert<double>::decode(item, number);
+  };
+  return node.IsSequence() && std::all_of(node.begin(), node.end(), isText);
+}
+
+std::string joined(const YAML::Node& list) {
+  std::string text;
+  for (const YAML::Node& item : list) text += (text.empty() ? "" : ", ") + item.as<std::string>();
+  return text;
+}
+
 void flatten(const std::string& name, int depth, const YAML::Node& node, const std::string& file, OptionMap& values) {
   if (node.IsMap() && depth < kDeepest) {
     for (const auto& entry : node) {
       const auto key = entry.first.as<std::string>();
       flatten(name.empty() ? key : name + '/' + key, depth + 1, entry.second, file, values);
     }
-  } else if (node.IsScalar() && !name.empty()) {
-    if (!values.emplace(name, node.as<std::string>()).second)
+  } else if ((node.IsScalar() || isListOfTexts(node)) && !name.empty()) {
+    if (!values.emplace(name, node.IsScalar() ? node.as<std::string>() : joined(node)).second)
       throw std::invalid_argument(file + ": line " + std::to_string(node.Mark().line + 1) + ": " + name +
                                   " is given twice, must be given once");
   } else if (!(node.IsNull() && name.empty())) {  // a file of comments only sets nothing

@@ -6,7 +6,7 @@
 
 namespace suspension_health_monitor {
 
-/// @return the settings of a YAML file, nested names joined with '/'.
+/// @return the settings of a YAML file, nested names joined with '/', lists of texts with ", ".
 /// @throws std::invalid_argument  naming the file, and the line where it is not a tree of names and plain values.
 OptionMap readYaml(const std::string& path);
 

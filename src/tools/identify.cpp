@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "../ros/imu_pipeline.h"
+#include "../ros/live_model.h"
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
@@ -178,6 +179,7 @@ void identify(const Arguments& arguments) {
   requireSeparateFiles(*values, {"bag", "config"}, {"csv", "json"});
   const BagOptions options = readBagOptions(*values);
 
+  const LiveModel model(options.pipeline.shell);
   std::optional<TextFile> csv, json;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
   if (values->count("csv") != 0) csv.emplace((*values)["csv"].as<std::string>());
@@ -190,6 +192,7 @@ void identify(const Arguments& arguments) {
     ever_valid = ever_valid || report.la.valid || report.ls.valid;
     digest.add(report);
   });
+  pipeline.setEffects(model.effects());
   readImuMessages(options.bags, [&](Side side, const sensor_msgs::Imu& imu) {
     pipeline.push(side, imu);
     return true;

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "../ros/search_words.h"
 #include "model_numbers.h"
 
 namespace suspension_health_monitor {
@@ -10,12 +11,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kShownCandidates = 8;
-
-std::string join(const std::vector<std::string>& names, const char* separator) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
-  return text;
-}
 
 json standardDeviations(const ModelFit& fit) {
   json result{{"damping_to_mass", fit.stddev[0]}, {"stiffness_to_mass", fit.stddev[1]}};
@@ -26,30 +21,6 @@ json standardDeviations(const ModelFit& fit) {
         result[name + "/" + shape.name] = fit.stddev[i++];
       });
   return result;
-}
-
-const char* nameOf(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kEffectFound:
-      return "effect_found";
-    case Verdict::kNothingMissing:
-      return "nothing_missing";
-    case Verdict::kUnexplained:
-      break;
-  }
-  return "unexplained";
-}
-
-std::string sentence(const SearchResult& result) {
-  switch (result.verdict) {
-    case Verdict::kEffectFound:
-      return "Missing from the model: " + join(result.selected, " and ") + ".";
-    case Verdict::kNothingMissing:
-      return "Nothing is missing: what the model leaves is noise.";
-    case Verdict::kUnexplained:
-      break;
-  }
-  return "Something is missing, but no known effect explains most of it: no name is given.";
 }
 
 }  // namespace

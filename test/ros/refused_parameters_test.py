@@ -17,6 +17,12 @@ WRONG = {
     "not whole": ({"horizon_samples": 30.5}, ["horizon_samples = 30.5", "a whole number in [1, 100000]"]),
     "list": ({"forgetting_factor": [0.98, 0.99]}, ["forgetting_factor", "list", "must be true or false, a number"]),
     "not one of the words": ({"integration_rule": "euler"}, ['integration_rule = "euler"', "trapezoid", "cubic"]),
+    "unknown effect": ({"effects": ["quadratic_damping", "bump"]},
+                       ['effects = "quadratic_damping, bump"', "effect bump, must be one of", "bump_stop"]),
+    "shape that nobody knows": ({"effects": "bump_stop"}, ["bump_stop/g [m] is not known yet", "model_file"]),
+    "model that is a folder": ({"model_file": "/"}, ["model_file = /: is a folder, must be a YAML file"]),
+    "laws that are not there": ({"effects_file": "/none.yaml"}, ["effects_file = /none.yaml: cannot be read"]),
+    "nested, of the search": ({"diagnose": {"window": 0}}, ["diagnose/window = 0", "must be in [0.01, 1000000]"]),
     "contradiction": ({"horizon_samples": 30, "integration_horizon": 0.6}, ["horizon_samples", "integration_horizon"]),
 }
 WRONG_SIMULATION = {"scenario": "paper_dirty"}

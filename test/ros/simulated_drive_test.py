@@ -69,6 +69,17 @@ class SimulatedDriveTest(unittest.TestCase):
         self.assert_rms_as_in_table(ls, "ls, data loss")
         self.assert_rms_as_in_table(la, "la, data loss")
 
+    def test_hidden_effect_is_told_on_the_truth_alone(self):
+        with launch("simulation.launch", scenario="iso_road", real_time_factor=20, hidden="bump_stop=47,g=0.013; "
+                    "quadratic_damping=1.6", effects="quadratic_damping", duration=30):
+            estimate = self.la.wait_for(lambda message: message.effect_names, 20.0, "an effect in the model")
+            truth = self.truth.wait_for(lambda message: True, 20.0, "the truth")
+            topics = [topic for topic, _ in rospy.get_published_topics("/simulator")]
+        self.assertEqual(estimate.effect_names, ["quadratic_damping"])
+        self.assertEqual(dict(zip(truth.effect_names, truth.effect_coefficients)),
+                         {"bump_stop": 47.0, "quadratic_damping": 1.6})
+        self.assertEqual(topics, ["/simulator/truth"])
+
     def test_separate_nodes_follow_the_truth(self):
         start_time = 1000.0
         drive = {"scenario": "paper_clean", "start_time": start_time, "real_time_factor": 30.0, "seed": SEED}

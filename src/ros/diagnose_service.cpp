@@ -1,0 +1,112 @@
+#include "diagnose_service.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::chrono::milliseconds kPoll{20};
+constexpr std::uint32_t kThreads = 2;  // one for the search, one to refuse another call meanwhile
+constexpr int kNiceness = 10;
+
+/// Ends a search from within its progress report.
+struct Stopped : std::runtime_error {
+  Stopped() : std::runtime_error("the monitor is shutting down") {}
+};
+
+/// Work for a callback queue.
+class Work : public ros::CallbackInterface {
+ public:
+  explicit Work(std::function<void()> run) : run_(std::move(run)) {}
+  CallResult call() override {
+    run_();
+    return Success;
+  }
+
+ private:
+  std::function<void()> run_;
+};
+
+/// Sets a flag for as long as it lives.
+class Running {
+ public:
+  explicit Running(std::atomic<bool>& flag) : flag_(flag), first_(!flag.exchange(true)) {}
+  ~Running() {
+    if (first_) flag_ = false;
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  /// false: somebody else holds the flag.
+  bool first() const { return first_; }
+
+ private:
+  std::atomic<bool>& flag_;
+  const bool first_;
+};
+
+}  // namespace
+
+DiagnoseService::DiagnoseService(const ros::NodeHandle& private_node, ros::CallbackQueueInterface& nodelet_queue,
+                                 Nodelet nodelet, const SearchOptions& options)
+    : nodelet_queue_(nodelet_queue), nodelet_(std::move(nodelet)), options_(options), spinner_(kThreads, &queue_) {
+  ros::NodeHandle node(private_node);
+  node.setCallbackQueue(&queue_);
+  server_ = node.advertiseService("diagnose", &DiagnoseService::onDiagnose, this);
+  spinner_.start();
+}
+
+DiagnoseService::~DiagnoseService() {
+  stopping_ = true;
+  server_.shutdown();  // waits for calls that run, and they see stopping_
+  spinner_.stop();
+  nodelet_queue_.removeByID(owner());
+}
+
+bool DiagnoseService::onDiagnose(DiagnoseRequest& request, DiagnoseResponse& response) {
+  const Running running(running_);
+  if (!running.first()) {
+    response.message = "a search is running already: call again when it has ended";
+    return true;
+  }
+  try {
+    response = answer(request.window);
+  } catch (const Stopped&) {
+    return false;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+DiagnoseResponse DiagnoseService::answer(double window) {
+  // Of this thread and those that it starts: on a busy machine the samples go first. Without effect if it fails.
+  setpriority(PRIO_PROCESS, 0, kNiceness);
+  const auto task = inNodelet<SearchTask>([give = nodelet_.give, window] { return give(window); });
+  const auto diagnosis =
+      std::make_shared<const Diagnosis>(searchEffects(task, options_, [this](double) { stopIfAsked(); }));
+  inNodelet<void>([take = nodelet_.take, diagnosis] { take(*diagnosis); });
+  return toResponse(diagnosis->result);
+}
+
+// The work owns all that it touches, as nobody may wait for it any more when it is done.
+template <class Result>
+Result DiagnoseService::inNodelet(std::function<Result()> work) {
+  const auto task = std::make_shared<std::packaged_task<Result()>>(std::move(work));
+  std::future<Result> result = task->get_future();
+  nodelet_queue_.addCallback(boost::make_shared<Work>([task] { (*task)(); }), owner());
+  while (result.wait_for(kPoll) != std::future_status::ready) stopIfAsked();
+  return result.get();
+}
+
+void DiagnoseService::stopIfAsked() const {
+  if (stopping_ || !ros::ok() || ros::isShuttingDown()) throw Stopped();
+}
+
+}  // namespace suspension_health_monitor

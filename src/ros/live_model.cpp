@@ -1,0 +1,159 @@
+#include "live_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+#include "model_file.h"
+#include "search_words.h"
+#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/model/model_settings.h"
+#include "whole_file.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+/// Puts the option's name before the words of what take() throws.
+void named(const std::string& option, const std::function<void()>& take) {
+  try {
+    take();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(option + error.what());
+  }
+}
+
+/// The names of a text with commas.
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> names;
+  std::istringstream parts(text);
+  std::string part;
+  while (std::getline(parts, part, ',')) {
+    const std::size_t first = part.find_first_not_of(" \t");
+    if (first != std::string::npos) names.push_back(part.substr(first, part.find_last_not_of(" \t") + 1 - first));
+  }
+  return names;
+}
+
+const ActiveEffect* find(const std::vector<ActiveEffect>& effects, const std::string& name) {
+  const auto found = std::find_if(effects.begin(), effects.end(),
+                                  [&](const ActiveEffect& active) { return active.effect.name == name; });
+  return found == effects.end() ? nullptr : &*found;
+}
+
+/// As the final fit has the effect, else as it was fitted alone.
+const ActiveEffect* find(const SearchResult& result, const std::string& name) {
+  if (result.final_fit)
+    if (const ActiveEffect* active = find(result.final_fit->model.effects, name)) return active;
+  for (const RankedModel& ranked : result.ranking)
+    if (const ActiveEffect* active = find(ranked.model.effects, name)) return active;
+  return nullptr;
+}
+
+double middle(const std::string& name, const ShapeParameter& shape, const LiveModel::Scale& scale) {
+  const double plain = std::sqrt(shape.min * shape.max);
+  if (shape.scale == ShapeScale::kNone) return plain;
+  const std::optional<MotionScale> motion = scale();
+  if (!motion)
+    throw std::invalid_argument(name + " [" + shape.unit +
+                                "] is not known yet: give it, give a model_file that has it, call ~diagnose, or drive "
+                                "on until the monitor can tell how far the strut moves");
+  return plain * motion->unit(shape.scale);
+}
+
+}  // namespace
+
+LiveModel::LiveModel(const ShellOptions& options) : model_file_(options.model_file) {
+  named("effects_file = ", [&] { library_ = readEffectsFile(options.effects_file); });
+  if (!model_file_.empty() && std::filesystem::exists(model_file_))
+    named("model_file = ", [&] { loaded_ = readModelFile(model_file_, library_); });
+  if (loaded_) effects_ = loaded_->effects;
+  std::vector<std::string> names;
+  for (const ActiveEffect& active : effects_) names.push_back(active.effect.name);
+  for (const std::string& name : split(options.effects))
+    if (find(effects_, name) == nullptr) names.push_back(name);
+  named("effects = \"" + options.effects + "\": ",
+        [&] { effects_ = choose(names, {}, [] { return std::nullopt; }); });
+}
+
+const ActiveEffect* LiveModel::known(const std::string& name) const {
+  const ActiveEffect* active = diagnosis_ ? find(diagnosis_->result, name) : nullptr;
+  if (active == nullptr && loaded_) active = find(loaded_->effects, name);
+  return active != nullptr ? active : find(effects_, name);
+}
+
+ActiveEffect LiveModel::make(const std::string& name, Shapes& given, const Scale& scale) const {
+  ActiveEffect made{findEffect(library_.forces, name), 0.0, {}};
+  const ActiveEffect* known_effect = known(name);
+  for (std::size_t i = 0; i < made.effect.shapes.size(); ++i) {
+    const ShapeParameter& shape = made.effect.shapes[i];
+    const std::string full = name + '/' + shape.name;
+    if (const auto found = given.find(full); found != given.end()) {
+      if (!(found->second > 0.0 && std::isfinite(found->second)))
+        throw std::invalid_argument(full + " = " + std::to_string(found->second) + " [" + shape.unit +
+                                    "], must be above 0");
+      made.shapes.push_back(found->second);
+      given.erase(found);
+    } else {
+      made.shapes.push_back(known_effect != nullptr ? known_effect->shapes[i] : middle(full, shape, scale));
+    }
+  }
+  // A coefficient is a good start only for the shapes that it was found with.
+  if (known_effect != nullptr && made.shapes == known_effect->shapes) made.coefficient = known_effect->coefficient;
+  return made;
+}
+
+std::vector<ActiveEffect> LiveModel::choose(const std::vector<std::string>& names, Shapes given,
+                                            const Scale& scale) const {
+  if (names.size() > StrutState::kMostEffects)
+    throw std::invalid_argument(std::to_string(names.size()) + " effects, must be at most " +
+                                std::to_string(StrutState::kMostEffects));
+  std::vector<ActiveEffect> chosen;
+  for (const std::string& name : names) {
+    if (find(chosen, name) != nullptr)
+      throw std::invalid_argument("effect " + name + " is named twice, must be named once");
+    chosen.push_back(make(name, given, scale));
+  }
+  if (given.empty()) return chosen;
+  std::vector<std::string> shapes;
+  for (const ActiveEffect& active : chosen)
+    for (const ShapeParameter& shape : active.effect.shapes) shapes.push_back(active.effect.name + '/' + shape.name);
+  throw std::invalid_argument("shape " + given.begin()->first + ", must be " +
+                              (shapes.empty() ? "left out: these effects have none" : "one of " + join(shapes, ", ")));
+}
+
+std::string LiveModel::describe() const {
+  std::vector<std::string> names;
+  for (const ActiveEffect& active : effects_) names.push_back(active.effect.name);
+  return names.empty() ? "the linear strut" : "the linear strut with " + join(names, ", ");
+}
+
+std::vector<std::string> LiveModel::remarks() const {
+  std::vector<std::string> all;
+  if (!model_file_.empty() && !loaded_)
+    all.push_back("model_file " + model_file_ + " is not there yet: starting with " + describe());
+  if (loaded_)
+    for (const ActiveMeasurementEffect& reading : loaded_->reading)
+      all.push_back(model_file_ + ": " + reading.effect.name +
+                    " is a fault of a sensor, which the live model cannot have: mend the sensor");
+  return all;
+}
+
+std::vector<std::string> LiveModel::missing() const {
+  std::vector<std::string> names;
+  if (!diagnosis_) return names;
+  for (const std::string& name : diagnosis_->result.selected)
+    if (find(effects_, name) == nullptr) names.push_back(name);
+  return names;
+}
+
+void LiveModel::save(StrutModel model) const {
+  if (model_file_.empty()) throw std::runtime_error("no file to write to: set the parameter model_file");
+  if (loaded_) model.reading = loaded_->reading;
+  TextFile file(model_file_);
+  std::fputs(toYaml(model).c_str(), file.stream());
+  file.commit();
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis.h"
+#include "shell_options.h"
+#include "suspension_health_monitor/discrepancy/motion_scale.h"
+
+namespace suspension_health_monitor {
+
+/// Which effects a live model may have, has, and where the numbers inside them come from.
+class LiveModel {
+ public:
+  using Shapes = std::map<std::string, double>;  ///< by NAME/SHAPE, SI
+  using Scale = std::function<std::optional<MotionScale>()>;
+
+  /// Reads effects_file and model_file; a model_file that is not there yet holds nothing.
+  /// The model has the file's effects and those of the option `effects`.
+  /// @throws std::invalid_argument  naming option or file, the value, and what is allowed.
+  explicit LiveModel(const ShellOptions& options);
+
+  const EffectLibrary& library() const { return library_; }
+
+  /// What the model has: coefficients are start values.
+  const std::vector<ActiveEffect>& effects() const { return effects_; }
+  void setEffects(std::vector<ActiveEffect> effects) { effects_ = std::move(effects); }
+
+  /// @return what the model is, in a few words.
+  std::string describe() const;
+
+  /// @return what of model_file is not as somebody may think: that it is not there, that it has faults of a reading.
+  std::vector<std::string> remarks() const;
+
+  /// Effects by name. A shape is as given, else as the last diagnosis fitted it, else as in model_file, else as the
+  /// model has it, else the middle (geometric mean) of its range for the drive's scale.
+  /// @param scale  asked only for such a middle.
+  /// @throws std::invalid_argument  naming what is unknown or twice, and what is allowed; a shape not known yet.
+  std::vector<ActiveEffect> choose(const std::vector<std::string>& names, Shapes given, const Scale& scale) const;
+
+  const std::optional<Diagnosis>& diagnosis() const { return diagnosis_; }
+  void setDiagnosis(const Diagnosis& diagnosis) { diagnosis_ = diagnosis; }
+
+  /// @return the effects that the last diagnosis found and the model does not have.
+  std::vector<std::string> missing() const;
+
+  /// Writes the model to model_file, whole or not at all.
+  /// @param model  as it is now; faults of a reading stay as model_file has them.
+  /// @throws std::runtime_error  naming the file that cannot be written, or the option that is not given.
+  void save(StrutModel model) const;
+
+ private:
+  const ActiveEffect* known(const std::string& name) const;
+  ActiveEffect make(const std::string& name, Shapes& given, const Scale& scale) const;
+
+  std::string model_file_;
+  EffectLibrary library_;
+  std::optional<StrutModel> loaded_;
+  std::vector<ActiveEffect> effects_;
+  std::optional<Diagnosis> diagnosis_;
+};
+
+}  // namespace suspension_health_monitor
