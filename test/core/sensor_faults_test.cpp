@@ -36,7 +36,7 @@ TEST(BodySway, HasTheRmsThatIsAskedForAndItsDerivativeIsOne) {
       ASSERT_NEAR(now.angular_acceleration[axis], (after.angular_rate[axis] - before.angular_rate[axis]) / (2 * h), 1e-4);
     }
   }
-  for (std::size_t axis = 0; axis < 2; ++axis) {  // sines of 0.03 Hz and more: 600 s are 18 periods of the slowest
+  for (std::size_t axis = 0; axis < 2; ++axis) {  // sines of 0.1 Hz and more: 600 s are 60 periods of the slowest
     EXPECT_NEAR(std::sqrt(acceleration[axis] / kMoments), 1.0, 0.05);
     EXPECT_NEAR(std::sqrt(rate[axis] / kMoments), 0.1, 0.005);
   }

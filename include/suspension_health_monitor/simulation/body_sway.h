@@ -17,8 +17,8 @@ struct Sway {
 };
 
 /// The random motion of a body that brakes, corners, pitches and rolls: on each axis a sum of sines of random frequency
-/// and phase, 0.03 to 1 Hz for the accelerations, 0.3 to 4 Hz for the angular rates. Nothing else about it is physical;
-/// it does not act back on the strut.
+/// and phase, 0.1 to 1 Hz for the accelerations, which so cancel over a drive, 0.3 to 4 Hz for the angular rates.
+/// Nothing else about it is physical; it does not act back on the strut.
 class BodySway {
  public:
   explicit BodySway(const SimulationOptions& options);

@@ -23,7 +23,7 @@ BodySway::BodySway(const SimulationOptions& options) {
     }
     return sines;
   };
-  for (Sines& sines : accelerations_) sines = draw(options.body_acceleration, 0.03, 1.0);
+  for (Sines& sines : accelerations_) sines = draw(options.body_acceleration, 0.1, 1.0);
   for (Sines& sines : rates_) sines = draw(options.body_rate, 0.3, 4.0);
 }
 
