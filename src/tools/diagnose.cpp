@@ -8,6 +8,7 @@
 #include "command.h"
 #include "errors.h"
 #include "progress.h"
+#include "report_page.h"
 #include "search_report.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
@@ -75,6 +76,27 @@ std::deque<DriveRecord> makeRecords(const std::vector<std::vector<CornerSample>>
   return records;
 }
 
+std::string fileName(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
+/// The page for people; what the search found is compared with the drives before and after.
+void report(ReportPage& page, const SearchResult& search, const EffectLibrary& library,
+            const std::vector<const DriveRecord*>& drives, const std::vector<std::string>& paths) {
+  const std::optional<Comparison> before = compareModel(drives, search.base.model);
+  if (!before) throw TooLittleError("the drives hold too little for a report");
+  std::optional<Comparison> after;
+  if (search.final_fit) {
+    ComparisonOptions as_found;
+    as_found.fit = false;
+    after = compareModel(drives, search.final_fit->model, as_found);
+  }
+  std::vector<std::string> names;
+  for (const std::string& path : paths) names.push_back(fileName(path));
+  page.write({search, library, drives, names, *before, after ? &*after : nullptr});
+}
+
 }  // namespace
 
 void diagnose(const Arguments& arguments) {
@@ -82,6 +104,7 @@ void diagnose(const Arguments& arguments) {
   addBagOptions(description);
   auto add = description.add_options();
   add("output,o", po::value<std::string>(), "write the model that was found as YAML");
+  add("report", po::value<std::string>(), "write DIR/report.html: the search as a page with figures");
   add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       "processor cores to use");
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
@@ -92,18 +115,21 @@ void diagnose(const Arguments& arguments) {
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
   const BagOptions options = readBagOptions(*values);
   std::optional<TextFile> json, model;
+  std::optional<ReportPage> page;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
   if (values->count("output") != 0) model.emplace((*values)["output"].as<std::string>());
+  if (values->count("report") != 0) page.emplace((*values)["report"].as<std::string>());
 
   const std::vector<std::vector<CornerSample>> drives = readDrives(options);
   const StrutModel rough = roughModel(drives, options.pipeline.monitor);
   const std::deque<DriveRecord> records = makeRecords(drives, *options.pipeline.monitor.sample_period, rough);
   std::vector<const DriveRecord*> pointers;
   for (const DriveRecord& record : records) pointers.push_back(&record);
+  const EffectLibrary library = builtInEffects();
   SearchOptions search;
   search.threads = threads;
   Progress progress("fitting", 1.0);
-  const std::optional<SearchResult> result = EffectSearch(builtInEffects(), search)
+  const std::optional<SearchResult> result = EffectSearch(library, search)
                                                  .run(pointers, rough, [&](double share) { progress.update(share); });
   if (!result)
     throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");
@@ -117,6 +143,7 @@ void diagnose(const Arguments& arguments) {
     writeModel(*result, model->stream());
     model->commit();
   }
+  if (page) report(*page, *result, library, pointers, options.bags.paths);
 }
 
 }  // namespace suspension_health_monitor
