@@ -1,15 +1,16 @@
 #pragma once
 
 #include <array>
+#include <string>
 
-#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "model_file.h"
 #include "suspension_health_monitor/model/effect_settings.h"
 #include "suspension_health_monitor/option_table.h"
 #include "suspension_health_monitor/simulation/scenario.h"
 
 namespace suspension_health_monitor {
 
-/// How a simulated drive is published.
+/// How a simulated drive is published, and what it may hide.
 struct PublishingOptions {
   double gravity = 9.81;
   double start_time = 0.0;
@@ -18,6 +19,7 @@ struct PublishingOptions {
   bool wait_for_subscribers = true;
   double start_delay = 0.0;
   bool shutdown_at_end = false;
+  std::string effects_file;
 };
 
 using PublishingField = OptionField<PublishingOptions>;
@@ -36,6 +38,8 @@ inline constexpr std::array kPublishingFields{
                     &PublishingOptions::start_delay, 0.0, 3600.0},
     PublishingField{"shutdown_at_end", "-", "shut the node or the nodelet manager down after the drive",
                     &PublishingOptions::shutdown_at_end},
+    PublishingField{"effects_file", "-", "YAML file with laws of your own, to hide as effects/NAME/...",
+                    &PublishingOptions::effects_file},
 };
 
 /// What config/simulator.yaml can set.
@@ -46,9 +50,9 @@ struct SimulatorOptions {
   /// @throws std::invalid_argument  naming an unknown name, or a value that is wrong and what is allowed.
   static SimulatorOptions fromValues(OptionMap values) {
     SimulatorOptions options;
-    options.drive.hidden = takeEffects(values, forceEffects());
-    takeOptions(values, kSimulationFields, options.drive);
     takeOptions(values, kPublishingFields, options.publishing);
+    options.drive.hidden = takeEffects(values, readEffectsFile(options.publishing.effects_file).forces);
+    takeOptions(values, kSimulationFields, options.drive);
     refuseUnknown(values, describe());
     validate(options.drive);
     return options;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "../ros/model_file.h"
 #include "option_sources.h"
 #include "survey.h"
 
@@ -44,6 +45,26 @@ BagOptions readBagOptions(const po::variables_map& values) {
   options.period_measured = !monitor.sample_period;
   options.horizon_measured = !monitor.integration_horizon && !monitor.horizon_samples;
   if (options.period_measured || options.horizon_measured) measureOpenSettings(bags, options.pipeline);
+  return options;
+}
+
+void addEffectsFile(po::options_description& description) {
+  description.add_options()(kEffectsFile, po::value<std::string>()->default_value(""),
+                            "YAML file with laws of your own, beside the catalogue");
+}
+
+void addModelOptions(po::options_description& description) {
+  addEffectsFile(description);
+  description.add_options()(kModel, po::value<std::string>(), "YAML file with the model, as diagnose -o writes it");
+}
+
+EffectLibrary readEffects(const po::variables_map& values) {
+  return readEffectsFile(values[kEffectsFile].as<std::string>());
+}
+
+ModelOptions readModelOptions(const po::variables_map& values) {
+  ModelOptions options{readEffects(values), std::nullopt};
+  if (values.count(kModel) != 0) options.model = readModelFile(values[kModel].as<std::string>(), options.library);
   return options;
 }
 

@@ -2,10 +2,13 @@
 
 #include <boost/program_options.hpp>
 
+#include <optional>
 #include <string>
 
 #include "../ros/shell_options.h"
 #include "imu_bags.h"
+#include "suspension_health_monitor/model/effect_library.h"
+#include "suspension_health_monitor/model/strut_model.h"
 
 namespace suspension_health_monitor {
 
@@ -23,5 +26,26 @@ void addBagOptions(boost::program_options::options_description& description);
 /// Collects the common options; reads the beginning of the bags for what the settings leave open.
 /// @throws std::invalid_argument, InputError, TooLittleError  as command.h.
 BagOptions readBagOptions(const boost::program_options::variables_map& values);
+
+/// Names of the options that addModelOptions() adds; their values are files that are read.
+inline constexpr const char* kEffectsFile = "effects-file";
+inline constexpr const char* kModel = "model";
+
+/// What a model may be made of, and the model that the user brings.
+struct ModelOptions {
+  EffectLibrary library;
+  std::optional<StrutModel> model;
+};
+
+void addModelOptions(boost::program_options::options_description& description);
+
+/// @throws std::invalid_argument  naming the file and what is wrong in it.
+ModelOptions readModelOptions(const boost::program_options::variables_map& values);
+
+/// @return the catalogue and the laws of --effects-file.
+EffectLibrary readEffects(const boost::program_options::variables_map& values);
+
+/// Adds --effects-file alone.
+void addEffectsFile(boost::program_options::options_description& description);
 
 }  // namespace suspension_health_monitor

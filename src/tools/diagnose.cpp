@@ -1,80 +1,21 @@
-#include <cmath>
 #include <cstdio>
-#include <deque>
 #include <thread>
 
+#include "../ros/whole_file.h"
 #include "bag_options.h"
-#include "bag_samples.h"
 #include "command.h"
+#include "drives.h"
 #include "errors.h"
 #include "progress.h"
 #include "report_page.h"
 #include "search_report.h"
-#include "suspension_health_monitor/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/identification/suspension_regression.h"
-#include "suspension_health_monitor/model/effect_library.h"
-#include "suspension_health_monitor/signal/continuity.h"
-#include "whole_file.h"
+#include "separate_files.h"
+#include "suspension_health_monitor/model/model_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 namespace po = boost::program_options;
-
-constexpr double kLongestStep = 0.35;  // of the strut's fastest time, for the free run's integration
-
-/// All samples of each bag.
-std::vector<std::vector<CornerSample>> readDrives(const BagOptions& options) {
-  std::vector<std::vector<CornerSample>> drives;
-  for (const std::string& path : options.bags.paths) {
-    ImuBags bag = options.bags;
-    bag.paths = {path};
-    drives.emplace_back();
-    readSamples(bag, options.pipeline, [&](const CornerSample& sample) {
-      drives.back().push_back(sample);
-      return true;
-    });
-  }
-  return drives;
-}
-
-/// Rough parameters by least squares over all drives, where the search starts.
-StrutModel roughModel(const std::vector<std::vector<CornerSample>>& drives, const MonitorOptions& options) {
-  const double period = *options.sample_period;
-  RecursiveOptions recursive;
-  recursive.forgetting_factor = 1.0;
-  RecursiveLeastSquares least_squares(kNumStrutParameters, recursive);
-  for (const std::vector<CornerSample>& drive : drives) {
-    SuspensionRegression regression(options.filter(period));
-    const CornerSample* last = nullptr;
-    for (const CornerSample& sample : drive) {
-      if (last != nullptr &&
-          continuity(sample.stamp - last->stamp, fromSeconds(period)) != Continuity::kContinues)
-        regression.reset();
-      if (const RegressionRow* row = regression.push(sample)) least_squares.update(*row);
-      last = &sample;
-    }
-  }
-  const Eigen::VectorXd& theta = least_squares.parameters();
-  if (!(theta[kDampingToMass] > 0.0 && theta[kStiffnessToMass] > 0.0))
-    throw TooLittleError("the drives show no damped spring (least squares: damping/mass " +
-                         std::to_string(theta[kDampingToMass]) + ", stiffness/mass " +
-                         std::to_string(theta[kStiffnessToMass]) + ")");
-  return {theta[kDampingToMass], theta[kStiffnessToMass], {}, {}};
-}
-
-std::deque<DriveRecord> makeRecords(const std::vector<std::vector<CornerSample>>& drives, double period,
-                                    const StrutModel& rough) {
-  const double fastest = std::max(rough.damping_to_mass, std::sqrt(rough.stiffness_to_mass));
-  const int steps = std::max(1, static_cast<int>(std::ceil(period * fastest / kLongestStep)));
-  std::deque<DriveRecord> records;
-  for (const std::vector<CornerSample>& drive : drives) {
-    DriveRecord& record = records.emplace_back(period, steps);
-    for (const CornerSample& sample : drive) record.push(sample);
-    record.finish();
-  }
-  return records;
-}
 
 std::string fileName(const std::string& path) {
   const std::size_t slash = path.find_last_of('/');
@@ -102,6 +43,7 @@ void report(ReportPage& page, const SearchResult& search, const EffectLibrary& l
 void diagnose(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
+  addModelOptions(description);
   auto add = description.add_options();
   add("output,o", po::value<std::string>(), "write the model that was found as YAML");
   add("report", po::value<std::string>(), "write DIR/report.html: the search as a page with figures");
@@ -109,10 +51,11 @@ void diagnose(const Arguments& arguments) {
       "processor cores to use");
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "config"}, {"json", "output"});
+  requireSeparateFiles(*values, {"bag", "config", kEffectsFile, kModel}, {"json", "output"});
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
+  const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values);
   std::optional<TextFile> json, model;
   std::optional<ReportPage> page;
@@ -120,17 +63,14 @@ void diagnose(const Arguments& arguments) {
   if (values->count("output") != 0) model.emplace((*values)["output"].as<std::string>());
   if (values->count("report") != 0) page.emplace((*values)["report"].as<std::string>());
 
-  const std::vector<std::vector<CornerSample>> drives = readDrives(options);
-  const StrutModel rough = roughModel(drives, options.pipeline.monitor);
-  const std::deque<DriveRecord> records = makeRecords(drives, *options.pipeline.monitor.sample_period, rough);
-  std::vector<const DriveRecord*> pointers;
-  for (const DriveRecord& record : records) pointers.push_back(&record);
-  const EffectLibrary library = builtInEffects();
+  const BagDrives drives = readDrives(options, models.model);
+  const std::vector<const DriveRecord*> records = pointersTo(drives.records);
   SearchOptions search;
   search.threads = threads;
   Progress progress("fitting", 1.0);
-  const std::optional<SearchResult> result = EffectSearch(library, search)
-                                                 .run(pointers, rough, [&](double share) { progress.update(share); });
+  const std::optional<SearchResult> result =
+      EffectSearch(models.library, search)
+          .run(records, drives.start, [&](double share) { progress.update(share); });
   if (!result)
     throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");
 
@@ -140,10 +80,10 @@ void diagnose(const Arguments& arguments) {
     json->commit();
   }
   if (model) {
-    writeModel(*result, model->stream());
+    std::fputs(toYaml(result->final_fit ? result->final_fit->model : result->base.model).c_str(), model->stream());
     model->commit();
   }
-  if (page) report(*page, *result, library, pointers, options.bags.paths);
+  if (page) report(*page, *result, models.library, records, options.bags.paths);
 }
 
 }  // namespace suspension_health_monitor

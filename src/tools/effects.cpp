@@ -1,14 +1,16 @@
 #include <cstdio>
 
+#include "bag_options.h"
 #include "command.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
-#include "suspension_health_monitor/model/measurement_effect.h"
 
 namespace suspension_health_monitor {
 
 void effects(const Arguments& arguments) {
   boost::program_options::options_description description("options");
-  if (!parse(arguments, "effects", description)) return;
+  addEffectsFile(description);
+  const auto values = parse(arguments, "effects [--effects-file FILE]", description);
+  if (!values) return;
+  const EffectLibrary library = readEffects(*values);
   std::printf("| name | law | unit of c | shape | what a workshop would find |\n|---|---|---|---|---|\n");
   const auto row = [](const std::string& name, std::string law, const std::string& unit, const std::string& shapes,
                       const std::string& finding) {
@@ -16,13 +18,13 @@ void effects(const Arguments& arguments) {
     std::printf("| `%s` | %s | %s | %s | %s |\n", name.c_str(), law.c_str(), unit.c_str(), shapes.c_str(),
                 finding.c_str());
   };
-  for (const ForceEffect& effect : forceEffects()) {
+  for (const ForceEffect& effect : library.forces) {
     std::string shapes;
     for (const ShapeParameter& shape : effect.shapes)
       shapes += (shapes.empty() ? "" : ", ") + shape.name + " [" + shape.unit + "]";
     row(effect.name, effect.law, effect.unit, shapes, effect.finding);
   }
-  for (const MeasurementEffect& effect : measurementEffects())
+  for (const MeasurementEffect& effect : library.readings)
     row(effect.name, effect.law, effect.unit, "", effect.finding);
 }
 

@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "../ros/whole_file.h"
 #include "command.h"
 #include "suspension_health_monitor/identification/horizon_selection.h"
-#include "whole_file.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -4,10 +4,11 @@
 #include <optional>
 
 #include "../ros/imu_pipeline.h"
+#include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
 #include "errors.h"
-#include "whole_file.h"
+#include "separate_files.h"
 
 namespace suspension_health_monitor {
 namespace {

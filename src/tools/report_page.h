@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "../ros/whole_file.h"
 #include "suspension_health_monitor/discrepancy/comparison.h"
 #include "suspension_health_monitor/discrepancy/effect_search.h"
-#include "whole_file.h"
 
 namespace suspension_health_monitor {
 
@@ -15,7 +15,7 @@ struct ReportContent {
   const EffectLibrary& library;                  ///< the candidates of the search
   const std::vector<const DriveRecord*>& drives;
   std::vector<std::string> drive_names;          ///< one per drive
-  const Comparison& before;                      ///< the model as it is, fitted
+  const Comparison& before;                      ///< the model as it is, fitted to all samples
   const Comparison* after = nullptr;             ///< with the effects found; none if there are none
 };
 

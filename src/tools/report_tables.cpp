@@ -1,5 +1,10 @@
 #include "report_tables.h"
 
+#include <string>
+#include <vector>
+
+#include "model_numbers.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -15,20 +20,34 @@ json row(const std::string& symbol, const std::string& title, const std::string&
   return {{"symbol", symbol}, {"title", title}, {"unit", unit}};
 }
 
-/// Those of the effects and of the reading, which only the extended model has.
-void addEffects(const ModelFit& fit, json& rows) {
-  Eigen::Index i = 2;
-  const auto add = [&](json line, double value) {
-    line["after"] = number(value, fit.stddev, i++);
-    rows.push_back(std::move(line));
-  };
-  for (const ActiveEffect& active : fit.model.effects) {
-    add(row("c", "of " + active.effect.name, active.effect.unit), active.coefficient);
-    for (std::size_t k = 0; k < active.shapes.size(); ++k)
-      add(row(active.effect.shapes[k].name, "of " + active.effect.name, active.effect.shapes[k].unit), active.shapes[k]);
-  }
-  for (const ActiveMeasurementEffect& active : fit.model.reading)
-    add(row("c", "of " + active.effect.name, active.effect.unit), active.coefficient);
+/// Every number of a model in the order of its standard deviations: its row, without values.
+json rowsOf(const StrutModel& model) {
+  json rows = json::array({row("b₁", "damping / mass", "1/s"), row("b₀", "stiffness / mass", "1/s^2")});
+  visit(
+      model,
+      [&](const std::string& name, double, const std::string& unit) { rows.push_back(row("c", "of " + name, unit)); },
+      [&](const std::string& name, const ShapeParameter& shape, double) {
+        rows.push_back(row(shape.name, "of " + name, shape.unit));
+      });
+  return rows;
+}
+
+std::vector<double> valuesOf(const StrutModel& model) {
+  std::vector<double> values{model.damping_to_mass, model.stiffness_to_mass};
+  visit(
+      model, [&](const std::string&, double value, const std::string&) { values.push_back(value); },
+      [&](const std::string&, const ShapeParameter&, double value) { values.push_back(value); });
+  return values;
+}
+
+/// Puts a model's numbers under `when` into the rows of the same symbol and title.
+void fill(json& rows, const char* when, const StrutModel& model, const Eigen::VectorXd& stddevs) {
+  const std::vector<double> values = valuesOf(model);
+  const json own = rowsOf(model);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (json& line : rows)
+      if (line["symbol"] == own[i]["symbol"] && line["title"] == own[i]["title"])
+        line[when] = number(values[i], stddevs, static_cast<Eigen::Index>(i));
 }
 
 }  // namespace
@@ -49,15 +68,10 @@ json effectsJson(const EffectLibrary& library) {
 
 json parametersJson(const ReportContent& content) {
   const Comparison& before = content.before;
-  json damping = row("b₁", "damping / mass", "1/s"), stiffness = row("b₀", "stiffness / mass", "1/s^2");
-  damping.update({{"relative", true}, {"before", number(before.model.damping_to_mass, before.stddev, 0)}});
-  stiffness.update({{"relative", true}, {"before", number(before.model.stiffness_to_mass, before.stddev, 1)}});
-  if (content.after == nullptr || !content.search.final_fit) return json::array({damping, stiffness});
-  const ModelFit& fit = *content.search.final_fit;
-  damping["after"] = number(fit.model.damping_to_mass, fit.stddev, 0);
-  stiffness["after"] = number(fit.model.stiffness_to_mass, fit.stddev, 1);
-  json rows = json::array({damping, stiffness});
-  addEffects(fit, rows);
+  const bool extended = content.after != nullptr && content.search.final_fit;
+  json rows = rowsOf(extended ? content.search.final_fit->model : before.model);
+  fill(rows, "before", before.model, before.stddev);
+  if (extended) fill(rows, "after", content.search.final_fit->model, content.search.final_fit->stddev);
   return rows;
 }
 

@@ -1,5 +1,6 @@
 #include "report_views.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -150,7 +151,11 @@ json forcesJson(const ReportContent& content) {
   json forces = json::array();
   if (content.after == nullptr || !content.search.final_fit) return forces;
   const ModelFit& fit = *content.search.final_fit;
-  for (const SeenForce& force : seeForces(content.drives, fit.model, fit.initial)) forces.push_back(forceJson(force));
+  for (const SeenForce& force : seeForces(content.drives, fit.model, fit.initial)) {
+    const std::vector<std::string>& added = content.search.selected;
+    if (std::find(added.begin(), added.end(), force.effect.effect.name) != added.end())
+      forces.push_back(forceJson(force));
+  }
   return forces;
 }
 

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "model_numbers.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -13,32 +15,6 @@ std::string join(const std::vector<std::string>& names, const char* separator) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
   return text;
-}
-
-/// Calls take(name, coefficient) for every effect and shape(name, value) for every shape of it.
-template <class TakeCoefficient, class TakeShape>
-void visit(const StrutModel& model, const TakeCoefficient& take, const TakeShape& shape) {
-  for (const ActiveEffect& active : model.effects) {
-    take(active.effect.name, active.coefficient, active.effect.unit);
-    for (std::size_t i = 0; i < active.shapes.size(); ++i) shape(active.effect.name, active.effect.shapes[i], active.shapes[i]);
-  }
-  for (const ActiveMeasurementEffect& reading : model.reading)
-    take(reading.effect.name, reading.coefficient, reading.effect.unit);
-}
-
-json parametersOf(const StrutModel& model) {
-  return {{"damping_to_mass", model.damping_to_mass}, {"stiffness_to_mass", model.stiffness_to_mass}};
-}
-
-void addNumbers(const StrutModel& model, json& into) {
-  json coefficients = json::object(), shapes = json::object();
-  visit(
-      model, [&](const std::string& name, double value, const std::string&) { coefficients[name] = value; },
-      [&](const std::string& name, const ShapeParameter& shape, double value) {
-        shapes[name + "/" + shape.name] = value;
-      });
-  into["coefficients"] = coefficients;
-  into["shapes"] = shapes;
 }
 
 json standardDeviations(const ModelFit& fit) {
@@ -136,21 +112,6 @@ json toJson(const SearchResult& result) {
     whole["extended"] = extended;
   }
   return whole;
-}
-
-void writeModel(const SearchResult& result, std::FILE* out) {
-  const StrutModel& model = result.final_fit ? result.final_fit->model : result.base.model;
-  std::fprintf(out, "damping_to_mass: %.17g\nstiffness_to_mass: %.17g\n", model.damping_to_mass,
-               model.stiffness_to_mass);
-  if (model.effects.empty()) return;
-  std::fputs("effects:\n", out);
-  for (const ActiveEffect& active : model.effects) {
-    std::fprintf(out, "  %s:\n    coefficient: %.17g  # [%s]\n", active.effect.name.c_str(), active.coefficient,
-                 active.effect.unit.c_str());
-    for (std::size_t i = 0; i < active.shapes.size(); ++i)
-      std::fprintf(out, "    %s: %.17g  # [%s]\n", active.effect.shapes[i].name.c_str(), active.shapes[i],
-                   active.effect.shapes[i].unit.c_str());
-  }
 }
 
 }  // namespace suspension_health_monitor

@@ -5,10 +5,11 @@
 #include <stdexcept>
 
 #include "../ros/drive_messages.h"
+#include "../ros/whole_file.h"
 #include "command.h"
 #include "option_sources.h"
 #include "progress.h"
-#include "whole_file.h"
+#include "separate_files.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -58,6 +59,7 @@ void simulate(const Arguments& arguments) {
       "NAME=VALUE: any option of `suspension_bag options simulator`");
   add("effect", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
       "NAME=COEFFICIENT[,SHAPE=VALUE]...: hide this effect in the strut (`suspension_bag effects`)");
+  add("effects-file", po::value<std::string>(), "YAML file with laws of your own, for --effect");
   for (const OptionDescription& option : SimulatorOptions::describe())
     if (std::find(kFlags.begin(), kFlags.end(), option.name) != kFlags.end())
       add(option.name.c_str(), po::value<std::string>(),
@@ -65,12 +67,13 @@ void simulate(const Arguments& arguments) {
   const auto values = parse(arguments, "simulate [--scenario S] [OPTION]... -o OUT.bag", description);
   if (!values) return;
 
-  requireSeparateFiles(*values, {"config"}, {"output"});
+  requireSeparateFiles(*values, {"config", "effects-file"}, {"output"});
   OptionMap settings =
       gatherOptions((*values)["config"].as<std::string>(), (*values)["set"].as<std::vector<std::string>>());
   for (const std::string& effect : (*values)["effect"].as<std::vector<std::string>>()) setEffect(settings, effect);
   for (const char* flag : kFlags)
     if (values->count(flag) != 0) settings[flag] = (*values)[flag].as<std::string>();
+  if (values->count("effects-file") != 0) settings["effects_file"] = (*values)["effects-file"].as<std::string>();
   const SimulatorOptions options = SimulatorOptions::fromValues(settings);
 
   const auto path = (*values)["output"].as<std::string>();

@@ -53,7 +53,7 @@ TEST(EffectSettings, MessagesNameTheMistakeAndWhatIsKnown) {
               {"effects/bump_stop/g", "[m]", "above 0"});
   expectNamed(refusal({{"effects/bump_stop/coefficient", std::string("much")}}),
               {"effects/bump_stop/coefficient", "much"});
-  expectNamed(refusal({{"effects/bump_stop", 1.0}}), {"effects/bump_stop", "NAME/coefficient"});
+  expectNamed(refusal({{"effects/bump_stop", 1.0}}), {"effects/bump_stop", "NAME/SETTING"});
 }
 
 TEST(EffectSettings, AssignmentBecomesSettings) {

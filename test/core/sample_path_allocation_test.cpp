@@ -5,6 +5,7 @@
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 #include <atomic>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,6 +17,8 @@
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
+#include "suspension_health_monitor/model/strut_integrator.h"
+#include "suspension_health_monitor/model/user_effects.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
@@ -114,6 +117,27 @@ TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {
   EXPECT_GT(monitor.input().gaps, 2u);
   EXPECT_EQ(monitor.input().restarts, 1u);
   EXPECT_GT(grid.rejected().count(RejectReason::kMissingPartner), 2u);
+}
+
+TEST(SamplePath, AllocatesNothingInLawsOfTheUser) {
+  OptionMap settings{{"effects/own/force", std::string("max(0, d - x)^2 + (v > 0 ? tanh(v / x) : s)")},
+                     {"effects/own/memory_rate", std::string("(v - abs(v) * s) / x")},
+                     {"effects/own/unit", std::string("m/s^2")},
+                     {"effects/own/shapes/x/min", 0.1},
+                     {"effects/own/shapes/x/max", 1.0}};
+  const StrutModel model{3.0, 13.8, {{takeUserEffects(settings).at(0), 2.0, {0.5}}}, {}};
+  StrutState state;
+  const StrutModel copy = model;  // which has not been evaluated yet
+  const long before = num_allocations;
+  integrateStrut(copy, 0.0, 0.02, {1e-3, 0.1, 4e-3, 0.2}, state);
+  EXPECT_EQ(num_allocations, before);
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              const double wheel = 0.02 * sample.unsprung_acceleration;
+              integrateStrut(model, toSeconds(sample.stamp), 0.02, {0.0025 * wheel, wheel / 2, 0.01 * wheel, wheel},
+                             state);
+            }),
+            0);
+  EXPECT_NE(state.memory[0], 0.0);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct SearchResult {
   double noise_floor = 0.0;       ///< what sensor noise alone would leave of a free run [m/s^2]
   double structured_share = 0.0;  ///< share of the base's held-out mean square that is not noise
   std::vector<RankedModel> ranking;                       ///< single effects, best first
-  std::vector<std::string> selected;
+  std::vector<std::string> selected;                      ///< what was added to the start
   std::vector<std::vector<std::string>> indistinguishable;  ///< groups that these drives cannot tell apart
   std::optional<RankedModel> extended;
   std::optional<ModelFit> final_fit;  ///< of the selected model on all samples
@@ -54,7 +54,8 @@ class EffectSearch {
 
   EffectSearch(EffectLibrary candidates, const SearchOptions& options);
 
-  /// @param records  drives of one vehicle.  @param start  rough b1, b0, e.g. of LS.
+  /// @param records  drives of one vehicle.  @param start  rough b1, b0, e.g. of LS; effects that it has stay in the
+  /// model and are fitted again, and the search is for what is missing beside them.
   /// @return nothing if the drives are too short to hold out a part of them, or not even the base model can be fitted.
   std::optional<SearchResult> run(const std::vector<const DriveRecord*>& records, const StrutModel& start,
                                   const Progress& progress = {}) const;

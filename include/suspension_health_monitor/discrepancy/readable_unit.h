@@ -4,7 +4,7 @@
 
 namespace suspension_health_monitor {
 
-/// Writes numbers of one kind so that they read well: three digits, no exponent, all with the same SI prefix.
+/// Writes numbers of one kind so that they read well: three digits at most, no exponent, all with the same SI prefix.
 class ReadableUnit {
  public:
   /// The prefix that brings `typical` between 1 and 1000, e.g. mm for the travel of a car.
@@ -23,8 +23,11 @@ class ReadableUnit {
   const std::string& unit() const { return unit_; }
 
  private:
+  ReadableUnit(double typical, double prefixed, const std::string& unit);
+
   std::string unit_;
   double size_ = 1.0;  // of the unit, in the one without prefix
+  int most_decimals_ = 3;
 };
 
 }  // namespace suspension_health_monitor

@@ -14,6 +14,10 @@ namespace suspension_health_monitor {
 /// @throws std::invalid_argument  naming an unknown effect or shape (and the known ones), or one that is missing.
 std::vector<ActiveEffect> takeEffects(OptionMap& values, const std::vector<ForceEffect>& catalogue);
 
+/// Faults of the measurement in the same way: `readings/NAME/coefficient`.
+/// @throws std::invalid_argument  as takeEffects().
+std::vector<ActiveMeasurementEffect> takeReadings(OptionMap& values, const std::vector<MeasurementEffect>& catalogue);
+
 /// Turns `NAME=COEFFICIENT[,SHAPE=VALUE]...` into such settings.
 /// @throws std::invalid_argument  if it does not have that form.
 void setEffect(OptionMap& values, const std::string& assignment);

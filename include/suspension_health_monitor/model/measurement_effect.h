@@ -25,4 +25,8 @@ struct MeasurementEffect {
 /// The built-in measurement effects, one record each in measurement_effect.cpp.
 const std::vector<MeasurementEffect>& measurementEffects();
 
+/// @return the effect of that name in `effects`.
+/// @throws std::invalid_argument  naming the unknown name and the known ones.
+const MeasurementEffect& findEffect(const std::vector<MeasurementEffect>& effects, std::string_view name);
+
 }  // namespace suspension_health_monitor

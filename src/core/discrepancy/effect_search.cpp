@@ -80,6 +80,14 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// What `names` has and the model that the search started with has not.
+std::vector<std::string> namesBeyond(const std::vector<std::string>& start, const std::vector<std::string>& names) {
+  std::vector<std::string> added;
+  for (const std::string& name : names)
+    if (!has(start, name)) added.push_back(name);
+  return added;
+}
+
 /// The current model with one thing added, for every thing that could be and every set of its starting shapes.
 std::vector<StrutModel> makeTrials(const EffectLibrary& candidates, const StrutModel& current, const Sizes& sizes) {
   std::vector<StrutModel> trials;
@@ -231,10 +239,11 @@ void Search::conclude(const Judged& base, const Judged& last, SearchResult& resu
   const double structure = square(base.ranked.held_out_rmse) - floor;
   const double left = square(last.ranked.held_out_rmse) - floor;
   result.structured_share = std::clamp(structure / square(base.ranked.held_out_rmse), 0.0, 1.0);
-  const bool found = !last.ranked.effects.empty();
+  const std::vector<std::string> added = namesBeyond(base.ranked.effects, last.ranked.effects);
+  const bool found = !added.empty();
   if (found && left < (1.0 - kExplained) * structure) {
     result.verdict = Verdict::kEffectFound;
-    result.selected = last.ranked.effects;
+    result.selected = added;
     result.extended = last.ranked;
     result.extended_fit_percent = held_out_.fitPercent(last.ranked.held_out_rmse);
     result.final_fit = fitOutputError(records_, {}, last.ranked.model);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace suspension_health_monitor {
 namespace {
 
-double largestEdge(const std::vector<ResidualBin>& bins) {
-  return std::max(std::abs(bins.front().from), std::abs(bins.back().to));
-}
+constexpr double kFollows = 0.5;   // coherence
+constexpr double kNearZero = 0.05;  // of the range of most samples
 
 /// Where the bins have passed a share of the samples.
 double quantile(const std::vector<ResidualBin>& bins, double share) {
@@ -22,36 +22,24 @@ double quantile(const std::vector<ResidualBin>& bins, double share) {
 }
 
 std::string percent(double share) {
-  const double value = 100.0 * share;
-  return ReadableUnit(1.0, "").number(value < 10.0 ? std::round(10.0 * value) / 10.0 : std::round(value)).substr(0, 4);
-}
-
-std::string percentText(double share) {
-  std::string text = percent(share);
-  while (text.find('.') != std::string::npos && (text.back() == '0' || text.back() == '.')) {
-    const bool point = text.back() == '.';
-    text.pop_back();
-    if (point) break;
-  }
-  return text + " %";
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.*f %%", share < 0.01 ? 1 : 0, 100.0 * share);
+  return text;
 }
 
 }  // namespace
 
+FailureWording::Ends::Ends(const std::vector<ResidualBin>& bins)
+    : lowest(bins.front().from), from(quantile(bins, 0.1)), to(quantile(bins, 0.9)), highest(bins.back().to) {}
+
 FailureWording::FailureWording(const ResidualViews& views)
-    : travel_(0.5 * largestEdge(views.travel), "m"),
-      rate_(ReadableUnit::plain(largestEdge(views.travel_rate), "m/s")),
+    : travel_ends_(views.travel),
+      rate_ends_(views.travel_rate),
+      travel_(std::max(std::abs(travel_ends_.from), std::abs(travel_ends_.to)), "m"),
+      rate_(ReadableUnit::plain(std::max(std::abs(rate_ends_.from), std::abs(rate_ends_.to)), "m/s")),
       acceleration_(ReadableUnit::plain(views.rms, "m/s^2")),
       time_(ReadableUnit::plain(views.time.back().to, "s")),
       frequency_(ReadableUnit::plain(views.spectrum ? views.spectrum->frequency.back() : 1.0, "Hz")),
-      travel_from_(quantile(views.travel, 0.1)),
-      travel_to_(quantile(views.travel, 0.9)),
-      rate_from_(quantile(views.travel_rate, 0.1)),
-      rate_to_(quantile(views.travel_rate, 0.9)),
-      travel_end_(views.travel.front().from),
-      rate_end_(views.travel_rate.front().from),
-      travel_top_(views.travel.back().to),
-      rate_top_(views.travel_rate.back().to),
       several_drives_(views.time.back().record > 0) {}
 
 std::string FailureWording::errors(const FailureRegion& region) const {
@@ -71,30 +59,45 @@ std::string FailureWording::inDrive(std::size_t record) const {
 
 void FailureWording::travel(FailureRegion& region) const {
   std::string where = "At mid travel";
-  region.region = "travel " + travel_.number(region.from) + " to " + travel_(region.to);
-  if (region.to >= travel_top_) region.region = "travel above " + travel_(region.from);
-  if (region.from <= travel_end_) region.region = "travel below " + travel_(region.to);
-  if (region.from >= travel_to_) where = "In deep compression";
-  else if (region.to <= travel_from_) where = "Far extended";
-  else if (region.to >= travel_top_ && region.from >= 0.0) where = "In compression";
-  else if (region.from <= travel_end_ && region.to <= 0.0) where = "In extension";
-  const std::string what = region.mean == 0.0 ? "the model is worst, though not to one side" : push(region.mean);
-  region.sentence =
-      where + " (" + region.region + ", " + percentText(region.share) + " of the drive) " + what + ": " + errors(region) + ".";
+  if (region.from >= travel_ends_.to)
+    where = "In deep compression";
+  else if (region.to <= travel_ends_.from)
+    where = "Far extended";
+  else if (isZero(region.from, travel_ends_) || region.from > 0.0)
+    where = "In compression";
+  else if (isZero(region.to, travel_ends_) || region.to < 0.0)
+    where = "In extension";
+  describe(where, "travel", travel_, travel_ends_, region);
 }
 
 void FailureWording::travelRate(FailureRegion& region) const {
   std::string where = "Moving slowly";
-  region.region = "travel rate " + rate_.number(region.from) + " to " + rate_(region.to);
-  if (region.to >= rate_top_) region.region = "travel rate above " + rate_(region.from);
-  if (region.from <= rate_end_) region.region = "travel rate below " + rate_(region.to);
-  if (region.from >= rate_to_) where = "Compressing fast";
-  else if (region.to <= rate_from_) where = "Extending fast";
-  else if (region.from >= 0.0) where = "Compressing";
-  else if (region.to <= 0.0) where = "Extending";
+  if (region.from >= rate_ends_.to)
+    where = "Compressing fast";
+  else if (region.to <= rate_ends_.from)
+    where = "Extending fast";
+  else if (isZero(region.from, rate_ends_) || region.from > 0.0)
+    where = "Compressing";
+  else if (isZero(region.to, rate_ends_) || region.to < 0.0)
+    where = "Extending";
+  describe(where, "travel rate", rate_, rate_ends_, region);
+}
+
+bool FailureWording::isZero(double value, const Ends& ends) {
+  return std::abs(value) < kNearZero * (ends.to - ends.from);
+}
+
+void FailureWording::describe(const std::string& where, const std::string& name, const ReadableUnit& unit,
+                              const Ends& ends, FailureRegion& region) const {
+  if (region.to >= ends.highest)
+    region.region = name + " above " + unit(region.from);
+  else if (region.from <= ends.lowest)
+    region.region = name + " below " + unit(region.to);
+  else
+    region.region = name + " " + unit.number(region.from) + " to " + unit(region.to);
   const std::string what = region.mean == 0.0 ? "the model is worst, though not to one side" : push(region.mean);
-  region.sentence =
-      where + " (" + region.region + ", " + percentText(region.share) + " of the drive) " + what + ": " + errors(region) + ".";
+  region.sentence = where + " (" + region.region + ", " + percent(region.share) + " of the drive) " + what +
+                    ": " + errors(region) + ".";
 }
 
 void FailureWording::time(std::size_t record, FailureRegion& region) const {
@@ -106,7 +109,7 @@ void FailureWording::surface(double rate_from, double rate_to, FailureRegion& re
   region.region = "travel " + travel_.number(region.from) + " to " + travel_(region.to) + " at " +
                   rate_.number(rate_from) + " to " + rate_(rate_to);
   region.sentence = std::string("When it ") + (rate_from >= 0.0 ? "compresses" : "extends") + " there (" + region.region +
-                    ", " + percentText(region.share) + " of the drive) " + push(region.mean) +
+                    ", " + percent(region.share) + " of the drive) " + push(region.mean) +
                     ", which neither travel nor rate alone shows.";
 }
 
@@ -115,20 +118,18 @@ void FailureWording::direction(FailureRegion& region) const {
   region.sentence = "At the same travel the strut pushes the body up " + acceleration_(std::abs(region.mean)) +
                     (region.mean > 0.0 ? " harder" : " less") +
                     " while it compresses than while it extends, beyond the model's damping: " +
-                    (region.mean > 0.0 ? "friction, a part with memory, or damping that is not linear."
-                                       : "damping that is not linear, or a part with memory.");
+                    (region.mean > 0.0 ? "friction, a part with memory, or more damping than the model has."
+                                       : "damping that is not linear, or less of it than the model has.");
 }
 
-void FailureWording::frequency(double structure_share, double coherence, double coherence_threshold,
-                               FailureRegion& region) const {
+void FailureWording::frequency(double coherence, double coherence_threshold, FailureRegion& region) const {
   region.region = frequency_.number(region.from) + " to " + frequency_(region.to);
-  region.sentence = "Between " + region.region + " lie " + percentText(structure_share) +
-                    " of what is not noise (rmse " + acceleration_(region.rmse) + "); " +
-                    (coherence > std::max(0.5, coherence_threshold)
-                         ? "it follows the wheel in proportion, so the model's own numbers are off there."
-                     : coherence > coherence_threshold
-                         ? "a part of it follows the wheel in proportion."
-                         : "it does not follow the wheel in proportion.");
+  const char* follows = "it does not follow the wheel in proportion, as friction, stops or loose parts do not";
+  if (coherence > coherence_threshold) follows = "a part of it follows the wheel in proportion";
+  if (coherence > std::max(kFollows, coherence_threshold))
+    follows = "it follows the wheel in proportion, so the model's own numbers are off";
+  region.sentence = "Half of what is not noise lies between " + frequency_.number(region.from) + " and " +
+                    frequency_(region.to) + " (rmse " + acceleration_(region.rmse) + "); " + follows + ".";
 }
 
 void FailureWording::offset(FailureRegion& region) const {
@@ -141,7 +142,7 @@ void FailureWording::offset(FailureRegion& region) const {
 void FailureWording::drift(const char* name, double first_percent, double last_percent, std::size_t record,
                            FailureRegion& region) const {
   const auto of = [](double change) {
-    return percentText(std::abs(change) / 100.0) + (change > 0.0 ? " more" : " less");
+    return percent(std::abs(change) / 100.0) + (change > 0.0 ? " more" : " less");
   };
   region.region = std::string(name) + " from " + time_.number(region.from) + " to " + time_(region.to) + inDrive(record);
   region.sentence = "The " + std::string(name) + " seems to change during the drive" + inDrive(record) +

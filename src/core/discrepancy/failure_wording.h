@@ -20,7 +20,8 @@ class FailureWording {
   void surface(double rate_from, double rate_to, FailureRegion& region) const;
 
   void direction(FailureRegion& region) const;
-  void frequency(double structure_share, double coherence, double coherence_threshold, FailureRegion& region) const;
+  /// @param coherence  of residual and w'' in the band.
+  void frequency(double coherence, double coherence_threshold, FailureRegion& region) const;
   void offset(FailureRegion& region) const;
 
   /// A parameter that moves during drive `record`. @param name  "damping" or "stiffness".
@@ -31,14 +32,21 @@ class FailureWording {
   void nothing(double noise_floor, FailureRegion& region) const;
 
  private:
+  /// The range of a quantity, and where the tenth of the samples at either end begins.
+  struct Ends {
+    explicit Ends(const std::vector<ResidualBin>& bins);
+    double lowest, from, to, highest;
+  };
+
+  static bool isZero(double value, const Ends& ends);
+  void describe(const std::string& where, const std::string& name, const ReadableUnit& unit, const Ends& ends,
+                FailureRegion& region) const;
   std::string inDrive(std::size_t record) const;
   std::string errors(const FailureRegion& region) const;
   std::string push(double mean) const;
 
+  Ends travel_ends_, rate_ends_;
   ReadableUnit travel_, rate_, acceleration_, time_, frequency_;
-  double travel_from_, travel_to_, rate_from_, rate_to_;  // tenths at either end
-  double travel_end_, rate_end_;                          // lowest value
-  double travel_top_, rate_top_;                          // highest value
   bool several_drives_;
 };
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+
+#include "find_by_name.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -61,11 +62,7 @@ const std::vector<ForceEffect>& forceEffects() {
 }
 
 const ForceEffect& findEffect(const std::vector<ForceEffect>& effects, std::string_view name) {
-  const auto found = std::find_if(effects.begin(), effects.end(), [&](const ForceEffect& e) { return e.name == name; });
-  if (found != effects.end()) return *found;
-  std::string known;
-  for (const ForceEffect& effect : effects) known += (known.empty() ? "" : ", ") + effect.name;
-  throw std::invalid_argument("effect " + std::string(name) + ", must be one of " + known);
+  return findByName(effects, name);
 }
 
 }  // namespace suspension_health_monitor

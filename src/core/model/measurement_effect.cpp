@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "find_by_name.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -41,6 +43,10 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
 const std::vector<MeasurementEffect>& measurementEffects() {
   static const std::vector<MeasurementEffect> effects = makeMeasurementEffects();
   return effects;
+}
+
+const MeasurementEffect& findEffect(const std::vector<MeasurementEffect>& effects, std::string_view name) {
+  return findByName(effects, name);
 }
 
 }  // namespace suspension_health_monitor

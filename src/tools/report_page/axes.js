@@ -55,7 +55,7 @@ class Axis {
     const decades = Math.log10(to / from);
     const ticks = [];
     for (let power = Math.floor(Math.log10(from)); power <= Math.ceil(Math.log10(to)); ++power)
-      for (const digit of decades < 2.5 ? [1, 2, 5] : [1]) {
+      for (const digit of decades < 3.2 ? [1, 2, 5] : [1]) {
         const value = digit * 10 ** power;
         if (value < from * (1 - 1e-9) || value > to * (1 + 1e-9)) continue;
         const text = power >= -3 && power <= 4 ? String(Number(value.toPrecision(1))) : `${digit > 1 ? digit + '·' : ''}10${superscript(power)}`;

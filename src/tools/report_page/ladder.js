@@ -1,8 +1,8 @@
 // Error step by step, as bars: the model as it is, with each effect, and what noise alone leaves.
 
 function ladderSteps({base, extended, ranking, selected, noise_floor: floor}) {
-  const steps = [{label: 'model as it is', note: 'spring and damper, linear', rmse: base.held_out_rmse, tone: 'before'}];
-  const alone = ranking.find(({effects}) => effects.length === 1 && effects[0] === selected[0]);
+  const steps = [{label: 'model as it is', note: 'before anything is added', rmse: base.held_out_rmse, tone: 'before'}];
+  const alone = ranking.find(({effects}) => effects[effects.length - 1] === selected[0]);
   if (extended && selected.length > 1 && alone)
     steps.push({label: `with ${spoken(selected[0])}`, rmse: alone.held_out_rmse, tone: 'after'});
   if (extended) {

@@ -51,6 +51,15 @@ function quantity(value, unit, digits = 3) {
   return `${rounded(value * scale.factor, digits)}${scale.unit ? ' ' + scale.unit : ''}`;
 }
 
+/** "13.012 ± 0.051 mm" */
+function quantityWithDeviation(value, stddev, unit) {
+  const scale = scaleFor(Math.abs(value), unit);
+  return `${withDeviation(value * scale.factor, stddev * scale.factor)}${scale.unit ? ' ' + scale.unit : ''}`;
+}
+
+/** A sentence with plain "m/s^2" in it. */
+const typeset = sentence => sentence.replace(/\^(-?\d+)/g, (_, digits) => superscript(digits)).replace(/(^|[\s(])-(?=\d)/g, '$1−');
+
 function percent(value) {
   if (!isNumber(value)) return '–';
   return `${(Math.abs(value) < 9.95 ? value.toFixed(1) : value.toFixed(0)).replace(/^-(0(\.0+)?)$/, '$1').replace('-', '−')}\u00a0%`;

@@ -5,8 +5,8 @@ function coefficientLines(findings, {effects, coefficients, shapes}, deviations 
   return effects.flatMap(name => {
     const {unit, shapes: known} = kindOf(findings, name);
     const several = effects.length > 1 ? `${spoken(name)} ` : '';
-    return [[`${several}c = ${withDeviation(coefficients[name], deviations[name])} ${prettyUnit(unit)}`],
-      ...known.map(shape => `${several}${shape.name} = ${withDeviation(shapes[`${name}/${shape.name}`], deviations[`${name}/${shape.name}`])} ${prettyUnit(shape.unit)}`)];
+    return [[`${several}c = ${quantityWithDeviation(coefficients[name], deviations[name], unit)}`],
+      ...known.map(shape => `${several}${shape.name} = ${quantityWithDeviation(shapes[`${name}/${shape.name}`], deviations[`${name}/${shape.name}`], shape.unit)}`)];
   }).flat().map(line => element('div', {}, line));
 }
 
@@ -34,12 +34,13 @@ function rankingSection(findings) {
 
 function parameterSection(findings) {
   const {parameters, after} = findings;
-  const cell = ({value, stddev} = {}) => element('td', {class: 'number'}, isNumber(value) ? withDeviation(value, stddev) : '');
-  const change = ({before, after: later, relative}) => (before && later && relative ? percent(100 * (later.value / before.value - 1)) : '');
+  const scaleOf = ({before, after: later, unit}) => scaleFor(Math.abs((later || before).value), unit);
+  const cell = ({value, stddev} = {}, {factor}) => element('td', {class: 'number'}, isNumber(value) ? withDeviation(value * factor, stddev * factor) : '');
+  const change = ({before, after: later}) => (before && later ? percent(100 * (later.value / before.value - 1)) : '');
   return section('parameters', 'Parameters',
     after ? 'Fitted to the whole drive, ± standard deviation. What the missing effect had pushed spring and damper to becomes visible in the change.' : 'Fitted to the whole drive, ± standard deviation.',
     element('div', {class: 'wide'}, element('table', {}, element('thead', {}, element('tr', {}, element('th', {}, 'parameter'),
       element('th', {class: 'number'}, 'model as it is'), after ? [element('th', {class: 'number'}, 'with the effect'), element('th', {class: 'number minor'}, 'change')] : null, element('th', {}, 'unit'))),
-    element('tbody', {}, parameters.map(row => element('tr', {}, element('td', {}, row.symbol ? [element('b', {}, row.symbol), ' '] : null, row.title), cell(row.before),
-      after ? [cell(row.after), element('td', {class: 'number minor'}, change(row))] : null, element('td', {}, prettyUnit(row.unit))))))));
+    element('tbody', {}, parameters.map(row => element('tr', {}, element('td', {}, row.symbol ? [element('b', {}, row.symbol), ' '] : null, spoken(row.title)), cell(row.before, scaleOf(row)),
+      after ? [cell(row.after, scaleOf(row)), element('td', {class: 'number minor'}, change(row))] : null, element('td', {}, scaleOf(row).unit)))))));
 }

@@ -18,7 +18,8 @@ function headline(findings) {
   const {verdict, selected} = findings.search;
   if (verdict === 'nothing_missing') return 'Nothing is missing: the model explains the drive down to the noise.';
   if (verdict !== 'effect_found') return 'Something is missing, but no known effect explains it.';
-  const what = names => joined(names.map(name => joined(rivalsOf(findings, name).map(each => whatAndWhere(kindOf(findings, each).finding)[0]), 'or')));
+  const what = names => names.map(name =>
+    joined(rivalsOf(findings, name).map(each => whatAndWhere(kindOf(findings, each).finding)[0]), 'or')).join('; ');
   const forces = selected.filter(name => kindOf(findings, name).kind === 'force');
   const readings = selected.filter(name => kindOf(findings, name).kind === 'reading');
   const parts = [];
@@ -31,12 +32,12 @@ function headline(findings) {
 function effectSentence(findings, name) {
   const {law, unit, finding, shapes} = kindOf(findings, name);
   const {coefficients, stddevs, shapes: values} = findings.search.extended;
-  const sizes = [`c = ${withDeviation(coefficients[name], stddevs[name])} ${prettyUnit(unit)}`, ...shapes.map(shape =>
-    `${shape.name} = ${withDeviation(values[`${name}/${shape.name}`], stddevs[`${name}/${shape.name}`])} ${prettyUnit(shape.unit)}`)];
-  const where = whatAndWhere(finding)[1];
+  const sizes = [`c = ${quantityWithDeviation(coefficients[name], stddevs[name], unit)}`, ...shapes.map(shape =>
+    `${shape.name} = ${quantityWithDeviation(values[`${name}/${shape.name}`], stddevs[`${name}/${shape.name}`], shape.unit)}`)];
+  const [what, where] = whatAndWhere(finding);
   return element('p', {class: 'answer'}, element('b', {'data-effect': name}, capitalised(spoken(name))), ', ',
-    element('code', {}, law), ` with ${joined(sizes.map(size => size.trim()))}.`,
-    where ? ` Look at: ${where}.` : '');
+    element('code', {}, law), ` with ${joined(sizes.map(size => size.trim()))}. `,
+    `What a workshop would find: ${what}${where ? ` (${where})` : ''}.`);
 }
 
 function nextSteps(findings) {

@@ -12,7 +12,7 @@ function mapSection(findings) {
 }
 
 function whereSection(findings) {
-  const list = ({where}) => element('ul', {class: 'findings'}, where.map(({sentence}) => element('li', {}, sentence)));
+  const list = ({where}) => element('ul', {class: 'findings'}, where.map(({sentence}) => element('li', {}, typeset(sentence))));
   return section('where', 'Where the model fails', null, beforeAndAfter(findings).map(([when, views]) =>
     [findings.after ? element('h3', {}, capitalised(NAMES[when])) : null, list(views)]));
 }

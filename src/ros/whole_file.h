@@ -1,17 +1,9 @@
 #pragma once
 
-#include <boost/program_options/variables_map.hpp>
 #include <cstdio>
 #include <string>
-#include <vector>
 
 namespace suspension_health_monitor {
-
-/// Refuses to write a file that is read, too, or to write two results into one file.
-/// @param inputs, outputs  names of options with a path, or several, as their value; those not given do not matter.
-/// @throws std::invalid_argument  naming option and path.
-void requireSeparateFiles(const boost::program_options::variables_map& values, const std::vector<std::string>& inputs,
-                          const std::vector<std::string>& outputs);
 
 /// A file that appears under its name whole or not at all: it is written beside it and renamed by commit().
 /// Without commit() (an error on the way) nothing is left, and a file that was there before stays as it was.

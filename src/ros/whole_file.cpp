@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -19,29 +18,7 @@ namespace fs = std::filesystem;
                            (error == 0 ? " to its end" : std::string(": ") + std::strerror(error)));
 }
 
-std::vector<std::string> paths(const boost::program_options::variables_map& values, const std::string& option) {
-  if (values.count(option) == 0) return {};
-  if (const auto* path = boost::any_cast<std::string>(&values[option].value())) return {*path};
-  return values[option].as<std::vector<std::string>>();
-}
-
 }  // namespace
-
-void requireSeparateFiles(const boost::program_options::variables_map& values, const std::vector<std::string>& inputs,
-                          const std::vector<std::string>& outputs) {
-  std::error_code error;
-  std::set<fs::path> taken;
-  for (const std::string& option : inputs)
-    for (const std::string& path : paths(values, option)) taken.insert(fs::weakly_canonical(path, error));
-  taken.erase("");  // an option that was not given
-  for (const std::string& option : outputs)
-    for (const std::string& path : paths(values, option)) {
-      const fs::path full = fs::weakly_canonical(path, error);
-      const bool is_new = full.empty() || taken.insert(full).second;
-      if (!is_new && (fs::is_regular_file(path, error) || !fs::exists(path, error)))
-        throw std::invalid_argument("--" + option + " " + path + ", must be a file of its own: it is used already");
-    }
-}
 
 WholeFile::WholeFile(const std::string& path) : path_(path), temporary_path_(path), temporary_(false) {
   std::error_code error;

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace suspension_health_monitor {
+
+/// @return the record of that name.  @throws std::invalid_argument  naming the unknown name and the known ones.
+template <class Record>
+const Record& findByName(const std::vector<Record>& records, std::string_view name) {
+  const auto found = std::find_if(records.begin(), records.end(), [&](const Record& r) { return r.name == name; });
+  if (found != records.end()) return *found;
+  std::string known;
+  for (const Record& record : records) known += (known.empty() ? "" : ", ") + record.name;
+  throw std::invalid_argument("effect " + std::string(name) + ", must be one of " + known);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,76 @@
+#include "suspension_health_monitor/model/model_settings.h"
+
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+#include "setting_groups.h"
+#include "suspension_health_monitor/model/effect_settings.h"
+#include "suspension_health_monitor/model/strut_integrator.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+double takeParameter(OptionMap& values, const std::string& name, double min) {
+  const auto found = values.find(name);
+  if (found == values.end())
+    throw std::invalid_argument(name + " is missing; a model has damping_to_mass [1/s] and stiffness_to_mass [1/s^2]");
+  const double value = toNumber(name, found->second, min, 1e15);
+  values.erase(found);
+  return value;
+}
+
+/// The shortest text that is exactly this number.
+std::string exact(double value) {
+  std::string text;
+  for (int digits = std::numeric_limits<double>::digits10; digits <= std::numeric_limits<double>::max_digits10;
+       ++digits) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(digits);
+    out << value;
+    text = out.str();
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double back = 0.0;
+    if (in >> back && back == value) break;
+  }
+  return text;
+}
+
+std::string line(const char* indent, const std::string& name, double value, const std::string& unit) {
+  return indent + name + ": " + exact(value) + "  # [" + unit + "]\n";
+}
+
+}  // namespace
+
+StrutModel takeModel(OptionMap& values, const EffectLibrary& library) {
+  StrutModel model;
+  // What a fit leaves to the linear damping may be less than nothing where an effect damps.
+  model.damping_to_mass = takeParameter(values, "damping_to_mass", -1e15);
+  model.stiffness_to_mass = takeParameter(values, "stiffness_to_mass", 1e-15);
+  model.effects = takeEffects(values, library.forces);
+  model.reading = takeReadings(values, library.readings);
+  if (model.effects.size() > StrutState::kMostEffects)
+    throw std::invalid_argument("effects: " + std::to_string(model.effects.size()) + " of them, must be at most " +
+                                std::to_string(StrutState::kMostEffects));
+  return model;
+}
+
+std::string toYaml(const StrutModel& model) {
+  std::string text = line("", "damping_to_mass", model.damping_to_mass, "1/s") +
+                     line("", "stiffness_to_mass", model.stiffness_to_mass, "1/s^2");
+  if (!model.effects.empty()) text += "effects:\n";
+  for (const ActiveEffect& active : model.effects) {
+    text += "  " + active.effect.name + ":\n" + line("    ", "coefficient", active.coefficient, active.effect.unit);
+    for (std::size_t i = 0; i < active.shapes.size(); ++i)
+      text += line("    ", active.effect.shapes[i].name, active.shapes[i], active.effect.shapes[i].unit);
+  }
+  if (!model.reading.empty()) text += "readings:\n";
+  for (const ActiveMeasurementEffect& active : model.reading)
+    text += "  " + active.effect.name + ":\n" + line("    ", "coefficient", active.coefficient, active.effect.unit);
+  return text;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,59 @@
+#include "setting_groups.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace suspension_health_monitor {
+namespace {
+
+struct Number {
+  double value = 0.0;
+};
+
+}  // namespace
+
+std::map<std::string, OptionMap> takeGroups(OptionMap& values, const std::string& prefix) {
+  const std::string start = prefix + '/';
+  std::map<std::string, OptionMap> groups;
+  for (auto entry = values.lower_bound(start);
+       entry != values.end() && entry->first.compare(0, start.size(), start) == 0; entry = values.erase(entry)) {
+    const std::string& key = entry->first;
+    const std::size_t slash = key.find('/', start.size());
+    if (slash == std::string::npos || slash == start.size())
+      throw std::invalid_argument(key + " must be " + start + "NAME/SETTING");
+    groups[key.substr(start.size(), slash - start.size())][key.substr(slash + 1)] = entry->second;
+  }
+  return groups;
+}
+
+std::vector<double> takeNumbers(const std::string& group, const OptionMap& settings,
+                                const std::vector<std::string>& wanted) {
+  const std::string has = "it has " + join(wanted);
+  for (const auto& [key, value] : settings)
+    if (std::find(wanted.begin(), wanted.end(), key) == wanted.end())
+      throw std::invalid_argument(group + '/' + key + " is unknown; " + has);
+  std::vector<double> numbers;
+  for (const std::string& name : wanted) {
+    const auto found = settings.find(name);
+    if (found == settings.end()) throw std::invalid_argument(group + '/' + name + " is missing; " + has);
+    numbers.push_back(toNumber(group + '/' + name, found->second));
+  }
+  return numbers;
+}
+
+double toNumber(const std::string& name, const OptionValue& value, double min, double max) {
+  OptionMap one{{name, value}};
+  const std::array fields{OptionField<Number>{name, "SI", "a number", &Number::value, min, max}};
+  Number number{min};
+  takeOptions(one, fields, number);
+  return number.value;
+}
+
+std::string join(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace suspension_health_monitor

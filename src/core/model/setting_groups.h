@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/option_table.h"
+
+namespace suspension_health_monitor {
+
+/// Takes settings `PREFIX/NAME/KEY` out of `values`.
+/// @return by NAME the settings KEY.
+/// @throws std::invalid_argument  on a setting `PREFIX/NAME`.
+std::map<std::string, OptionMap> takeGroups(OptionMap& values, const std::string& prefix);
+
+/// @param group  where the settings stand, such as `effects/bump_stop`, for messages.
+/// @return the numbers called `wanted`, in that order.
+/// @throws std::invalid_argument  naming a setting that is missing, unknown or no number.
+std::vector<double> takeNumbers(const std::string& group, const OptionMap& settings,
+                                const std::vector<std::string>& wanted);
+
+/// @return the number that a setting holds.
+/// @throws std::invalid_argument  naming the setting, its value and what is allowed.
+double toNumber(const std::string& name, const OptionValue& value, double min = -1e30, double max = 1e30);
+
+std::string join(const std::vector<std::string>& names);
+
+}  // namespace suspension_health_monitor

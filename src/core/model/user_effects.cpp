@@ -1,0 +1,160 @@
+#include "suspension_health_monitor/model/user_effects.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <regex>
+#include <stdexcept>
+
+#include "law_expression.h"
+#include "setting_groups.h"
+#include "suspension_health_monitor/model/effect_library.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+struct LawSettings {
+  std::string force, memory_rate, unit, finding = "a law of your own";
+};
+
+using LawField = OptionField<LawSettings>;
+constexpr std::array kLawFields{
+    LawField{"force", "-", "expression in d, v, t, s and the shapes", &LawSettings::force},
+    LawField{"memory_rate", "-", "expression for s'", &LawSettings::memory_rate},
+    LawField{"unit", "-", "unit of the coefficient", &LawSettings::unit},
+    LawField{"finding", "-", "what a workshop would find", &LawSettings::finding},
+};
+
+struct ShapeSettings {
+  std::string unit = "-", scale = "none";
+  double min = 0.0, max = 0.0;
+};
+
+using ShapeField = OptionField<ShapeSettings>;
+constexpr std::array kShapeFields{
+    ShapeField{"unit", "-", "unit of the shape", &ShapeSettings::unit},
+    ShapeField{"scale", "-", "what min and max are multiples of", &ShapeSettings::scale, 0.0, 0.0,
+               "none travel travel_rate time"},
+    ShapeField{"min", "scale", "smallest value worth trying", &ShapeSettings::min, 1e-15, 1e15},
+    ShapeField{"max", "scale", "largest value worth trying, above min", &ShapeSettings::max, 1e-15, 1e15},
+};
+
+[[noreturn]] void refuse(const std::string& where, const std::string& why) {
+  throw std::invalid_argument(where + ": " + why);
+}
+
+/// Settings by a table, all of them known; messages say where they stand.
+template <class Settings, std::size_t N>
+Settings take(const std::string& where, OptionMap values, const std::array<OptionField<Settings>, N>& fields) {
+  Settings settings;
+  try {
+    takeOptions(values, fields, settings);
+    refuseUnknown(values, describeOptions(fields));
+  } catch (const std::invalid_argument& error) {
+    refuse(where, error.what());
+  }
+  return settings;
+}
+
+/// Names stand in files, tables, messages and expressions.
+void checkName(const std::string& where, const std::string& name) {
+  static const std::regex allowed("[A-Za-z][A-Za-z0-9_]*");
+  if (!std::regex_match(name, allowed)) refuse(where, "the name must be letters, digits and _, a letter first");
+}
+
+void checkText(const std::string& where, const std::string& text) {
+  if (std::any_of(text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }))
+    refuse(where, "must be one line");
+}
+
+ShapeParameter makeShape(const std::string& where, const std::string& name, const OptionMap& values) {
+  checkName(where, name);
+  if (LawExpression::isReserved(name) || name == "c" || name == "coefficient")
+    refuse(where, "expressions have this name already (d, v, t, s, the coefficient c, a function), choose another");
+  for (const char* wanted : {"min", "max"})
+    if (values.count(wanted) == 0) refuse(where + '/' + wanted, "is missing; a shape has unit, scale, min, max");
+  const ShapeSettings settings = take(where, values, kShapeFields);
+  if (settings.min >= settings.max) refuse(where, "min must be below max");
+  checkText(where + "/unit", settings.unit);
+  static constexpr std::array kScales{"none", "travel", "travel_rate", "time"};  // in the order of ShapeScale
+  const auto scale = std::find(kScales.begin(), kScales.end(), settings.scale) - kScales.begin();
+  return {name, settings.unit, static_cast<ShapeScale>(scale), settings.min, settings.max};
+}
+
+LawExpression makeLaw(const std::string& where, const std::string& text, const std::vector<ShapeParameter>& shapes,
+                      bool has_memory) {
+  std::vector<std::string> names;
+  for (const ShapeParameter& shape : shapes) names.push_back(shape.name);
+  try {
+    return {text, names, has_memory};
+  } catch (const std::invalid_argument& error) {
+    refuse(where + " = \"" + text + "\"", error.what());
+  }
+}
+
+/// Shapes at one end of their range, for a motion of that size.
+std::vector<double> shapesAt(const std::vector<ShapeParameter>& shapes, double size, bool largest) {
+  std::vector<double> values;
+  for (const ShapeParameter& shape : shapes) {
+    const bool moves = shape.scale == ShapeScale::kTravel || shape.scale == ShapeScale::kTravelRate;
+    values.push_back((largest ? shape.max : shape.min) * (moves ? size : 1.0));
+  }
+  return values;
+}
+
+/// At rest and in gentle and rough motion, both ways.
+void checkFinite(const std::string& where, const ForceEffect::Law& law, const std::vector<ShapeParameter>& shapes) {
+  for (const double size : {1e-3, 0.1})
+    for (const double travel : {0.0, size, -size})
+      for (const double rate : {0.0, size, -size})
+        for (const double memory : {0.0, size, -size})
+          for (const double time : {0.0, 100.0})
+            for (const bool largest : {false, true})
+              if (!std::isfinite(law({travel, rate, time, memory}, shapesAt(shapes, size, largest).data())))
+                refuse(where, "is not finite at d = " + std::to_string(travel) + ", v = " + std::to_string(rate) +
+                                  ", t = " + std::to_string(time) + ", s = " + std::to_string(memory));
+}
+
+void checkNew(const std::string& where, const std::string& name) {
+  const EffectLibrary built_in = builtInEffects();
+  bool known = false;
+  for (const ForceEffect& effect : built_in.forces) known = known || effect.name == name;
+  for (const MeasurementEffect& effect : built_in.readings) known = known || effect.name == name;
+  if (known) refuse(where, "a built-in effect has this name, choose another");
+}
+
+ForceEffect makeUserEffect(const std::string& name, OptionMap values) {
+  const std::string where = "effects/" + name;
+  checkName(where, name);
+  checkNew(where, name);
+  std::vector<ShapeParameter> shapes;
+  for (const auto& [shape, settings] : takeGroups(values, "shapes"))
+    shapes.push_back(makeShape(where + "/shapes/" + shape, shape, settings));
+  if (shapes.size() > kMostUserShapes)
+    refuse(where, std::to_string(shapes.size()) + " shapes, must be at most " + std::to_string(kMostUserShapes));
+  for (const char* wanted : {"force", "unit"})
+    if (values.count(wanted) == 0)
+      refuse(where + '/' + wanted, "is missing; an effect has force, unit, and may have memory_rate, finding, shapes");
+  const LawSettings settings = take(where, std::move(values), kLawFields);
+  for (const std::string& text : {settings.unit, settings.finding}) checkText(where, text);
+
+  const bool has_memory = !settings.memory_rate.empty();
+  ForceEffect effect{name, "c (" + settings.force + ")", settings.unit, settings.finding,
+                     makeLaw(where + "/force", settings.force, shapes, has_memory), shapes};
+  checkFinite(where + "/force = \"" + settings.force + '"', effect.force, shapes);
+  if (!has_memory) return effect;
+  effect.law += ", s' = " + settings.memory_rate;
+  effect.memory_rate = makeLaw(where + "/memory_rate", settings.memory_rate, shapes, has_memory);
+  checkFinite(where + "/memory_rate = \"" + settings.memory_rate + '"', effect.memory_rate, shapes);
+  return effect;
+}
+
+}  // namespace
+
+std::vector<ForceEffect> takeUserEffects(OptionMap& values) {
+  std::vector<ForceEffect> effects;
+  for (auto& [name, settings] : takeGroups(values, "effects")) effects.push_back(makeUserEffect(name, settings));
+  return effects;
+}
+
+}  // namespace suspension_health_monitor

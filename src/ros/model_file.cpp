@@ -1,0 +1,38 @@
+#include "model_file.h"
+
+#include <stdexcept>
+
+#include "suspension_health_monitor/model/model_settings.h"
+#include "suspension_health_monitor/model/user_effects.h"
+#include "yaml_settings.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+/// Calls take(settings) with what the file holds; what it leaves is refused.
+template <class Take>
+auto takeFile(const std::string& path, const Take& take) {
+  OptionMap values = readYaml(path);
+  try {
+    auto taken = take(values);
+    refuseUnknown(values, {});
+    return taken;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+StrutModel readModelFile(const std::string& path, const EffectLibrary& library) {
+  return takeFile(path, [&](OptionMap& values) { return takeModel(values, library); });
+}
+
+EffectLibrary readEffectsFile(const std::string& path) {
+  EffectLibrary library = builtInEffects();
+  if (path.empty()) return library;
+  for (ForceEffect& effect : takeFile(path, takeUserEffects)) library.forces.push_back(std::move(effect));
+  return library;
+}
+
+}  // namespace suspension_health_monitor

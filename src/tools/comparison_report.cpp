@@ -1,0 +1,206 @@
+#include "comparison_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "model_numbers.h"
+#include "suspension_health_monitor/discrepancy/readable_unit.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kFewestInCell = 10;
+constexpr double kSure = 3.0;  // standard errors, for a mark in the map
+
+void printModel(const Comparison& comparison) {
+  const StrutModel& model = comparison.model;
+  std::printf("model (%s): damping/mass %.5g 1/s, stiffness/mass %.5g 1/s^2",
+              comparison.stddev.size() > 0 ? "fitted" : "as given", model.damping_to_mass, model.stiffness_to_mass);
+  visit(
+      model,
+      [](const std::string& name, double value, const std::string& unit) {
+        std::printf(", %s %.5g %s", name.c_str(), value, unit.c_str());
+      },
+      [](const std::string&, const ShapeParameter& shape, double value) {
+        std::printf(" (%s %.5g %s)", shape.name.c_str(), value, shape.unit.c_str());
+      });
+  std::printf("\n\n");
+}
+
+void printErrors(const Comparison& comparison) {
+  std::printf("error                                      rmse [m/s^2]      fit\n");
+  const auto row = [](const char* name, double rmse) { std::printf("%-42s %12.4g", name, rmse); };
+  row("free run (from the wheel alone)", comparison.free_run.rmse);
+  std::printf(" %6.1f %%\n", comparison.free_run.fit_percent);
+  if (comparison.held_out_rmse) {
+    row("free run, on blocks held out", *comparison.held_out_rmse);
+    std::printf("\n");
+  }
+  if (comparison.one_step) {
+    row("one step (rows of the regression)", comparison.one_step->rmse);
+    std::printf(" %6.1f %%\n", comparison.one_step->fit_percent);
+  }
+  row("noise floor of the free run, about", comparison.noise_floor);
+  std::printf("\n\nshare of the free run's error that is not noise: %.0f %%\n", 100.0 * comparison.structured_share);
+}
+
+void printTest(const char* name, const ResidualCorrelation& correlation) {
+  std::printf("%-42s %s (%.0f %% of lags outside the 95 %% band)\n", name, correlation.within ? "as noise" : "more than noise",
+              100.0 * correlation.share_outside);
+}
+
+/// The missing force over travel (across) and travel rate (up): a sign where it is sure, twice where it is large.
+void printMap(const ForceSurface& surface) {
+  double largest = 0.0;
+  const auto isSure = [&](Eigen::Index i, Eigen::Index j) {
+    return surface.count(i, j) >= kFewestInCell &&
+           std::abs(surface.mean(i, j)) > kSure * surface.standard_error(i, j);
+  };
+  for (Eigen::Index i = 0; i < surface.mean.rows(); ++i)
+    for (Eigen::Index j = 0; j < surface.mean.cols(); ++j)
+      if (isSure(i, j)) largest = std::max(largest, std::abs(surface.mean(i, j)));
+  if (largest == 0.0) return;
+  const ReadableUnit travel(surface.travel_edges.back(), "m");
+  const ReadableUnit rate = ReadableUnit::plain(surface.rate_edges.back(), "m/s");
+  const ReadableUnit force = ReadableUnit::plain(largest, "m/s^2");
+  std::printf("\nmissing force: + the strut pushes up harder than the model, - less; ++ -- above %s; . none that is sure\n",
+              force(0.5 * largest).c_str());
+  for (Eigen::Index j = surface.mean.cols() - 1; j >= 0; --j) {
+    const auto middle = 0.5 * (surface.rate_edges[static_cast<std::size_t>(j)] +
+                               surface.rate_edges[static_cast<std::size_t>(j) + 1]);
+    std::printf("%12s |", rate(middle).c_str());
+    for (Eigen::Index i = 0; i < surface.mean.rows(); ++i) {
+      const double mean = surface.mean(i, j);
+      const char* mark = surface.count(i, j) < kFewestInCell ? "" : ".";
+      if (isSure(i, j)) mark = std::abs(mean) > 0.5 * largest ? (mean > 0.0 ? "++" : "--") : (mean > 0.0 ? "+" : "-");
+      std::printf(" %-2s", mark);
+    }
+    std::printf("\n");
+  }
+  const std::string left = travel(surface.travel_edges.front()), right = travel(surface.travel_edges.back());
+  const int width = 3 * static_cast<int>(surface.mean.rows()) - static_cast<int>(left.size());
+  std::printf("%12s  %s%*s travel\n", "rate", left.c_str(), std::max(1, width), right.c_str());
+}
+
+json toJson(const ResidualBin& bin) {
+  return {{"from", bin.from}, {"to", bin.to},       {"mean", bin.mean}, {"standard_error", bin.standard_error},
+          {"rms", bin.rms},   {"count", bin.count}};
+}
+
+json toJson(const TimeBin& bin) {
+  json row = toJson(static_cast<const ResidualBin&>(bin));
+  row["drive"] = bin.record;
+  row["damping_error"] = bin.damping_error;
+  row["damping_error_stddev"] = bin.damping_error_stddev;
+  row["stiffness_error"] = bin.stiffness_error;
+  row["stiffness_error_stddev"] = bin.stiffness_error_stddev;
+  return row;
+}
+
+template <class Bin>
+json binsToJson(const std::vector<Bin>& bins) {
+  json rows = json::array();
+  for (const Bin& bin : bins) rows.push_back(toJson(bin));
+  return rows;
+}
+
+json toJson(const ResidualCorrelation& correlation) {
+  return {{"lag", correlation.lag},     {"value", correlation.value},
+          {"lower", correlation.lower}, {"upper", correlation.upper},
+          {"share_outside", correlation.share_outside}, {"within", correlation.within}};
+}
+
+template <class Matrix>
+json matrixToJson(const Matrix& matrix) {
+  json rows = json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    rows.push_back(json::array());
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows.back().push_back(matrix(i, j));
+  }
+  return rows;
+}
+
+json toJson(const ForceSurface& surface) {
+  return {{"travel_edges", surface.travel_edges},
+          {"rate_edges", surface.rate_edges},
+          {"mean", matrixToJson(surface.mean)},
+          {"standard_error", matrixToJson(surface.standard_error)},
+          {"rms", matrixToJson(surface.rms)},
+          {"count", matrixToJson(surface.count)},
+          {"explained_share", surface.explained_share}};
+}
+
+json toJson(const DirectionLoop& loop) {
+  return {{"compressing", binsToJson(loop.compressing)},
+          {"extending", binsToJson(loop.extending)},
+          {"gap", loop.gap},
+          {"gap_standard_error", loop.gap_standard_error},
+          {"area", loop.area}};
+}
+
+json toJson(const ResidualSpectrum& spectrum) {
+  return {{"frequency", spectrum.frequency}, {"residual", spectrum.residual},
+          {"measured", spectrum.measured},   {"noise", spectrum.noise},
+          {"coherence", spectrum.coherence}, {"coherence_threshold", spectrum.coherence_threshold}};
+}
+
+json toJson(const ResidualViews& views) {
+  json result{{"offset", views.offset},
+              {"time", binsToJson(views.time)},
+              {"travel", binsToJson(views.travel)},
+              {"travel_rate", binsToJson(views.travel_rate)},
+              {"surface", toJson(views.surface)},
+              {"direction", toJson(views.direction)},
+              {"whiteness", toJson(views.whiteness)},
+              {"cross_correlation", toJson(views.cross_correlation)}};
+  if (views.spectrum) result["spectrum"] = toJson(*views.spectrum);
+  return result;
+}
+
+}  // namespace
+
+void printComparison(const Comparison& comparison) {
+  printModel(comparison);
+  printErrors(comparison);
+  printTest("residual against itself (whiteness)", comparison.views.whiteness);
+  printTest("residual against the wheel's motion", comparison.views.cross_correlation);
+  std::printf("\nWhere it fails, worst first:\n");
+  for (const FailureRegion& region : comparison.where) std::printf("- %s\n", region.sentence.c_str());
+  printMap(comparison.views.surface);
+}
+
+json toJson(const Comparison& comparison) {
+  json model{{"parameters", parametersOf(comparison.model)}, {"fitted", comparison.stddev.size() > 0}};
+  addNumbers(comparison.model, model);
+  json free_run{{"rmse", comparison.free_run.rmse},
+                {"fit_percent", comparison.free_run.fit_percent},
+                {"held_out_rmse", nullptr}};
+  if (comparison.held_out_rmse) free_run["held_out_rmse"] = *comparison.held_out_rmse;
+  json one_step = nullptr;
+  if (comparison.one_step)
+    one_step = {{"rmse", comparison.one_step->rmse},
+                {"fit_percent", comparison.one_step->fit_percent},
+                {"horizon_samples", comparison.horizon_samples}};
+  json where = json::array();
+  for (const FailureRegion& region : comparison.where)
+    where.push_back({{"region", region.region},
+                     {"sentence", region.sentence},
+                     {"rmse", region.rmse},
+                     {"rmse_elsewhere", region.rmse_elsewhere},
+                     {"mean", region.mean},
+                     {"share", region.share}});
+  return {{"model", model},
+          {"free_run", free_run},
+          {"one_step", one_step},
+          {"noise_floor", comparison.noise_floor},
+          {"structured_share", comparison.structured_share},
+          {"where", where},
+          {"views", toJson(comparison.views)}};
+}
+
+}  // namespace suspension_health_monitor
