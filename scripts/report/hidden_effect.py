@@ -72,8 +72,8 @@ def section(found):
     """The search in a few words, and the way to its own page."""
     return Section("Which effect is missing?", (
         f"A rover drives {DURATION:g} s over a rough track. Its strut has dry friction, of which the model knows "
-        "nothing. From the recorded readings of the two IMUs alone <code>suspension_bag diagnose</code> adds every effect that it "
-        "knows to the model and judges by parts of the drive that it has not fitted.",
+        "nothing. From the recorded readings of the two IMUs alone <code>suspension_bag diagnose</code> adds every effect "
+        "that it knows to the model and judges by parts of the drive that it has not fitted.",
         f"<b>{html.escape(found.sentence)}</b>{sizes_found(found)}",
         f'<a href="{PAGE_FOLDER}/report.html">The whole search as a page to look at</a>: measured against predicted, '
         "what is missing over the motion of the strut, all candidates, and how to add the effect."),

@@ -69,8 +69,7 @@ void diagnose(const Arguments& arguments) {
   search.threads = threads;
   Progress progress("fitting", 1.0);
   const std::optional<SearchResult> result =
-      EffectSearch(models.library, search)
-          .run(records, drives.start, [&](double share) { progress.update(share); });
+      EffectSearch(models.library, search).run(records, drives.start, [&](double share) { progress.update(share); });
   if (!result)
     throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");
 

@@ -60,7 +60,8 @@ json addingJson(const ReportContent& content) {
         "rosservice call /monitor/set_effects \"" + settingOf(modelOf(content.search)) +
             "\"\nrqt_plot /monitor/comparison/base_rmse /monitor/comparison/rmse");
   add("Live from the start: name the file in your copy of monitor.yaml",
-      "model_file: /path/to/model.yaml\n\nroslaunch suspension_health_monitor monitor.launch config:=$PWD/my_strut.yaml");
+      "model_file: /path/to/model.yaml\n\nroslaunch suspension_health_monitor monitor.launch "
+      "config:=$PWD/my_strut.yaml");
   return {{"model_file", toYaml(modelOf(content.search))}, {"commands", commands}};
 }
 

@@ -31,14 +31,10 @@ std::string sourceOf(const ReportContent& content) {
 }
 
 json findingsOf(const ReportContent& content) {
-  json findings{{"search", toJson(content.search)},
-                {"source", sourceOf(content)},
-                {"effects", effectsJson(content.library)},
-                {"parameters", parametersJson(content)},
-                {"drives", drivesJson(content)},
-                {"before", viewsJson(content.before)},
-                {"forces", forcesJson(content)},
-                {"adding", addingJson(content)}};
+  json findings{{"search", toJson(content.search)},        {"source", sourceOf(content)},
+                {"effects", effectsJson(content.library)}, {"parameters", parametersJson(content)},
+                {"drives", drivesJson(content)},           {"before", viewsJson(content.before)},
+                {"forces", forcesJson(content)},           {"adding", addingJson(content)}};
   if (content.after != nullptr) findings["after"] = viewsJson(*content.after);
   return findings;
 }
@@ -71,7 +67,8 @@ ReportPage::Folder::~Folder() {
   if (made_) fs::remove(path_, not_empty);
 }
 
-ReportPage::ReportPage(const std::string& folder) : folder_(folder), file_((fs::path(folder) / "report.html").string()) {}
+ReportPage::ReportPage(const std::string& folder)
+    : folder_(folder), file_((fs::path(folder) / "report.html").string()) {}
 
 void ReportPage::write(const ReportContent& content) {
   constexpr std::string_view placeholder = "@@findings@@";

@@ -17,7 +17,7 @@ using nlohmann::json;
 using Series = std::vector<std::pair<const char*, std::vector<double>>>;
 
 constexpr std::size_t kMostValues = 1'250'000;  // in the page: 2 bytes each, 4/3 of that in base64
-constexpr double kPeriodsInView = 8.0;         // natural periods that are shown first
+constexpr double kPeriodsInView = 8.0;          // natural periods that are shown first
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
   namespace it = boost::archive::iterators;
@@ -87,7 +87,9 @@ json heldOutSpans(const DriveRecord& drive, const std::vector<SampleMask>& masks
   json spans = json::array();
   for (std::size_t i = 0; i < masks.size(); ++i) {
     const SampleMask& mask = masks[i];
-    const auto time = [&](std::size_t k) { return drive.segments()[i].start + static_cast<double>(k) * drive.period(); };
+    const auto time = [&](std::size_t k) {
+      return drive.segments()[i].start + static_cast<double>(k) * drive.period();
+    };
     for (std::size_t k = 0; k < mask.size();) {
       const std::size_t first = k;
       while (k < mask.size() && mask[k] == mask[first]) ++k;
@@ -131,9 +133,13 @@ json drivesJson(const ReportContent& content) {
       duration = segment.time(segment.size() - 1);
     }
     if (stretches.empty()) continue;
-    drives.push_back({{"name", content.drive_names[r]}, {"duration", duration}, {"view_span", span},
-                      {"view_centre", worst.first}, {"stretches", stretches},
-                      {"held_out", held_out ? heldOutSpans(*content.drives[r], held_out->training[r]) : json::array()}});
+    drives.push_back(
+        {{"name", content.drive_names[r]},
+         {"duration", duration},
+         {"view_span", span},
+         {"view_centre", worst.first},
+         {"stretches", stretches},
+         {"held_out", held_out ? heldOutSpans(*content.drives[r], held_out->training[r]) : json::array()}});
   }
   return drives;
 }

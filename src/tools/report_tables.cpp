@@ -57,12 +57,15 @@ json effectsJson(const EffectLibrary& library) {
   for (const ForceEffect& effect : library.forces) {
     json shapes = json::array();
     for (const ShapeParameter& shape : effect.shapes) shapes.push_back({{"name", shape.name}, {"unit", shape.unit}});
-    effects[effect.name] = {{"law", effect.law}, {"unit", effect.unit}, {"finding", effect.finding},
-                            {"shapes", shapes},  {"kind", "force"}};
+    effects[effect.name] = {
+        {"law", effect.law}, {"unit", effect.unit}, {"finding", effect.finding}, {"shapes", shapes}, {"kind", "force"}};
   }
   for (const MeasurementEffect& effect : library.readings)
-    effects[effect.name] = {{"law", effect.law},          {"unit", effect.unit},  {"finding", effect.finding},
-                            {"shapes", json::array()}, {"kind", "reading"}};
+    effects[effect.name] = {{"law", effect.law},
+                            {"unit", effect.unit},
+                            {"finding", effect.finding},
+                            {"shapes", json::array()},
+                            {"kind", "reading"}};
   return effects;
 }
 

@@ -40,7 +40,8 @@ json axisOf(ForceVariable variable) {
 }
 
 /// A map for the page: rows upwards along y.
-json emptyMap(ForceVariable x, ForceVariable y, const std::vector<double>& x_edges, const std::vector<double>& y_edges) {
+json emptyMap(ForceVariable x, ForceVariable y, const std::vector<double>& x_edges,
+              const std::vector<double>& y_edges) {
   return {{"x", axisOf(x)}, {"y", axisOf(y)}, {"x_edges", shortened(x_edges)}, {"y_edges", shortened(y_edges)}};
 }
 
@@ -59,8 +60,8 @@ json mapOf(const ForceSurface& surface) {
     errors.push_back(error);
     counts.push_back(count);
   }
-  map.update({{"mean", means}, {"standard_error", errors}, {"count", counts},
-              {"explained_share", surface.explained_share}});
+  map.update(
+      {{"mean", means}, {"standard_error", errors}, {"count", counts}, {"explained_share", surface.explained_share}});
   return map;
 }
 
@@ -86,8 +87,12 @@ json correlationOf(const ResidualCorrelation& correlation) {
 json branchOf(const SeenForce& force, const std::vector<SeenForceBin>& bins, const char* name) {
   json points = json::array(), law_x = json::array(), law = json::array();
   for (const SeenForceBin& bin : bins) {
-    points.push_back({{"x", shortened(bin.at)}, {"y", shortened(bin.mean)}, {"low", shortened(bin.mean - bin.deviation)},
-                      {"high", shortened(bin.mean + bin.deviation)}, {"law", shortened(bin.law)}, {"count", bin.count}});
+    points.push_back({{"x", shortened(bin.at)},
+                      {"y", shortened(bin.mean)},
+                      {"low", shortened(bin.mean - bin.deviation)},
+                      {"high", shortened(bin.mean + bin.deviation)},
+                      {"law", shortened(bin.law)},
+                      {"count", bin.count}});
     if (!force.hasMemory()) continue;
     law_x.push_back(shortened(bin.at));
     law.push_back(shortened(bin.law));

@@ -138,8 +138,8 @@ def test_drives_are_named_as_they_are(report):
 def test_page_that_cannot_be_written_is_refused_before_the_search(program, tmp_path):
     program.succeed("simulate", *DRIVE, "-o", tmp_path / "drive.bag")
     (tmp_path / "file").write_text("here first")
-    program.refuse(3, ["diagnose", tmp_path / "drive.bag", "--report", tmp_path / "file"], ["file"], tmp_path)
-    program.refuse(3, ["diagnose", tmp_path / "drive.bag", "--report", tmp_path / "no" / "folder"], ["folder"], tmp_path)
+    for folder in (tmp_path / "file", tmp_path / "no" / "folder"):
+        program.refuse(3, ["diagnose", tmp_path / "drive.bag", "--report", folder], [folder, "cannot be made"], tmp_path)
 
 
 def test_nothing_is_left_of_a_search_that_fails(program, tmp_path):

@@ -20,7 +20,8 @@ struct SeenForceBin {
   std::size_t count = 0;   ///< samples
 };
 
-/// The same over a plane: cell (i, j) between first_edges[i, i + 1] and second_edges[j, j + 1]; without samples count 0.
+/// The same over a plane: cell (i, j) between first_edges[i, i + 1] and second_edges[j, j + 1]; without samples count
+/// 0.
 struct SeenForceGrid {
   std::vector<double> first_edges, second_edges;
   std::vector<std::vector<SeenForceBin>> cells;
@@ -28,10 +29,10 @@ struct SeenForceGrid {
 
 /// One effect's force as the measurement shows it, beside what the law says.
 ///
-/// Seen is what the model lacks (ComparedSegment::missing_force) plus the effect's own part c f: the force that is there
-/// beside everything else in the model. It does not hang on c being right.
-/// A law that is right lies in the middle of what is seen, over the whole range; one that only helps does not.
-/// After W. A. Larsen, S. J. McCleary, Technometrics 14 (1972), 781-790 (partial residual plots).
+/// Seen is what the model lacks (ComparedSegment::missing_force) plus the effect's own part c f: the force that is
+/// there beside everything else in the model. It does not hang on c being right. A law that is right lies in the middle
+/// of what is seen, over the whole range; one that only helps does not. After W. A. Larsen, S. J. McCleary,
+/// Technometrics 14 (1972), 781-790 (partial residual plots).
 struct SeenForce {
   ActiveEffect effect;
   std::vector<ForceVariable> variables;  ///< that decide the force: one or two; of a law with memory the travel

@@ -35,7 +35,8 @@ class Axis {
   }
 
   ticks(spacing) {
-    return this.log ? this.logTicks() : this.linearTicks(Math.max(2, Math.abs(this.range[1] - this.range[0]) / spacing));
+    return this.log ? this.logTicks() :
+                      this.linearTicks(Math.max(2, Math.abs(this.range[1] - this.range[0]) / spacing));
   }
 
   linearTicks(most) {
@@ -46,7 +47,10 @@ class Axis {
     const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
     const ticks = [];
     for (let i = Math.ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i)
-      ticks.push({value: i * step / this.scale.factor, text: (i * step).toFixed(decimals).replace(/^-(?=0*\.?0*$)/, '').replace('-', '−')});
+      ticks.push({
+        value: i * step / this.scale.factor,
+        text: (i * step).toFixed(decimals).replace(/^-(?=0*\.?0*$)/, '').replace('-', '−')
+      });
     return ticks;
   }
 
@@ -58,7 +62,8 @@ class Axis {
       for (const digit of decades < 3.2 ? [1, 2, 5] : [1]) {
         const value = digit * 10 ** power;
         if (value < from * (1 - 1e-9) || value > to * (1 + 1e-9)) continue;
-        const text = power >= -3 && power <= 4 ? String(Number(value.toPrecision(1))) : `${digit > 1 ? digit + '·' : ''}10${superscript(power)}`;
+        const text = power >= -3 && power <= 4 ? String(Number(value.toPrecision(1))) :
+                                                 `${digit > 1 ? digit + '·' : ''}10${superscript(power)}`;
         ticks.push({value, text});
       }
     return ticks;
@@ -68,7 +73,14 @@ class Axis {
 /** Somewhat more room than the values need. */
 function padded(values, share = 0.06) {
   let low = Infinity, high = -Infinity;
-  for (const value of values) if (isNumber(value)) { low = Math.min(low, value); high = Math.max(high, value); }
-  if (!(high > low)) { const middle = Number.isFinite(low) ? low : 0; return [middle - 1, middle + 1]; }
+  for (const value of values)
+    if (isNumber(value)) {
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+    }
+  if (!(high > low)) {
+    const middle = Number.isFinite(low) ? low : 0;
+    return [middle - 1, middle + 1];
+  }
   return [low - share * (high - low), high + share * (high - low)];
 }

@@ -14,7 +14,8 @@ class Stretch {
     for (const [name, series] of Object.entries(values)) this.values[name] = unpacked(series);
     for (const when of ['before', 'after']) {
       const residual = this.values[`residual_${when}`];
-      if (residual && !this.values[when]) this.values[when] = this.values.measured.map((value, k) => value - residual[k]);
+      if (residual && !this.values[when])
+        this.values[when] = this.values.measured.map((value, k) => value - residual[k]);
     }
     this.size = this.values.measured.length;
     this.end = start + (this.size - 1) * period;
@@ -22,8 +23,10 @@ class Stretch {
 
   /** Indices of the samples between two times, one more on either side. */
   within(from, to) {
-    return [Math.max(0, Math.floor((from - this.start) / this.period)),
-            Math.min(this.size, Math.ceil((to - this.start) / this.period) + 2)];
+    return [
+      Math.max(0, Math.floor((from - this.start) / this.period)),
+      Math.min(this.size, Math.ceil((to - this.start) / this.period) + 2)
+    ];
   }
 }
 
@@ -37,7 +40,10 @@ function extent(drive, names, [from, to]) {
       const values = stretch.values[name];
       if (!values) continue;
       const [first, last] = stretch.within(from, to);
-      for (let k = first; k < last; ++k) { if (values[k] < low) low = values[k]; if (values[k] > high) high = values[k]; }
+      for (let k = first; k < last; ++k) {
+        if (values[k] < low) low = values[k];
+        if (values[k] > high) high = values[k];
+      }
     }
   return [low, high];
 }
@@ -58,13 +64,17 @@ function seriesLayer(drive, name, colourName, {width = 1.5, opacity = 1, dash = 
       if (!values || last - first < 2) continue;
       context.beginPath();
       if (per_pixel < 2 * stretch.period) {
-        for (let k = first; k < last; ++k) context.lineTo(plot.x.pixel(stretch.start + k * stretch.period), plot.y.pixel(values[k]));
+        for (let k = first; k < last; ++k)
+          context.lineTo(plot.x.pixel(stretch.start + k * stretch.period), plot.y.pixel(values[k]));
       } else {
         const step = per_pixel / stretch.period;
         for (let begin = first; begin < last; begin += step) {
           let low = Infinity, high = -Infinity;
           const end = Math.min(last, begin + step);
-          for (let k = Math.floor(begin); k < end; ++k) { if (values[k] < low) low = values[k]; if (values[k] > high) high = values[k]; }
+          for (let k = Math.floor(begin); k < end; ++k) {
+            if (values[k] < low) low = values[k];
+            if (values[k] > high) high = values[k];
+          }
           const px = plot.x.pixel(stretch.start + begin * stretch.period);
           context.lineTo(px, plot.y.pixel(low));
           context.lineTo(px, plot.y.pixel(high));

@@ -31,7 +31,10 @@ function heatMap(host, map, domains, value, name) {
   const scale = scaleFor(value.limit, value.unit);
   const show = number => `${rounded(number * scale.factor)} ${scale.unit}`;
   return new Plot(host, {
-    x: new Axis({...map.x, domain: domains.x}), y: new Axis({...map.y, domain: domains.y}), height: 300, name,
+    x: new Axis({...map.x, domain: domains.x}),
+    y: new Axis({...map.y, domain: domains.y}),
+    height: 300,
+    name,
     layers: [cellLayer(map, map.mean, value.limit)],
     hover(x, y) {
       const [row, column] = [cell(map.y_edges, y), cell(map.x_edges, x)];
@@ -49,8 +52,9 @@ function heatMap(host, map, domains, value, name) {
 function scaleBar(title, limit, unit) {
   const scale = scaleFor(limit, unit);
   const end = rounded(limit * scale.factor, 2);
-  return element('div', {class: 'scale-bar'}, element('span', {}, `−${end}`), element('i'),
-    element('span', {}, `+${end}`), element('span', {class: 'unit'}, `${title} [${scale.unit}]`));
+  return element(
+      'div', {class: 'scale-bar'}, element('span', {}, `−${end}`), element('i'), element('span', {}, `+${end}`),
+      element('span', {class: 'unit'}, `${title} [${scale.unit}]`));
 }
 
 /** Maps with one plane and one colour scale, side by side: panels [{name, map}]. */
@@ -58,9 +62,12 @@ function mapPair(panels, {title, unit}) {
   const limit = scaleLimit(...panels.map(({map}) => map.mean));
   const across = edges => padded(panels.flatMap(({map}) => ends(map[edges])), 0);
   const domains = {x: across('x_edges'), y: across('y_edges')};
-  return [element('div', {class: 'pair'}, panels.map(({name, map}) => {
-    const host = element('div');
-    whenPlaced(() => heatMap(host, map, domains, {title, unit, limit}, `${title}, ${name}`).draw());
-    return figure(name, host);
-  })), scaleBar(title, limit, unit)];
+  return [
+    element('div', {class: 'pair'}, panels.map(({name, map}) => {
+      const host = element('div');
+      whenPlaced(() => heatMap(host, map, domains, {title, unit, limit}, `${title}, ${name}`).draw());
+      return figure(name, host);
+    })),
+    scaleBar(title, limit, unit)
+  ];
 }

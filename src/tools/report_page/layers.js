@@ -52,13 +52,15 @@ function dotLayer(points, colourName) {
 
 /** Horizontal line at a value. */
 const levelLayer = (value, colourName, dash = [5, 4]) => (context, plot) =>
-  lineLayer(plot.x.domain, [value, value], colourName, {width: 1.2, dash})(context, plot);
+    lineLayer(plot.x.domain, [value, value], colourName, {width: 1.2, dash})(context, plot);
 
 /** Spans of x, shaded from top to bottom. */
 const spanLayer = (spans, colourName) => (context, plot) => {
   context.fillStyle = colour(colourName);
   for (const [from, to] of spans)
-    context.fillRect(plot.x.pixel(from), plot.y.range[1], plot.x.pixel(to) - plot.x.pixel(from), plot.y.range[0] - plot.y.range[1]);
+    context.fillRect(
+        plot.x.pixel(from), plot.y.range[1], plot.x.pixel(to) - plot.x.pixel(from),
+        plot.y.range[0] - plot.y.range[1]);
 };
 
 /** Index of the value nearest to x in an ascending list. */
@@ -66,7 +68,10 @@ function nearestIndex(xs, x) {
   let low = 0, high = xs.length - 1;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
-    if (xs[middle] > x) high = middle; else low = middle;
+    if (xs[middle] > x)
+      high = middle;
+    else
+      low = middle;
   }
   return Math.abs(xs[low] - x) <= Math.abs(xs[high] - x) ? low : high;
 }

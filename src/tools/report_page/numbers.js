@@ -1,8 +1,28 @@
 // Numbers and units for people: sensible digits, SI prefixes chosen from the values.
 
-const SUPERSCRIPTS = {'-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹'};
+const SUPERSCRIPTS = {
+  '-': '⁻',
+  0: '⁰',
+  1: '¹',
+  2: '²',
+  3: '³',
+  4: '⁴',
+  5: '⁵',
+  6: '⁶',
+  7: '⁷',
+  8: '⁸',
+  9: '⁹'
+};
 const superscript = text => [...String(text)].map(c => SUPERSCRIPTS[c]).join('');
-const PREFIXES = {'-9': 'n', '-6': 'µ', '-3': 'm', 0: '', 3: 'k', 6: 'M', 9: 'G'};
+const PREFIXES = {
+  '-9': 'n',
+  '-6': 'µ',
+  '-3': 'm',
+  0: '',
+  3: 'k',
+  6: 'M',
+  9: 'G'
+};
 
 /** "m/s^2" as "m/s²"; the unit "-" is none. */
 function prettyUnit(unit) {
@@ -30,9 +50,11 @@ function withDeviation(value, stddev) {
   if (!isNumber(stddev) || stddev <= 0) return rounded(value, 4);
   const last = Math.floor(Math.log10(stddev)) - 1;
   const power = Math.floor(Math.log10(Math.max(Math.abs(value), stddev)));
-  if (last < -7 || power >= 6) return `${rounded(value, Math.min(7, Math.max(2, power - last + 1)))} ± ${rounded(stddev, 2)}`;
+  if (last < -7 || power >= 6)
+    return `${rounded(value, Math.min(7, Math.max(2, power - last + 1)))} ± ${rounded(stddev, 2)}`;
   const step = 10 ** Math.max(0, last);
-  const show = number => (step > 1 ? step * Math.round(number / step) : number).toFixed(Math.max(0, -last)).replace('-', '−');
+  const show = number =>
+      (step > 1 ? step * Math.round(number / step) : number).toFixed(Math.max(0, -last)).replace('-', '−');
   return `${show(value)} ± ${show(stddev)}`;
 }
 
@@ -58,9 +80,13 @@ function quantityWithDeviation(value, stddev, unit) {
 }
 
 /** A sentence with plain "m/s^2" in it. */
-const typeset = sentence => sentence.replace(/\^(-?\d+)/g, (_, digits) => superscript(digits)).replace(/(^|[\s(])-(?=\d)/g, '$1−');
+const typeset = sentence =>
+    sentence.replace(/\^(-?\d+)/g, (_, digits) => superscript(digits)).replace(/(^|[\s(])-(?=\d)/g, '$1−');
 
 function percent(value) {
   if (!isNumber(value)) return '–';
-  return `${(Math.abs(value) < 9.95 ? value.toFixed(1) : value.toFixed(0)).replace(/^-(0(\.0+)?)$/, '$1').replace('-', '−')}\u00a0%`;
+  return `${
+      (Math.abs(value) < 9.95 ? value.toFixed(1) : value.toFixed(0))
+          .replace(/^-(0(\.0+)?)$/, '$1')
+          .replace('-', '−')}\u00a0%`;
 }

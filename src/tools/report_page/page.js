@@ -7,7 +7,10 @@ function noteWhatIsPainted() {
     let painted = 0;
     const colours = new Set();
     for (let i = 0; i < pixels.length; i += 4)
-      if (pixels[i + 3] > 0) { ++painted; colours.add((pixels[i] << 16) | (pixels[i + 1] << 8) | pixels[i + 2]); }
+      if (pixels[i + 3] > 0) {
+        ++painted;
+        colours.add((pixels[i] << 16) | (pixels[i + 1] << 8) | pixels[i + 2]);
+      }
     canvas.dataset.painted = String(painted);
     canvas.dataset.colours = String(colours.size);
   }
@@ -17,12 +20,17 @@ function buildPage() {
   const findings = JSON.parse(document.getElementById('findings').textContent);
   const timeView = new TimeView(findings.drives.map(unpackDrive), Boolean(findings.after));
   document.title = headline(findings);
-  document.getElementById('page').append(...[verdictSection(findings), ladderSection(findings),
-    section('time', 'Measured against predicted',
-      'The model gets the acceleration of the wheel and predicts that of the body; it never sees the body’s sensor.', timeView.content),
-    whereSection(findings), mapSection(findings), forceSection(findings), spectrumSection(findings), whitenessSection(findings),
-    rankingSection(findings), parameterSection(findings), addingSection(findings),
-    element('footer', {}, element('p', {}, findings.footer))].filter(Boolean));
+  document.getElementById('page').append(
+      ...[verdictSection(findings), ladderSection(findings),
+          section(
+              'time', 'Measured against predicted',
+              'The model gets the acceleration of the wheel and predicts that of the body; it never sees the body’s ' +
+              'sensor.',
+              timeView.content),
+          whereSection(findings), mapSection(findings), forceSection(findings), spectrumSection(findings),
+          whitenessSection(findings), rankingSection(findings), parameterSection(findings), addingSection(findings),
+          element('footer', {}, element('p', {}, findings.footer))]
+          .filter(Boolean));
   for (const draw of waiting) draw();
   noteWhatIsPainted();
   document.documentElement.dataset.ready = 'yes';

@@ -4,7 +4,8 @@ class Plot {
   /**
    * @param host  element that gets the canvas.  @param x, y  Axis.  @param height  of the canvas, CSS pixels.
    * @param layers  functions (context, plot) that draw inside the axes.
-   * @param hover  (x, y) => {title, rows, at?} or nothing, for the tooltip.  @param name  for those who cannot see it.
+   * @param hover  (x, y) => {title, rows, at?} or nothing, for the tooltip.  @param name  for those who cannot see
+   *     it.
    */
   constructor(host, {x, y, height = 240, layers, hover, name, margin = {}}) {
     Object.assign(this, {host, x, y, height, layers, hover});
@@ -15,7 +16,9 @@ class Plot {
     host.append(this.canvas, this.cursor);
     if (hover) this.listen();
     figures.push(this);
-    new ResizeObserver(() => { if (Math.abs(this.host.clientWidth - this.width) > 1) this.draw(); }).observe(host);
+    new ResizeObserver(() => {
+      if (Math.abs(this.host.clientWidth - this.width) > 1) this.draw();
+    }).observe(host);
   }
 
   listen() {
@@ -33,8 +36,11 @@ class Plot {
   }
 
   placeCursor(value) {
-    Object.assign(this.cursor.style, {left: `${this.x.pixel(value)}px`, top: `${this.margin.top}px`,
-                                      height: `${this.height - this.margin.top - this.margin.bottom}px`});
+    Object.assign(this.cursor.style, {
+      left: `${this.x.pixel(value)}px`,
+      top: `${this.margin.top}px`,
+      height: `${this.height - this.margin.top - this.margin.bottom}px`
+    });
   }
 
   leave() {
@@ -57,9 +63,14 @@ class Plot {
     this.drawGrid(context);
     context.save();
     context.beginPath();
-    context.rect(this.x.range[0], this.y.range[1], this.x.range[1] - this.x.range[0], this.y.range[0] - this.y.range[1]);
+    context.rect(
+        this.x.range[0], this.y.range[1], this.x.range[1] - this.x.range[0], this.y.range[0] - this.y.range[1]);
     context.clip();
-    for (const layer of this.layers) { context.save(); layer(context, this); context.restore(); }
+    for (const layer of this.layers) {
+      context.save();
+      layer(context, this);
+      context.restore();
+    }
     context.restore();
   }
 
@@ -68,7 +79,12 @@ class Plot {
     context.strokeStyle = colour('line');
     context.fillStyle = colour('muted');
     context.lineWidth = 1;
-    const line = (x1, y1, x2, y2) => { context.beginPath(); context.moveTo(x1, y1); context.lineTo(x2, y2); context.stroke(); };
+    const line = (x1, y1, x2, y2) => {
+      context.beginPath();
+      context.moveTo(x1, y1);
+      context.lineTo(x2, y2);
+      context.stroke();
+    };
     context.textAlign = 'center';
     context.textBaseline = 'top';
     for (const {value, text} of this.x.ticks(74)) {

@@ -19,7 +19,9 @@ addEventListener('afterprint', () => onPaper(false));
 
 const parseColour = text => [1, 3, 5].map(i => parseInt(text.slice(i, i + 2), 16));
 
-/** The diverging scale: share in [-1, 1] to a colour; blue below, orange above, which all kinds of sight tell apart. */
+/**
+ * The diverging scale: share in [-1, 1] to a colour; blue below, orange above, which all kinds of sight tell apart.
+ */
 function divergingScale() {
   const stops = [1, 2, 3, 4, 5].map(i => parseColour(colour(`diverging-${i}`)));
   return share => {
@@ -34,11 +36,18 @@ const tooltip = {
   /** rows: [[name, text], ...] */
   show(event, title, rows) {
     const box = document.getElementById('tooltip');
-    box.replaceChildren(element('b', {}, title), element('dl', {}, rows.map(([name, text, tone]) => [
-      element('dt', {style: tone ? `--colour: var(--${tone})` : null, class: tone ? 'toned' : null}, name),
-      element('dd', {}, text)])));
+    box.replaceChildren(
+        element('b', {}, title),
+        element(
+            'dl', {},
+            rows.map(
+                ([name, text, tone]) =>
+                    [element(
+                         'dt', {style: tone ? `--colour: var(--${tone})` : null, class: tone ? 'toned' : null}, name),
+                     element('dd', {}, text)])));
     box.hidden = false;
-    const left = event.clientX + 16 + box.offsetWidth > innerWidth ? event.clientX - box.offsetWidth - 16 : event.clientX + 16;
+    const left =
+        event.clientX + 16 + box.offsetWidth > innerWidth ? event.clientX - box.offsetWidth - 16 : event.clientX + 16;
     box.style.left = `${Math.max(4, left)}px`;
     box.style.top = `${Math.max(4, Math.min(innerHeight - box.offsetHeight - 4, event.clientY + 12))}px`;
   },
