@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "suspension_health_monitor/discrepancy/compared_segment.h"
 #include "suspension_health_monitor/discrepancy/output_error_fit.h"
@@ -190,8 +191,11 @@ std::vector<SeenForce> seeForces(const std::vector<const DriveRecord*>& records,
   Motions motions;
   std::vector<double> predicted;
   for (const DriveRecord* record : records)
-    for (const DriveSegment& segment : record->segments())
-      runFree(model, *record, segment, initial[motions.size()], predicted, &motions.emplace_back());
+    for (const DriveSegment& segment : record->segments()) {
+      std::vector<StrutState> motion;
+      runFree(model, *record, segment, initial[motions.size()], predicted, &motion);
+      motions.push_back(std::move(motion));
+    }
   std::vector<SeenForce> forces;
   for (std::size_t j = 0; j < model.effects.size(); ++j)
     forces.push_back(seeForce(model.effects[j], samplesOf(*segments, motions, model.effects[j], j)));

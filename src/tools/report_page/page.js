@@ -16,6 +16,9 @@ function noteWhatIsPainted() {
   }
 }
 
+const TERMS = 'Travel is positive in compression; forces are per unit of the body’s mass, positive upwards. Held out: ' +
+    'stretches of the drive that no fit has seen. Everything on this page is in this one file.';
+
 function buildPage() {
   const findings = JSON.parse(document.getElementById('findings').textContent);
   const timeView = new TimeView(findings.drives.map(unpackDrive), Boolean(findings.after));
@@ -29,7 +32,7 @@ function buildPage() {
               timeView.content),
           whereSection(findings), mapSection(findings), forceSection(findings), spectrumSection(findings),
           whitenessSection(findings), rankingSection(findings), parameterSection(findings), addingSection(findings),
-          element('footer', {}, element('p', {}, findings.footer))]
+          element('footer', {}, element('p', {}, TERMS))]
           .filter(Boolean));
   for (const draw of waiting) draw();
   noteWhatIsPainted();
