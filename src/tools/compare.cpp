@@ -35,8 +35,9 @@ void compare(const Arguments& arguments) {
                               [&](double share) { progress.update(share); });
   }
   if (!comparison)
-    throw TooLittleError("the drives are too short or too calm to compare a model with, or the model is not stable on "
-                         "them");
+    throw TooLittleError(
+        "the drives are too short or too calm to compare a model with, or the model is not stable on "
+        "them");
   printComparison(*comparison);
   if (!json) return;
   std::fprintf(json->stream(), "%s\n", toJson(*comparison).dump(2).c_str());

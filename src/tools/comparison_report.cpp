@@ -50,16 +50,15 @@ void printErrors(const Comparison& comparison) {
 }
 
 void printTest(const char* name, const ResidualCorrelation& correlation) {
-  std::printf("%-42s %s (%.0f %% of lags outside the 95 %% band)\n", name, correlation.within ? "as noise" : "more than noise",
-              100.0 * correlation.share_outside);
+  std::printf("%-42s %s (%.0f %% of lags outside the 95 %% band)\n", name,
+              correlation.within ? "as noise" : "more than noise", 100.0 * correlation.share_outside);
 }
 
 /// The missing force over travel (across) and travel rate (up): a sign where it is sure, twice where it is large.
 void printMap(const ForceSurface& surface) {
   double largest = 0.0;
   const auto isSure = [&](Eigen::Index i, Eigen::Index j) {
-    return surface.count(i, j) >= kFewestInCell &&
-           std::abs(surface.mean(i, j)) > kSure * surface.standard_error(i, j);
+    return surface.count(i, j) >= kFewestInCell && std::abs(surface.mean(i, j)) > kSure * surface.standard_error(i, j);
   };
   for (Eigen::Index i = 0; i < surface.mean.rows(); ++i)
     for (Eigen::Index j = 0; j < surface.mean.cols(); ++j)
@@ -68,11 +67,12 @@ void printMap(const ForceSurface& surface) {
   const ReadableUnit travel(surface.travel_edges.back(), "m");
   const ReadableUnit rate = ReadableUnit::plain(surface.rate_edges.back(), "m/s");
   const ReadableUnit force = ReadableUnit::plain(largest, "m/s^2");
-  std::printf("\nmissing force: + the strut pushes up harder than the model, - less; ++ -- above %s; . none that is sure\n",
-              force(0.5 * largest).c_str());
+  std::printf(
+      "\nmissing force: + the strut pushes up harder than the model, - less; ++ -- above %s; . none that is sure\n",
+      force(0.5 * largest).c_str());
   for (Eigen::Index j = surface.mean.cols() - 1; j >= 0; --j) {
-    const auto middle = 0.5 * (surface.rate_edges[static_cast<std::size_t>(j)] +
-                               surface.rate_edges[static_cast<std::size_t>(j) + 1]);
+    const auto middle =
+        0.5 * (surface.rate_edges[static_cast<std::size_t>(j)] + surface.rate_edges[static_cast<std::size_t>(j) + 1]);
     std::printf("%12s |", rate(middle).c_str());
     for (Eigen::Index i = 0; i < surface.mean.rows(); ++i) {
       const double mean = surface.mean(i, j);
@@ -88,7 +88,7 @@ void printMap(const ForceSurface& surface) {
 }
 
 json toJson(const ResidualBin& bin) {
-  return {{"from", bin.from}, {"to", bin.to},       {"mean", bin.mean}, {"standard_error", bin.standard_error},
+  return {{"from", bin.from}, {"to", bin.to},      {"mean", bin.mean}, {"standard_error", bin.standard_error},
           {"rms", bin.rms},   {"count", bin.count}};
 }
 
@@ -110,9 +110,12 @@ json binsToJson(const std::vector<Bin>& bins) {
 }
 
 json toJson(const ResidualCorrelation& correlation) {
-  return {{"lag", correlation.lag},     {"value", correlation.value},
-          {"lower", correlation.lower}, {"upper", correlation.upper},
-          {"share_outside", correlation.share_outside}, {"within", correlation.within}};
+  return {{"lag", correlation.lag},
+          {"value", correlation.value},
+          {"lower", correlation.lower},
+          {"upper", correlation.upper},
+          {"share_outside", correlation.share_outside},
+          {"within", correlation.within}};
 }
 
 template <class Matrix>
@@ -126,12 +129,9 @@ json matrixToJson(const Matrix& matrix) {
 }
 
 json toJson(const ForceSurface& surface) {
-  return {{"travel_edges", surface.travel_edges},
-          {"rate_edges", surface.rate_edges},
-          {"mean", matrixToJson(surface.mean)},
-          {"standard_error", matrixToJson(surface.standard_error)},
-          {"rms", matrixToJson(surface.rms)},
-          {"count", matrixToJson(surface.count)},
+  return {{"travel_edges", surface.travel_edges},      {"rate_edges", surface.rate_edges},
+          {"mean", matrixToJson(surface.mean)},        {"standard_error", matrixToJson(surface.standard_error)},
+          {"rms", matrixToJson(surface.rms)},          {"count", matrixToJson(surface.count)},
           {"explained_share", surface.explained_share}};
 }
 
@@ -177,9 +177,8 @@ void printComparison(const Comparison& comparison) {
 json toJson(const Comparison& comparison) {
   json model{{"parameters", parametersOf(comparison.model)}, {"fitted", comparison.stddev.size() > 0}};
   addNumbers(comparison.model, model);
-  json free_run{{"rmse", comparison.free_run.rmse},
-                {"fit_percent", comparison.free_run.fit_percent},
-                {"held_out_rmse", nullptr}};
+  json free_run{
+      {"rmse", comparison.free_run.rmse}, {"fit_percent", comparison.free_run.fit_percent}, {"held_out_rmse", nullptr}};
   if (comparison.held_out_rmse) free_run["held_out_rmse"] = *comparison.held_out_rmse;
   json one_step = nullptr;
   if (comparison.one_step)

@@ -13,6 +13,8 @@ OPTIONS = {
     "simulate": ["-o [ --output ]", "--config", "--set", "--scenario", "--vehicle", "--seed", "--duration", "--rate"],
     "identify": ["--config", "--set", "--sprung-topic", "/sprung/imu", "--unsprung-topic", "/unsprung/imu", "--start",
                  "--end", "--csv", "--json"],
+    "compare": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--json", "--model",
+                "--effects-file"],
     "horizon": ["--damping-to-mass", "--stiffness-to-mass", "--json"],
     "options": ["monitor", "simulator"],
 }

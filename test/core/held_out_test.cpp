@@ -1,4 +1,5 @@
 #include "suspension_health_monitor/discrepancy/held_out.h"
+#include "suspension_health_monitor/discrepancy/noise_floor.h"
 
 #include <gtest/gtest.h>
 

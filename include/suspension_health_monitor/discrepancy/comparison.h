@@ -35,7 +35,8 @@ struct Comparison {
   std::optional<PredictionError> one_step;
   int horizon_samples = 0;  ///< L of the rows
 
-  double noise_floor = 0.0;       ///< rmse that the noise of both sensors alone would leave of a free run [m/s^2]
+  double noise_floor = 0.0;       ///< rmse that the noise of both sensors alone would leave of a free run: as estimated
+                                  ///< by estimateNoiseFloor(), not above the rmse of this one [m/s^2]
   double structured_share = 0.0;  ///< 1 - noise_floor^2 / rmse^2 of the free run, not below 0: what is not noise
 
   ResidualViews views;

@@ -11,15 +11,15 @@ namespace suspension_health_monitor {
 struct PairedComparison {
   double removed_share = 0.0;  ///< 1 - (mean square after) / (mean square before)
   double t = 0.0;              ///< mean difference of a stretch over its standard error
-  double log_ratio = 0.0;      ///< n ln(before / after) for n stretches: the likelihood ratio if a stretch told as much
-                               ///< as one independent residual, which is far less than it does
+  double log_ratio = 0.0;      ///< likelihood ratio n ln(before / after) for n independent squared residuals
 };
 
 /// @param before, after  sums of squares by stretch, of equal length >= 2.
-PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after);
+/// @param independent  how many independent squared residuals `before` is worth, see HeldOut::independentSquares().
+PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after, double independent);
 
-/// @return true if chance alone gets so far with at most the given probability. Either way of looking is enough: t is
-/// weak where an effect acts in a few violent moments, the likelihood ratio where it acts gently all the time.
+/// @return true if chance alone gets so far with at most the given probability. One way of looking is enough: t is weak
+/// where an effect acts in a few violent moments, the likelihood ratio where it acts gently all the time.
 bool isSignificant(const PairedComparison& comparison, double probability);
 
 /// Which samples are fitted and which are kept to judge: contiguous blocks, every third one held out
@@ -32,6 +32,16 @@ class HeldOut {
   /// @param residuals  per segment of all records, as ModelFit has them.
   /// @return sum of squared residuals of each held-out stretch.
   std::vector<double> stretchErrors(const std::vector<std::vector<double>>& residuals) const;
+
+  /// The same with the loss that fits minimise, which is softer on outliers: 2 a^2 (sqrt(1 + (r/a)^2) - 1) instead of r^2,
+  /// so that a few blows do not decide what is missing.
+  /// @param outlier  a [m/s^2], > 0.
+  std::vector<double> stretchLosses(const std::vector<std::vector<double>>& residuals, double outlier) const;
+
+  /// How many independent squares the held-out residuals are worth, being coloured: N / (1 + 2 sum_k rho_k^2), rho their
+  /// autocorrelation at the lags of up to one stretch. Bartlett, "On the theoretical specification and sampling
+  /// properties of autocorrelated time-series", Supplement to the Journal of the Royal Statistical Society 8 (1946).
+  double independentSquares(const std::vector<std::vector<double>>& residuals) const;
 
   /// @return sum of squared residuals of the training samples.
   double trainingError(const std::vector<std::vector<double>>& residuals) const;
@@ -47,6 +57,9 @@ class HeldOut {
   struct Stretch {
     std::size_t segment, first, last;  // last is one past the end
   };
+  template <class Loss>
+  std::vector<double> sumByStretch(const std::vector<std::vector<double>>& residuals, const Loss& loss) const;
+
   std::vector<Stretch> stretches_;
   double samples_ = 0.0;
   double deviation_ = 0.0;
@@ -54,12 +67,5 @@ class HeldOut {
 
 /// @return nothing if there are fewer than eight held-out stretches.
 std::optional<HeldOut> holdOut(const std::vector<const DriveRecord*>& records, double stiffness_to_mass);
-
-/// Estimates what the noise of both sensors leaves of a free run [m/s^2].
-///
-/// The noise of the body's sensor is what a long linear predictor of z'' from its own past and from w'' (past and
-/// future) cannot foresee: forces that are missing from the model change slowly against the sampling and are foreseen,
-/// white noise is not. The wheel's sensor is taken to be as noisy; its noise comes through the model.
-double estimateNoiseFloor(const std::vector<const DriveRecord*>& records, const StrutModel& model);
 
 }  // namespace suspension_health_monitor

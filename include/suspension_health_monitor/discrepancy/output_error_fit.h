@@ -22,6 +22,7 @@ bool runFree(const StrutModel& model, const DriveRecord& record, const DriveSegm
 struct FitOptions {
   int max_iterations = 25;
   double outlier_scale = 4.0;  ///< residuals beyond this many (robust) standard deviations lose weight
+  std::vector<StrutState> initial = {};  ///< first guess of the initial states, per segment; empty: at rest
 };
 
 /// A model fitted by output error, with the initial state of every segment.

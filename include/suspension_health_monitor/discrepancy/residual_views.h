@@ -9,8 +9,8 @@
 
 namespace suspension_health_monitor {
 
-/// The samples where some quantity x lies between two values. Means over all drives are taken off before: an offset of a
-/// sensor would be everywhere.
+/// The samples where some quantity x lies between two values. Means over all drives are taken off before: an offset of
+/// a sensor would be everywhere.
 struct ResidualBin {
   double from = 0.0, to = 0.0;  ///< of x
   double mean = 0.0;            ///< of the missing force (compared_segment.h); over time, of the residual [m/s^2]
@@ -27,8 +27,9 @@ struct TimeBin : ResidualBin {
   double stiffness_error = 0.0, stiffness_error_stddev = 0.0;  ///< to be added to b0 [1/s^2]
 };
 
-/// Mean missing force over the plane of travel and travel rate. Row i, column j: travel in travel_edges[i, i + 1], rate in rate_edges[j, j + 1].
-/// The outermost edges take in the extremes. A cell without samples has count 0; its other entries say nothing.
+/// Mean missing force over the plane of travel and travel rate. Row i, column j: travel in travel_edges[i, i + 1], rate
+/// in rate_edges[j, j + 1]. The outermost edges take in the extremes. A cell without samples has count 0; its other
+/// entries say nothing.
 struct ForceSurface {
   std::vector<double> travel_edges;  ///< [m], one more than rows
   std::vector<double> rate_edges;    ///< [m/s], one more than columns
@@ -39,7 +40,8 @@ struct ForceSurface {
   double explained_share = 0.0;  ///< of the missing force's mean square (its noise is in there), by these means
 };
 
-/// Missing force against travel, apart for the two directions of motion. For a force of travel alone both curves are one.
+/// Missing force against travel, apart for the two directions of motion. For a force of travel alone both curves are
+/// one.
 struct DirectionLoop {
   std::vector<ResidualBin> compressing, extending;  ///< v > 0, v < 0; over the same travel
   double gap = 0.0;                 ///< mean of (compressing - extending), every bin counting by its samples [m/s^2]
@@ -50,11 +52,11 @@ struct DirectionLoop {
 
 /// Power spectral densities, one-sided (Welch, Hann window, half overlapping).
 struct ResidualSpectrum {
-  std::vector<double> frequency;  ///< [Hz], from the first above 0 to Nyquist's
-  std::vector<double> residual;   ///< [(m/s^2)^2/Hz]
-  std::vector<double> measured;   ///< of z'' [(m/s^2)^2/Hz]
-  std::vector<double> noise;      ///< what the noise of both sensors leaves, see noise_floor [(m/s^2)^2/Hz]
-  std::vector<double> coherence;  ///< of residual and w'', 0 .. 1 (magnitude squared)
+  std::vector<double> frequency;     ///< [Hz], from the first above 0 to Nyquist's
+  std::vector<double> residual;      ///< [(m/s^2)^2/Hz]
+  std::vector<double> measured;      ///< of z'' [(m/s^2)^2/Hz]
+  std::vector<double> noise;         ///< what the noise of both sensors leaves, see noise_floor [(m/s^2)^2/Hz]
+  std::vector<double> coherence;     ///< of residual and w'', 0 .. 1 (magnitude squared)
   double coherence_threshold = 0.0;  ///< unrelated signals stay below it in 95 % of the frequencies
   double num_averages = 0.0;         ///< independent spectra that were averaged
 };
@@ -66,24 +68,24 @@ struct ResidualCorrelation {
   std::vector<double> value;         ///< -1 .. 1
   std::vector<double> lower, upper;  ///< band
   double share_outside = 0.0;        ///< of the lags
-  bool within = true;                ///< no more lags outside than chance puts there in 99 of 100 cases
+  bool within = true;                ///< no more lags outside than chance puts there in 99 of 100 cases, and none far
 };
 
 /// The residual seen from all sides.
 struct ResidualViews {
-  double offset = 0.0;                ///< mean residual [m/s^2], taken off in all views
-  double offset_standard_error = 0.0; ///< [m/s^2]
-  double rms = 0.0;                   ///< of what is left [m/s^2]
+  double offset = 0.0;                 ///< mean residual [m/s^2], taken off in all views
+  double offset_standard_error = 0.0;  ///< [m/s^2]
+  double rms = 0.0;                    ///< of what is left [m/s^2]
   std::size_t num_samples = 0;
-  double independent_share = 1.0;     ///< independent samples per sample, by the residual's autocorrelation
-  std::vector<TimeBin> time;                ///< even, drive after drive [s]
-  std::vector<ResidualBin> travel;          ///< [m], by quantiles, finer towards the ends
-  std::vector<ResidualBin> travel_rate;     ///< [m/s], likewise
+  double independent_share = 1.0;        ///< independent samples per sample, by the residual's autocorrelation
+  std::vector<TimeBin> time;             ///< even, drive after drive [s]
+  std::vector<ResidualBin> travel;       ///< [m], by quantiles, finer towards the ends
+  std::vector<ResidualBin> travel_rate;  ///< [m/s], likewise
   ForceSurface surface;
   DirectionLoop direction;
-  std::optional<ResidualSpectrum> spectrum;      ///< nothing if no segment is long enough
-  ResidualCorrelation whiteness;                 ///< autocorrelation of the residual, lags above 0
-  ResidualCorrelation cross_correlation;         ///< residual against w''; positive lag: the wheel moved before
+  std::optional<ResidualSpectrum> spectrum;  ///< nothing if no segment is long enough
+  ResidualCorrelation whiteness;             ///< autocorrelation of the residual, lags above 0
+  ResidualCorrelation cross_correlation;     ///< residual against w''; positive lag: the wheel moved before
 };
 
 /// What is known of the noise beforehand.

@@ -9,7 +9,7 @@ namespace {
 // Not in long double: its tables cannot be set up where that is no longer than double, under valgrind for one.
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-constexpr double kByChance = 0.001;  // that a view names anything without cause
+constexpr double kByChance = 0.001;   // that a view names anything without cause
 constexpr double kNegligible = 0.25;  // of the noise floor: smaller mean forces are not named
 constexpr double kStructured = 0.25;  // of a mean square; below it, what is left counts as noise
 constexpr std::size_t kFewestInBin = 30;
@@ -63,9 +63,8 @@ std::vector<BinRun> BinJudge::forces(const std::vector<ResidualBin>& bins) const
     signs.push_back(!acts ? 0 : bin.mean > 0.0 ? 1 : -1);
   }
   std::vector<BinRun> runs = runsOf(bins, signs);
-  std::sort(runs.begin(), runs.end(), [](const BinRun& a, const BinRun& b) {
-    return a.count * square(a.mean()) > b.count * square(b.mean());
-  });
+  std::sort(runs.begin(), runs.end(),
+            [](const BinRun& a, const BinRun& b) { return a.count * square(a.mean()) > b.count * square(b.mean()); });
   if (runs.size() > kMostRuns) runs.resize(kMostRuns);
   // Where a fit makes up for a force elsewhere, the model is wrong, too, but this is not where it fails.
   if (runs.size() == kMostRuns && runs.back().rms() < rmsElsewhere(runs.back())) runs.pop_back();

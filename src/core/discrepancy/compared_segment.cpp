@@ -56,8 +56,7 @@ void addMissingForce(const StrutModel& model, const std::vector<StrutState>& mot
                      ComparedSegment& segment) {
   std::vector<double> residual(segment.size());
   for (std::size_t k = 0; k < segment.size(); ++k) residual[k] = segment.residual(k);
-  const Integrals wrong =
-      integrate(residual, mean, segment.period, kForgotten * std::sqrt(model.stiffness_to_mass));
+  const Integrals wrong = integrate(residual, mean, segment.period, kForgotten * std::sqrt(model.stiffness_to_mass));
   std::vector<double>& force = segment.missing_force;
   force.resize(segment.size());
   for (std::size_t k = 0; k < segment.size(); ++k)
@@ -79,9 +78,8 @@ ComparedSegment makeSegment(const StrutModel& model, const DriveRecord& record, 
     const StrutState& state = motion[k];
     segment.travel.push_back(state.travel);
     segment.travel_rate.push_back(state.travel_rate);
-    segment.added_force.push_back(
-        model.force(state.travel, state.travel_rate, segment.time(k), state.memory.data()) -
-        model.damping_to_mass * state.travel_rate - model.stiffness_to_mass * state.travel);
+    segment.added_force.push_back(model.force(state.travel, state.travel_rate, segment.time(k), state.memory.data()) -
+                                  model.damping_to_mass * state.travel_rate - model.stiffness_to_mass * state.travel);
   }
   return segment;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/discrepancy/held_out.h"
+#include "suspension_health_monitor/discrepancy/noise_floor.h"
 #include "suspension_health_monitor/discrepancy/initial_states.h"
 #include "suspension_health_monitor/discrepancy/output_error_fit.h"
 #include "suspension_health_monitor/identification/horizon_selection.h"
@@ -85,10 +86,10 @@ std::optional<Comparison> compareModel(const std::vector<const DriveRecord*>& re
   filter.period = records.front()->period();
   filter.horizon_samples = comparison.horizon_samples = horizonFor(options, comparison.model, filter.period);
   comparison.one_step = oneStepError(comparison.segments, comparison.model, filter);
-  comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
+  // Noise cannot leave more than this very model does.
+  comparison.noise_floor = std::min(estimateNoiseFloor(records, comparison.model), comparison.free_run.rmse);
   if (!(comparison.noise_floor > 0.0)) return std::nullopt;
-  comparison.structured_share =
-      std::max(0.0, 1.0 - std::pow(comparison.noise_floor / comparison.free_run.rmse, 2));
+  comparison.structured_share = std::max(0.0, 1.0 - std::pow(comparison.noise_floor / comparison.free_run.rmse, 2));
   report(0.85);
   const ExpectedNoise noise{comparison.noise_floor, comparison.model.damping_to_mass,
                             comparison.model.stiffness_to_mass};

@@ -1,117 +1,46 @@
 #include "suspension_health_monitor/discrepancy/effect_search.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
-#include "suspension_health_monitor/discrepancy/held_out.h"
+#include "median.h"
+#include "model_judge.h"
+#include "suspension_health_monitor/discrepancy/noise_floor.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kFalseName = 0.001;         // chance of a false name, before correction for the number of candidates
-constexpr double kWorthHaving = 0.02;        // of the mean square
-constexpr double kStructured = 0.25;         // of the mean square; below it, what is left counts as noise
-constexpr double kExplained = 0.5;           // of the structure, or there is no name
+constexpr double kStructured = 0.2;          // of a mean square; below it, what is left counts as noise
+constexpr double kExplained = 0.8;           // of the structure, or there is no name
+constexpr double kTakenByAnother = 0.3;      // of what is left
 constexpr double kIndistinguishable = 0.02;  // of the mean square, or not significant
 
-struct Sizes {
-  double travel = 0.0, travel_rate = 0.0;
-};
+double square(double x) { return x * x; }
 
-Sizes sizesOf(const ModelFit& fit, const std::vector<const DriveRecord*>& records) {
-  Sizes sizes;
-  double count = 0.0;
-  std::size_t index = 0;
-  std::vector<double> predicted;
-  std::vector<StrutState> motion;
-  for (const DriveRecord* record : records)
-    for (const DriveSegment& segment : record->segments()) {
-      runFree(fit.model, *record, segment, fit.initial[index++], predicted, &motion);
-      for (const StrutState& state : motion) {
-        sizes.travel += state.travel * state.travel;
-        sizes.travel_rate += state.travel_rate * state.travel_rate;
-      }
-      count += static_cast<double>(motion.size());
-    }
-  return {std::sqrt(sizes.travel / count), std::sqrt(sizes.travel_rate / count)};
-}
-
-double scaleOf(const ShapeParameter& shape, const Sizes& sizes, double stiffness_to_mass) {
-  switch (shape.scale) {
-    case ShapeScale::kTravel:
-      return sizes.travel;
-    case ShapeScale::kTravelRate:
-      return sizes.travel_rate;
-    case ShapeScale::kTime:
-      return 1.0 / std::sqrt(stiffness_to_mass);
-    case ShapeScale::kNone:
-      break;
-  }
-  return 1.0;
-}
-
-/// Starting values spread evenly (in ratio) over the range: shapes have local minima.
-std::vector<std::vector<double>> startingShapes(const ForceEffect& effect, const Sizes& sizes, double stiffness) {
-  std::vector<std::vector<double>> result{{}};
-  for (const ShapeParameter& shape : effect.shapes) {
-    const double ratio = shape.max / shape.min;
-    const int count = std::clamp(static_cast<int>(std::lround(std::log(ratio) / std::log(4.0))), 2, 3);
-    std::vector<std::vector<double>> longer;
-    for (const std::vector<double>& shapes : result)
-      for (int i = 0; i < count; ++i) {
-        longer.push_back(shapes);
-        longer.back().push_back(scaleOf(shape, sizes, stiffness) * shape.min * std::pow(ratio, (i + 0.5) / count));
-      }
-    result = std::move(longer);
-  }
-  return result;
-}
-
-std::vector<std::string> namesOf(const StrutModel& model) {
-  std::vector<std::string> names;
-  for (const ActiveEffect& active : model.effects) names.push_back(active.effect.name);
-  for (const ActiveMeasurementEffect& reading : model.reading) names.push_back(reading.effect.name);
-  return names;
-}
-
-bool has(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// What `names` has and the model that the search started with has not.
-std::vector<std::string> namesBeyond(const std::vector<std::string>& start, const std::vector<std::string>& names) {
+/// What is in a model and was not in the one that the search started with.
+std::vector<std::string> namesBeyond(const Judged& base, const Judged& judged) {
   std::vector<std::string> added;
-  for (const std::string& name : names)
-    if (!has(start, name)) added.push_back(name);
+  for (const std::string& name : judged.ranked.effects)
+    if (std::find(base.ranked.effects.begin(), base.ranked.effects.end(), name) == base.ranked.effects.end())
+      added.push_back(name);
   return added;
 }
 
-/// The current model with one thing added, for every thing that could be and every set of its starting shapes.
-std::vector<StrutModel> makeTrials(const EffectLibrary& candidates, const StrutModel& current, const Sizes& sizes) {
-  std::vector<StrutModel> trials;
-  const std::vector<std::string> present = namesOf(current);
-  for (const ForceEffect& effect : candidates.forces) {
-    if (has(present, effect.name) || current.effects.size() >= StrutState::kMostEffects) continue;
-    for (const std::vector<double>& shapes : startingShapes(effect, sizes, current.stiffness_to_mass)) {
-      trials.push_back(current);
-      trials.back().effects.push_back({effect, 0.0, shapes});
-    }
-  }
-  for (const MeasurementEffect& effect : candidates.readings) {
-    if (has(present, effect.name)) continue;
-    trials.push_back(current);
-    trials.back().reading.push_back({effect, 0.0});
-  }
-  return trials;
+/// The residual from which on a fit counts outliers.
+double outlierOf(const ModelFit& fit) {
+  std::vector<double> absolute;
+  for (const std::vector<double>& segment : fit.residuals)
+    for (const double r : segment) absolute.push_back(std::abs(r));
+  const double size = median(std::move(absolute));
+  return size > 0.0 ? FitOptions{}.outlier_scale * kSigmaPerMedian * size : 1.0;
 }
 
-/// Free parameters of a model: the simpler of two equal ones is preferred.
-std::size_t complexity(const StrutModel& model) {
-  std::size_t count = model.reading.size();
-  for (const ActiveEffect& active : model.effects) count += 1 + active.shapes.size();
-  return count;
+std::vector<RankedModel> asReported(const std::vector<Judged>& ranking) {
+  std::vector<RankedModel> models;
+  for (const Judged& judged : ranking) models.push_back(judged.ranked);
+  std::stable_sort(models.begin(), models.end(),
+                   [](const RankedModel& a, const RankedModel& b) { return a.held_out_rmse < b.held_out_rmse; });
+  return models;
 }
 
 class Search {
@@ -123,134 +52,133 @@ class Search {
   std::optional<SearchResult> run(const StrutModel& start);
 
  private:
-  struct Judged {
-    RankedModel ranked;
-    std::vector<double> stretches;  // held-out sum of squares by stretch
-    double training = 0.0;
+  void report(double share) const {
+    if (progress_) progress_(share);
+  }
+  /// The best of a ranking, or the simplest that is as good, and all that are as good.
+  struct Selection {
+    Judged chosen;
+    std::vector<std::string> group;
   };
 
-  std::optional<Judged> judge(const StrutModel& start, const Judged* before) const;
-  std::vector<Judged> judgeAll(const std::vector<StrutModel>& trials, const Judged& before) const;
-  Judged select(const std::vector<Judged>& ranking, SearchResult& result) const;
-  void conclude(const Judged& base, const Judged& last, SearchResult& result) const;
+  static Selection select(const std::vector<Judged>& ranking);
+  static Judged withoutSuperfluous(const ModelJudge& judge, const Judged& base, Judged current);
+  static Judged reconsidered(const ModelJudge& judge, Judged current, const std::vector<std::string>& added,
+                             const ModelJudge::Tick& tick, SearchResult& result);
+  static bool isExplained(const ModelJudge& judge, const Judged& before, const Judged& after, double noise_floor);
+  void conclude(const ModelJudge& judge, const Judged& base, const Judged& last, SearchResult& result) const;
 
   const EffectLibrary& candidates_;
   const SearchOptions& options_;
   const std::vector<const DriveRecord*>& records_;
   const EffectSearch::Progress& progress_;
-  HeldOut held_out_{};
 };
 
-std::optional<Search::Judged> Search::judge(const StrutModel& start, const Judged* before) const {
-  const std::optional<ModelFit> fit = fitOutputError(records_, held_out_.training, start);
-  if (!fit) return std::nullopt;
-  Judged judged;
-  judged.ranked.model = fit->model;
-  judged.ranked.effects = namesOf(fit->model);
-  judged.stretches = held_out_.stretchErrors(fit->residuals);
-  judged.training = held_out_.trainingError(fit->residuals);
-  judged.ranked.held_out_rmse = held_out_.rmse(judged.stretches);
-  if (before != nullptr) {
-    const PairedComparison gain = comparePaired(before->stretches, judged.stretches);
-    judged.ranked.error_removed_percent = 100.0 * gain.removed_share;
-    judged.ranked.significance = gain.t;
-    const auto tests = static_cast<double>(candidates_.forces.size() + candidates_.readings.size());
-    judged.ranked.significant = gain.removed_share > kWorthHaving && isSignificant(gain, kFalseName / tests);
-  }
-  return judged;
-}
-
-std::vector<Search::Judged> Search::judgeAll(const std::vector<StrutModel>& trials, const Judged& before) const {
-  std::vector<std::optional<Judged>> results(trials.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < trials.size(); i = next++) results[i] = judge(trials[i], &before);
-  };
-  std::vector<std::thread> helpers;
-  for (int i = 1; i < options_.threads; ++i) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
-
-  std::vector<Judged> ranking;  // of several starting shapes of one effect the best in training stays
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (!results[i]) continue;
-    const auto same = std::find_if(ranking.begin(), ranking.end(), [&](const Judged& judged) {
-      return judged.ranked.effects == results[i]->ranked.effects;
-    });
-    if (same == ranking.end())
-      ranking.push_back(*results[i]);
-    else if (results[i]->training < same->training)
-      *same = *results[i];
-  }
-  std::sort(ranking.begin(), ranking.end(),
-            [](const Judged& a, const Judged& b) { return a.ranked.held_out_rmse < b.ranked.held_out_rmse; });
-  return ranking;
-}
-
-Search::Judged Search::select(const std::vector<Judged>& ranking, SearchResult& result) const {
+Search::Selection Search::select(const std::vector<Judged>& ranking) {
   const Judged& best = ranking.front();
-  std::vector<std::string> group;
-  const Judged* simplest = &best;
+  Selection selection{best, {}};
   for (const Judged& rival : ranking) {
-    const PairedComparison loss = comparePaired(rival.stretches, best.stretches);
+    if (!rival.ranked.fitted) continue;
+    const PairedComparison loss = rival.gainOf(best);
     if (loss.removed_share > kIndistinguishable || isSignificant(loss, 0.01)) continue;
-    group.push_back(rival.ranked.effects.back());
-    if (complexity(rival.ranked.model) < complexity(simplest->ranked.model)) simplest = &rival;
+    selection.group.push_back(rival.added);
+    if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
   }
-  if (group.size() > 1) result.indistinguishable.push_back(group);
-  return *simplest;
+  return selection;
+}
+
+// What the first effect explained, the later ones may explain better together.
+Judged Search::withoutSuperfluous(const ModelJudge& judge, const Judged& base, Judged current) {
+  const std::string newest = current.added;
+  for (const std::string& name : namesBeyond(base, current)) {
+    if (name == newest) continue;
+    const std::optional<Judged> without = judge.without(current, name);
+    if (without && !judge.isWorthHaving(*without, current)) current = *without;
+  }
+  return current;
+}
+
+// Each effect was chosen before the later ones were known: is it still the one, and with which others is it confused?
+Judged Search::reconsidered(const ModelJudge& judge, Judged current, const std::vector<std::string>& added,
+                            const ModelJudge::Tick& tick, SearchResult& result) {
+  for (const std::string& name : added) {
+    const std::optional<Judged> without = judge.without(current, name);
+    if (!without) continue;
+    const Selection selection = select(judge.rankAdditions(*without, tick));
+    if (selection.group.size() > 1) result.indistinguishable.push_back(selection.group);
+    if (std::find(selection.group.begin(), selection.group.end(), name) == selection.group.end() ||
+        complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
+      current = selection.chosen;
+  }
+  return current;
 }
 
 std::optional<SearchResult> Search::run(const StrutModel& start) {
-  const auto report = [this](double share) {
-    if (progress_) progress_(share);
-  };
   const std::optional<ModelFit> rough = fitOutputError(records_, {}, start);
   if (!rough) return std::nullopt;
   const std::optional<HeldOut> held_out = holdOut(records_, rough->model.stiffness_to_mass);
   if (!held_out) return std::nullopt;
-  held_out_ = *held_out;
-  const std::optional<Judged> base = judge(rough->model, nullptr);
+  const ModelJudge judge(records_, *held_out, outlierOf(*rough), candidates_, options_.threads);
+  const std::optional<Judged> base = judge.judge(rough->model, rough->initial, nullptr);
   if (!base) return std::nullopt;
   report(0.1);
 
   SearchResult result;
   result.base = base->ranked;
-  result.base_fit_percent = held_out_.fitPercent(base->ranked.held_out_rmse);
+  result.base_fit_percent = held_out->fitPercent(base->ranked.held_out_rmse);
   result.noise_floor = estimateNoiseFloor(records_, base->ranked.model);
-  const Sizes sizes = sizesOf(*rough, records_);
   Judged current = *base;
   for (int round = 0; round < options_.most_effects; ++round) {
-    const std::vector<Judged> ranking = judgeAll(makeTrials(candidates_, current.ranked.model, sizes), current);
-    report(0.1 + 0.9 * (round + 1) / options_.most_effects);
+    const double done = 0.1 + 0.85 * round / options_.most_effects;
+    const auto tick = [&](double share) { report(done + 0.85 * share / options_.most_effects); };
+    const std::vector<Judged> ranking = judge.rankAdditions(current, tick);
     if (round == 0)
-      for (const Judged& judged : ranking) result.ranking.push_back(judged.ranked);
+      result.ranking = asReported(ranking);
+    // Whatever a free run leaves of data that it was not fitted to is above the floor.
+    if (!ranking.empty()) result.noise_floor = std::min(result.noise_floor, ranking.front().ranked.held_out_rmse);
     if (ranking.empty() || !ranking.front().ranked.significant) break;
-    current = select(ranking, result);
+    const Selection selection = select(ranking);
+    if (round == 0 && selection.group.size() > 1) result.indistinguishable.push_back(selection.group);
+    current = withoutSuperfluous(judge, *base, selection.chosen);
   }
-  conclude(*base, current, result);
+  const std::vector<std::string> added = namesBeyond(*base, current);
+  if (added.size() > 1) {
+    result.indistinguishable.clear();
+    current = reconsidered(judge, current, added, [&](double) { report(0.95); }, result);
+  }
+  conclude(judge, *base, current, result);
   report(1.0);
   return result;
 }
 
-void Search::conclude(const Judged& base, const Judged& last, SearchResult& result) const {
-  const auto square = [](double x) { return x * x; };
-  const double floor = square(result.noise_floor);
-  const double structure = square(base.ranked.held_out_rmse) - floor;
-  const double left = square(last.ranked.held_out_rmse) - floor;
-  result.structured_share = std::clamp(structure / square(base.ranked.held_out_rmse), 0.0, 1.0);
-  const std::vector<std::string> added = namesBeyond(base.ranked.effects, last.ranked.effects);
-  const bool found = !added.empty();
-  if (found && left < (1.0 - kExplained) * structure) {
+// A name is given if the model with it leaves noise only; or if it takes most of the structure and no other law of travel
+// and travel rate would take the rest: that comes from elsewhere, or was lost in sampling.
+bool Search::isExplained(const ModelJudge& judge, const Judged& before, const Judged& after, double noise_floor) {
+  const double structure = square(before.ranked.held_out_rmse) - square(noise_floor);
+  const double left = square(after.ranked.held_out_rmse) - square(noise_floor);
+  if (left > (1.0 - kExplained) * structure) return false;
+  return left < kStructured * square(after.ranked.held_out_rmse) ||
+         judge.surfaceGain(after) * square(after.ranked.held_out_rmse) < kTakenByAnother * left;
+}
+
+void Search::conclude(const ModelJudge& judge, const Judged& base, const Judged& last, SearchResult& result) const {
+  const double before = square(base.ranked.held_out_rmse);
+  const double structure = before - square(result.noise_floor);
+  result.structured_share = std::clamp(structure / before, 0.0, 1.0);
+  if (structure > 0.0) result.surface_share = std::min(1.0, judge.surfaceGain(base) * before / structure);
+  const std::vector<std::string> added = namesBeyond(base, last);
+  if (!added.empty() && isExplained(judge, base, last, result.noise_floor)) {
     result.verdict = Verdict::kEffectFound;
     result.selected = added;
     result.extended = last.ranked;
-    result.extended_fit_percent = held_out_.fitPercent(last.ranked.held_out_rmse);
-    result.final_fit = fitOutputError(records_, {}, last.ranked.model);
+    result.extended_fit_percent = judge.heldOut().fitPercent(last.ranked.held_out_rmse);
+    FitOptions fit;
+    fit.initial = last.fit.initial;
+    result.final_fit = fitOutputError(records_, {}, last.ranked.model, fit);
     return;
   }
   result.indistinguishable.clear();
-  result.verdict = found || result.structured_share > kStructured ? Verdict::kUnexplained : Verdict::kNothingMissing;
+  result.verdict = !added.empty() || result.structured_share > kStructured ? Verdict::kUnexplained : Verdict::kNothingMissing;
 }
 
 }  // namespace

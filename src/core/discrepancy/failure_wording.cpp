@@ -7,8 +7,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kFollows = 0.5;   // coherence
-constexpr double kNearZero = 0.05;  // of the range of most samples
+constexpr double kFollows = 0.5;     // coherence
+constexpr double kRounding = 0.005;  // of the samples, in the bins' edges
+constexpr double kNearZero = 0.05;   // of the range of most samples
 
 /// Where the bins have passed a share of the samples.
 double quantile(const std::vector<ResidualBin>& bins, double share) {
@@ -16,7 +17,7 @@ double quantile(const std::vector<ResidualBin>& bins, double share) {
   for (const ResidualBin& bin : bins) all += static_cast<double>(bin.count);
   for (const ResidualBin& bin : bins) {
     passed += static_cast<double>(bin.count);
-    if (passed >= share * all) return bin.to;
+    if (passed >= (share - kRounding) * all) return bin.to;
   }
   return bins.back().to;
 }
@@ -96,8 +97,8 @@ void FailureWording::describe(const std::string& where, const std::string& name,
   else
     region.region = name + " " + unit.number(region.from) + " to " + unit(region.to);
   const std::string what = region.mean == 0.0 ? "the model is worst, though not to one side" : push(region.mean);
-  region.sentence = where + " (" + region.region + ", " + percent(region.share) + " of the drive) " + what +
-                    ": " + errors(region) + ".";
+  region.sentence = where + " (" + region.region + ", " + percent(region.share) + " of the drive) " + what + ": " +
+                    errors(region) + ".";
 }
 
 void FailureWording::time(std::size_t record, FailureRegion& region) const {
@@ -108,8 +109,8 @@ void FailureWording::time(std::size_t record, FailureRegion& region) const {
 void FailureWording::surface(double rate_from, double rate_to, FailureRegion& region) const {
   region.region = "travel " + travel_.number(region.from) + " to " + travel_(region.to) + " at " +
                   rate_.number(rate_from) + " to " + rate_(rate_to);
-  region.sentence = std::string("When it ") + (rate_from >= 0.0 ? "compresses" : "extends") + " there (" + region.region +
-                    ", " + percent(region.share) + " of the drive) " + push(region.mean) +
+  region.sentence = std::string("When it ") + (rate_from >= 0.0 ? "compresses" : "extends") + " there (" +
+                    region.region + ", " + percent(region.share) + " of the drive) " + push(region.mean) +
                     ", which neither travel nor rate alone shows.";
 }
 
@@ -141,10 +142,9 @@ void FailureWording::offset(FailureRegion& region) const {
 
 void FailureWording::drift(const char* name, double first_percent, double last_percent, std::size_t record,
                            FailureRegion& region) const {
-  const auto of = [](double change) {
-    return percent(std::abs(change) / 100.0) + (change > 0.0 ? " more" : " less");
-  };
-  region.region = std::string(name) + " from " + time_.number(region.from) + " to " + time_(region.to) + inDrive(record);
+  const auto of = [](double change) { return percent(std::abs(change) / 100.0) + (change > 0.0 ? " more" : " less"); };
+  region.region =
+      std::string(name) + " from " + time_.number(region.from) + " to " + time_(region.to) + inDrive(record);
   region.sentence = "The " + std::string(name) + " seems to change during the drive" + inDrive(record) +
                     ": in its first third " + of(first_percent) + " than the model has, in its last third " +
                     of(last_percent) + ".";

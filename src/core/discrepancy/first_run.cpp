@@ -1,16 +1,11 @@
 #include "first_run.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "median.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Sums squares over one segment.
 void addSegment(const StrutModel& start, const DriveRecord& record, const DriveSegment& segment,
@@ -56,7 +51,7 @@ std::optional<DriveSizes> firstRun(const FitRecords& records, const FitMasks& ma
   for (double* square : {&sizes.travel, &sizes.travel_rate}) *square = std::sqrt(*square / count);
   for (double& square : sizes.forces) square = std::sqrt(square / count);
   sizes.acceleration = std::sqrt(sizes.acceleration / static_cast<double>(absolute.size()));
-  sizes.residual = 1.4826 * median(absolute);
+  sizes.residual = kSigmaPerMedian * median(absolute);
   return sizes;
 }
 

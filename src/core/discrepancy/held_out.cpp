@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/discrepancy/held_out.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -18,32 +17,9 @@ using InDouble = boost::math::policies::policy<boost::math::policies::promote_do
 constexpr std::size_t kBlocks = 15;  // per record
 constexpr std::size_t kFewestStretches = 8;
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
-constexpr int kPredictorLength = 16;
-constexpr Eigen::Index kPredictorTerms = 3 * kPredictorLength + 1;
-
-/// Calls take(row, z'') with what the predictor of every z'' may use: its own past, the wheel's motion during the steps
-/// before and after it (which stands for w''), and a constant.
-template <class Take>
-void forEachPredictorRow(const std::vector<const DriveRecord*>& records, const Take& take) {
-  Eigen::VectorXd row(kPredictorTerms);
-  for (const DriveRecord* record : records)
-    for (const DriveSegment& segment : record->segments()) {
-      const auto last = static_cast<int>(segment.size()) - kPredictorLength - 1;
-      for (int k = kPredictorLength; k < last; ++k) {
-        for (int i = 0; i < kPredictorLength; ++i) row[i] = segment.sprung[static_cast<std::size_t>(k - 1 - i)];
-        for (int i = 0; i < 2 * kPredictorLength; ++i) {
-          const auto step = static_cast<std::size_t>((k - kPredictorLength + i) * record->steps());
-          row[kPredictorLength + i] = segment.wheel[step].end_velocity / record->period();
-        }
-        row[kPredictorTerms - 1] = 1.0;
-        take(row, segment.sprung[static_cast<std::size_t>(k)]);
-      }
-    }
-}
-
 }  // namespace
 
-PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after) {
+PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after, double independent) {
   double sum = 0.0, square = 0.0, total = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double difference = before[i] - after[i];
@@ -55,7 +31,7 @@ PairedComparison comparePaired(const std::vector<double>& before, const std::vec
   const double variance = std::max(0.0, (square - sum * sum / n) / (n - 1.0));
   PairedComparison result;
   if (total > 0.0) result.removed_share = sum / total;
-  if (total > sum && total > 0.0) result.log_ratio = n * std::log(total / (total - sum));
+  if (total > sum && total > 0.0) result.log_ratio = independent * std::log(total / (total - sum));
   if (variance > 0.0) result.t = sum / std::sqrt(n * variance);
   return result;
 }
@@ -105,15 +81,46 @@ std::optional<HeldOut> holdOut(const std::vector<const DriveRecord*>& records, d
   return result;
 }
 
-std::vector<double> HeldOut::stretchErrors(const std::vector<std::vector<double>>& residuals) const {
-  std::vector<double> errors;
+template <class Loss>
+std::vector<double> HeldOut::sumByStretch(const std::vector<std::vector<double>>& residuals, const Loss& loss) const {
+  std::vector<double> sums;
   for (const Stretch& stretch : stretches_) {
     double sum = 0.0;
-    for (std::size_t k = stretch.first; k < stretch.last; ++k)
-      sum += residuals[stretch.segment][k] * residuals[stretch.segment][k];
-    errors.push_back(sum);
+    for (std::size_t k = stretch.first; k < stretch.last; ++k) sum += loss(residuals[stretch.segment][k]);
+    sums.push_back(sum);
   }
-  return errors;
+  return sums;
+}
+
+std::vector<double> HeldOut::stretchErrors(const std::vector<std::vector<double>>& residuals) const {
+  return sumByStretch(residuals, [](double r) { return r * r; });
+}
+
+std::vector<double> HeldOut::stretchLosses(const std::vector<std::vector<double>>& residuals, double outlier) const {
+  return sumByStretch(residuals, [outlier](double r) {
+    const double q = r / outlier;
+    return 2.0 * r * r / (std::sqrt(1.0 + q * q) + 1.0);  // without the cancellation of the formula as it is written
+  });
+}
+
+double HeldOut::independentSquares(const std::vector<std::vector<double>>& residuals) const {
+  double square = 0.0;
+  std::size_t most_lags = 0;
+  for (const Stretch& stretch : stretches_) {
+    most_lags = std::max(most_lags, stretch.last - stretch.first);
+    for (std::size_t k = stretch.first; k < stretch.last; ++k)
+      square += residuals[stretch.segment][k] * residuals[stretch.segment][k];
+  }
+  if (square == 0.0) return samples_;
+  double coloured = 1.0;
+  for (std::size_t lag = 1; lag < most_lags; ++lag) {
+    double product = 0.0;  // with the samples before the stretch, held out or not
+    for (const Stretch& stretch : stretches_)
+      for (std::size_t k = std::max(stretch.first, lag); k < stretch.last; ++k)
+        product += residuals[stretch.segment][k] * residuals[stretch.segment][k - lag];
+    coloured += 2.0 * (product / square) * (product / square);
+  }
+  return samples_ / coloured;
 }
 
 double HeldOut::trainingError(const std::vector<std::vector<double>>& residuals) const {
@@ -132,34 +139,6 @@ double HeldOut::rmse(const std::vector<double>& stretch_errors) const {
   double sum = 0.0;
   for (const double error : stretch_errors) sum += error;
   return std::sqrt(sum / samples_);
-}
-
-double estimateNoiseFloor(const std::vector<const DriveRecord*>& records, const StrutModel& model) {
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(kPredictorTerms, kPredictorTerms);
-  Eigen::VectorXd moment = Eigen::VectorXd::Zero(kPredictorTerms);
-  double count = 0.0;
-  forEachPredictorRow(records, [&](const Eigen::VectorXd& row, double measured) {
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(row);
-    moment += measured * row;
-    count += 1.0;
-  });
-  if (count <= 2.0 * kPredictorTerms) return 0.0;
-  gram.diagonal() *= 1.0 + 1e-12;
-  const Eigen::VectorXd solution = gram.selfadjointView<Eigen::Lower>().ldlt().solve(moment);
-  std::vector<double> innovations;
-  innovations.reserve(static_cast<std::size_t>(count));
-  forEachPredictorRow(records, [&](const Eigen::VectorXd& row, double measured) {
-    innovations.push_back(std::abs(measured - row.dot(solution)));
-  });
-  // From the median, so that a blow into an end stop is no noise. 0.6745: the median of |x| for a unit normal x.
-  const auto middle = innovations.begin() + static_cast<std::ptrdiff_t>(innovations.size() / 2);
-  std::nth_element(innovations.begin(), middle, innovations.end());
-  const double deviation = *middle / 0.6745 * std::sqrt(count / (count - kPredictorTerms));
-  const double b1 = model.damping_to_mass;
-  const double b0 = model.stiffness_to_mass;
-  // White noise on w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): its variance grows by T (b1^2 + b0) / (2 b1).
-  const double through = records.front()->period() * (b1 * b1 + b0) / (2.0 * b1);
-  return deviation * std::sqrt(1.0 + through);
 }
 
 }  // namespace suspension_health_monitor

@@ -83,6 +83,26 @@ std::optional<Eigen::VectorXd> solve(const FitRecords& records, const FitMasks& 
   return standardDeviations(problem, parameters, x.data());
 }
 
+/// A first guess of coefficients by linear thinking may make the model run away: they are halved until it does not.
+/// @return false if that does not help.
+bool tame(const FitRecords& records, const std::vector<StrutState>& initial, StrutModel& model) {
+  constexpr int most_halvings = 4;
+  std::vector<double> predicted;
+  for (int i = 0; i <= most_halvings; ++i) {
+    bool runs = true;
+    std::size_t index = 0;
+    for (const DriveRecord* record : records)
+      for (const DriveSegment& segment : record->segments()) {
+        const StrutState start = initial.empty() ? StrutState{} : initial[index];
+        runs = runs && runFree(model, *record, segment, start, predicted);
+        ++index;
+      }
+    if (runs) return true;
+    for (ActiveEffect& active : model.effects) active.coefficient /= 2.0;
+  }
+  return false;
+}
+
 /// Adds initial state and residuals of a segment.
 bool addResiduals(const DriveRecord& record, const DriveSegment& segment, const StrutState& state, ModelFit& fit) {
   std::vector<double> residuals;
@@ -119,19 +139,24 @@ bool runFree(const StrutModel& model, const DriveRecord& record, const DriveSegm
 }
 
 std::optional<ModelFit> fitOutputError(const std::vector<const DriveRecord*>& records,
-                                       const std::vector<std::vector<SampleMask>>& masks, const StrutModel& start,
+                                       const std::vector<std::vector<SampleMask>>& masks, const StrutModel& guess,
                                        const FitOptions& options) {
+  StrutModel start = guess;
+  if (!tame(records, options.initial, start)) return std::nullopt;
   const std::optional<DriveSizes> sizes = firstRun(records, masks, start);
   if (!sizes) return std::nullopt;
   const auto coefficient_scales = coefficientScales(start, *sizes, records.front()->period());
   if (!coefficient_scales) return std::nullopt;
-  const Parameterization parameters(start, *coefficient_scales);
+  const MotionScale motion{sizes->travel, sizes->travel_rate, 1.0 / std::sqrt(start.stiffness_to_mass)};
+  const Parameterization parameters(start, *coefficient_scales, motion);
   const CostScales scales{sizes->travel, sizes->travel_rate,
                           std::max(options.outlier_scale * sizes->residual, 1e-9 * sizes->acceleration)};
   Eigen::VectorXd x = parameters.initial();
   std::size_t num_segments = 0;
   for (const DriveRecord* record : records) num_segments += record->segments().size();
   std::vector<std::array<double, 2>> initial(num_segments, {0.0, 0.0});
+  for (std::size_t i = 0; i < options.initial.size(); ++i)
+    initial[i] = {options.initial[i].travel / scales.travel, options.initial[i].travel_rate / scales.travel_rate};
   const auto stddev = solve(records, masks, start, parameters, scales, options.max_iterations, x, initial);
   if (!stddev) return std::nullopt;
 

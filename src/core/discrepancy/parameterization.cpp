@@ -1,8 +1,25 @@
 #include "parameterization.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace suspension_health_monitor {
+
+Parameterization::Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales,
+                                   const MotionScale& motion)
+    : start_(start), coefficient_scales_(coefficient_scales) {
+  constexpr double margin = 0.02;  // between a start and the end of a range that is widened for it
+  for (const ActiveEffect& active : start.effects) {
+    ranges_.emplace_back();
+    for (std::size_t s = 0; s < active.shapes.size(); ++s) {
+      const ShapeParameter& shape = active.effect.shapes[s];
+      const double at = std::log(active.shapes[s]), scale = std::log(motion.unit(shape.scale));
+      const double lower = std::min(std::log(shape.min) + scale, at - margin);
+      const double upper = std::max(std::log(shape.max) + scale, at + margin);
+      ranges_.back().push_back({lower, upper - lower});
+    }
+  }
+}
 
 int Parameterization::size() const {
   int count = 2;
@@ -15,8 +32,11 @@ Eigen::VectorXd Parameterization::initial() const {
   x[0] = x[1] = 1.0;
   int i = 2;
   for (std::size_t j = 0; j < start_.effects.size(); ++j) {
-    x[i] = start_.effects[j].coefficient / coefficient_scales_[j];
-    i += 1 + static_cast<int>(start_.effects[j].shapes.size());
+    x[i++] = start_.effects[j].coefficient / coefficient_scales_[j];
+    for (std::size_t s = 0; s < ranges_[j].size(); ++s) {
+      const double place = (std::log(start_.effects[j].shapes[s]) - ranges_[j][s].lower) / ranges_[j][s].width;
+      x[i++] = std::log(place / (1.0 - place));
+    }
   }
   for (std::size_t j = 0; j < start_.reading.size(); ++j) x[i++] = start_.reading[j].coefficient / readingScale(j);
   return x;
@@ -28,8 +48,8 @@ void Parameterization::apply(const double* x, StrutModel& model) const {
   int i = 2;
   for (std::size_t j = 0; j < start_.effects.size(); ++j) {
     model.effects[j].coefficient = x[i++] * coefficient_scales_[j];
-    for (std::size_t s = 0; s < start_.effects[j].shapes.size(); ++s)
-      model.effects[j].shapes[s] = start_.effects[j].shapes[s] * std::exp(x[i++]);
+    for (std::size_t s = 0; s < ranges_[j].size(); ++s)
+      model.effects[j].shapes[s] = std::exp(ranges_[j][s].lower + ranges_[j][s].width / (1.0 + std::exp(-x[i++])));
   }
   for (std::size_t j = 0; j < start_.reading.size(); ++j) model.reading[j].coefficient = x[i++] * readingScale(j);
 }
@@ -43,7 +63,10 @@ Eigen::VectorXd Parameterization::slopes(const double* x) const {
   int i = 2;
   for (std::size_t j = 0; j < model.effects.size(); ++j) {
     slope[i++] = coefficient_scales_[j];
-    for (const double shape : model.effects[j].shapes) slope[i++] = shape;
+    for (std::size_t s = 0; s < ranges_[j].size(); ++s, ++i) {
+      const double place = 1.0 / (1.0 + std::exp(-x[i]));
+      slope[i] = model.effects[j].shapes[s] * ranges_[j][s].width * place * (1.0 - place);
+    }
   }
   for (std::size_t j = 0; j < start_.reading.size(); ++j) slope[i++] = readingScale(j);
   return slope;

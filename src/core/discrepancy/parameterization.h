@@ -3,18 +3,20 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "suspension_health_monitor/discrepancy/motion_scale.h"
 #include "suspension_health_monitor/model/strut_model.h"
 
 namespace suspension_health_monitor {
 
 /// A model as a vector of numbers of order 1: b1 and b0 relative to their start, coefficients relative to a force of the
-/// size of the linear one, shapes by the logarithm of their ratio to the start.
+/// size of the linear one, shapes by their place in their range (logistic in the logarithm): beyond its range many a law
+/// turns into another one that the model has already, and a fit would lose its way there.
 /// Order: b1, b0, coefficient and shapes effect by effect, then the reading's coefficients.
 class Parameterization {
  public:
   /// @param coefficient_scales  of the effects, then of the reading's [unit of the coefficient].
-  Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales)
-      : start_(start), coefficient_scales_(coefficient_scales) {}
+  /// @param motion  what the shapes' ranges are counted in; ranges are widened to hold the start.
+  Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales, const MotionScale& motion);
 
   int size() const;
 
@@ -28,10 +30,16 @@ class Parameterization {
   Eigen::VectorXd slopes(const double* x) const;
 
  private:
+  /// ln shape = lower + width / (1 + exp(-x)).
+  struct Range {
+    double lower, width;
+  };
+
   double readingScale(std::size_t j) const { return coefficient_scales_[start_.effects.size() + j]; }
 
   StrutModel start_;
   std::vector<double> coefficient_scales_;
+  std::vector<std::vector<Range>> ranges_;  // by effect and shape
 };
 
 }  // namespace suspension_health_monitor

@@ -29,8 +29,8 @@ ReadableUnit ReadableUnit::plain(double typical, const std::string& unit) {
 /// @param prefixed  what the prefix is chosen by.
 ReadableUnit::ReadableUnit(double typical, double prefixed, const std::string& unit) : unit_(unit) {
   if (!(std::abs(typical) > 0.0) || !std::isfinite(typical)) return;
-  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(std::abs(prefixed)) / 3.0 + 1e-12)), kSmallest,
-                                   kSmallest + static_cast<int>(kPrefixes.size()) - 1);
+  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(std::abs(prefixed)) / 3.0 + 1e-12)),
+                                   kSmallest, kSmallest + static_cast<int>(kPrefixes.size()) - 1);
   unit_ = kPrefixes[static_cast<std::size_t>(thousands - kSmallest)] + unit;
   size_ = std::pow(10.0, 3 * thousands);
   most_decimals_ = std::max(0, kDigits + 1 - digitsBefore(std::abs(typical) / size_));

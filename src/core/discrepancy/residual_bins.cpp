@@ -7,13 +7,13 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kMostTimeBins = 24.0;      // of all drives together
-constexpr double kShortestTimeBin = 4.0;    // natural periods
-const std::vector<double> kShares{0.0, 0.01, 0.03, 0.06, 0.1, 0.2, 0.3, 0.4, 0.5,
+constexpr double kMostTimeBins = 24.0;    // of all drives together
+constexpr double kShortestTimeBin = 4.0;  // natural periods
+const std::vector<double> kShares{0.0, 0.01, 0.03, 0.06, 0.1,  0.2,  0.3,  0.4, 0.5,
                                   0.6, 0.7,  0.8,  0.9,  0.94, 0.97, 0.99, 1.0};
 const std::vector<double> kLoopShares{0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.0};
-constexpr int kCells = 12;             // of the force surface, either way; even: one edge is 0
-constexpr double kCovered = 0.99;      // of the samples, by the inner edges
+constexpr int kCells = 12;         // of the force surface, either way; even: one edge is 0
+constexpr double kCovered = 0.99;  // of the samples, by the inner edges
 constexpr std::size_t kFewestInLoop = 8;
 
 /// Sums over the samples of a bin.
@@ -125,8 +125,7 @@ std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<C
   const std::vector<DriveSpan> spans = spansOf(segments);
   double duration = 0.0;
   for (const DriveSpan& span : spans) duration += span.to - span.from;
-  const double width =
-      std::max(duration / kMostTimeBins, kShortestTimeBin * series.natural_period * series.period);
+  const double width = std::max(duration / kMostTimeBins, kShortestTimeBin * series.natural_period * series.period);
   std::vector<TimeBin> bins;
   for (const DriveSpan& span : spans) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::floor((span.to - span.from) / width)));

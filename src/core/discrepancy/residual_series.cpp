@@ -24,10 +24,12 @@ double centre(std::vector<double>& values) {
 /// 1 + 2 sum of rho over the lags before the correlation first vanishes: by so much the variance of a mean grows.
 double memoryOf(const ResidualSeries& series, const std::vector<double>& values) {
   const double vanished = 1.96 / std::sqrt(static_cast<double>(values.size()));
-  const double most = std::min({kMemoryPeriods * series.natural_period, kMostLags, 0.125 * static_cast<double>(values.size())});
+  const double most =
+      std::min({kMemoryPeriods * series.natural_period, kMostLags, 0.125 * static_cast<double>(values.size())});
+  const Correlation correlation(series, values, values);
   double sum = 1.0;
   for (int lag = 1; lag <= static_cast<int>(most); ++lag) {
-    const double rho = correlation(series, values, values, lag);
+    const double rho = correlation.at(lag);
     if (rho < vanished) break;
     sum += 2.0 * rho;
   }
@@ -42,14 +44,16 @@ double sumOfSquares(const std::vector<double>& values) {
   return sum;
 }
 
-double correlation(const ResidualSeries& series, const std::vector<double>& a, const std::vector<double>& b, int lag) {
-  const double scale = std::sqrt(sumOfSquares(a) * sumOfSquares(b));
+Correlation::Correlation(const ResidualSeries& series, const std::vector<double>& a, const std::vector<double>& b)
+    : series_(series), a_(a), b_(b), scale_(std::sqrt(sumOfSquares(a) * sumOfSquares(b))) {}
+
+double Correlation::at(int lag) const {
   const auto shift = static_cast<std::size_t>(std::abs(lag));
   double sum = 0.0;
-  for (std::size_t s = 0; s + 1 < series.begins.size(); ++s)
-    for (std::size_t k = series.begins[s] + shift; k < series.begins[s + 1]; ++k)
-      sum += lag >= 0 ? a[k] * b[k - shift] : a[k - shift] * b[k];
-  return scale > 0.0 ? sum / scale : 0.0;
+  for (std::size_t s = 0; s + 1 < series_.begins.size(); ++s)
+    for (std::size_t k = series_.begins[s] + shift; k < series_.begins[s + 1]; ++k)
+      sum += lag >= 0 ? a_[k] * b_[k - shift] : a_[k - shift] * b_[k];
+  return scale_ > 0.0 ? sum / scale_ : 0.0;
 }
 
 std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise) {

@@ -14,7 +14,7 @@ constexpr double kContrast = 2.0;        // the same over travel or rate
 constexpr double kWorthATrend = 0.08;    // change of a parameter over a drive, of its value
 constexpr double kBeyondMargins = 0.5;   // of a cell's force: more than travel and rate alone explain
 constexpr int kFewestInCell = 30;
-constexpr double kBand = 0.5;            // of what is not noise, in the band that is named
+constexpr double kBand = 0.5;  // of what is not noise, in the band that is named
 
 double square(double x) { return x * x; }
 
@@ -201,7 +201,8 @@ void FailureFinder::findFrequency() {
   double excess = 0.0;
   for (std::size_t i = 0; i < spectrum.frequency.size(); ++i) {
     const double samples_worth = 2.0 * spectrum.num_averages / views_.independent_share;
-    const bool loud = judge_.isLoud(spectrum.residual[i] / spectrum.noise[i] * square(noise_.floor), samples_worth, limit);
+    const bool loud =
+        judge_.isLoud(spectrum.residual[i] / spectrum.noise[i] * square(noise_.floor), samples_worth, limit);
     above.push_back(loud ? spectrum.residual[i] - spectrum.noise[i] : 0.0);
     excess += above.back() * width;
   }

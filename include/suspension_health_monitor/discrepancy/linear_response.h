@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "suspension_health_monitor/discrepancy/output_error_fit.h"
+
+namespace suspension_health_monitor {
+
+/// What a small additional force would do to a free run: the model linearised along the motion that a fit gave it.
+///   x'' = -(F_d x + F_v x' + f),   change of z'' = F_d x + F_v x' + f,
+/// x the change of travel, F_d and F_v the slopes of the model's force there, f the additional force per unit mass.
+/// A few operations per sample instead of a nonlinear fit: for screening many candidates.
+///
+/// Samples of all segments of all records stand in one row, in the order of ModelFit::residuals.
+class LinearResponse {
+ public:
+  /// @param fit  a fit of these records that did not run away. Both must outlive this object.
+  LinearResponse(const std::vector<const DriveRecord*>& records, const ModelFit& fit);
+
+  Eigen::Index numSamples() const { return static_cast<Eigen::Index>(motion_.size()); }
+  const std::vector<StrutMotion>& motion() const { return motion_; }  ///< per sample; without memory
+  double travel() const { return travel_; }                           ///< rms [m]
+  double travelRate() const { return travel_rate_; }                  ///< rms [m/s]
+  const ModelFit& fit() const { return *fit_; }
+  const std::vector<double>& predicted() const { return predicted_; }  ///< z'' without the reading's effects [m/s^2]
+
+  /// @return f along the motion, the memory starting at 0 in every segment.
+  Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes) const;
+
+  /// @return change of z'' at every sample for an additional force `f` [m/s^2].
+  Eigen::VectorXd respond(const Eigen::VectorXd& force) const;
+
+  /// @return change of the predicted reading per unit of a measurement effect's coefficient.
+  Eigen::VectorXd readingSlope(const MeasurementEffect& effect) const;
+
+  /// Ends of the segments: segment i is [ends[i - 1], ends[i]).
+  const std::vector<std::size_t>& ends() const { return ends_; }
+
+ private:
+  const ModelFit* fit_;
+  double period_;
+  double travel_ = 0.0, travel_rate_ = 0.0;
+  std::vector<StrutMotion> motion_;
+  std::vector<double> predicted_;
+  std::vector<double> slope_travel_, slope_rate_;  // F_d [1/s^2], F_v [1/s]
+  std::vector<std::size_t> ends_;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace suspension_health_monitor {
+
+/// Calls work(i) for i = 0 .. count - 1 on several threads, the calling one among them, and tick() on the calling thread
+/// after each of its own items. What tick() throws ends the work early and passes on. work must not throw.
+template <class Work, class Tick>
+void forEachInParallel(std::size_t count, int threads, const Work& work, const Tick& tick) {
+  std::atomic<std::size_t> next{0};
+  const auto takeItems = [&](const auto& after) {
+    for (std::size_t i = next++; i < count; i = next++) {
+      work(i);
+      after();
+    }
+  };
+  struct Helpers {
+    explicit Helpers(std::atomic<std::size_t>& next, std::size_t end) : next_(next), end_(end) {}
+    ~Helpers() {
+      next_ = end_;
+      for (std::thread& thread : threads) thread.join();
+    }
+    std::vector<std::thread> threads;
+    std::atomic<std::size_t>& next_;
+    std::size_t end_;
+  } helpers(next, count);
+  for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i)
+    helpers.threads.emplace_back([&] { takeItems([] {}); });
+  takeItems(tick);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,174 @@
+#include "suspension_health_monitor/discrepancy/screening.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "median.h"
+#include "shape_scan.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kIndependent = 1e-6;  // share of a column that the model's own columns must leave
+constexpr int kSurfaceNodes = 6;       // per axis
+constexpr double kSurfaceEdge = 2.5;   // of the rms motion
+constexpr Eigen::Index kSurfaceRows = 20000;
+
+Eigen::VectorXd joined(const std::vector<std::vector<double>>& segments, Eigen::Index count) {
+  Eigen::VectorXd all(count);
+  Eigen::Index k = 0;
+  for (const std::vector<double>& segment : segments)
+    for (const double value : segment) all[k++] = value;
+  return all;
+}
+
+std::vector<std::vector<double>> split(const Eigen::VectorXd& all, const std::vector<std::size_t>& ends) {
+  std::vector<std::vector<double>> segments;
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    segments.emplace_back(all.data() + begin, all.data() + end);
+    begin = end;
+  }
+  return segments;
+}
+
+// Weights of the smooth Huber loss, 0 where a sample is held out.
+Eigen::VectorXd trainingWeights(const HeldOut& held_out, const Eigen::VectorXd& residual) {
+  std::vector<double> absolute(residual.data(), residual.data() + residual.size());
+  for (double& r : absolute) r = std::abs(r);
+  const double limit = FitOptions{}.outlier_scale * kSigmaPerMedian * median(std::move(absolute));
+  Eigen::VectorXd weight(residual.size());
+  Eigen::Index k = 0;
+  for (const std::vector<SampleMask>& record : held_out.training)
+    for (const SampleMask& mask : record)
+      for (const char trained : mask) {
+        const double q = limit > 0.0 ? residual[k] / limit : 0.0;
+        weight[k++] = trained != 0 ? 1.0 / std::sqrt(1.0 + q * q) : 0.0;
+      }
+  return weight;
+}
+
+// Share of a hat function at `x` for the node `i` of an even grid from -edge to +edge, constant beyond.
+double hat(double x, int i) {
+  const double spacing = 2.0 * kSurfaceEdge / (kSurfaceNodes - 1);
+  const double at = (std::clamp(x, -kSurfaceEdge, kSurfaceEdge) + kSurfaceEdge) / spacing;
+  return std::max(0.0, 1.0 - std::abs(at - i));
+}
+
+}  // namespace
+
+Screening::Screening(const std::vector<const DriveRecord*>& records, const HeldOut& held_out, const ModelFit& fit)
+    : held_out_(&held_out), response_(records, fit) {
+  const Eigen::Index n = response_.numSamples();
+  residual_ = joined(fit.residuals, n);
+  weight_ = trainingWeights(held_out, residual_);
+  Eigen::VectorXd travel(n), rate(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    travel[k] = response_.motion()[static_cast<std::size_t>(k)].travel;
+    rate[k] = response_.motion()[static_cast<std::size_t>(k)].travel_rate;
+  }
+  const std::vector<ActiveEffect>& effects = fit.model.effects;
+  common_.resize(n, 2 + static_cast<Eigen::Index>(effects.size()));
+  common_.col(0) = response_.respond(rate);
+  common_.col(1) = response_.respond(travel);
+  for (std::size_t j = 0; j < effects.size(); ++j)
+    common_.col(2 + static_cast<Eigen::Index>(j)) =
+        response_.respond(response_.forceAlong(effects[j].effect, effects[j].shapes));
+  const Eigen::MatrixXd weighted = weight_.asDiagonal() * common_;
+  gram_.compute(common_.transpose() * weighted);
+  own_ = weighted.transpose() * residual_;
+}
+
+std::optional<Screening::Projection> Screening::project(const Eigen::VectorXd& column) const {
+  const Eigen::VectorXd weighted = weight_.cwiseProduct(column);
+  const Eigen::VectorXd cross = common_.transpose() * weighted;
+  const Eigen::VectorXd carried = gram_.solve(cross);
+  const double square = column.dot(weighted);
+  const double independent = square - cross.dot(carried);
+  if (!(independent > kIndependent * square)) return std::nullopt;  // 0 and NaN, too
+  Projection result;
+  const double moment = weighted.dot(residual_) - own_.dot(carried);
+  result.coefficient = moment / independent;
+  result.gain = moment * result.coefficient;
+  result.common = gram_.solve(own_) - result.coefficient * carried;
+  return result;
+}
+
+StrutModel Screening::changed(const Eigen::VectorXd& common) const {
+  StrutModel model = response_.fit().model;
+  // A linear guess far away is no good place to begin; half of a parameter is.
+  const auto change = [](double value, double by) { return std::clamp(value + by, 0.5 * value, 1.5 * value); };
+  model.damping_to_mass = change(model.damping_to_mass, common[0]);
+  model.stiffness_to_mass = change(model.stiffness_to_mass, common[1]);
+  for (std::size_t j = 0; j < model.effects.size(); ++j)
+    model.effects[j].coefficient += common[2 + static_cast<Eigen::Index>(j)];
+  return model;
+}
+
+ScreenedModel Screening::expect(const Eigen::VectorXd& column, const Projection& projection) const {
+  ScreenedModel screened;
+  screened.model = changed(projection.common);
+  screened.training_gain = projection.gain;
+  screened.residuals = split(residual_ - projection.coefficient * column - common_ * projection.common, response_.ends());
+  return screened;
+}
+
+std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const {
+  std::optional<Projection> best;
+  std::vector<double> best_shapes;
+  Eigen::VectorXd best_column;
+  const double natural_time = 1.0 / std::sqrt(response_.fit().model.stiffness_to_mass);
+  for (const std::vector<double>& shapes :
+       scanShapes(effect, {response_.travel(), response_.travelRate(), natural_time})) {
+    Eigen::VectorXd column = response_.respond(response_.forceAlong(effect, shapes));
+    const std::optional<Projection> projection = project(column);
+    if (!projection || (best && projection->gain <= best->gain)) continue;
+    best = projection;
+    best_shapes = shapes;
+    best_column.swap(column);
+  }
+  if (!best) return std::nullopt;
+  ScreenedModel screened = expect(best_column, *best);
+  screened.model.effects.push_back({effect, best->coefficient, best_shapes});
+  return screened;
+}
+
+std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) const {
+  const Eigen::VectorXd column = response_.readingSlope(effect);
+  const std::optional<Projection> projection = project(column);
+  if (!projection) return std::nullopt;
+  ScreenedModel screened = expect(column, *projection);
+  screened.model.reading.push_back({effect, projection->coefficient});
+  return screened;
+}
+
+double Screening::surfaceGain() const {
+  const Eigen::Index n = response_.numSamples(), stride = 1 + n / kSurfaceRows;
+  const Eigen::Index rows = (n + stride - 1) / stride;
+  Eigen::MatrixXd columns(rows, kSurfaceNodes * kSurfaceNodes);
+  Eigen::VectorXd force(n);
+  using Strided = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>;
+  const auto thinned = [&](const Eigen::VectorXd& all) { return Strided(all.data(), rows, Eigen::InnerStride<>(stride)); };
+  for (int i = 0; i < kSurfaceNodes; ++i)
+    for (int j = 0; j < kSurfaceNodes; ++j) {
+      for (Eigen::Index k = 0; k < n; ++k) {
+        const StrutMotion& m = response_.motion()[static_cast<std::size_t>(k)];
+        force[k] = hat(m.travel / response_.travel(), i) * hat(m.travel_rate / response_.travelRate(), j);
+      }
+      columns.col(i * kSurfaceNodes + j) = thinned(response_.respond(force));
+    }
+  const Eigen::VectorXd residual = thinned(residual_), weight = thinned(weight_);
+  Eigen::MatrixXd gram = columns.transpose() * weight.asDiagonal() * columns;
+  gram.diagonal().array() += 1e-6 * gram.trace() / static_cast<double>(gram.rows());  // nodes that are never visited
+  const Eigen::VectorXd solution = gram.llt().solve(columns.transpose() * weight.cwiseProduct(residual));
+  const Eigen::VectorXd left = residual - columns * solution;
+  double before = 0.0, after = 0.0;
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    if (weight[k] != 0.0) continue;
+    before += residual[k] * residual[k];
+    after += left[k] * left[k];
+  }
+  return before > 0.0 ? std::max(0.0, 1.0 - after / before) : 0.0;
+}
+
+}  // namespace suspension_health_monitor
