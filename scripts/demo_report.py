@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Drives the paper's experiments through the nodelets, prints LS against LA, and writes DIR/report.html with Figs. 3-7.
+"""Drives the paper's experiments and a hidden effect through the nodelets, and writes DIR/report.html with Figs. 3-7.
 
 Needs a built workspace whose setup.bash is sourced; scripts/demo does both. Exit status: 0 done and every claim held,
 1 otherwise.
@@ -9,8 +9,10 @@ import pathlib
 import sys
 import time
 
+from report import hidden_effect
 from report.accuracy import find_program, seed_medians
-from report.experiments import DURATION, EXPERIMENTS, REAL_TIME_FACTORS, RunFailed, read_settings, run_experiments
+from report.experiments import (DURATION, EXPERIMENTS, REAL_TIME_FACTORS, RunFailed, paper_drive, read_settings,
+                                run_drives)
 from report.page import page, write_whole
 from report.progress import Progress
 from report.recording import IncompleteRecording, read_recording, require_complete
@@ -39,16 +41,27 @@ def read_complete(scenario, bag, settings):
     return recording
 
 
+def hidden_bag(options):
+    return options.output.resolve() / f"{hidden_effect.NAME}.bag"
+
+
 def drive_and_read(options, settings):
-    """{scenario: Recording} of all experiments; what misses rows runs again, slower. @throws IncompleteRecording"""
+    """{scenario: Recording} of all experiments; what misses rows runs again, slower.
+
+    The drive with a hidden effect runs beside them the first time. @throws IncompleteRecording
+    """
+    work = options.work.resolve()
+    beside = [hidden_effect.drive(hidden_bag(options), options.seed, work)]
     bags = {each.scenario: options.output.resolve() / f"{each.scenario}.bag" for each in EXPERIMENTS}
     recordings = {}
     for factor in REAL_TIME_FACTORS:
         due = [scenario for scenario in bags if scenario not in recordings]
-        print(f"== driving {len(due)} x {DURATION:g} s through the nodelets, side by side, {factor:g} times faster "
-              "than the wall clock", flush=True)
+        drives = [paper_drive(scenario, bags[scenario], options.seed, factor) for scenario in due] + beside
+        beside = []
+        print(f"== driving {len(drives)} drives through the nodelets, side by side, up to {factor:g} times faster than "
+              "the wall clock", flush=True)
         with Progress("driving") as progress:
-            run_experiments(due, bags, options.seed, factor, options.work.resolve(), progress)
+            run_drives(drives, work, progress)
         failures = []
         for scenario in due:
             try:
@@ -70,6 +83,11 @@ def medians(options, recordings):
                             range(1, options.seeds + 1), progress)
 
 
+def search_hidden_effect(options):
+    print("== searching for the hidden effect", flush=True)
+    return hidden_effect.search(hidden_bag(options), options.output, options.work.resolve())
+
+
 def main():
     options = parse_arguments()
     start = time.monotonic()
@@ -78,7 +96,8 @@ def main():
     try:
         settings = read_settings(CONFIG)
         recordings = drive_and_read(options, settings)
-        results = Results(settings, EXPERIMENTS, recordings, medians(options, recordings), options.seed, options.seeds)
+        results = Results(settings, EXPERIMENTS, recordings, medians(options, recordings), options.seed, options.seeds,
+                          search_hidden_effect(options))
     except (RunFailed, IncompleteRecording) as error:
         sys.exit(f"error: {error}")
     except KeyboardInterrupt:
@@ -86,6 +105,8 @@ def main():
     print("\nb1 = damping/mass, b0 = stiffness/mass; LS least squares, LA least sum of absolute values")
     for table in tables(results):
         print(f"\n{table.to_text()}")
+    print(f"\nDrive with a hidden effect ({hidden_effect.EFFECT}): {results.search.sentence}")
+    print(hidden_effect.ladder(results.search).to_text())
     report = options.output / "report.html"
     write_whole(report, page(TITLE, report_sections(results)))
     held = [claim[-1] for claim in results.claims()]

@@ -2,6 +2,7 @@
 import contextlib
 import dataclasses
 import os
+import pathlib
 import signal
 import socket
 import subprocess
@@ -80,16 +81,31 @@ def free_port():
         return probe.getsockname()[1]
 
 
+@dataclasses.dataclass(frozen=True)
+class Drive:
+    """One drive through the nodelets: what roslaunch is told, how long it usually takes [s], where it is recorded."""
+    name: str
+    launch_file: str
+    arguments: tuple
+    usual_time: float
+    bag: pathlib.Path
+
+
+def paper_drive(scenario, bag, seed, factor):
+    """One of the paper's experiments, `factor` times faster than the wall clock."""
+    arguments = (f"scenario:={scenario}", f"seed:={seed}", f"duration:={DURATION:g}", f"real_time_factor:={factor:g}")
+    return Drive(scenario, "paper.launch", arguments, DURATION / factor + START_AND_END, bag)
+
+
 @contextlib.contextmanager
-def launched(scenario, bag, seed, factor, folder):
-    """roslaunch of one experiment with a master of its own; ends it, whatever happens."""
+def launched(drive, folder):
+    """roslaunch of one drive with a master of its own; ends it, whatever happens."""
     folder.mkdir(parents=True, exist_ok=True)
-    bag.unlink(missing_ok=True)
+    drive.bag.unlink(missing_ok=True)
     environment = {name: value for name, value in os.environ.items() if name != "ROS_LOG_DIR"}
     environment["ROS_HOME"] = str(folder)
-    command = ["roslaunch", "-p", str(free_port()), "suspension_health_monitor", "paper.launch",
-               f"scenario:={scenario}", f"seed:={seed}", f"duration:={DURATION:g}",
-               f"real_time_factor:={factor:g}", "shutdown_at_end:=true", f"record:={bag}"]
+    command = ["roslaunch", "-p", str(free_port()), "suspension_health_monitor", drive.launch_file, *drive.arguments,
+               "shutdown_at_end:=true", f"record:={drive.bag}"]
     with open(folder / "roslaunch.log", "w") as log:
         process = subprocess.Popen(command, env=environment, stdout=log, stderr=log, stdin=subprocess.DEVNULL,
                                    start_new_session=True)
@@ -105,24 +121,23 @@ def launched(scenario, bag, seed, factor, folder):
                     process.wait()
 
 
-def run_experiments(scenarios, bags, seed, factor, folder, progress):
-    """Drives all at the same time, `factor` times faster than the wall clock; records each into bags[scenario].
+def run_drives(drives, folder, progress):
+    """All at the same time; each into its bag.
 
-    @throws RunFailed  naming the experiment and its log.
+    @throws RunFailed  naming the drive and its log.
     """
     start = time.monotonic()
-    usual = DURATION / factor + START_AND_END
+    usual = max(drive.usual_time for drive in drives)
     with contextlib.ExitStack() as stack:
-        runs = {scenario: stack.enter_context(launched(scenario, bags[scenario], seed, factor, folder / scenario))
-                for scenario in scenarios}
+        runs = {drive: stack.enter_context(launched(drive, folder / drive.name)) for drive in drives}
         while any(run.poll() is None for run in runs.values()):
             elapsed = time.monotonic() - start
             if elapsed > usual + GRACE:
                 break
             progress.update(min(elapsed / usual, 0.99))
             time.sleep(0.1)
-    for scenario, run in runs.items():
-        if run.returncode != 0 or not bags[scenario].is_file():
-            raise RunFailed(f"{scenario}: roslaunch ended with status {run.returncode} and "
-                            f"{'a' if bags[scenario].is_file() else 'no'} recording, "
-                            f"see {folder / scenario / 'roslaunch.log'}")
+    for drive, run in runs.items():
+        if run.returncode != 0 or not drive.bag.is_file():
+            raise RunFailed(f"{drive.name}: roslaunch ended with status {run.returncode} and "
+                            f"{'a' if drive.bag.is_file() else 'no'} recording, "
+                            f"see {folder / drive.name / 'roslaunch.log'}")

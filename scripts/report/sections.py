@@ -3,7 +3,7 @@ import dataclasses
 
 import numpy
 
-from . import figures
+from . import figures, hidden_effect
 from .accuracy import ESTIMATORS, SETTLED, ramp_lag, recording_accuracy
 from .experiments import DURATION, Settings
 from .page import Figure, Section
@@ -24,6 +24,7 @@ class Results:
     medians: dict
     seed: int
     seeds: int
+    search: hidden_effect.Search = None  # of the drive with a hidden effect
 
     def __post_init__(self):
         self.accuracies = {scenario: recording_accuracy(recording) for scenario, recording in self.recordings.items()}
@@ -188,4 +189,6 @@ def prediction(results):
 
 def report_sections(results):
     """All sections, in the order of the page."""
-    return [section(results) for section in (introduction, errors, data_loss, end_stops, no_fault, health, prediction)]
+    sections = [section(results)
+                for section in (introduction, errors, data_loss, end_stops, no_fault, health, prediction)]
+    return sections + ([hidden_effect.section(results.search)] if results.search else [])

@@ -11,7 +11,7 @@ import pytest
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "scripts"))
 
-from report import accuracy, drawing, page, recording, sections, table  # noqa: E402
+from report import accuracy, drawing, hidden_effect, page, recording, sections, table  # noqa: E402
 from report.experiments import EXPERIMENTS, Claim, read_settings  # noqa: E402
 
 PERIOD = 0.02
@@ -240,3 +240,26 @@ def test_file_is_written_whole_or_not_at_all(tmp_path):
         page.write_whole(path, "new" * 100000 + "\ud800")
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def search_result(**extended):
+    result = {"selected": ["coulomb_friction"] if extended else [], "noise_floor": 0.0264,
+              "base": {"held_out_rmse": 0.2021}}
+    return hidden_effect.Search({**result, **extended}, "Missing <or> not.")
+
+
+def test_hidden_effect_has_its_ladder_and_a_way_to_its_page():
+    found = search_result(extended={"held_out_rmse": 0.028, "coefficients": {"coulomb_friction": 0.3512},
+                                    "stddevs": {"coulomb_friction": 0.0012}})
+    assert hidden_effect.ladder(found).rows == [("model as it is", "0.2021"), ("with coulomb_friction", "0.0280"),
+                                                ("noise floor, about", "0.0264")]
+    text = hidden_effect.section(found).to_html()
+    assert Reader(text).targets == ["effect_report/report.html"]
+    assert "hidden 0.35 m/s², found 0.351 ± 0.001 m/s²" in text
+    assert "Missing &lt;or&gt; not." in text
+
+
+def test_hidden_effect_that_is_not_found_is_no_error():
+    found = search_result()
+    assert hidden_effect.ladder(found).rows == [("model as it is", "0.2021"), ("noise floor, about", "0.0264")]
+    assert "hidden 0.35" not in hidden_effect.section(found).to_html()

@@ -1,0 +1,68 @@
+#include "report_adding.h"
+
+#include <cstdio>
+#include <string>
+
+#include "suspension_health_monitor/model/model_settings.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using nlohmann::json;
+
+const StrutModel& modelOf(const SearchResult& search) {
+  return search.final_fit ? search.final_fit->model : search.base.model;
+}
+
+/// A word as a shell takes it.
+std::string quoted(const std::string& word) {
+  const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+:=,@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string result = "'";
+  for (const char character : word)
+    if (character == '\'')
+      result += "'\\''";
+    else
+      result += character;
+  return result + "'";
+}
+
+/// The request of ~set_effects.
+std::string settingOf(const StrutModel& model) {
+  std::string names, shape_names, shape_values;
+  const auto append = [](std::string& list, const std::string& item) { list += (list.empty() ? "" : ", ") + item; };
+  for (const ActiveEffect& active : model.effects) {
+    append(names, active.effect.name);
+    for (std::size_t i = 0; i < active.shapes.size(); ++i) {
+      char value[32];
+      std::snprintf(value, sizeof value, "%.6g", active.shapes[i]);
+      append(shape_names, active.effect.name + "/" + active.effect.shapes[i].name);
+      append(shape_values, value);
+    }
+  }
+  return "{names: [" + names + "], shape_names: [" + shape_names + "], shape_values: [" + shape_values + "]}";
+}
+
+}  // namespace
+
+json addingJson(const ReportContent& content) {
+  std::string bags;
+  for (const std::string& name : content.drive_names) bags += " " + quoted(name);
+  const std::string tool = "rosrun suspension_health_monitor suspension_bag ";
+  json commands = json::array();
+  const auto add = [&](const char* title, const std::string& text) {
+    commands.push_back({{"title", title}, {"text", text}});
+  };
+  add("Write the file", tool + "diagnose" + bags + " -o model.yaml");
+  add("Judge the model on another drive", tool + "compare another_drive.bag --model model.yaml");
+  if (!modelOf(content.search).effects.empty())
+    add("Live: add it to a running monitor and watch the error fall",
+        "rosservice call /monitor/set_effects \"" + settingOf(modelOf(content.search)) +
+            "\"\nrqt_plot /monitor/comparison/base_rmse /monitor/comparison/rmse");
+  add("Live from the start: name the file in your copy of monitor.yaml",
+      "model_file: /path/to/model.yaml\n\nroslaunch suspension_health_monitor monitor.launch "
+      "config:=$PWD/my_strut.yaml");
+  return {{"model_file", toYaml(modelOf(content.search))}, {"commands", commands}};
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,83 @@
+#include "report_page.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "report_adding.h"
+#include "report_series.h"
+#include "report_tables.h"
+#include "report_template.h"
+#include "report_views.h"
+#include "search_report.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string sourceOf(const ReportContent& content) {
+  std::string text;
+  double duration = 0.0;
+  for (const DriveRecord* drive : content.drives)
+    duration += static_cast<double>(drive->numSamples()) * drive->period();
+  for (const std::string& name : content.drive_names) text += (text.empty() ? "" : ", ") + name;
+  char size[64];
+  std::snprintf(size, sizeof size, ": %.4g s at %.4g Hz", duration, 1.0 / content.drives.front()->period());
+  return text + size;
+}
+
+json findingsOf(const ReportContent& content) {
+  json findings{{"search", toJson(content.search)},        {"source", sourceOf(content)},
+                {"effects", effectsJson(content.library)}, {"parameters", parametersJson(content)},
+                {"drives", drivesJson(content)},           {"before", viewsJson(content.before)},
+                {"forces", forcesJson(content)},           {"adding", addingJson(content)}};
+  if (content.after != nullptr) findings["after"] = viewsJson(*content.after);
+  return findings;
+}
+
+/// JSON that may stand inside a script element, whatever a file or an effect is called.
+std::string harmless(const json& findings) {
+  const std::string text = findings.dump(-1, ' ', true, json::error_handler_t::replace);
+  std::string result;
+  result.reserve(text.size());
+  for (const char character : text)
+    if (character == '<')
+      result += "\\u003c";
+    else
+      result += character;
+  return result;
+}
+
+void put(std::string_view text, std::FILE* out) { std::fwrite(text.data(), 1, text.size(), out); }
+
+}  // namespace
+
+ReportPage::Folder::Folder(const std::string& path) : path_(path) {
+  std::error_code error;
+  made_ = fs::create_directory(path, error);
+  if (!fs::is_directory(path)) throw std::runtime_error(path + ": cannot be made: " + error.message());
+}
+
+ReportPage::Folder::~Folder() {
+  std::error_code not_empty;
+  if (made_) fs::remove(path_, not_empty);
+}
+
+ReportPage::ReportPage(const std::string& folder)
+    : folder_(folder), file_((fs::path(folder) / "report.html").string()) {}
+
+void ReportPage::write(const ReportContent& content) {
+  constexpr std::string_view placeholder = "@@findings@@";
+  const std::string_view page = reportTemplate();
+  const std::size_t place = page.find(placeholder);
+  put(page.substr(0, place), file_.stream());
+  put(harmless(findingsOf(content)), file_.stream());
+  put(page.substr(place + placeholder.size()), file_.stream());
+  file_.commit();
+}
+
+}  // namespace suspension_health_monitor

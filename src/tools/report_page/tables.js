@@ -1,0 +1,103 @@
+// Candidates and parameters.
+
+/** A model's coefficients and shapes, one line each. */
+function coefficientLines(findings, {effects, coefficients, shapes}, deviations = {}) {
+  return effects
+      .flatMap(name => {
+        const {unit, shapes: known} = kindOf(findings, name);
+        const several = effects.length > 1 ? `${spoken(name)} ` : '';
+        return [
+          [`${several}c = ${quantityWithDeviation(coefficients[name], deviations[name], unit)}`],
+          ...known.map(
+              shape => `${several}${shape.name} = ${
+                  quantityWithDeviation(
+                      shapes[`${name}/${shape.name}`], deviations[`${name}/${shape.name}`], shape.unit)}`)
+        ];
+      })
+      .flat()
+      .map(line => element('div', {}, line));
+}
+
+function rankingSection(findings) {
+  const {ranking, base, selected, indistinguishable, noise_floor: floor} = findings.search;
+  const longest = Math.max(
+      base.held_out_rmse, ...ranking.map(({held_out_rmse: rmse}) => Math.min(rmse, 1.5 * base.held_out_rmse)));
+  const scale = scaleFor(base.held_out_rmse, 'm/s^2');
+  const rows = ranking.map((ranked, i) => {
+    const name = ranked.effects[ranked.effects.length - 1];
+    const chosen = selected.includes(name), rival = !chosen && indistinguishable.flat().includes(name);
+    return element(
+        'tr', {class: chosen ? 'chosen' : null, 'data-candidate': name, 'data-rmse': ranked.held_out_rmse},
+        element('td', {class: 'number minor'}, String(i + 1)),
+        element(
+            'td', {}, element('b', {}, ranked.effects.map(spoken).join(' + ')),
+            chosen    ? ' ✓' :
+                rival ? ' ≈' :
+                        '',
+            element('small', {}, kindOf(findings, name).finding)),
+        element(
+            'td', {class: 'error'}, `${rounded(ranked.held_out_rmse * scale.factor)} ${scale.unit}`,
+            bar(ranked.held_out_rmse / longest, floor / longest, chosen ? 'after' : 'floor')),
+        element('td', {class: 'number'}, percent(ranked.error_removed_percent)),
+        element('td', {class: 'minor'}, ranked.significant ? 'yes' : 'no'),
+        element('td', {class: 'number minor'}, coefficientLines(findings, ranked, ranked.stddevs)));
+  });
+  return section(
+      'ranking', 'All candidates',
+      'Every effect that is known, added alone to the model, fitted on two thirds of the drive and judged on the ' +
+      'rest. ✓ named; ≈ this drive cannot tell it from the named one; removed: of the error’s mean square; ' +
+      'significant: more than chance would give among so many.',
+      element(
+          'div', {class: 'wide'},
+          element(
+              'table', {},
+              element(
+                  'thead', {},
+                  element(
+                      'tr', {}, element('th', {class: 'number minor'}, '#'), element('th', {}, 'effect'),
+                      element('th', {}, 'held-out error'), element('th', {class: 'number'}, 'removed'),
+                      element('th', {class: 'minor'}, 'significant'),
+                      element('th', {class: 'number minor'}, 'fitted'))),
+              element('tbody', {}, rows))));
+}
+
+function parameterSection(findings) {
+  const {parameters, after} = findings;
+  const scaleOf = ({before, after: later, unit}) => scaleFor(Math.abs((later || before).value), unit);
+  const cell = ({value, stddev} = {}, {factor}) =>
+      element('td', {class: 'number'}, isNumber(value) ? withDeviation(value * factor, stddev * factor) : '');
+  const change = ({before, after: later}) => (before && later ? percent(100 * (later.value / before.value - 1)) : '');
+  return section(
+      'parameters', 'Parameters',
+      after ?
+          'Fitted to the whole drive, ± standard deviation. What the missing effect had pushed spring and damper to ' +
+          'becomes visible in the change.' :
+          'Fitted to the whole drive, ± standard deviation.',
+      element(
+          'div', {class: 'wide'},
+          element(
+              'table', {},
+              element(
+                  'thead', {},
+                  element(
+                      'tr', {}, element('th', {}, 'parameter'), element('th', {class: 'number'}, 'model as it is'),
+                      after ?
+                          [
+                            element('th', {class: 'number'}, 'with the effect'),
+                            element('th', {class: 'number minor'}, 'change')
+                          ] :
+                          null,
+                      element('th', {}, 'unit'))),
+              element(
+                  'tbody', {},
+                  parameters.map(
+                      row => element(
+                          'tr', {},
+                          element(
+                              'td', {}, row.symbol ? [element('b', {}, row.symbol), ' '] : null, spoken(row.title)),
+                          cell(row.before, scaleOf(row)),
+                          after ?
+                              [cell(row.after, scaleOf(row)), element('td', {class: 'number minor'}, change(row))] :
+                              null,
+                          element('td', {}, scaleOf(row).unit)))))));
+}

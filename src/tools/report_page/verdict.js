@@ -1,0 +1,124 @@
+// The verdict in words that a mechanic understands, and what to do next.
+
+const kindOf = (findings, name) => findings.effects[name];
+
+/** "dry friction: seal, bent rod, top mount" -> what it is, and where to look. */
+function whatAndWhere(finding) {
+  const colon = finding.indexOf(': ');
+  return colon < 0 ? [finding, ''] : [finding.slice(0, colon), finding.slice(colon + 2)];
+}
+
+/** The effects that the drive cannot tell from the one named, itself first. */
+function rivalsOf(findings, name) {
+  const group = findings.search.indistinguishable.find(each => each.includes(name)) || [];
+  return [name, ...group.filter(each => each !== name)];
+}
+
+function headline(findings) {
+  const {verdict, selected} = findings.search;
+  if (verdict === 'nothing_missing') return 'Nothing is missing: the model explains the drive down to the noise.';
+  if (verdict !== 'effect_found') return 'Something is missing, but no known effect explains it.';
+  const what = names =>
+      names
+          .map(
+              name =>
+                  joined(rivalsOf(findings, name).map(each => whatAndWhere(kindOf(findings, each).finding)[0]), 'or'))
+          .join('; ');
+  const forces = selected.filter(name => kindOf(findings, name).kind === 'force');
+  const readings = selected.filter(name => kindOf(findings, name).kind === 'reading');
+  const parts = [];
+  if (forces.length) parts.push(`Missing from the model: ${what(forces)}.`);
+  if (readings.length)
+    parts.push(`${forces.length ? 'And the sensor is at fault' : 'The sensor is at fault, not the strut'}: ${
+        what(readings)}.`);
+  return parts.join(' ');
+}
+
+/** One sentence per effect: its name, where to look, its size. */
+function effectSentence(findings, name) {
+  const {law, unit, finding, shapes} = kindOf(findings, name);
+  const {coefficients, stddevs, shapes: values} = findings.search.extended;
+  const sizes = [
+    `c = ${quantityWithDeviation(coefficients[name], stddevs[name], unit)}`,
+    ...shapes.map(
+        shape => `${shape.name} = ${
+            quantityWithDeviation(values[`${name}/${shape.name}`], stddevs[`${name}/${shape.name}`], shape.unit)}`)
+  ];
+  const [what, where] = whatAndWhere(finding);
+  return element(
+      'p', {class: 'answer'}, element('b', {'data-effect': name}, capitalised(spoken(name))), ', ',
+      element('code', {}, law), ` with ${joined(sizes.map(size => size.trim()))}. `,
+      `What a workshop would find: ${what}${where ? ` (${where})` : ''}.`);
+}
+
+/** @param share  of the error that a free-form force of travel and travel rate could explain. */
+function whatASurfaceTells(share) {
+  const part = percent(100 * Math.max(0, share));
+  if (share >= 0.5)
+    return `A force that depends on travel and travel rate alone could explain ${part} of the error: the map below ` +
+        'shows its shape. Write it as a law of your own in an effects file and diagnose again.';
+  return `A force of travel and travel rate alone could explain only ${part} of the error: think of forces with ` +
+      'memory, and of what comes from outside the strut (pitch and roll of the body, other struts, an engine, a ' +
+      'loose sensor).';
+}
+
+function nextSteps(findings) {
+  const {verdict, selected, indistinguishable, suggested_drive: drive, surface_share: share} = findings.search;
+  const steps = [];
+  for (const group of indistinguishable)
+    steps.push(`This drive cannot tell apart ${joined(group.map(spoken), 'or')}: any of them would do as well${
+        selected.length ? '; the simplest is named' : ''}.`);
+  if (verdict === 'nothing_missing')
+    steps.push(
+        'Keep the model as it is. A fault that shows only in other conditions (hard braking, full load, cold damper) ' +
+        'needs a drive in those.');
+  if (verdict === 'unexplained') {
+    if (isNumber(share)) steps.push(whatASurfaceTells(share));
+    steps.push(
+        'See below where the model fails: the time, the travel and the frequency of the error say where to look.');
+  }
+  if (drive) steps.push(`Drive to record next: ${drive}`);
+  return steps.length ? element(
+                            'div', {class: 'next'}, element('b', {}, 'What to do next'),
+                            element('ul', {}, steps.map(step => element('li', {}, step)))) :
+                        null;
+}
+
+/** How much of the error goes away [%]: of its mean square, less that of the noise where the noise is the smaller. */
+function avoidableRemoved({base, extended, noise_floor: floor}) {
+  const least = Math.min(floor, extended.held_out_rmse) ** 2;
+  return 100 * (1 - (extended.held_out_rmse ** 2 - least) / (base.held_out_rmse ** 2 - least));
+}
+
+function keyFigures(findings) {
+  const {base, extended, noise_floor: floor, structured_share: structure} = findings.search;
+  const one = (title, value, unit, tone) => element(
+      'div', {style: tone ? `--colour: var(--${tone})` : null}, element('dt', {}, title),
+      element('dd', {}, value, ' ', element('small', {}, unit)));
+  const scale = scaleFor(base.held_out_rmse, 'm/s^2');
+  const error = value => rounded(value * scale.factor, 3);
+  const figures = [one('error of the model as it is', error(base.held_out_rmse), scale.unit, 'before')];
+  if (extended) figures.push(one('error with the effect', error(extended.held_out_rmse), scale.unit, 'after'));
+  figures.push(one('what sensor noise alone leaves, about', error(floor), scale.unit, 'floor'));
+  if (extended) {
+    const removed = avoidableRemoved(findings.search);
+    figures.push(one(
+        'of the avoidable error removed', removed > 99.5 ? '> 99' : rounded(Math.max(0, removed), 2), '%', 'good'));
+  } else {
+    figures.push(one('of the error is no noise, about', rounded(100 * structure, 2), '%'));
+  }
+  return element('dl', {class: 'figures-row'}, figures);
+}
+
+function verdictSection(findings) {
+  const {verdict, selected} = findings.search;
+  const pill = {
+    effect_found: selected.length > 1 ? 'Effects found' : 'Effect found',
+    nothing_missing: 'Nothing missing',
+    unexplained: 'Unexplained'
+  }[verdict];
+  return element(
+      'section', {id: 'verdict', 'data-verdict': verdict}, element('p', {class: 'source'}, findings.source),
+      element('h1', {}, element('span', {class: 'pill'}, pill), element('br'), headline(findings)),
+      selected.map(name => effectSentence(findings, name)), nextSteps(findings), keyFigures(findings));
+}

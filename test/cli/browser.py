@@ -1,0 +1,84 @@
+"""A page as a browser shows it: headless Chromium, without a network."""
+import html.parser
+import os
+import shutil
+import subprocess
+
+import pytest
+
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+VOID = {"meta", "br", "link", "input", "hr", "img"}
+
+
+def find_browser():
+    """The path of a browser that runs, or nothing. (Ubuntu's chromium-browser is a snap, which needs a daemon.)"""
+    for name in NAMES:
+        path = shutil.which(name)
+        if path and subprocess.run([path, "--version"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                   timeout=60).returncode == 0:
+            return path
+    return None
+
+
+class Element:
+    """One element of the page: tag, attributes, children (elements and text)."""
+
+    def __init__(self, tag, attributes):
+        self.tag, self.attributes, self.children = tag, attributes, []
+
+    def all(self, tag=None, **attributes):
+        """Every element below of that tag and with those attributes; data_x stands for data-x."""
+        wanted = {name.rstrip("_").replace("_", "-"): value for name, value in attributes.items()}
+        for child in self.children:
+            if isinstance(child, Element):
+                if (tag in (None, child.tag)) and all(child.attributes.get(name) == value
+                                                      for name, value in wanted.items()):
+                    yield child
+                yield from child.all(tag, **attributes)
+
+    def one(self, tag=None, **attributes):
+        found = list(self.all(tag, **attributes))
+        assert len(found) == 1, f"{len(found)} of {tag} {attributes}"
+        return found[0]
+
+    @property
+    def text(self):
+        """What is written in it, except scripts and style."""
+        parts = (child if isinstance(child, str) else child.text for child in self.children)
+        return "" if self.tag in ("script", "style") else " ".join(" ".join(parts).split())
+
+
+class Reader(html.parser.HTMLParser):
+    def __init__(self, text):
+        super().__init__()
+        self.root = Element("document", {})
+        self.open = [self.root]
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        element = Element(tag, dict(attributes))
+        self.open[-1].children.append(element)
+        if tag not in VOID:
+            self.open.append(element)
+
+    def handle_endtag(self, tag):
+        if tag not in VOID:
+            assert self.open.pop().tag == tag
+
+    def handle_data(self, data):
+        self.open[-1].children.append(data)
+
+
+def shown(path, profile):
+    """The page at `path` as it is once its scripts have run. profile: a folder that the browser may write to."""
+    browser = find_browser()
+    if browser is None:
+        pytest.skip("no browser that runs: install chromium to see what the page shows")
+    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+               "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}", "--window-size=1200,900",
+               "--virtual-time-budget=5000", "--dump-dom", path.as_uri()]
+    environment = {**os.environ, "HOME": str(profile)}
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", timeout=120,
+                            env=environment)
+    assert result.returncode == 0, result.stderr
+    return Reader(result.stdout).root

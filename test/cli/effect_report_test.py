@@ -1,0 +1,148 @@
+"""suspension_bag diagnose --report: what the page shows in a browser."""
+import json
+import math
+import re
+import types
+
+import pytest
+import rosbag
+
+import browser
+
+DRIVE = ["--scenario", "iso_road", "--vehicle", "rover", "--rate", "100", "--duration", "60"]
+MOST_BYTES = 5_000_000
+
+
+def disturb(clean, disturbed):
+    """Adds to the body's reading what no effect of the strut explains: a tone that swells and wanders."""
+    with rosbag.Bag(str(clean)) as source, rosbag.Bag(str(disturbed), "w") as target:
+        for topic, message, time in source.read_messages():
+            if topic == "/sprung/imu":
+                t = message.header.stamp.to_sec()
+                tone = math.sin(2 * math.pi * (3.3 * t + 0.7 * math.sin(0.31 * t)))
+                message.linear_acceleration.z += 0.6 * tone * math.sin(0.17 * t)
+            target.write(topic, message, time)
+
+
+def make_bags(program, folder, case):
+    """Drives by the name of the case."""
+    bag = folder / "drive <b>&'\"$.bag"
+    if case == "several":
+        bags = [bag, folder / "second.bag"]
+        for seed, path in enumerate(bags):
+            program.succeed("simulate", *DRIVE, "--seed", seed + 1, "--effect", "asymmetric_damping=1.3", "--effect",
+                            "bump_stop=90,g=0.012", "-o", path)
+        return bags
+    hidden = {"friction": ["--effect", "coulomb_friction=0.35,vs=0.02"]}.get(case, [])
+    program.succeed("simulate", *DRIVE, *hidden, "-o", bag)
+    if case == "unexplained":
+        bag.rename(folder / "clean.bag")
+        disturb(folder / "clean.bag", bag)
+    return [bag]
+
+
+@pytest.fixture(scope="module", params=["friction", "nothing", "unexplained", "several"])
+def report(request, program, tmp_path_factory):
+    """A case with its result as --json has it, the file of the page, and what a browser makes of it."""
+    folder = tmp_path_factory.mktemp(request.param)
+    bags = make_bags(program, folder, request.param)
+    program.succeed("diagnose", *bags, "--json", folder / "result.json", "--report", folder / "page")
+    path = folder / "page" / "report.html"
+    return types.SimpleNamespace(case=request.param, bags=bags, path=path,
+                                 result=json.loads((folder / "result.json").read_text()),
+                                 page=browser.shown(path, folder / "profile"))
+
+
+def test_scripts_run_without_an_error(report):
+    assert report.page.one(id="script-errors").text == ""
+    assert report.page.one("html").attributes["data-ready"] == "yes"
+
+
+def test_file_needs_nothing_else_and_is_small(report):
+    text = report.path.read_text()
+    assert len(text.encode()) <= MOST_BYTES
+    assert not re.search(r"(?:src|href)=|@import|url\(|fetch\(|XMLHttpRequest|https?://", text)
+    assert [path.name for path in report.path.parent.iterdir()] == ["report.html"]
+
+
+def test_verdict_is_in_words(report):
+    verdict = report.page.one("section", id="verdict")
+    assert verdict.attributes["data-verdict"] == report.result["verdict"]
+    heading = verdict.one("h1").text
+    if report.case == "friction":
+        assert "Missing from the model: dry friction" in heading
+        assert "seal, bent rod, top mount" in verdict.text
+        assert verdict.one("b", data_effect="coulomb_friction").text == "Coulomb friction"
+    elif report.case == "nothing":
+        assert "Nothing is missing" in heading
+        assert "What to do next" in verdict.text
+    elif report.case == "unexplained":
+        assert "no known effect explains it" in heading
+        assert "What to do next" in verdict.text
+    else:
+        assert {each.attributes["data-effect"] for each in verdict.all("b") if "data-effect" in each.attributes} == {
+            "asymmetric_damping", "bump_stop"}
+
+
+def test_ladder_has_the_numbers_of_the_result(report):
+    steps = [float(each.attributes["data-rmse"]) for each in report.page.one(id="ladder").all("dd")]
+    result = report.result
+    assert steps[0] == result["base"]["held_out_rmse"]
+    assert steps[-1] == result["noise_floor"]
+    assert len(steps) == 2 + len(result["selected"])
+    if result["selected"]:
+        assert steps[-2] == result["extended"]["held_out_rmse"]
+    written = [re.search(r"([0-9.]+) (m?)m/s²", each.text) for each in report.page.one(id="ladder").all("dd")]
+    for step, text in zip(steps, written):
+        assert float(text[1]) * (1e-3 if text[2] else 1.0) == pytest.approx(step, rel=0.005)
+
+
+def test_every_candidate_has_its_row(report):
+    rows = [each for each in report.page.one(id="ranking").all("tr") if "data-candidate" in each.attributes]
+    ranking = report.result["ranking"]
+    assert [row.attributes["data-candidate"] for row in rows] == [each["effects"][-1] for each in ranking]
+    assert [float(row.attributes["data-rmse"]) for row in rows] == [each["held_out_rmse"] for each in ranking]
+    chosen = {row.attributes["data-candidate"] for row in rows if row.attributes.get("class") == "chosen"}
+    assert chosen == set(report.result["selected"])
+
+
+def test_no_figure_is_empty(report):
+    canvases = list(report.page.all("canvas"))
+    expected = {"friction": 3 + 2 + 1 + 2 + 2, "several": 3 + 2 + 2 + 2 + 2}.get(report.case, 3 + 1 + 2 + 2)
+    assert len(canvases) == expected
+    for canvas in canvases:
+        assert canvas.attributes["aria-label"]
+        pixels = int(canvas.attributes["width"]) * int(canvas.attributes["height"])
+        assert int(canvas.attributes["data-painted"]) > 0.01 * pixels, canvas.attributes["aria-label"]
+        assert int(canvas.attributes["data-colours"]) > 20, canvas.attributes["aria-label"]
+
+
+def test_parameters_and_model_file_are_those_of_the_result(report):
+    model = report.page.one(id="adding").text
+    parameters = (report.result.get("extended") or report.result["base"])["parameters"]
+    for name, value in parameters.items():
+        assert float(re.search(rf"{name}: (\S+)", model)[1]) == pytest.approx(value, rel=1e-12)
+    assert ("set_effects" in model) == bool(report.result["selected"])
+    added = report.result.get("extended", {"coefficients": {}, "shapes": {}})
+    lines = len(list(report.page.one(id="parameters").all("tr"))) - 1
+    assert lines == len(parameters) + len(added["coefficients"]) + len(added["shapes"])
+
+
+def test_drives_are_named_as_they_are(report):
+    for bag in report.bags:
+        assert bag.name in report.page.one("p", class_="source").text
+    options = [each.text for each in report.page.one(id="time").all("option")]
+    assert options == ([bag.name for bag in report.bags] if len(report.bags) > 1 else [])
+
+
+def test_page_that_cannot_be_written_is_refused_before_the_search(program, tmp_path):
+    program.succeed("simulate", *DRIVE, "-o", tmp_path / "drive.bag")
+    (tmp_path / "file").write_text("here first")
+    for folder in (tmp_path / "file", tmp_path / "no" / "folder"):
+        program.refuse(3, ["diagnose", tmp_path / "drive.bag", "--report", folder], [folder, "cannot be made"], tmp_path)
+
+
+def test_nothing_is_left_of_a_search_that_fails(program, tmp_path):
+    program.succeed("simulate", *DRIVE[:-1], "3", "-o", tmp_path / "short.bag")
+    program.refuse(4, ["diagnose", tmp_path / "short.bag", "--report", tmp_path / "page"], [], tmp_path)
+    assert not (tmp_path / "page").exists()
