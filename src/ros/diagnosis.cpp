@@ -35,8 +35,12 @@ void addExtended(const SearchResult& result, DiagnoseResponse& response) {
       response.shapes.push_back(active.shapes[k]);
     }
   }
-  for (const ActiveMeasurementEffect& reading : fit.model.reading)
-    addCoefficient(reading.effect.name, reading.coefficient);
+  for (const ActiveMeasurementEffect& reading : fit.model.reading) {
+    const std::vector<MeasurementEffect::Coefficient>& known = reading.effect.coefficients;
+    for (std::size_t k = 0; k < known.size(); ++k)
+      addCoefficient(known.size() == 1 ? reading.effect.name : reading.effect.name + '/' + known[k].name,
+                     reading.coefficients[k]);
+  }
 }
 
 StrutModel roughStrut(const SearchTask& task) {
@@ -53,8 +57,11 @@ StrutModel roughStrut(const SearchTask& task) {
 Diagnosis searchEffects(const SearchTask& task, const SearchOptions& options, const EffectSearch::Progress& progress) {
   const std::vector<DriveSamples> drives{task.samples};
   const StrutModel start = task.model ? *task.model : roughStrut(task);
-  const std::deque<DriveRecord> records = makeRecords(drives, *task.options.sample_period, start);
-  std::optional<SearchResult> result = EffectSearch(task.library, options).run(pointersTo(records), start, progress);
+  std::deque<DriveRecord> records = makeRecords(drives, *task.options.sample_period, start);
+  records.front().addBodyMotion(task.body);
+  EffectLibrary library = task.library;
+  takeUntestable(library, pointersTo(records));
+  std::optional<SearchResult> result = EffectSearch(library, options).run(pointersTo(records), start, progress);
   if (!result)
     throw std::runtime_error(spanOf(task.samples) +
                              " are too short to hold a part of them out, or no stable model fits them: drive on");
