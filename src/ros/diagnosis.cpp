@@ -35,12 +35,9 @@ void addExtended(const SearchResult& result, DiagnoseResponse& response) {
       response.shapes.push_back(active.shapes[k]);
     }
   }
-  for (const ActiveMeasurementEffect& reading : fit.model.reading) {
-    const std::vector<MeasurementEffect::Coefficient>& known = reading.effect.coefficients;
-    for (std::size_t k = 0; k < known.size(); ++k)
-      addCoefficient(known.size() == 1 ? reading.effect.name : reading.effect.name + '/' + known[k].name,
-                     reading.coefficients[k]);
-  }
+  for (const ActiveMeasurementEffect& reading : fit.model.reading)
+    for (std::size_t k = 0; k < reading.coefficients.size(); ++k)
+      addCoefficient(nameOfCoefficient(reading.effect, k), reading.coefficients[k]);
 }
 
 StrutModel roughStrut(const SearchTask& task) {

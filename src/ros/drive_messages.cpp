@@ -50,9 +50,7 @@ SimulationTruth DriveMessageSource::toMessage(const DriveTruth& truth, const std
   for (const ActiveEffect& active : hidden_) add(active.effect.name, active.coefficient);
   for (const ActiveMeasurementEffect& fault : hidden_faults_)
     for (std::size_t i = 0; i < fault.coefficients.size(); ++i)
-      add(fault.coefficients.size() == 1 ? fault.effect.name
-                                         : fault.effect.name + '/' + fault.effect.coefficients[i].name,
-          fault.coefficients[i]);
+      add(nameOfCoefficient(fault.effect, i), fault.coefficients[i]);
   return msg;
 }
 

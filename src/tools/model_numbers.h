@@ -20,8 +20,7 @@ void visit(const StrutModel& model, const TakeCoefficient& take, const TakeShape
   for (const ActiveMeasurementEffect& reading : model.reading) {
     const auto& known = reading.effect.coefficients;
     for (std::size_t i = 0; i < known.size(); ++i)
-      take(known.size() == 1 ? reading.effect.name : reading.effect.name + '/' + known[i].name,
-           reading.coefficients[i], known[i].unit);
+      take(nameOfCoefficient(reading.effect, i), reading.coefficients[i], known[i].unit);
   }
 }
 

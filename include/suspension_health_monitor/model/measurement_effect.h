@@ -50,6 +50,10 @@ struct MeasurementEffect {
   std::vector<BodyChannel> channels = {};  ///< without which the effect cannot be told
 };
 
+/// @return what coefficient i is called where all of a model's are listed: the effect's name, or NAME/COEFFICIENT if it
+/// has several.
+std::string nameOfCoefficient(const MeasurementEffect& effect, std::size_t i);
+
 /// The built-in measurement effects, one record each in measurement_effect.cpp.
 const std::vector<MeasurementEffect>& measurementEffects();
 

@@ -97,6 +97,10 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
 
 }  // namespace
 
+std::string nameOfCoefficient(const MeasurementEffect& effect, std::size_t i) {
+  return effect.coefficients.size() == 1 ? effect.name : effect.name + '/' + effect.coefficients[i].name;
+}
+
 const std::vector<MeasurementEffect>& measurementEffects() {
   static const std::vector<MeasurementEffect> effects = makeMeasurementEffects();
   return effects;
