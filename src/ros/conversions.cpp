@@ -90,8 +90,7 @@ SuspensionHealth toMsg(const MonitorReport& report, const MonitorOptions& option
   return msg;
 }
 
-SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& hidden,
-                      const std_msgs::Header& header) {
+SimulationTruth toMsg(const DriveTruth& truth, const std_msgs::Header& header) {
   SimulationTruth msg;
   msg.header = header;
   msg.damping_to_mass = truth.damping_to_mass;
@@ -101,10 +100,6 @@ SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& 
   msg.road = truth.road_height;
   msg.sprung_acceleration = truth.sprung_acceleration;
   msg.unsprung_acceleration = truth.unsprung_acceleration;
-  for (const ActiveEffect& active : hidden) {
-    msg.effect_names.push_back(active.effect.name);
-    msg.effect_coefficients.push_back(active.coefficient);
-  }
   return msg;
 }
 

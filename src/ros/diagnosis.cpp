@@ -36,7 +36,8 @@ void addExtended(const SearchResult& result, DiagnoseResponse& response) {
     }
   }
   for (const ActiveMeasurementEffect& reading : fit.model.reading)
-    addCoefficient(reading.effect.name, reading.coefficient);
+    for (std::size_t k = 0; k < reading.coefficients.size(); ++k)
+      addCoefficient(nameOfCoefficient(reading.effect, k), reading.coefficients[k]);
 }
 
 StrutModel roughStrut(const SearchTask& task) {
@@ -53,8 +54,11 @@ StrutModel roughStrut(const SearchTask& task) {
 Diagnosis searchEffects(const SearchTask& task, const SearchOptions& options, const EffectSearch::Progress& progress) {
   const std::vector<DriveSamples> drives{task.samples};
   const StrutModel start = task.model ? *task.model : roughStrut(task);
-  const std::deque<DriveRecord> records = makeRecords(drives, *task.options.sample_period, start);
-  std::optional<SearchResult> result = EffectSearch(task.library, options).run(pointersTo(records), start, progress);
+  std::deque<DriveRecord> records = makeRecords(drives, *task.options.sample_period, start);
+  records.front().addBodyMotion(task.body);
+  EffectLibrary library = task.library;
+  takeUntestable(library, pointersTo(records));
+  std::optional<SearchResult> result = EffectSearch(library, options).run(pointersTo(records), start, progress);
   if (!result)
     throw std::runtime_error(spanOf(task.samples) +
                              " are too short to hold a part of them out, or no stable model fits them: drive on");

@@ -2,6 +2,7 @@
 
 #include <suspension_health_monitor/Diagnose.h>
 
+#include "suspension_health_monitor/discrepancy/body_motion.h"
 #include "suspension_health_monitor/discrepancy/effect_search.h"
 #include "suspension_health_monitor/discrepancy/search_drives.h"
 
@@ -10,6 +11,7 @@ namespace suspension_health_monitor {
 /// What a live search works on.
 struct SearchTask {
   DriveSamples samples;
+  std::vector<BodyMotion> body;  ///< what else the body's IMU measured meanwhile
   MonitorOptions options;  ///< with sample_period given
   EffectLibrary library;
   std::optional<StrutModel> model;  ///< whose effects stay; nothing: the linear strut

@@ -15,6 +15,7 @@ ros::Time stampAt(Stamp stamp) { return toRosTime(std::max(stamp, Stamp::zero())
 DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp start)
     : simulator_(options.drive),
       hidden_(options.drive.hidden),
+      hidden_faults_(options.drive.hidden_faults),
       gravity_(options.publishing.gravity),
       has_gyro_(options.drive.body_rate > 0.0),
       start_(start) {}
@@ -26,7 +27,7 @@ std::optional<DriveMessages> DriveMessageSource::next() {
   header.stamp = stampAt(start_ + sample->stamp);
   header.frame_id = "sprung_imu";
   DriveMessages messages{header.stamp, toMessage(sample->sprung, "sprung_imu"),
-                         toMessage(sample->unsprung, "unsprung_imu"), toMsg(sample->truth, hidden_, header)};
+                         toMessage(sample->unsprung, "unsprung_imu"), toMessage(sample->truth, header)};
   if (messages.sprung) addSway(sample->body, *messages.sprung);
   return messages;
 }
@@ -38,6 +39,19 @@ void DriveMessageSource::addSway(const Sway& sway, sensor_msgs::Imu& imu) const 
   imu.angular_velocity.x = sway.angular_rate[0];
   imu.angular_velocity.y = sway.angular_rate[1];
   imu.angular_velocity_covariance[0] = 0.0;
+}
+
+SimulationTruth DriveMessageSource::toMessage(const DriveTruth& truth, const std_msgs::Header& header) const {
+  SimulationTruth msg = toMsg(truth, header);
+  const auto add = [&](const std::string& name, double coefficient) {
+    msg.effect_names.push_back(name);
+    msg.effect_coefficients.push_back(coefficient);
+  };
+  for (const ActiveEffect& active : hidden_) add(active.effect.name, active.coefficient);
+  for (const ActiveMeasurementEffect& fault : hidden_faults_)
+    for (std::size_t i = 0; i < fault.coefficients.size(); ++i)
+      add(nameOfCoefficient(fault.effect, i), fault.coefficients[i]);
+  return msg;
 }
 
 std::optional<sensor_msgs::Imu> DriveMessageSource::toMessage(const std::optional<AccelerometerReading>& reading,

@@ -28,6 +28,7 @@ class DriveMessageSource {
   std::optional<DriveMessages> next();
 
  private:
+  SimulationTruth toMessage(const DriveTruth& truth, const std_msgs::Header& header) const;
   std::optional<sensor_msgs::Imu> toMessage(const std::optional<AccelerometerReading>& reading,
                                             const char* frame) const;
 
@@ -35,6 +36,7 @@ class DriveMessageSource {
 
   DriveSimulator simulator_;
   std::vector<ActiveEffect> hidden_;
+  std::vector<ActiveMeasurementEffect> hidden_faults_;
   double gravity_;
   bool has_gyro_;
   Stamp start_;

@@ -39,11 +39,17 @@ void ImuPipeline::keepSamples(double span) {
   kept_span_ = span;
   if (!monitor_) return;
   const double wanted = std::ceil(span / monitor_->period()) + 1.0;
-  recent_.emplace(static_cast<std::size_t>(std::min(wanted, static_cast<double>(kMostKept))));
+  const auto capacity = static_cast<std::size_t>(std::min(wanted, static_cast<double>(kMostKept)));
+  recent_.emplace(capacity);
+  recent_body_.emplace(capacity);
 }
 
 DriveSamples ImuPipeline::newestSamples(double span) const {
   return recent_ ? recent_->newest(fromSeconds(span)) : DriveSamples{};
+}
+
+std::vector<BodyMotion> ImuPipeline::newestBodyMotion(double span) const {
+  return recent_body_ ? recent_body_->newest(fromSeconds(span)) : std::vector<BodyMotion>{};
 }
 
 void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
@@ -53,6 +59,8 @@ void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
     return;
   }
   const Reading reading{side, toStamp(imu.header.stamp), *acceleration};
+  if (recent_body_ && side == Side::kSprung)
+    if (const BodyMotion motion = axes_[0].across(imu); recent_body_->isNewer(motion)) recent_body_->push(motion);
   if (monitor_) {
     push(reading);
     return;
@@ -76,9 +84,14 @@ void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
 void ImuPipeline::push(const Reading& reading) {
   const std::optional<CornerSample> sample = grid_->push(reading.side, reading.stamp, reading.acceleration);
   if (!sample) return;
-  if (recent_ && isUsable(sample->sprung_acceleration) && isUsable(sample->unsprung_acceleration))
-    recent_->push(*sample);
+  if (recent_) keep(*sample);
   if (const MonitorReport* report = monitor_->addSample(*sample)) sink_(*report);
+}
+
+void ImuPipeline::keep(const CornerSample& sample) {
+  if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) return;
+  if (!recent_->isNewer(sample)) recent_body_->clear();  // the clock went back
+  recent_->push(sample);
 }
 
 RejectCounts ImuPipeline::rejected() const {

@@ -8,6 +8,7 @@
 
 #include "conversions.h"
 #include "shell_options.h"
+#include "suspension_health_monitor/discrepancy/body_motion.h"
 #include "suspension_health_monitor/discrepancy/search_drives.h"
 #include "suspension_health_monitor/signal/period_measurement.h"
 #include "suspension_health_monitor/signal/recent_samples.h"
@@ -35,10 +36,13 @@ class ImuPipeline {
 
   /// From now on keeps the newest samples: those of `span` [s], at most kMostKept.
   void keepSamples(double span);
-  static constexpr std::size_t kMostKept = 4000000;  // 24 bytes each
+  static constexpr std::size_t kMostKept = 4000000;  // 64 bytes each
 
   /// @return the samples kept that are at most `span` [s] older than the newest one, in the order of time.
   DriveSamples newestSamples(double span) const;
+
+  /// @return likewise what else the body's IMU measured.
+  std::vector<BodyMotion> newestBodyMotion(double span) const;
 
   /// @return the monitor; nullptr while the sample period is being measured.
   const SuspensionMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
@@ -54,6 +58,7 @@ class ImuPipeline {
   };
 
   void push(const Reading& reading);
+  void keep(const CornerSample& sample);
   void start(double period);
 
   PipelineOptions options_;
@@ -66,6 +71,7 @@ class ImuPipeline {
   std::vector<ActiveEffect> effects_;  // until there is a monitor
   std::optional<double> kept_span_;    // [s]
   std::optional<RecentSamples> recent_;
+  std::optional<Recent<BodyMotion>> recent_body_;
   RejectCounts rejected_;
 };
 

@@ -168,7 +168,9 @@ SearchTask MonitorNodelet::giveSamples(double window) const {
                                 "] (diagnose/window)");
   const SuspensionMonitor* monitor = pipeline_->monitor();
   if (monitor == nullptr) throw std::runtime_error("the sample period is still being measured: drive on");
-  SearchTask task{pipeline_->newestSamples(window > 0.0 ? window : kept), monitor->options(), model_->library(), {}};
+  const double span = window > 0.0 ? window : kept;
+  SearchTask task{pipeline_->newestSamples(span), pipeline_->newestBodyMotion(span), monitor->options(),
+                  model_->library(), {}};
   const StrutEstimate& la = monitor->report().la;
   if (!model_->effects().empty() && la.valid)
     task.model = StrutModel{la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}};

@@ -55,8 +55,8 @@ struct SimulatorOptions {
   static SimulatorOptions fromValues(OptionMap values) {
     SimulatorOptions options;
     takeOptions(values, kPublishingFields, options.publishing);
-    setEffects(values, options.publishing.hidden);
     const EffectLibrary library = readEffectsFile(options.publishing.effects_file);
+    setEffects(values, options.publishing.hidden, library.readings);
     options.drive.hidden = takeEffects(values, library.forces);
     options.drive.hidden_faults = takeReadings(values, library.readings);
     takeOptions(values, kSimulationFields, options.drive);
@@ -66,12 +66,12 @@ struct SimulatorOptions {
   }
 
   /// Turns the option `hidden` into settings.
-  static void setEffects(OptionMap& values, const std::string& hidden) {
+  static void setEffects(OptionMap& values, const std::string& hidden, const std::vector<MeasurementEffect>& faults) {
     std::istringstream parts(hidden);
     std::string part;
     while (std::getline(parts, part, ';')) {
       part.erase(0, part.find_first_not_of(' '));
-      if (!part.empty()) setEffect(values, part);
+      if (!part.empty()) setEffect(values, part, faults);
     }
   }
 

@@ -53,5 +53,17 @@ TEST(RecentSamples, BeginsAnewWhenTheClockGoesBack) {
   EXPECT_EQ(numbers(recent.newest(std::chrono::hours(1))), (std::vector<int>{20, 21, 22}));
 }
 
+TEST(RecentSamples, TellsWhatIsNewerAndForgetsOnDemand) {
+  RecentSamples recent(100);
+  EXPECT_TRUE(recent.isNewer({}));
+  push(recent, 50, 60);
+  EXPECT_FALSE(recent.isNewer({59 * kPeriod, 0.0, 0.0}));
+  EXPECT_TRUE(recent.isNewer({60 * kPeriod, 0.0, 0.0}));
+  recent.clear();
+  EXPECT_EQ(recent.size(), 0U);
+  push(recent, 1, 3);
+  EXPECT_EQ(numbers(recent.newest(std::chrono::hours(1))), (std::vector<int>{1, 2}));
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor
