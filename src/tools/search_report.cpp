@@ -29,14 +29,18 @@ void printSearch(const SearchResult& result) {
   std::printf("%s\n", sentence(result).c_str());
   for (const std::vector<std::string>& group : result.indistinguishable)
     std::printf("These drives cannot tell apart: %s.\n", join(group, ", ").c_str());
+  if (!result.suggested_drive.empty()) std::printf("%s\n", result.suggested_drive.c_str());
   std::printf("\nmodel as it is: held-out rmse %.4g m/s^2, fit %.1f %%, noise floor about %.4g m/s^2\n",
               result.base.held_out_rmse, result.base_fit_percent, result.noise_floor);
   std::printf("\nadded alone                    held-out rmse   error removed   significant\n");
+  bool all_fitted = true;
   for (std::size_t i = 0; i < std::min(kShownCandidates, result.ranking.size()); ++i) {
     const RankedModel& ranked = result.ranking[i];
-    std::printf("%-30s %13.4g %14.1f %%   %s\n", join(ranked.effects, " + ").c_str(), ranked.held_out_rmse,
-                ranked.error_removed_percent, ranked.significant ? "yes" : "no");
+    all_fitted = all_fitted && ranked.fitted;
+    std::printf("%-30s %c%12.4g %14.1f %%   %s\n", join(ranked.effects, " + ").c_str(), ranked.fitted ? ' ' : '~',
+                ranked.held_out_rmse, ranked.error_removed_percent, ranked.significant ? "yes" : "no");
   }
+  if (!all_fitted) std::printf("~ by the linear response only: far behind, not fitted\n");
   if (!result.extended || !result.final_fit) return;
   std::printf("\nwith %s: held-out rmse %.4g m/s^2, fit %.1f %%\n", join(result.selected, " and ").c_str(),
               result.extended->held_out_rmse, result.extended_fit_percent);
@@ -60,7 +64,8 @@ json toJson(const SearchResult& result) {
     json row{{"effects", ranked.effects},
              {"held_out_rmse", ranked.held_out_rmse},
              {"error_removed_percent", ranked.error_removed_percent},
-             {"significant", ranked.significant}};
+             {"significant", ranked.significant},
+             {"fitted", ranked.fitted}};
     addNumbers(ranked.model, row);
     ranking.push_back(row);
   }
@@ -71,6 +76,8 @@ json toJson(const SearchResult& result) {
                {"parameters", parametersOf(result.base.model)}}},
              {"noise_floor", result.noise_floor},
              {"structured_share", result.structured_share},
+             {"surface_share", result.surface_share},
+             {"suggested_drive", result.suggested_drive},
              {"ranking", ranking},
              {"selected", result.selected},
              {"indistinguishable", result.indistinguishable}};

@@ -7,6 +7,12 @@
 
 namespace suspension_health_monitor {
 
+/// The force of an effect, per unit of its coefficient, at every sample of a motion; the memory starts at 0 in every
+/// segment.
+/// @param ends  of the segments: segment i is [ends[i - 1], ends[i]).
+Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
+                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends);
+
 /// What a small additional force would do to a free run: the model linearised along the motion that a fit gave it.
 ///   x'' = -(F_d x + F_v x' + f),   change of z'' = F_d x + F_v x' + f,
 /// x the change of travel, F_d and F_v the slopes of the model's force there, f the additional force per unit mass.
@@ -25,8 +31,10 @@ class LinearResponse {
   const ModelFit& fit() const { return *fit_; }
   const std::vector<double>& predicted() const { return predicted_; }  ///< z'' without the reading's effects [m/s^2]
 
-  /// @return f along the motion, the memory starting at 0 in every segment.
-  Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes) const;
+  /// @return f along the motion, see below.
+  Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes) const {
+    return suspension_health_monitor::forceAlong(effect, shapes, motion_, ends_);
+  }
 
   /// @return change of z'' at every sample for an additional force `f` [m/s^2].
   Eigen::VectorXd respond(const Eigen::VectorXd& force) const;
@@ -35,7 +43,7 @@ class LinearResponse {
   /// the effect cannot show.
   Eigen::MatrixXd readingSlopes(const MeasurementEffect& effect) const;
 
-  /// Ends of the segments: segment i is [ends[i - 1], ends[i]).
+  /// Ends of the segments, as forceAlong() has them.
   const std::vector<std::size_t>& ends() const { return ends_; }
 
  private:

@@ -5,6 +5,7 @@
 
 #include "median.h"
 #include "model_judge.h"
+#include "separating_drive.h"
 #include "suspension_health_monitor/discrepancy/noise_floor.h"
 
 namespace suspension_health_monitor {
@@ -59,9 +60,11 @@ class Search {
   struct Selection {
     Judged chosen;
     std::vector<std::string> group;
+    std::vector<StrutModel> models;  // of the group
   };
 
   static Selection select(const std::vector<Judged>& ranking);
+  static void noteGroup(const ModelJudge& judge, const Selection& selection, SearchResult& result);
   static Judged withoutSuperfluous(const ModelJudge& judge, const Judged& base, Judged current);
   static Judged reconsidered(const ModelJudge& judge, Judged current, const std::vector<std::string>& added,
                              const ModelJudge::Tick& tick, SearchResult& result);
@@ -76,15 +79,23 @@ class Search {
 
 Search::Selection Search::select(const std::vector<Judged>& ranking) {
   const Judged& best = ranking.front();
-  Selection selection{best, {}};
+  Selection selection{best, {}, {}};
   for (const Judged& rival : ranking) {
     if (!rival.ranked.fitted) continue;
     const PairedComparison loss = rival.gainOf(best);
     if (loss.removed_share > kIndistinguishable || isSignificant(loss, 0.01)) continue;
     selection.group.push_back(rival.added);
+    selection.models.push_back(rival.ranked.model);
     if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
   }
   return selection;
+}
+
+void Search::noteGroup(const ModelJudge& judge, const Selection& selection, SearchResult& result) {
+  if (selection.group.size() < 2) return;
+  result.indistinguishable.push_back(selection.group);
+  result.suggested_drive += (result.suggested_drive.empty() ? "" : " ") +
+                            suggestSeparatingDrive(judge.motionOf(selection.chosen), selection.group, selection.models);
 }
 
 // What the first effect explained, the later ones may explain better together.
@@ -105,7 +116,7 @@ Judged Search::reconsidered(const ModelJudge& judge, Judged current, const std::
     const std::optional<Judged> without = judge.without(current, name);
     if (!without) continue;
     const Selection selection = select(judge.rankAdditions(*without, tick));
-    if (selection.group.size() > 1) result.indistinguishable.push_back(selection.group);
+    noteGroup(judge, selection, result);
     if (std::find(selection.group.begin(), selection.group.end(), name) == selection.group.end() ||
         complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
       current = selection.chosen;
@@ -138,12 +149,13 @@ std::optional<SearchResult> Search::run(const StrutModel& start) {
     if (!ranking.empty()) result.noise_floor = std::min(result.noise_floor, ranking.front().ranked.held_out_rmse);
     if (ranking.empty() || !ranking.front().ranked.significant) break;
     const Selection selection = select(ranking);
-    if (round == 0 && selection.group.size() > 1) result.indistinguishable.push_back(selection.group);
+    if (round == 0) noteGroup(judge, selection, result);
     current = withoutSuperfluous(judge, *base, selection.chosen);
   }
   const std::vector<std::string> added = namesBeyond(*base, current);
   if (added.size() > 1) {
     result.indistinguishable.clear();
+    result.suggested_drive.clear();
     current = reconsidered(judge, current, added, [&](double) { report(0.95); }, result);
   }
   conclude(judge, *base, current, result);
@@ -178,7 +190,9 @@ void Search::conclude(const ModelJudge& judge, const Judged& base, const Judged&
     return;
   }
   result.indistinguishable.clear();
+  result.suggested_drive.clear();
   result.verdict = !added.empty() || result.structured_share > kStructured ? Verdict::kUnexplained : Verdict::kNothingMissing;
+  if (result.verdict == Verdict::kUnexplained) result.suggested_drive = suggestDriveForUnexplained(result.surface_share);
 }
 
 }  // namespace

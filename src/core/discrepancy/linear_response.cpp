@@ -86,17 +86,18 @@ void LinearResponse::measureSizes() {
   }
 }
 
-Eigen::VectorXd LinearResponse::forceAlong(const ForceEffect& effect, const std::vector<double>& shapes) const {
-  Eigen::VectorXd force(numSamples());
+Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
+                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends) {
+  Eigen::VectorXd force(static_cast<Eigen::Index>(motion.size()));
   std::size_t k = 0;
-  for (const std::size_t end : ends_) {
+  for (const std::size_t end : ends) {
     double memory = 0.0;
     for (; k < end; ++k) {
-      StrutMotion here = motion_[k];
+      StrutMotion here = motion[k];
       here.memory = memory;
       force[static_cast<Eigen::Index>(k)] = effect.force(here, shapes.data());
       if (effect.memory_rate && k + 1 < end)
-        memory = advanceMemory(effect, shapes.data(), here, motion_[k + 1], memory);
+        memory = advanceMemory(effect, shapes.data(), here, motion[k + 1], memory);
     }
   }
   return force;

@@ -52,6 +52,7 @@ class ModelJudge {
   /// @return true if `after` is better by enough, and not by chance, correcting for the number of candidates.
   bool isWorthHaving(const Judged& before, const Judged& after) const;
 
+  LinearResponse motionOf(const Judged& judged) const { return {records_, judged.fit}; }
   double surfaceGain(const Judged& judged) const { return Screening(records_, held_out_, judged.fit).surfaceGain(); }
   const HeldOut& heldOut() const { return held_out_; }
 
