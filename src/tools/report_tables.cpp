@@ -55,17 +55,21 @@ void fill(json& rows, const char* when, const StrutModel& model, const Eigen::Ve
 json effectsJson(const EffectLibrary& library) {
   json effects = json::object();
   for (const ForceEffect& effect : library.forces) {
-    json shapes = json::array();
-    for (const ShapeParameter& shape : effect.shapes) shapes.push_back({{"name", shape.name}, {"unit", shape.unit}});
+    json numbers = json::array({{{"key", effect.name}, {"symbol", "c"}, {"unit", effect.unit}}});
+    for (const ShapeParameter& shape : effect.shapes)
+      numbers.push_back({{"key", effect.name + '/' + shape.name}, {"symbol", shape.name}, {"unit", shape.unit}});
     effects[effect.name] = {
-        {"law", effect.law}, {"unit", effect.unit}, {"finding", effect.finding}, {"shapes", shapes}, {"kind", "force"}};
+        {"law", effect.law}, {"finding", effect.finding}, {"numbers", numbers}, {"kind", "force"}};
   }
-  for (const MeasurementEffect& effect : library.readings)
-    effects[effect.name] = {{"law", effect.law},
-                            {"unit", effect.unit},
-                            {"finding", effect.finding},
-                            {"shapes", json::array()},
-                            {"kind", "reading"}};
+  for (const MeasurementEffect& effect : library.readings) {
+    json numbers = json::array();
+    for (std::size_t i = 0; i < effect.coefficients.size(); ++i)
+      numbers.push_back({{"key", nameOfCoefficient(effect, i)},
+                         {"symbol", effect.coefficients.size() == 1 ? "c" : effect.coefficients[i].name},
+                         {"unit", effect.coefficients[i].unit}});
+    effects[effect.name] = {
+        {"law", effect.law}, {"finding", effect.finding}, {"numbers", numbers}, {"kind", "reading"}};
+  }
   return effects;
 }
 

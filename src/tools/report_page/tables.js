@@ -1,20 +1,20 @@
 // Candidates and parameters.
 
+/** An effect's coefficients and shapes as "c = 0.35 ± 0.01 m/s²", one text each. */
+function numbersOf(findings, name, {coefficients, shapes}, deviations = {}) {
+  return kindOf(findings, name).numbers.map(({key, symbol, unit}) => {
+    const value = key in coefficients ? coefficients[key] : shapes[key];
+    return `${symbol} = ${quantityWithDeviation(value, deviations[key], unit)}`.trim();
+  });
+}
+
 /** A model's coefficients and shapes, one line each. */
-function coefficientLines(findings, {effects, coefficients, shapes}, deviations = {}) {
-  return effects
+function coefficientLines(findings, model, deviations = {}) {
+  return model.effects
       .flatMap(name => {
-        const {unit, shapes: known} = kindOf(findings, name);
-        const several = effects.length > 1 ? `${spoken(name)} ` : '';
-        return [
-          [`${several}c = ${quantityWithDeviation(coefficients[name], deviations[name], unit)}`],
-          ...known.map(
-              shape => `${several}${shape.name} = ${
-                  quantityWithDeviation(
-                      shapes[`${name}/${shape.name}`], deviations[`${name}/${shape.name}`], shape.unit)}`)
-        ];
+        const several = model.effects.length > 1 ? `${spoken(name)} ` : '';
+        return numbersOf(findings, name, model, deviations).map(text => several + text);
       })
-      .flat()
       .map(line => element('div', {}, line));
 }
 

@@ -36,18 +36,12 @@ function headline(findings) {
 
 /** One sentence per effect: its name, where to look, its size. */
 function effectSentence(findings, name) {
-  const {law, unit, finding, shapes} = kindOf(findings, name);
-  const {coefficients, stddevs, shapes: values} = findings.search.extended;
-  const sizes = [
-    `c = ${quantityWithDeviation(coefficients[name], stddevs[name], unit)}`,
-    ...shapes.map(
-        shape => `${shape.name} = ${
-            quantityWithDeviation(values[`${name}/${shape.name}`], stddevs[`${name}/${shape.name}`], shape.unit)}`)
-  ];
+  const {law, finding} = kindOf(findings, name);
+  const sizes = numbersOf(findings, name, findings.search.extended, findings.search.extended.stddevs);
   const [what, where] = whatAndWhere(finding);
   return element(
       'p', {class: 'answer'}, element('b', {'data-effect': name}, capitalised(spoken(name))), ', ',
-      element('code', {}, law), ` with ${joined(sizes.map(size => size.trim()))}. `,
+      element('code', {}, law), ` with ${joined(sizes)}. `,
       `What a workshop would find: ${what}${where ? ` (${where})` : ''}.`);
 }
 
