@@ -279,6 +279,25 @@ class LiveSearchTest(unittest.TestCase):
         estimates.stop()
         os.remove(path)
 
+    def test_fault_of_the_sensor_is_named_and_cannot_be_added(self):
+        topics = {f"{side}/imu": f"/tilted/{side}" for side in ("sprung", "unsprung")}
+        drive = {**DRIVE, "effects": {}, "hidden": "mount_tilt=0.06,c_y=-0.04", "body_acceleration": 1.0,
+                 "body_rate": 0.1}
+        comparisons = Collector("/tilted/comparison", ModelComparison)
+        with load_nodelet("MonitorNodelet", "tilted", SETTINGS, **topics), \
+                load_nodelet("SimulatorNodelet", "tilted_drive", drive, **topics):
+            end = rospy.Time.from_sec(START + KEPT)
+            comparisons.wait_for(lambda message: message.header.stamp >= end, 60.0, "enough to search in")
+            services = Services("tilted")
+            found = services.diagnose(0.0)
+            answer = services.set_effects(found.selected, [], [])
+        comparisons.stop()
+        self.assertEqual((found.verdict, found.selected), ("effect_found", ["mount_tilt"]))
+        for name, value in zip(found.coefficient_names, found.coefficients):
+            self.assertAlmostEqual(value, {"mount_tilt/c_x": 0.06, "mount_tilt/c_y": -0.04}[name], delta=0.006)
+        self.assertFalse(answer.success)
+        self.assertIn("effect mount_tilt", answer.message)
+
     def test_end_of_the_node_ends_a_search(self):
         comparisons = Collector("/node/comparison", ModelComparison)
         with start_node("monitor_node", "node", SETTINGS) as node:
