@@ -7,6 +7,7 @@
 #include "model_judge.h"
 #include "separating_drive.h"
 #include "suspension_health_monitor/discrepancy/noise_floor.h"
+#include "suspension_health_monitor/discrepancy/sampling_limit.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -192,7 +193,8 @@ void Search::conclude(const ModelJudge& judge, const Judged& base, const Judged&
   result.indistinguishable.clear();
   result.suggested_drive.clear();
   result.verdict = !added.empty() || result.structured_share > kStructured ? Verdict::kUnexplained : Verdict::kNothingMissing;
-  if (result.verdict == Verdict::kUnexplained) result.suggested_drive = suggestDriveForUnexplained(result.surface_share);
+  if (result.verdict == Verdict::kUnexplained)
+    result.suggested_drive = suggestDriveForUnexplained(result.surface_share, powerAtSamplingLimit(records_));
 }
 
 }  // namespace

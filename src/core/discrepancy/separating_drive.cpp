@@ -21,6 +21,7 @@ constexpr DriveKind kKinds[] = {
     {"a drive three times as long", 1.0, 1.0, 3.0},
 };
 constexpr double kHelps = 2.0;                // times as different as in the drives at hand
+constexpr double kUndersampled = 0.25;       // power at half the sampling rate
 constexpr double kLawOfTravelAndRate = 0.5;  // share of the structure from which on it is one
 
 std::vector<StrutMotion> scaled(const std::vector<StrutMotion>& motion, const DriveKind& kind) {
@@ -81,7 +82,10 @@ std::string suggestSeparatingDrive(const LinearResponse& present, const std::vec
          " of the strut's force, against " + percent(now) + " here.";
 }
 
-std::string suggestDriveForUnexplained(double surface_share) {
+std::string suggestDriveForUnexplained(double surface_share, double power_at_limit) {
+  if (power_at_limit > kUndersampled)
+    return "The wheel still shakes at half the sampling rate, so that a part of its motion is lost to any model: record "
+           "at twice the rate.";
   if (surface_share > kLawOfTravelAndRate)
     return "A force that depends on travel and travel rate alone would explain " + percent(surface_share) +
            " of what is missing: describe it as a law of your own and diagnose again.";

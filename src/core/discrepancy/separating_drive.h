@@ -17,6 +17,7 @@ std::string suggestSeparatingDrive(const LinearResponse& present, const std::vec
 
 /// What to do next when no candidate explains the structure.
 /// @param surface_share  share of it that a free-form force over travel and travel rate would explain.
-std::string suggestDriveForUnexplained(double surface_share);
+/// @param power_at_limit  see powerAtSamplingLimit().
+std::string suggestDriveForUnexplained(double surface_share, double power_at_limit);
 
 }  // namespace suspension_health_monitor

@@ -1,0 +1,19 @@
+#include "suspension_health_monitor/discrepancy/sampling_limit.h"
+
+namespace suspension_health_monitor {
+
+double powerAtSamplingLimit(const std::vector<const DriveRecord*>& records) {
+  constexpr std::size_t length = 16;  // of the filter with the weights +1, -1, +1, ..
+  double at_limit = 0.0, all = 0.0;
+  for (const DriveRecord* record : records)
+    for (const DriveSegment& segment : record->segments())
+      for (std::size_t k = length - 1; k < segment.size(); ++k) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < length; ++i) sum += (i % 2 == 0 ? 1.0 : -1.0) * segment.unsprung[k - i];
+        at_limit += sum * sum / static_cast<double>(length);
+        all += segment.unsprung[k] * segment.unsprung[k];
+      }
+  return all > 0.0 ? at_limit / all : 0.0;
+}
+
+}  // namespace suspension_health_monitor
