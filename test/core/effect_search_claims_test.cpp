@@ -1,0 +1,157 @@
+// What the search promises on drives of other kinds than a car on its road.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hidden_effect.h"
+#include "recorded_drive.h"
+#include "suspension_health_monitor/discrepancy/effect_search.h"
+#include "suspension_health_monitor/discrepancy/search_drives.h"
+#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/simulation/random_stream.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+SearchResult search(const DriveRecord& record, const StrutModel& start) {
+  const auto result = EffectSearch(builtInEffects(), {}).run({&record}, start);
+  EXPECT_TRUE(result);
+  return result.value_or(SearchResult{});
+}
+
+SearchResult searchInPaperDrive(const std::string& name, bool ramp, int seed) {
+  SimulationOptions options = scenario(name, 120.0);
+  options.damping_ramp = ramp;
+  options.seed = seed;
+  return search(recorded(options), {2.7, 14.5, {}, {}});
+}
+
+TEST(EffectSearchOnPaperDrives, TheRampOfTheDampingIsNamedWithAndWithoutDataLoss) {
+  for (const char* name : {"paper_clean", "paper_outliers"})
+    for (int seed = 1; seed <= 3; ++seed) {
+      const SearchResult result = searchInPaperDrive(name, true, seed);
+      EXPECT_EQ(result.verdict, Verdict::kEffectFound) << name;
+      EXPECT_EQ(result.selected, std::vector<std::string>{"damping_drift"}) << name;
+      ASSERT_TRUE(result.final_fit);
+      EXPECT_LT(result.final_fit->model.effects.at(0).coefficient, 0.0);  // it falls
+    }
+}
+
+TEST(EffectSearchOnPaperDrives, DataLossAndEndStopsGiveNoFalseName) {
+  for (int seed = 1; seed <= 3; ++seed) {
+    EXPECT_EQ(searchInPaperDrive("paper_clean", false, seed).verdict, Verdict::kNothingMissing);
+    EXPECT_EQ(searchInPaperDrive("paper_outliers", false, seed).verdict, Verdict::kNothingMissing);
+    for (const bool ramp : {false, true}) {  // the stops are there: their names, and the ramp's, are true ones
+      const std::set<std::string> true_names{"bump_stop", "rebound_stop", "damping_drift"};
+      for (const std::string& selected : searchInPaperDrive("paper_saturation", ramp, seed).selected)
+        EXPECT_EQ(true_names.count(selected), 1u) << selected;
+    }
+  }
+}
+
+// An electronic oscillator: 68 Hz, travel of order 0.1, accelerations of order 10^4, a cubic spring with 15 % of the
+// linear force. Integrated here, by the classical Runge-Kutta method in steps of 1/40 sample.
+class Oscillator {
+ public:
+  static constexpr double kPeriod = 1.0 / 610.0, kB0 = 4.0 * kPi * kPi * 68.0 * 68.0, kB1 = 85.0, kCubic = 8e5;
+
+  DriveRecord drive(double noise) {
+    RandomStream random(4, RandomPurpose::kSprungNoise);
+    DriveRecord record(kPeriod, 2);
+    for (int k = 0; k < 6000; ++k) {
+      record.push({fromSeconds(k * kPeriod), force(travel_, rate_) + noise * random.gaussian(),
+                   wheel(k * kPeriod) + noise * random.gaussian()});
+      for (int i = 0; i < kSteps; ++i) step(k * kPeriod + i * kStep);
+    }
+    record.finish();
+    return record;
+  }
+
+ private:
+  static constexpr int kSteps = 40;
+  static constexpr double kStep = kPeriod / kSteps;
+
+  static double force(double d, double v) { return kB1 * v + kB0 * d + kCubic * d * d * d; }
+
+  static double wheel(double t) {  // 5 to 180 Hz
+    double sum = 0.0;
+    for (int i = 0; i < 80; ++i) sum += std::sin(2.0 * kPi * (5.0 + 2.19 * i) * t + 1.7 * i * i);
+    return 2000.0 * sum;
+  }
+
+  void step(double t) {
+    const double start = wheel(t), middle = wheel(t + kStep / 2), end = wheel(t + kStep);
+    const double v1 = rate_, a1 = start - force(travel_, v1);
+    const double v2 = rate_ + kStep / 2 * a1, a2 = middle - force(travel_ + kStep / 2 * v1, v2);
+    const double v3 = rate_ + kStep / 2 * a2, a3 = middle - force(travel_ + kStep / 2 * v2, v3);
+    const double v4 = rate_ + kStep * a3, a4 = end - force(travel_ + kStep * v3, v4);
+    travel_ += kStep / 6 * (v1 + 2 * v2 + 2 * v3 + v4);
+    rate_ += kStep / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+  }
+
+  double travel_ = 0.0, rate_ = 0.0;
+};
+
+TEST(EffectSearch, NamesTheCubicSpringOfAnOscillatorThatIsNoVehicle) {
+  const DriveRecord record = Oscillator().drive(100.0);
+  const SearchResult result = search(record, {1.2 * Oscillator::kB1, 1.1 * Oscillator::kB0, {}, {}});
+  EXPECT_EQ(result.verdict, Verdict::kEffectFound);
+  EXPECT_EQ(result.selected, std::vector<std::string>{"progressive_spring"});
+  ASSERT_TRUE(result.extended && result.final_fit);
+  EXPECT_LT(4.0 * result.extended->held_out_rmse, result.base.held_out_rmse);
+  const ActiveEffect& spring = result.final_fit->model.effects.at(0);
+  EXPECT_NEAR(spring.shapes.at(0), 3.0, 0.1);
+  const double size = 0.1;  // where forces are compared: c and p alone trade for one another
+  EXPECT_NEAR(spring.coefficient * std::pow(size, spring.shapes[0]) / (Oscillator::kCubic * std::pow(size, 3)), 1.0, 0.1);
+}
+
+TEST(EffectSearch, ReconsidersTheFirstEffectWhenTheSecondIsKnown) {
+  SimulationOptions options = scenario("iso_road", 120.0);
+  options.vehicle = "rover";
+  options.rate = 100.0;
+  options.seed = 2;
+  std::vector<ActiveEffect> hidden{hiddenEffect(options, "asymmetric_spring", {}, 0.15)};
+  hidden.push_back({findEffect(forceEffects(), "coulomb_friction"), 0.25, {0.01}});
+  options.hidden = hidden;
+  const SearchResult result = search(recorded(options), {5.5, 115.0, {}, {}});
+  std::set<std::string> names(result.selected.begin(), result.selected.end());
+  EXPECT_EQ(names, (std::set<std::string>{"asymmetric_spring", "coulomb_friction"}));
+}
+
+TEST(EffectSearch, SuggestsTheDriveThatSeparatesAGroup) {
+  SimulationOptions options = scenario("paper_clean", 120.0);
+  options.damping_ramp = false;
+  options.hidden = {hiddenEffect(options, "quadratic_damping", {}, 0.15)};
+  const SearchResult result = search(recorded(options), {3.3, 13.0, {}, {}});
+  ASSERT_EQ(result.indistinguishable.size(), 1u);
+  for (const std::string& name : result.indistinguishable[0])
+    EXPECT_NE(result.suggested_drive.find(name), std::string::npos) << result.suggested_drive;
+  EXPECT_NE(result.suggested_drive.find("record"), std::string::npos) << result.suggested_drive;
+}
+
+TEST(EffectSearch, AsksForAHigherRateWhenTheWheelIsSampledTooSlowly) {
+  SimulationOptions options = carDrive(120.0, 0.03);  // shakes up to 42 Hz
+  options.rate = 50.0;
+  options.hidden = {hiddenEffect(options, "asymmetric_spring", {}, 0.15)};
+  const SearchResult result = search(recorded(options), {6.6, 60.0, {}, {}});
+  EXPECT_EQ(result.verdict, Verdict::kUnexplained);
+  EXPECT_NE(result.suggested_drive.find("twice the rate"), std::string::npos) << result.suggested_drive;
+}
+
+TEST(EffectSearch, EndsWithWhatItsProgressThrows) {
+  const DriveRecord record = recorded(carDrive(30.0, 0.03));
+  int calls = 0;
+  const auto stop = [&](double) {
+    if (++calls == 3) throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(EffectSearch(builtInEffects(), {2, 3}).run({&record}, {6.6, 60.0, {}, {}}, stop), std::runtime_error);
+  EXPECT_EQ(calls, 3);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
