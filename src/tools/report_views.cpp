@@ -61,7 +61,7 @@ json mapOf(const ForceSurface& surface) {
     counts.push_back(count);
   }
   map.update(
-      {{"mean", means}, {"standard_error", errors}, {"count", counts}, {"explained_share", surface.explained_share}});
+      {{"mean", means}, {"standard_error", errors}, {"count", counts}});
   return map;
 }
 

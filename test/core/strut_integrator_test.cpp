@@ -120,5 +120,29 @@ TEST(IntegrateStrut, MemoriesFollowTheirClosedFormsSideBySide) {
   EXPECT_NEAR(state.memory[2], -0.1 * (0.5 - 0.2 * (1.0 - std::exp(-0.5 / 0.2))), 1e-8);
 }
 
+TEST(IntegrateStrut, AMemoryThatForgetsWithinAStepFollowsTheWheelThroughIt) {
+  StrutModel model;  // without force: d = a t^2 / 2, v = a t
+  model.effects.push_back(active("hysteresis", 0.0, {0.02}));
+  constexpr double a = 40.0, h = 0.05;
+  StrutState state;
+  integrateStrut(model, 0.0, h, {a * h * h / 8, a * h / 2, a * h * h / 2, a * h}, state);
+  EXPECT_NEAR(state.travel, a * h * h / 2, 1e-14);
+  EXPECT_NEAR(state.travel_rate, a * h, 1e-13);
+  // s' = (1 - s) d' / x, so s = 1 - exp(-d / x); the step is 5 times as long as the memory at its end.
+  EXPECT_NEAR(state.memory[0], 1.0 - std::exp(-a * h * h / 2 / 0.02), 1e-3);
+}
+
+TEST(IntegrateStrut, StaysStableWithAMemoryMuchFasterThanTheStep) {
+  StrutModel model{3.0, 100.0, {}, {}};
+  model.effects.push_back(active("hysteresis", 2.0, {0.001}));
+  StrutState state;
+  state.travel_rate = 1.0;
+  for (int k = 0; k < 500; ++k) {
+    integrateStrut(model, k * 0.02, 0.02, kStill, state);
+    ASSERT_LT(std::abs(state.memory[0]), 1.01) << k;  // Dahl's force saturates at c
+  }
+  EXPECT_LT(std::abs(state.travel), 0.03);  // stuck or at rest: no further than the friction can hold, c / b0
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor

@@ -42,7 +42,8 @@ struct SearchResult {
 
 struct SearchOptions {
   int threads = 2;
-  int most_effects = 3;
+  int most_effects = 3;  ///< to add
+  int most_forces = 2;   ///< among them: three can imitate almost any law of travel and travel rate
 };
 
 /// Searches for the physical effects that a strut model lacks.

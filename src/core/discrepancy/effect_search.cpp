@@ -13,7 +13,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kStructured = 0.2;          // of a mean square; below it, what is left counts as noise
-constexpr double kExplained = 0.8;           // of the structure, or there is no name
+constexpr double kExplained = 0.5;           // of the structure, or there is no name
 constexpr double kTakenByAnother = 0.3;      // of what is left
 constexpr double kIndistinguishable = 0.02;  // of the mean square, or not significant
 
@@ -78,6 +78,7 @@ class Search {
   const EffectSearch::Progress& progress_;
 };
 
+// @pre the first of the ranking is fitted.
 Search::Selection Search::select(const std::vector<Judged>& ranking) {
   const Judged& best = ranking.front();
   Selection selection{best, {}, {}};
@@ -116,7 +117,9 @@ Judged Search::reconsidered(const ModelJudge& judge, Judged current, const std::
   for (const std::string& name : added) {
     const std::optional<Judged> without = judge.without(current, name);
     if (!without) continue;
-    const Selection selection = select(judge.rankAdditions(*without, tick));
+    const std::vector<Judged> ranking = judge.rankAdditions(*without, tick);
+    if (ranking.empty() || !ranking.front().ranked.fitted) continue;
+    const Selection selection = select(ranking);
     noteGroup(judge, selection, result);
     if (std::find(selection.group.begin(), selection.group.end(), name) == selection.group.end() ||
         complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
@@ -130,7 +133,8 @@ std::optional<SearchResult> Search::run(const StrutModel& start) {
   if (!rough) return std::nullopt;
   const std::optional<HeldOut> held_out = holdOut(records_, rough->model.stiffness_to_mass);
   if (!held_out) return std::nullopt;
-  const ModelJudge judge(records_, *held_out, outlierOf(*rough), candidates_, options_.threads);
+  const std::size_t most_forces = start.effects.size() + static_cast<std::size_t>(options_.most_forces);
+  const ModelJudge judge(records_, *held_out, outlierOf(*rough), candidates_, most_forces, options_.threads);
   const std::optional<Judged> base = judge.judge(rough->model, rough->initial, nullptr);
   if (!base) return std::nullopt;
   report(0.1);

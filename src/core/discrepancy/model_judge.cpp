@@ -91,7 +91,7 @@ std::vector<Judged> ModelJudge::screenAll(const Judged& current, const Tick& tic
     const bool is_force = i < num_forces;
     const std::string& name = is_force ? candidates_.forces[i].name : candidates_.readings[i - num_forces].name;
     if (has(current.ranked.effects, name)) return;
-    if (is_force && current.fit.model.effects.size() >= StrutState::kMostEffects) return;
+    if (is_force && current.fit.model.effects.size() >= most_forces_) return;
     const std::optional<ScreenedModel> screened = is_force ? screening.screen(candidates_.forces[i])
                                                            : screening.screen(candidates_.readings[i - num_forces]);
     if (!screened) return;
@@ -145,7 +145,7 @@ std::vector<Judged> ModelJudge::rankAdditions(const Judged& current, const Tick&
   const auto failed = [](const Judged& judged) { return judged.tried && !judged.ranked.fitted; };
   ranking.erase(std::remove_if(ranking.begin(), ranking.end(), failed), ranking.end());
   std::stable_sort(ranking.begin(), ranking.end(), [](const Judged& a, const Judged& b) {
-    return a.loss < b.loss;
+    return a.ranked.fitted != b.ranked.fitted ? a.ranked.fitted : a.loss < b.loss;
   });
   return ranking;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,17 +34,23 @@ class ModelJudge {
  public:
   using Tick = std::function<void(double share)>;
 
-  /// @param outlier  residual that begins to count as an outlier [m/s^2].  The other arguments must outlive this object.
+  /// @param outlier  residual that begins to count as an outlier [m/s^2].
+  /// @param most_forces  force effects that a model may have.  The other arguments must outlive this object.
   ModelJudge(const std::vector<const DriveRecord*>& records, const HeldOut& held_out, double outlier,
-             const EffectLibrary& candidates, int threads)
-      : records_(records), held_out_(held_out), outlier_(outlier), candidates_(candidates), threads_(threads) {}
+             const EffectLibrary& candidates, std::size_t most_forces, int threads)
+      : records_(records),
+        held_out_(held_out),
+        outlier_(outlier),
+        candidates_(candidates),
+        most_forces_(std::min(most_forces, StrutState::kMostEffects)),
+        threads_(threads) {}
 
   /// @param initial  first guess of the initial states.  @param before  the model to compare with, if any.
   std::optional<Judged> judge(const StrutModel& start, const std::vector<StrutState>& initial,
                               const Judged* before) const;
 
   /// Every candidate that is not in the model added to it: all screened, those fitted that may be the best.
-  /// @return best first, the first one fitted.
+  /// @return best first, those that were fitted before those that were only screened.
   std::vector<Judged> rankAdditions(const Judged& current, const Tick& tick) const;
 
   /// The model with one of its effects taken out.
@@ -68,6 +75,7 @@ class ModelJudge {
   const HeldOut& held_out_;
   double outlier_;
   const EffectLibrary& candidates_;
+  std::size_t most_forces_;
   int threads_;
 };
 

@@ -1,5 +1,7 @@
 #include "suspension_health_monitor/model/strut_integrator.h"
 
+#include <algorithm>
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -65,6 +67,73 @@ void integrate(const StrutModel& model, double time, double step, const WheelSte
       state.memory[j] += sixth * (k1.memory[j] + 2 * (k2.memory[j] + k3.memory[j]) + k4.memory[j]);
 }
 
+constexpr double kStiffest = 0.7;  // of a memory's rate times the step; Runge-Kutta's limit of stability is 2.8
+constexpr int kMostParts = 32;
+
+// How fast a memory forgets at some instant [1/s]: |dg/ds|.
+double forgettingRate(const ActiveEffect& active, StrutMotion motion) {
+  const double difference = 1e-3 * std::abs(motion.memory) + 1e-9;
+  const double before = active.effect.memory_rate(motion, active.shapes.data());
+  motion.memory += difference;
+  return std::abs(active.effect.memory_rate(motion, active.shapes.data()) - before) / difference;
+}
+
+// In how many parts a step must be taken so that the memories can follow: a hysteresis of short stroke forgets within a
+// fraction of a sample when the strut moves fast.
+int numParts(const StrutModel& model, double time, double step, const WheelStep& wheel, const StrutState& state) {
+  double fastest = 0.0;
+  for (std::size_t j = 0; j < model.effects.size(); ++j) {
+    const ActiveEffect& active = model.effects[j];
+    if (!active.effect.memory_rate) continue;
+    const double end = state.travel + step * state.travel_rate + wheel.end_position;
+    fastest = std::max({fastest, forgettingRate(active, {state.travel, state.travel_rate, time, state.memory[j]}),
+                        forgettingRate(active, {end, state.travel_rate + wheel.end_velocity, time, state.memory[j]})});
+  }
+  const double parts = std::ceil(fastest * step / kStiffest);
+  return parts < kMostParts ? std::max(1, static_cast<int>(parts)) : kMostParts;  // NaN, too
+}
+
+// The wheel's position within a step: the polynomial of fifth degree with the step's four gains, in shares of the step.
+class WheelPath {
+ public:
+  WheelPath(const WheelStep& wheel, double step) : step_(step) {
+    const double pm = wheel.middle_position, vm = wheel.middle_velocity * step;
+    const double pe = wheel.end_position, ve = wheel.end_velocity * step;
+    coefficients_ = {7 * pe - ve + 16 * pm - 8 * vm, -34 * pe + 5 * ve - 32 * pm + 32 * vm,
+                     52 * pe - 8 * ve + 16 * pm - 40 * vm, -24 * pe + 4 * ve + 16 * vm};
+  }
+
+  WheelStep part(double from, double to) const {
+    const double middle = (from + to) / 2, start = position(from), rate = velocity(from);
+    return {position(middle) - start - (middle - from) * rate, (velocity(middle) - rate) / step_,
+            position(to) - start - (to - from) * rate, (velocity(to) - rate) / step_};
+  }
+
+ private:
+  double position(double x) const {
+    const auto& [c2, c3, c4, c5] = coefficients_;
+    return x * x * (c2 + x * (c3 + x * (c4 + x * c5)));
+  }
+  double velocity(double x) const {  // per step
+    const auto& [c2, c3, c4, c5] = coefficients_;
+    return x * (2 * c2 + x * (3 * c3 + x * (4 * c4 + x * 5 * c5)));
+  }
+
+  double step_;
+  std::array<double, 4> coefficients_;
+};
+
+void integrateWithEffects(const StrutModel& model, double time, double step, const WheelStep& wheel,
+                          StrutState& state) {
+  const int parts = numParts(model, time, step, wheel, state);
+  if (parts == 1) return integrate<true>(model, time, step, wheel, state);
+  const WheelPath path(wheel, step);
+  for (int i = 0; i < parts; ++i) {
+    const double from = static_cast<double>(i) / parts, to = (i + 1.0) / parts;
+    integrate<true>(model, time + from * step, step / parts, path.part(from, to), state);
+  }
+}
+
 }  // namespace
 
 WheelInterpolator::WheelInterpolator(double from, double to, double period) {
@@ -85,7 +154,7 @@ void integrateStrut(const StrutModel& model, double time, double step, const Whe
   if (model.effects.empty())
     integrate<false>(model, time, step, wheel, state);
   else
-    integrate<true>(model, time, step, wheel, state);
+    integrateWithEffects(model, time, step, wheel, state);
 }
 
 }  // namespace suspension_health_monitor

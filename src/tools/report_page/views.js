@@ -8,7 +8,7 @@ const NAMES = {
 };
 
 function mapSection(findings) {
-  const explained = findings.before.map.explained_share;
+  const {surface_share: share, verdict} = findings.search;
   return section(
       'maps', 'Missing force over the motion of the strut',
       'The force per unit mass that the model lacks, by travel (compression to the right) and travel rate ' +
@@ -17,12 +17,12 @@ function mapSection(findings) {
       mapPair(
           beforeAndAfter(findings).map(([when, {map}]) => ({name: capitalised(NAMES[when]), map})),
           {title: 'missing force', unit: 'm/s^2'}),
-      isNumber(explained) ?
+      verdict === 'nothing_missing' ?
+          null :
           element(
               'p', {class: 'lede'},
-              `A force of travel and travel rate alone would make up ${
-                  percent(100 * Math.max(0, explained))} of what the model as it is lacks, noise included.`) :
-          null);
+              `A force of travel and travel rate alone, of whatever form, would take ${
+                  percent(100 * share)} of what is not noise.`));
 }
 
 function whereSection(findings) {
