@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/identification/plain_size.h"
+
 namespace suspension_health_monitor {
 
 /// The covariance P of the recursions (16) and (25), held as P = U D U' with U unit upper triangular and D diagonal.
@@ -41,7 +43,13 @@ class UdCovariance {
   void scale(double factor);
 
   /// @return P_ii.
-  double variance(int i) const;
+  double variance(int i) const {
+    return withPlainSize(diagonal_.size(), [&](auto p) {
+      double sum = diagonal_[i];
+      for (Eigen::Index j = i + 1; j < p; ++j) sum += upper_(i, j) * upper_(i, j) * diagonal_[j];
+      return sum;
+    });
+  }
 
   /// @return P, (p, p).
   Eigen::MatrixXd matrix() const;

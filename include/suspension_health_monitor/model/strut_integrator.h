@@ -36,18 +36,36 @@ class WheelInterpolator {
 
   /// @param around  kWidth samples of w'' [m/s^2], the oldest first; the step begins `from` after number kWidth / 2 - 1.
   WheelStep operator()(const double* around) const {
-    Eigen::Array<double, 2, 4> sums = Eigen::Array<double, 2, 4>::Zero();
-#pragma GCC unroll 12  // counting would cost a third of the sums; a compiler that does not know it may go on
-    for (Eigen::Index i = 0; i < kWidth / 2; ++i) {
-      const Eigen::Array2d pair(around[2 * i], around[2 * i + 1]);
-      for (Eigen::Index row = 0; row < 4; ++row) sums.col(row) += weights_.col(4 * i + row) * pair;
-    }
-    const auto total = [&](Eigen::Index row) { return sums(0, row) + sums(1, row); };
-    return {total(0), total(1), total(2), total(3)};
+    if (!is_whole_) return ofPart(around);
+    // From sample to sample the middle follows from the ends, whose accelerations are known: half the sums. Position by
+    // the polynomial of fifth degree through position, velocity and acceleration at both ends.
+    const auto [position, velocity] = sums<2>(around);
+    const double* const ends = around + kWidth / 2 - 1;
+    const double rise = period_ * velocity, square = period_ * period_;
+    return {position / 2 - 5.0 / 32 * rise + square / 64 * (ends[0] + ends[1]),
+            (15.0 / 8 * position - 7.0 / 16 * rise + square / 32 * (ends[1] - ends[0])) / period_, position, velocity};
   }
 
  private:
-  Eigen::Array<double, 2, 2 * kWidth> weights_;  // of two samples for the numbers of a WheelStep, then of the next two
+  /// The first kRows of the end's position and velocity, the middle's position and velocity.
+  template <int kRows>
+  std::array<double, kRows> sums(const double* around) const {
+    Eigen::Array<double, 2, kRows> pairs = Eigen::Array<double, 2, kRows>::Zero();
+#pragma GCC unroll 12  // counting would cost a third of the sums; a compiler that does not know it may go on
+    for (Eigen::Index i = 0; i < kWidth / 2; ++i) {
+      const Eigen::Array2d pair(around[2 * i], around[2 * i + 1]);
+      for (Eigen::Index row = 0; row < kRows; ++row) pairs.col(row) += weights_.col(4 * i + row) * pair;
+    }
+    std::array<double, kRows> totals;
+    for (Eigen::Index row = 0; row < kRows; ++row) totals[static_cast<std::size_t>(row)] = pairs(0, row) + pairs(1, row);
+    return totals;
+  }
+
+  WheelStep ofPart(const double* around) const;  // elsewhere: together the two would not fit into registers
+
+  bool is_whole_;
+  double period_;
+  Eigen::Array<double, 2, 2 * kWidth> weights_;  // of two samples for the four numbers, then of the next two
 };
 
 /// One step of the strut under the wheel's motion:

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "suspension_health_monitor/identification/plain_size.h"
+
 namespace suspension_health_monitor {
 
 void RecursiveOptions::validate() const {
@@ -25,7 +27,9 @@ double RecursiveEstimator::innovate(const RegressionRow& row) {
   double innovation = row.output;
   const double* const phi = row.regressor.data();
   const double* const theta = theta_.data();
-  for (Eigen::Index i = 0, p = theta_.size(); i < p; ++i) innovation -= phi[i] * theta[i];
+  withPlainSize(theta_.size(), [&](auto p) {
+    for (Eigen::Index i = 0; i < p; ++i) innovation -= phi[i] * theta[i];
+  });
   means_.add({std::abs(innovation), innovation * innovation, std::abs(row.output)});
   return innovation;
 }
@@ -34,7 +38,9 @@ void RecursiveEstimator::correct(const RegressionRow& row, double innovation, do
   const double* const gain =
       covariance_.update(row.regressor, options_.forgetting_factor / weight, options_.forgetting_factor).data();
   double* const theta = theta_.data();
-  for (Eigen::Index i = 0, p = theta_.size(); i < p; ++i) theta[i] += gain[i] * innovation;
+  withPlainSize(theta_.size(), [&](auto p) {
+    for (Eigen::Index i = 0; i < p; ++i) theta[i] += gain[i] * innovation;
+  });
 }
 
 void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residual_variance, double unit) {

@@ -38,42 +38,37 @@ void UdCovariance::release(int i, double variance) {
 
 const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor) {
   // Plain pointers: the compiler cannot know that writing a number does not move a vector.
-  const Eigen::Index p = diagonal_.size();
   const double* const phi = regressor.data();
   const double* const ceiling = ceiling_.data();
   double* const diagonal = diagonal_.data();
   double* const gain = gain_.data();
   double* column = upper_.data();  // of U; its part above the diagonal
-  double alpha = noise;
-  for (Eigen::Index j = 0; j < p; ++j, column += p) {
-    double f = phi[j];  // entry j of U' phi
-    for (Eigen::Index i = 0; i < j; ++i) f += column[i] * phi[i];
-    const double v = diagonal[j] * f;
-    const double alpha_before = alpha;
-    alpha += f * v;
-    diagonal[j] = std::min(diagonal[j] * alpha_before / (alpha * forgetting_factor), ceiling[j]);
-    const double multiplier = -f / alpha_before;
-    gain[j] = v;
-    for (Eigen::Index i = 0; i < j; ++i) {
-      const double old = column[i];
-      column[i] += multiplier * gain[i];
-      gain[i] += old * v;
+  withPlainSize(diagonal_.size(), [&](auto p) {
+    double alpha = noise;
+    for (Eigen::Index j = 0; j < p; ++j, column += p) {
+      double f = phi[j];  // entry j of U' phi
+      for (Eigen::Index i = 0; i < j; ++i) f += column[i] * phi[i];
+      const double v = diagonal[j] * f;
+      const double alpha_before = alpha;
+      alpha += f * v;
+      diagonal[j] = std::min(diagonal[j] * alpha_before / (alpha * forgetting_factor), ceiling[j]);
+      const double multiplier = -f / alpha_before;
+      gain[j] = v;
+      for (Eigen::Index i = 0; i < j; ++i) {
+        const double old = column[i];
+        column[i] += multiplier * gain[i];
+        gain[i] += old * v;
+      }
     }
-  }
-  const double scale = 1.0 / alpha;
-  for (Eigen::Index j = 0; j < p; ++j) gain[j] *= scale;
+    const double scale = 1.0 / alpha;
+    for (Eigen::Index j = 0; j < p; ++j) gain[j] *= scale;
+  });
   return gain_;
 }
 
 void UdCovariance::scale(double factor) {
   diagonal_ *= factor;
   ceiling_ *= factor;
-}
-
-double UdCovariance::variance(int i) const {
-  double sum = diagonal_[i];
-  for (Eigen::Index j = i + 1; j < diagonal_.size(); ++j) sum += upper_(i, j) * upper_(i, j) * diagonal_[j];
-  return sum;
 }
 
 Eigen::MatrixXd UdCovariance::matrix() const { return upper_ * diagonal_.asDiagonal() * upper_.transpose(); }

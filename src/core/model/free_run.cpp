@@ -25,6 +25,13 @@ double exactSteps(double period, double damping_to_mass, double frequency) {
   return period * std::max(damping_to_mass, frequency) / kLongestStep;
 }
 
+// Roots of s^2 + b1 s + b0; an overdamped strut has a slow real one.
+double slowestDecay(double damping_to_mass, double stiffness_to_mass) {
+  const double half = damping_to_mass / 2;
+  const double discriminant = half * half - stiffness_to_mass;
+  return discriminant > 0.0 ? stiffness_to_mass / (half + std::sqrt(discriminant)) : half;
+}
+
 bool isFewEnough(double steps) { return steps > 0.0 && steps <= kMostSteps; }  // not NaN
 
 // In samples; made once, so that no run has to do it while samples come.
@@ -79,10 +86,7 @@ bool FreeRun::trySetModel(double damping_to_mass, double stiffness_to_mass) {
   model_.damping_to_mass = damping_to_mass;
   model_.stiffness_to_mass = stiffness_to_mass;
   if (!hasModel() || !(steps <= num_steps_ && 2 * steps > num_steps_)) split(steps);
-  // Roots of s^2 + b1 s + b0; an overdamped strut has a slow real one.
-  const double half = damping_to_mass / 2;
-  const double discriminant = half * half - stiffness_to_mass;
-  decay_rate_ = discriminant > 0.0 ? stiffness_to_mass / (half + std::sqrt(discriminant)) : half;
+  decay_rate_ = slowestDecay(damping_to_mass, stiffness_to_mass);
   mean_memory_ = kMeanMemory * 2 * kPi / (period_ * frequency);
   return true;
 }

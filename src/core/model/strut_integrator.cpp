@@ -136,7 +136,8 @@ void integrateWithEffects(const StrutModel& model, double time, double step, con
 
 }  // namespace
 
-WheelInterpolator::WheelInterpolator(double from, double to, double period) {
+WheelInterpolator::WheelInterpolator(double from, double to, double period)
+    : is_whole_(from == 0.0 && to == 1.0), period_(period) {
   const auto set = [&](Eigen::Index row, double end, int power) {
     const BandlimitedInterpolator integral = BandlimitedInterpolator::integral(from, end, power);
     for (Eigen::Index i = 0; i < kWidth; ++i)
@@ -144,10 +145,15 @@ WheelInterpolator::WheelInterpolator(double from, double to, double period) {
           std::pow(period, 1 + power) * integral.weights()[static_cast<std::size_t>(i)];
   };
   const double middle = (from + to) / 2;
-  set(0, middle, 1);
-  set(1, middle, 0);
-  set(2, to, 1);
-  set(3, to, 0);
+  set(0, to, 1);
+  set(1, to, 0);
+  set(2, middle, 1);
+  set(3, middle, 0);
+}
+
+WheelStep WheelInterpolator::ofPart(const double* around) const {
+  const auto [position, velocity, middle_position, middle_velocity] = sums<4>(around);
+  return {middle_position, middle_velocity, position, velocity};
 }
 
 void integrateStrut(const StrutModel& model, double time, double step, const WheelStep& wheel, StrutState& state) {
