@@ -157,12 +157,17 @@ std::optional<SearchResult> Search::run(const StrutModel& start) {
     if (round == 0) noteGroup(judge, selection, result);
     current = withoutSuperfluous(judge, *base, selection.chosen);
   }
-  const std::vector<std::string> added = namesBeyond(*base, current);
-  if (added.size() > 1) {
+  // Reconsidering may make one superfluous, and that changes what the others are confused with.
+  for (bool changed = namesBeyond(*base, current).size() > 1; changed;) {
     result.indistinguishable.clear();
     result.suggested_drive.clear();
-    current = reconsidered(judge, current, added, [&](double) { report(0.95); }, result);
+    current = reconsidered(judge, current, namesBeyond(*base, current), [&](double) { report(0.95); }, result);
+    const std::size_t before = current.ranked.effects.size();
+    current.added.clear();
+    current = withoutSuperfluous(judge, *base, current);
+    changed = current.ranked.effects.size() < before;
   }
+  result.noise_floor = std::min(result.noise_floor, current.ranked.held_out_rmse);
   conclude(judge, *base, current, result);
   report(1.0);
   return result;
