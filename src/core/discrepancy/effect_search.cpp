@@ -16,6 +16,7 @@ constexpr double kStructured = 0.2;          // of a mean square; below it, what
 constexpr double kExplained = 0.5;           // of the structure, or there is no name
 constexpr double kTakenByAnother = 0.3;      // of what is left
 constexpr double kIndistinguishable = 0.02;  // of the mean square, or not significant
+constexpr double kStarted = 0.1, kForward = 0.85;  // of the progress
 
 double square(double x) { return x * x; }
 
@@ -66,6 +67,8 @@ class Search {
 
   static Selection select(const std::vector<Judged>& ranking);
   static void noteGroup(const ModelJudge& judge, const Selection& selection, SearchResult& result);
+  Judged extend(const ModelJudge& judge, const Judged& base, SearchResult& result) const;
+  Judged refine(const ModelJudge& judge, const Judged& base, Judged current, SearchResult& result) const;
   static Judged withoutSuperfluous(const ModelJudge& judge, const Judged& base, Judged current);
   static Judged reconsidered(const ModelJudge& judge, Judged current, const std::vector<std::string>& added,
                              const ModelJudge::Tick& tick, SearchResult& result);
@@ -128,6 +131,40 @@ Judged Search::reconsidered(const ModelJudge& judge, Judged current, const std::
   return current;
 }
 
+// Forward selection: the best addition as long as it pays.
+Judged Search::extend(const ModelJudge& judge, const Judged& base, SearchResult& result) const {
+  Judged current = base;
+  for (int round = 0; round < options_.most_effects; ++round) {
+    const double done = kStarted + kForward * round / options_.most_effects;
+    const auto tick = [&](double share) { report(done + kForward * share / options_.most_effects); };
+    const std::vector<Judged> ranking = judge.rankAdditions(current, tick);
+    if (round == 0) result.ranking = asReported(ranking);
+    if (ranking.empty()) break;
+    // Whatever a free run leaves of data that it was not fitted to is above the floor.
+    result.noise_floor = std::min(result.noise_floor, ranking.front().ranked.held_out_rmse);
+    if (!ranking.front().ranked.significant) break;
+    const Selection selection = select(ranking);
+    if (round == 0) noteGroup(judge, selection, result);
+    current = withoutSuperfluous(judge, base, selection.chosen);
+  }
+  return current;
+}
+
+// Of several effects every one again. That may make one superfluous, which changes what the others are confused with.
+Judged Search::refine(const ModelJudge& judge, const Judged& base, Judged current, SearchResult& result) const {
+  for (bool changed = namesBeyond(base, current).size() > 1; changed;) {
+    result.indistinguishable.clear();
+    result.suggested_drive.clear();
+    const auto tick = [this](double) { report(kStarted + kForward); };
+    current = reconsidered(judge, current, namesBeyond(base, current), tick, result);
+    const std::size_t before = current.ranked.effects.size();
+    current.added.clear();  // none is too new to go
+    current = withoutSuperfluous(judge, base, current);
+    changed = current.ranked.effects.size() < before;
+  }
+  return current;
+}
+
 std::optional<SearchResult> Search::run(const StrutModel& start) {
   const std::optional<ModelFit> rough = fitOutputError(records_, {}, start);
   if (!rough) return std::nullopt;
@@ -137,38 +174,15 @@ std::optional<SearchResult> Search::run(const StrutModel& start) {
   const ModelJudge judge(records_, *held_out, outlierOf(*rough), candidates_, most_forces, options_.threads);
   const std::optional<Judged> base = judge.judge(rough->model, rough->initial, nullptr);
   if (!base) return std::nullopt;
-  report(0.1);
+  report(kStarted);
 
   SearchResult result;
   result.base = base->ranked;
   result.base_fit_percent = held_out->fitPercent(base->ranked.held_out_rmse);
   result.noise_floor = estimateNoiseFloor(records_, base->ranked.model);
-  Judged current = *base;
-  for (int round = 0; round < options_.most_effects; ++round) {
-    const double done = 0.1 + 0.85 * round / options_.most_effects;
-    const auto tick = [&](double share) { report(done + 0.85 * share / options_.most_effects); };
-    const std::vector<Judged> ranking = judge.rankAdditions(current, tick);
-    if (round == 0)
-      result.ranking = asReported(ranking);
-    // Whatever a free run leaves of data that it was not fitted to is above the floor.
-    if (!ranking.empty()) result.noise_floor = std::min(result.noise_floor, ranking.front().ranked.held_out_rmse);
-    if (ranking.empty() || !ranking.front().ranked.significant) break;
-    const Selection selection = select(ranking);
-    if (round == 0) noteGroup(judge, selection, result);
-    current = withoutSuperfluous(judge, *base, selection.chosen);
-  }
-  // Reconsidering may make one superfluous, and that changes what the others are confused with.
-  for (bool changed = namesBeyond(*base, current).size() > 1; changed;) {
-    result.indistinguishable.clear();
-    result.suggested_drive.clear();
-    current = reconsidered(judge, current, namesBeyond(*base, current), [&](double) { report(0.95); }, result);
-    const std::size_t before = current.ranked.effects.size();
-    current.added.clear();
-    current = withoutSuperfluous(judge, *base, current);
-    changed = current.ranked.effects.size() < before;
-  }
-  result.noise_floor = std::min(result.noise_floor, current.ranked.held_out_rmse);
-  conclude(judge, *base, current, result);
+  const Judged last = refine(judge, *base, extend(judge, *base, result), result);
+  result.noise_floor = std::min(result.noise_floor, last.ranked.held_out_rmse);
+  conclude(judge, *base, last, result);
   report(1.0);
   return result;
 }
