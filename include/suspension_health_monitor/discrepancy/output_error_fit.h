@@ -12,7 +12,7 @@ namespace suspension_health_monitor {
 /// Which samples of a segment count in a fit: one flag per sample.
 using SampleMask = std::vector<char>;
 
-/// Runs the model over a segment from a given state.
+/// FreeRun::follow() over a segment from a given state, with the faults of the reading that the model has.
 /// @param predicted  z'' at every sample [m/s^2]; resized.
 /// @param motion  travel and travel rate at every sample, if wanted.
 /// @return false if the model runs away: it is not stable under this drive.

@@ -10,11 +10,20 @@
 
 namespace suspension_health_monitor {
 
+/// The wheel's motion over an uninterrupted stretch of a recorded drive.
+struct RecordedWheel {
+  const std::vector<WheelStep>& steps;  ///< one per integration step, from the first sample to the last
+  double start;                         ///< time of the first sample since the start of the drive [s]
+  double period;                        ///< T [s]
+  int steps_per_sample;
+  std::size_t num_samples;
+};
+
 /// The strut model (27), with or without effects, driven by the measured wheel acceleration alone:
 ///   d'' = w''_measured - z''_model,   z''_model = b1 v + b0 d + sum_j c_j f_j(d, v, t, s_j).
 /// The spring holds the travel d, so nothing drifts, unlike an integration of the accelerations; the prediction is free
 /// of the noise on the body's sensor. It is the prediction that is compared with the measurement, the observer of the
-/// travel that effects depend on, and the source of instruments. Over a recorded drive runFree() takes the same steps.
+/// travel that effects depend on, the source of instruments, and over recorded drives the core of output-error fits.
 ///
 /// Between samples w'' is interpolated from as many samples after an instant as before it, as a causal interpolation
 /// would leave errors of the size of the sensor noise on a rough road: the run answers kDelay samples late.
@@ -52,6 +61,13 @@ class FreeRun {
 
   /// Changes c_j [unit of the effect's coefficient].
   void setCoefficient(std::size_t j, double coefficient) { model_.effects[j].coefficient = coefficient; }
+
+  /// A run over a recorded stretch from a given state, with the same integration: for fits and comparisons.
+  /// @param bound  a prediction beyond it means that the model runs away [m/s^2].
+  /// @param predicted  z'' at every sample [m/s^2]; resized.  @param motion  the states, if wanted; resized.
+  /// @return false if the model runs away: it is not stable under this drive.
+  static bool follow(const StrutModel& model, const RecordedWheel& wheel, StrutState state, double bound,
+                     std::vector<double>& predicted, std::vector<StrutState>* motion = nullptr);
 
   bool hasModel() const { return num_steps_ > 0; }
   const StrutModel& model() const { return model_; }

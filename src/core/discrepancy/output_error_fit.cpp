@@ -10,6 +10,7 @@
 #include "first_run.h"
 #include "parameterization.h"
 #include "segment_cost.h"
+#include "suspension_health_monitor/model/free_run.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -121,22 +122,10 @@ bool addResiduals(const DriveRecord& record, const DriveSegment& segment, const 
 
 bool runFree(const StrutModel& model, const DriveRecord& record, const DriveSegment& segment, StrutState state,
              std::vector<double>& predicted, std::vector<StrutState>* motion) {
-  predicted.resize(segment.size());
-  if (motion != nullptr) motion->resize(segment.size());
-  const double h = record.period() / record.steps();
   double largest = 0.0;
   for (const double y : segment.sprung) largest = std::max(largest, std::abs(y));
-  for (std::size_t k = 0; k < segment.size(); ++k) {
-    const double time = segment.start + static_cast<double>(k) * record.period();
-    predicted[k] = model.force(state.travel, state.travel_rate, time, state.memory.data());
-    if (!(std::abs(predicted[k]) <= kRunaway * largest)) return false;  // NaN, too
-    if (motion != nullptr) (*motion)[k] = state;
-    if (k + 1 == segment.size()) break;
-    for (int s = 0; s < record.steps(); ++s) {
-      const std::size_t step = k * static_cast<std::size_t>(record.steps()) + static_cast<std::size_t>(s);
-      integrateStrut(model, time + s * h, h, segment.wheel[step], state);
-    }
-  }
+  const RecordedWheel wheel{segment.wheel, segment.start, record.period(), record.steps(), segment.size()};
+  if (!FreeRun::follow(model, wheel, state, kRunaway * largest, predicted, motion)) return false;
   for (const ActiveMeasurementEffect& reading : model.reading)
     reading.effect.apply(reading.coefficients.data(), segment.body, record.period(), predicted);
   return true;

@@ -117,6 +117,23 @@ void FreeRun::setEffects(const std::vector<ActiveEffect>& effects) {
   if (decayed_ > 0.0) countTravelFrom(effects.empty() ? 0.0 : mean_);
 }
 
+bool FreeRun::follow(const StrutModel& model, const RecordedWheel& wheel, StrutState state, double bound,
+                     std::vector<double>& predicted, std::vector<StrutState>* motion) {
+  predicted.resize(wheel.num_samples);
+  if (motion != nullptr) motion->resize(wheel.num_samples);
+  const double h = wheel.period / wheel.steps_per_sample;
+  auto step = wheel.steps.begin();
+  for (std::size_t k = 0; k < wheel.num_samples; ++k) {
+    const double time = wheel.start + static_cast<double>(k) * wheel.period;
+    predicted[k] = model.force(state.travel, state.travel_rate, time, state.memory.data());
+    if (!(std::abs(predicted[k]) <= bound)) return false;  // NaN, too
+    if (motion != nullptr) (*motion)[k] = state;
+    if (k + 1 == wheel.num_samples) break;
+    for (int s = 0; s < wheel.steps_per_sample; ++s) integrateStrut(model, time + s * h, h, *step++, state);
+  }
+  return true;
+}
+
 std::optional<double> FreeRun::push(double unsprung_acceleration, double time) {
   const double answered = time - kDelay * period_;
   if (decayed_ > 0.0) advance(answered - period_);
