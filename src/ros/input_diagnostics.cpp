@@ -62,7 +62,7 @@ void InputDiagnostics::describeStream(Side side, const ImuPipeline& pipeline, St
   const std::string name = kSideNames[index];
   if (const std::optional<Arrivals>& arrivals = arrivals_[index]) {
     const double lag = arrivals->lag.mean();
-    status.addf(name + " lag [s]", "%.4g", lag);
+    status.addf(name + " lag [s]", "%.3f", lag);
     if (options_.max_lag && lag > *options_.max_lag)
       status.mergeSummaryf(DiagnosticStatus::WARN, "%s IMU is %.3g s late", name.c_str(), lag);
   }
@@ -121,7 +121,7 @@ void InputDiagnostics::describeClock(Status& status) {
   if (now.isZero())
     status.mergeSummary(DiagnosticStatus::ERROR, "use_sim_time is set, but nothing comes on /clock");
   else if (clock_before_ == now)
-    status.mergeSummary(DiagnosticStatus::OK, "the clock stands still");
+    status.summary(static_cast<unsigned char>(status.level), status.message + "; the clock stands still");
   clock_before_ = now;
 }
 
