@@ -36,6 +36,13 @@ struct MonitorOptions {
   double stiffness_warn = HealthOptions{}.stiffness_warn;
   double stiffness_error = HealthOptions{}.stiffness_error;
   double confirm_time = HealthOptions{}.confirm_time;
+  double hysteresis = HealthOptions{}.hysteresis;
+  double min_significance = HealthOptions{}.min_significance;
+  double payload_range = HealthOptions{}.payload_range;
+  double early_change = HealthOptions{}.early_change;
+  double false_alarm_interval = HealthOptions{}.false_alarm_interval;
+  double gravity_tolerance = HealthOptions{}.gravity_tolerance;
+  double learn_time = HealthOptions{}.learn_time;
 
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   void validate() const;
@@ -48,7 +55,8 @@ struct MonitorOptions {
   IntegralFilterOptions filter(double period) const;
   RecursiveOptions recursive() const;
   LeastAbsoluteOptions leastAbsolute() const;
-  HealthOptions health() const;
+  /// @param period  sampling time [s].
+  HealthOptions health(double period) const;
 };
 
 using MonitorField = OptionField<MonitorOptions>;
@@ -96,6 +104,20 @@ inline constexpr std::array kMonitorFields{
                  &MonitorOptions::stiffness_error, 0.001, 10.0},
     MonitorField{"health/confirm_time", "s", "a new level must last this long before it is reported",
                  &MonitorOptions::confirm_time, 0.0, 3600.0},
+    MonitorField{"health/hysteresis", "-", "a level ends this far below its threshold", &MonitorOptions::hysteresis,
+                 0.0, 1.0},
+    MonitorField{"health/min_significance", "-", "standard deviations that a change must have to count",
+                 &MonitorOptions::min_significance, 0.0, 100.0},
+    MonitorField{"health/payload_range", "-", "relative change of body mass that may be payload; 0: no change may",
+                 &MonitorOptions::payload_range, 0.0, 10.0},
+    MonitorField{"health/early_change", "-", "smaller changes of a parameter need no early warning",
+                 &MonitorOptions::early_change, 0.001, 10.0},
+    MonitorField{"health/false_alarm_interval", "s", "mean time between two early warnings of a healthy strut",
+                 &MonitorOptions::false_alarm_interval, 1.0, 1e12},
+    MonitorField{"health/gravity_tolerance", "-", "share of g by which a mean reading may be off; 0: not judged",
+                 &MonitorOptions::gravity_tolerance, 0.0, 0.5},
+    MonitorField{"baseline/learn_time", "s", "valid driving that a baseline is learned from; 0: none is learned",
+                 &MonitorOptions::learn_time, 0.0, 1e6},
 };
 
 }  // namespace suspension_health_monitor

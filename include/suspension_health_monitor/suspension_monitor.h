@@ -33,7 +33,7 @@ struct InputStatus {
 /// Identifies one strut from a series of samples: the facade that the nodelet, the command line and the tests share.
 ///
 /// Per sample, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then
-/// the free run with LA's parameters against the measurement, and the judgement of health by LA's parameters.
+/// the free run with LA's parameters against the measurement. Health is judged four times per horizon.
 /// With effects in the model (ModelTracker) the plain one runs along, with LS and LA of its own, to be compared with.
 /// Cost per sample: O(1) whatever the horizon; no allocation, no lock.
 class SuspensionMonitor {
@@ -59,6 +59,10 @@ class SuspensionMonitor {
   ///         late are its reports, and no stamp comes twice.
   const MonitorReport* addSample(const CornerSample& sample);
 
+  /// Judges health by this from now on.
+  void setBaseline(const Baseline& baseline) { health_.setBaseline(baseline); }
+  const Baseline& baseline() const { return health_.baseline(); }
+
   const MonitorReport& report() const { return report_; }
   const InputStatus& input() const { return input_; }
   const RejectCounts& rejected() const { return rejected_; }
@@ -71,6 +75,7 @@ class SuspensionMonitor {
   void startNewSeries();
   const CornerSample* remember(const CornerSample& sample);
   const CornerSample* track(const CornerSample& sample);
+  void judgeHealth(const CornerSample& sample);
   const ModelTracker& tracker() const { return extended_ ? *extended_ : plain_; }
 
   MonitorOptions options_;
@@ -82,6 +87,8 @@ class SuspensionMonitor {
   std::array<CornerSample, 16> recent_{};  // by their number in the series, modulo
   std::size_t in_series_ = 0;
   HealthAssessment health_;
+  SensorCheck sensors_;
+  int until_judged_;  // samples
   RunningMean spacing_;
   std::optional<Stamp> first_stamp_, last_stamp_;
   std::optional<Stamp> reported_until_;  // by the model before the effects were set

@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/monitor_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -8,6 +9,7 @@ namespace {
 
 constexpr double kDefaultHorizon = 0.6;  // [s], the paper's
 constexpr int kMostSamples = 1000000;
+constexpr int kUpdatesPerHorizon = 4;  // of health: rows within a horizon share most of their samples
 
 }  // namespace
 
@@ -15,7 +17,7 @@ void MonitorOptions::validate() const {
   suspension_health_monitor::validate(*this, kMonitorFields);
   if (integration_horizon && horizon_samples)
     throw std::invalid_argument("integration_horizon and horizon_samples are both given, must be one of them");
-  health().validate();
+  health(sample_period.value_or(1.0)).validate();
   if (sample_period) filter(*sample_period);
 }
 
@@ -52,9 +54,27 @@ LeastAbsoluteOptions MonitorOptions::leastAbsolute() const {
           la_small_divisor, la_scale_covariance_at_start};
 }
 
-HealthOptions MonitorOptions::health() const {
-  return {nominal_damping_to_mass, nominal_stiffness_to_mass, damping_warn, damping_error,
-          stiffness_warn,          stiffness_error,           confirm_time};
+HealthOptions MonitorOptions::health(double period) const {
+  HealthOptions health;
+  health.nominal_damping_to_mass = nominal_damping_to_mass;
+  health.nominal_stiffness_to_mass = nominal_stiffness_to_mass;
+  health.damping_warn = damping_warn;
+  health.damping_error = damping_error;
+  health.stiffness_warn = stiffness_warn;
+  health.stiffness_error = stiffness_error;
+  health.confirm_time = confirm_time;
+  health.hysteresis = hysteresis;
+  health.min_significance = min_significance;
+  health.payload_range = payload_range;
+  health.learn_time = learn_time;
+  health.early_change = early_change;
+  health.false_alarm_interval = false_alarm_interval;
+  health.gravity_tolerance = gravity_tolerance;
+  health.forgetting_factor = forgetting_factor;
+  health.horizon_samples = horizonSamples(period);
+  health.period = period;
+  health.rows_per_update = std::max(1, health.horizon_samples / kUpdatesPerHorizon);
+  return health;
 }
 
 }  // namespace suspension_health_monitor

@@ -23,7 +23,10 @@ SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
       period_(fromSeconds(*options.sample_period)),
       horizon_samples_(options.horizonSamples(*options.sample_period)),
       plain_(options),
-      health_(options.health()),
+      health_(options.health(*options.sample_period)),
+      sensors_(options.gravity_tolerance, options.comparison_window / *options.sample_period /
+                                              health_.options().rows_per_update),
+      until_judged_(health_.options().rows_per_update),
       spacing_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {}
 
 void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
@@ -56,8 +59,17 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
   if (of_row == nullptr || (reported_until_ && of_row->stamp <= *reported_until_)) return nullptr;
   report_.stamp = of_row->stamp;
   report_.measured = of_row->sprung_acceleration;
-  report_.health = health_.update(report_.stamp, report_.la);
+  if (--until_judged_ <= 0) judgeHealth(sample);
   return &report_;
+}
+
+[[gnu::noinline]] void SuspensionMonitor::judgeHealth(const CornerSample& sample) {
+  until_judged_ = health_.options().rows_per_update;
+  const CornerSample& previous = in_series_ > 1 ? recent_[(in_series_ - 2) % recent_.size()] : sample;
+  const double memory = 1.0 / (1.0 - std::min(options_.forgetting_factor, 1.0 - 1e-6));
+  const bool enough_rows = report_.la.effective_rows >= std::min(0.9 * memory, 10.0 * options_.valid_min_rows);
+  health_.setSensors(sensors_.look(previous, sample, report_.la, enough_rows));
+  report_.health = health_.update(report_.stamp, report_.ls, report_.la);
 }
 
 // Leads the sample through the models.

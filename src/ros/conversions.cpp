@@ -55,17 +55,26 @@ ModelComparison toMsg(const ComparisonReport& comparison, const std::string& fra
   return msg;
 }
 
-SuspensionHealth toMsg(const MonitorReport& report, const MonitorOptions& options, const std_msgs::Header& header) {
+SuspensionHealth toMsg(const MonitorReport& report, const Baseline& baseline, const std_msgs::Header& header) {
   SuspensionHealth msg;
   msg.header = header;
   msg.level = static_cast<SuspensionHealth::_level_type>(report.health.level);
   msg.reason = describe(report.health);
   msg.damping_to_mass = report.la.damping_to_mass;
   msg.stiffness_to_mass = report.la.stiffness_to_mass;
-  msg.nominal_damping_to_mass = options.nominal_damping_to_mass.value_or(kUnknown);
-  msg.nominal_stiffness_to_mass = options.nominal_stiffness_to_mass.value_or(kUnknown);
+  msg.nominal_damping_to_mass = baseline.damping_to_mass.value_or(kUnknown);
+  msg.nominal_stiffness_to_mass = baseline.stiffness_to_mass.value_or(kUnknown);
   msg.damping_change = report.health.damping_change.value_or(kUnknown);
   msg.stiffness_change = report.health.stiffness_change.value_or(kUnknown);
+  msg.payload_change = report.health.payload_change.value_or(kUnknown);
+  msg.damping_significance = report.health.damping_significance;
+  msg.stiffness_significance = report.health.stiffness_significance;
+  msg.damping_level = static_cast<SuspensionHealth::_level_type>(report.health.damping_level);
+  msg.stiffness_level = static_cast<SuspensionHealth::_level_type>(report.health.stiffness_level);
+  msg.early_warning = report.health.early_warning;
+  msg.outliers_present = report.health.outliers;
+  msg.sensor_fault = describe(report.health.sensor);
+  msg.learning_progress = report.health.learning.value_or(kUnknown);
   return msg;
 }
 

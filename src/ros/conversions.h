@@ -26,7 +26,7 @@ ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, co
                         const std::vector<ActiveEffect>& effects, const std::optional<double>& sprung_mass);
 /// @param frame_id  of the sprung sensor; the stamp is that of the compared sample.
 ModelComparison toMsg(const ComparisonReport& comparison, const std::string& frame_id);
-SuspensionHealth toMsg(const MonitorReport& report, const MonitorOptions& options, const std_msgs::Header& header);
+SuspensionHealth toMsg(const MonitorReport& report, const Baseline& baseline, const std_msgs::Header& header);
 SimulationTruth toMsg(const DriveTruth& truth, const std_msgs::Header& header);
 
 /// An IMU lying level: the reading on z, gravity on top of it, covariances unknown (all 0) and no orientation (-1).

@@ -27,7 +27,15 @@ void ImuPipeline::start(double period) {
   monitor_.emplace(options_.monitor);
   grid_.emplace(period);
   if (!effects_.empty()) monitor_->setEffects(effects_);
+  if (baseline_) monitor_->setBaseline(*baseline_);
   if (kept_span_) keepSamples(*kept_span_);
+}
+
+void ImuPipeline::setBaseline(const Baseline& baseline) {
+  if (monitor_)
+    monitor_->setBaseline(baseline);
+  else
+    baseline_ = baseline;
 }
 
 void ImuPipeline::setEffects(const std::vector<ActiveEffect>& effects) {

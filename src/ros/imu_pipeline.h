@@ -35,6 +35,9 @@ class ImuPipeline {
   /// @throws std::invalid_argument  as there; while the sample period is being measured, the samples that end this do.
   void setEffects(const std::vector<ActiveEffect>& effects);
 
+  /// Has health judged by this from now on.
+  void setBaseline(const Baseline& baseline);
+
   /// From now on keeps the newest samples: those of `span` [s], at most kMostKept.
   void keepSamples(double span);
   static constexpr std::size_t kMostKept = 4000000;  // 64 bytes each
@@ -75,6 +78,7 @@ class ImuPipeline {
   std::optional<UniformGrid> grid_;
   std::optional<SuspensionMonitor> monitor_;
   std::vector<ActiveEffect> effects_;  // until there is a monitor
+  std::optional<Baseline> baseline_;   // until there is a monitor
   std::optional<double> kept_span_;    // [s]
   std::optional<RecentSamples> recent_;
   std::optional<Recent<BodyMotion>> recent_body_;

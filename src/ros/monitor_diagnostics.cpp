@@ -56,9 +56,14 @@ void MonitorDiagnostics::describeHealth(Status& status) {
   status.summary(static_cast<unsigned char>(report.health.level), describe(report.health));
   addEstimate(status, "la", report.la);
   addEstimate(status, "ls", report.ls);
-  const MonitorOptions& options = monitor->options();
-  addJudgement(status, "damping_to_mass", options.nominal_damping_to_mass, report.health.damping_change);
-  addJudgement(status, "stiffness_to_mass", options.nominal_stiffness_to_mass, report.health.stiffness_change);
+  const Baseline& baseline = monitor->baseline();
+  addJudgement(status, "damping_to_mass", baseline.damping_to_mass, report.health.damping_change);
+  addJudgement(status, "stiffness_to_mass", baseline.stiffness_to_mass, report.health.stiffness_change);
+  if (report.health.payload_change) status.addf("body mass change [%]", "%+.1f", 100.0 * *report.health.payload_change);
+  if (report.health.learning) status.addf("baseline learned [%]", "%.0f", 100.0 * *report.health.learning);
+  status.add("early warning", report.health.early_warning);
+  status.add("outliers or saturation", report.health.outliers);
+  status.add("sensor fault", describe(report.health.sensor));
 }
 
 void MonitorDiagnostics::describeModel(Status& status) {

@@ -36,6 +36,7 @@ void MonitorNodelet::onInit() {
   startOrRefuse(private_node_, [&] {
     options_ = PipelineOptions::fromValues(readParameters(private_node_));
     model_.emplace(options_.shell);
+    baseline_.emplace(options_);
     makePipeline();
   });
   for (const std::string& remark : model_->remarks()) NODELET_WARN("%s", remark.c_str());
@@ -59,13 +60,15 @@ void MonitorNodelet::start() {
 void MonitorNodelet::makePipeline() {
   pipeline_.emplace(options_, [this](const MonitorReport& report) { publish(report); }, &transforms_);
   pipeline_->setEffects(model_->effects());
+  if (baseline_->known()) pipeline_->setBaseline(*baseline_->known());
   pipeline_->keepSamples(options_.shell.diagnose_window);
 }
 
 void MonitorNodelet::advertiseServices() {
   services_ = {private_node_.advertiseService("reset", &MonitorNodelet::onReset, this),
                private_node_.advertiseService("set_effects", &MonitorNodelet::onSetEffects, this),
-               private_node_.advertiseService("save_model", &MonitorNodelet::onSaveModel, this)};
+               private_node_.advertiseService("save_model", &MonitorNodelet::onSaveModel, this),
+               private_node_.advertiseService("save_baseline", &MonitorNodelet::onSaveBaseline, this)};
   SearchOptions search;
   search.threads = options_.shell.diagnose_threads;
   diagnose_.emplace(private_node_, thread_->queue(),
@@ -107,6 +110,7 @@ void MonitorNodelet::onImu(Side side, const sensor_msgs::ImuConstPtr& imu) {
 
 void MonitorNodelet::publish(const MonitorReport& report) {
   if (diagnostics_->noteLevel(report.health.level)) onTick();
+  if (report.health.learned && !baseline_->known()) keepBaseline();
   if (reports_++ % static_cast<std::uint64_t>(options_.shell.publish_every) != 0) return;
   std_msgs::Header header;
   header.stamp = toRosTime(report.stamp);
@@ -122,7 +126,7 @@ void MonitorNodelet::publish(const MonitorReport& report) {
   send(la_, [&] { return toMsg(report.la, "la", header, effects, mass); });
   if (report.comparison.has_sample)
     send(comparison_, [&] { return toMsg(report.comparison, header.frame_id); });
-  send(health_, [&] { return toMsg(report, options_.monitor, header); });
+  send(health_, [&] { return toMsg(report, pipeline_->monitor()->baseline(), header); });
 }
 
 void MonitorNodelet::onTick() { diagnostics_->publish(*pipeline_); }
@@ -172,6 +176,26 @@ bool MonitorNodelet::onSaveModel(std_srvs::Trigger::Request&, std_srvs::Trigger:
     response.message = error.what();
   }
   return true;
+}
+
+bool MonitorNodelet::onSaveBaseline(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  try {
+    baseline_->save(pipeline_->monitor());
+    pipeline_->setBaseline(*baseline_->known());
+    response.success = true;
+    response.message = "health is judged by the strut as it is now; written to " + options_.shell.baseline_file;
+  } catch (const std::runtime_error& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+void MonitorNodelet::keepBaseline() {
+  try {
+    NODELET_INFO("%s", baseline_->keepLearned(*pipeline_->monitor()).c_str());
+  } catch (const std::runtime_error& error) {
+    NODELET_ERROR("%s", error.what());
+  }
 }
 
 SearchTask MonitorNodelet::giveSamples(double window) const {

@@ -15,6 +15,7 @@
 
 #include "diagnose_service.h"
 #include "imu_pipeline.h"
+#include "live_baseline.h"
 #include "live_model.h"
 #include "monitor_diagnostics.h"
 #include "monitor_thread.h"
@@ -41,6 +42,8 @@ class MonitorNodelet : public nodelet::Nodelet {
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
   bool onSaveModel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onSaveBaseline(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void keepBaseline();
   SearchTask giveSamples(double window) const;
   void takeDiagnosis(const Diagnosis& diagnosis);
   std::optional<MotionScale> motionScaleNow() const;
@@ -54,12 +57,13 @@ class MonitorNodelet : public nodelet::Nodelet {
   PipelineOptions options_;
   tf2::BufferCore transforms_;  // static ones
   std::optional<LiveModel> model_;
+  std::optional<LiveBaseline> baseline_;
   std::optional<ImuPipeline> pipeline_;
   std::optional<MonitorDiagnostics> diagnostics_;
   std::uint64_t reports_ = 0;
   std::array<std::string, 2> frames_;
   ros::Publisher ls_, la_, comparison_, health_;
-  std::array<ros::ServiceServer, 3> services_;
+  std::array<ros::ServiceServer, 4> services_;
   std::optional<DiagnoseService> diagnose_;
   ros::WallTimer tick_;
   ros::Subscriber static_transforms_;

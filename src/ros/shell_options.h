@@ -28,6 +28,7 @@ struct ShellOptions {
   std::string effects;
   std::string model_file;
   std::string effects_file;
+  std::string baseline_file;
   double diagnose_window = 120.0;
   int diagnose_threads = SearchOptions{}.threads;
 };
@@ -66,6 +67,9 @@ inline constexpr std::array kShellFields{
                &ShellOptions::model_file},
     ShellField{"effects_file", "-", "YAML file with laws of your own, beside the catalogue",
                &ShellOptions::effects_file},
+    ShellField{"baseline_file", "-",
+               "YAML file with the healthy strut: loaded if it is there, else written once learned, and by ~save_baseline",
+               &ShellOptions::baseline_file},
     ShellField{"diagnose/window", "s", "newest part of the drive that is kept for ~diagnose, at most 4 million samples",
                &ShellOptions::diagnose_window, 0.01, 1e6},
     ShellField{"diagnose/threads", "-", "processor cores that ~diagnose may use", &ShellOptions::diagnose_threads, 1,

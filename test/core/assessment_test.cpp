@@ -13,6 +13,7 @@ HealthOptions options() {
   HealthOptions result;
   result.nominal_damping_to_mass = kNominalB1;
   result.nominal_stiffness_to_mass = kNominalB0;
+  result.hysteresis = 0.0;
   return result;
 }
 
@@ -26,11 +27,15 @@ StrutEstimate estimate(double damping_change, double stiffness_change) {
 
 Stamp at(double seconds) { return fromSeconds(seconds); }
 
+const HealthReport& update(HealthAssessment& assessment, Stamp stamp, const StrutEstimate& both) {
+  return assessment.update(stamp, both, both);
+}
+
 // The report once the estimate has lasted.
 HealthReport judged(const StrutEstimate& of, const HealthOptions& by = options()) {
   HealthAssessment assessment(by);
-  assessment.update(at(0.0), of);
-  return assessment.update(at(10.0), of);
+  update(assessment, at(0.0), of);
+  return update(assessment, at(10.0), of);
 }
 
 TEST(HealthAssessment, JudgesEachParameterByItsOwnThresholds) {
@@ -52,12 +57,12 @@ TEST(HealthAssessment, JudgesEachParameterByItsOwnThresholds) {
 TEST(HealthAssessment, AnEstimateThatCannotTellConfirmsNoAlarm) {
   HealthAssessment assessment(options());
   const StrutEstimate lost;  // not valid
-  for (double t = 0.0; t <= 5.0; t += 0.02) assessment.update(at(t), estimate(0.0, 0.0));
-  for (double t = 5.02; t <= 5.1; t += 0.02) assessment.update(at(t), estimate(-0.17, 0.0));
+  for (double t = 0.0; t <= 5.0; t += 0.02) update(assessment, at(t), estimate(0.0, 0.0));
+  for (double t = 5.02; t <= 5.1; t += 0.02) update(assessment, at(t), estimate(-0.17, 0.0));
   for (double t = 5.12; t <= 6.05; t += 0.02)
-    ASSERT_EQ(assessment.update(at(t), lost).level, HealthLevel::kOk) << "at " << t;
+    ASSERT_EQ(update(assessment, at(t), lost).level, HealthLevel::kOk) << "at " << t;
   for (double t = 6.14; t <= 9.0; t += 0.02)
-    ASSERT_EQ(assessment.update(at(t), lost).level, HealthLevel::kStale) << "at " << t;
+    ASSERT_EQ(update(assessment, at(t), lost).level, HealthLevel::kStale) << "at " << t;
 }
 
 TEST(HealthAssessment, ReportsTheWorseOfTheTwoAndTheSignOfTheChange) {
@@ -103,7 +108,7 @@ TEST(HealthAssessment, EstimateThatIsNotValidIsStaleNeverHealthy) {
 TEST(HealthAssessment, NewLevelMustLastForTheConfirmTime) {
   HealthAssessment assessment(options());  // 1 s
   const auto level = [&](double seconds, double change) {
-    return assessment.update(at(seconds), estimate(change, 0.0)).level;
+    return update(assessment, at(seconds), estimate(change, 0.0)).level;
   };
   EXPECT_EQ(level(5.0, 0.0), HealthLevel::kStale);
   EXPECT_EQ(level(5.999, 0.0), HealthLevel::kStale);
@@ -121,7 +126,7 @@ TEST(HealthAssessment, NewLevelMustLastForTheConfirmTime) {
 TEST(HealthAssessment, NoiseAtAThresholdHidesNothing) {
   HealthAssessment assessment(options());
   const auto alternate = [&](double first, double change, double other_change) {
-    for (int k = 0; k <= 60; ++k) assessment.update(at(first + 0.02 * k), estimate(k % 2 ? change : other_change, 0.0));
+    for (int k = 0; k <= 60; ++k) update(assessment, at(first + 0.02 * k), estimate(k % 2 ? change : other_change, 0.0));
     return assessment.report().level;
   };
   EXPECT_EQ(alternate(0.0, 0.0, 0.0), HealthLevel::kOk);
@@ -133,20 +138,55 @@ TEST(HealthAssessment, NoiseAtAThresholdHidesNothing) {
   EXPECT_EQ(alternate(60.0, -0.14, -0.16), HealthLevel::kOk);
 }
 
+TEST(HealthAssessment, LevelEndsBelowItsThresholdLessTheHysteresis) {
+  HealthOptions quick = options();
+  quick.confirm_time = 0.0;
+  quick.hysteresis = 0.02;
+  HealthAssessment assessment(quick);
+  const auto level = [&](double change) { return update(assessment, at(1.0), estimate(change, 0.0)).level; };
+  EXPECT_EQ(level(-0.149), HealthLevel::kOk);
+  EXPECT_EQ(level(-0.151), HealthLevel::kWarn);
+  EXPECT_EQ(level(-0.131), HealthLevel::kWarn);
+  EXPECT_EQ(level(-0.129), HealthLevel::kOk);
+  EXPECT_EQ(level(-0.301), HealthLevel::kError);
+  EXPECT_EQ(level(-0.281), HealthLevel::kError);
+  EXPECT_EQ(level(-0.279), HealthLevel::kWarn);
+}
+
+TEST(HealthAssessment, AChangeThatIsNotSignificantIsNone) {
+  StrutEstimate vague = estimate(-0.2, 0.0);  // ln 0.8 = -0.223
+  const auto levelWith = [&](double relative_stddev) {
+    vague.damping_to_mass_stddev = relative_stddev * vague.damping_to_mass;
+    return judged(vague).level;
+  };
+  EXPECT_EQ(levelWith(0.05), HealthLevel::kWarn);    // 4.5 sigma
+  EXPECT_EQ(levelWith(0.06), HealthLevel::kOk);      // 3.7 sigma
+  EXPECT_EQ(levelWith(0.08), HealthLevel::kStale);   // 30 % would not be 4 sigma
+  vague.damping_to_mass_stddev = 0.08 * vague.damping_to_mass;
+  EXPECT_NE(describe(judged(vague)).find("too uncertain"), std::string::npos);
+  HealthAssessment by_baseline(options());  // the baseline's own uncertainty counts as well
+  Baseline baseline = by_baseline.baseline();
+  baseline.damping_to_mass_stddev = 0.06 * kNominalB1;
+  by_baseline.setBaseline(baseline);
+  vague.damping_to_mass_stddev = vague.stiffness_to_mass_stddev = 0.0;
+  for (const double t : {0.0, 10.0}) update(by_baseline, at(t), vague);
+  EXPECT_EQ(by_baseline.report().level, HealthLevel::kOk);
+}
+
 TEST(HealthAssessment, ConfirmTimeZeroReportsAtOnce) {
   HealthOptions quick = options();
   quick.confirm_time = 0.0;
   HealthAssessment assessment(quick);
-  EXPECT_EQ(assessment.update(at(5.0), estimate(-0.4, 0.0)).level, HealthLevel::kError);
-  EXPECT_EQ(assessment.update(at(5.0), estimate(0.0, 0.0)).level, HealthLevel::kOk);
+  EXPECT_EQ(update(assessment, at(5.0), estimate(-0.4, 0.0)).level, HealthLevel::kError);
+  EXPECT_EQ(update(assessment, at(5.0), estimate(0.0, 0.0)).level, HealthLevel::kOk);
 }
 
 TEST(HealthAssessment, ClockThatGoesBackRestartsTheConfirmation) {
   HealthAssessment assessment(options());
-  assessment.update(at(100.0), estimate(-0.2, 0.0));
-  assessment.update(at(50.0), estimate(-0.2, 0.0));
-  EXPECT_EQ(assessment.update(at(50.9), estimate(-0.2, 0.0)).level, HealthLevel::kStale);
-  EXPECT_EQ(assessment.update(at(51.0), estimate(-0.2, 0.0)).level, HealthLevel::kWarn);
+  update(assessment, at(100.0), estimate(-0.2, 0.0));
+  update(assessment, at(50.0), estimate(-0.2, 0.0));
+  EXPECT_EQ(update(assessment, at(50.9), estimate(-0.2, 0.0)).level, HealthLevel::kStale);
+  EXPECT_EQ(update(assessment, at(51.0), estimate(-0.2, 0.0)).level, HealthLevel::kWarn);
 }
 
 TEST(HealthAssessment, RefusesAnErrorThresholdBelowItsWarning) {
@@ -173,7 +213,9 @@ TEST(HealthReport, SaysInOneSentenceWhatChanged) {
   HealthOptions only_stiffness = options();
   only_stiffness.nominal_damping_to_mass.reset();
   EXPECT_EQ(describe(judged(estimate(-0.31, -0.16), only_stiffness)), "stiffness 16 % below nominal");
-  EXPECT_EQ(describe(judged(estimate(0.0, 0.0), HealthOptions{})),
+  HealthOptions nothing;
+  nothing.learn_time = 0.0;
+  EXPECT_EQ(describe(judged(estimate(0.0, 0.0), nothing)),
             "estimates valid; no nominal values given to judge them by");
   EXPECT_EQ(describe(HealthReport{}), "cannot tell: no valid estimate (starting, parked, or poor input)");
 }
@@ -181,15 +223,15 @@ TEST(HealthReport, SaysInOneSentenceWhatChanged) {
 // Before "cannot tell" is confirmed, the last judgement stands, with its reasons.
 TEST(HealthReport, KeepsItsReasonsAsLongAsItsLevel) {
   HealthAssessment assessment(options());
-  assessment.update(at(0.0), estimate(-0.4, 0.0));
-  assessment.update(at(1.0), estimate(-0.4, 0.0));
+  update(assessment, at(0.0), estimate(-0.4, 0.0));
+  update(assessment, at(1.0), estimate(-0.4, 0.0));
   StrutEstimate invalid = estimate(-0.4, 0.0);
   invalid.valid = false;
-  const HealthReport unconfirmed = assessment.update(at(1.5), invalid);
+  const HealthReport unconfirmed = update(assessment, at(1.5), invalid);
   EXPECT_EQ(unconfirmed.level, HealthLevel::kError);
   EXPECT_EQ(unconfirmed.damping_level, HealthLevel::kError);
   EXPECT_EQ(describe(unconfirmed), "damping 40 % below nominal, stiffness at nominal");
-  const HealthReport stale = assessment.update(at(2.5), invalid);
+  const HealthReport stale = update(assessment, at(2.5), invalid);
   EXPECT_EQ(stale.level, HealthLevel::kStale);
   EXPECT_FALSE(stale.damping_change);
 }

@@ -78,13 +78,13 @@ TEST(MonitorOptions, SettingsReachTheEstimators) {
   health.stiffness_warn = 0.5;
   health.stiffness_error = 0.6;
   health.confirm_time = 7.0;
-  EXPECT_EQ(health.health().nominal_damping_to_mass, 1.0);
-  EXPECT_EQ(health.health().nominal_stiffness_to_mass, 2.0);
-  EXPECT_EQ(health.health().damping_warn, 0.3);
-  EXPECT_EQ(health.health().damping_error, 0.4);
-  EXPECT_EQ(health.health().stiffness_warn, 0.5);
-  EXPECT_EQ(health.health().stiffness_error, 0.6);
-  EXPECT_EQ(health.health().confirm_time, 7.0);
+  EXPECT_EQ(health.health(0.02).nominal_damping_to_mass, 1.0);
+  EXPECT_EQ(health.health(0.02).nominal_stiffness_to_mass, 2.0);
+  EXPECT_EQ(health.health(0.02).damping_warn, 0.3);
+  EXPECT_EQ(health.health(0.02).damping_error, 0.4);
+  EXPECT_EQ(health.health(0.02).stiffness_warn, 0.5);
+  EXPECT_EQ(health.health(0.02).stiffness_error, 0.6);
+  EXPECT_EQ(health.health(0.02).confirm_time, 7.0);
 }
 
 TEST(MonitorOptions, DefaultsAreValidWithAndWithoutASamplePeriod) {

@@ -1,15 +1,19 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
 #include "suspension_health_monitor/corner_sample.h"
+#include "suspension_health_monitor/health/baseline.h"
+#include "suspension_health_monitor/health/early_warning.h"
+#include "suspension_health_monitor/health/level_confirmation.h"
+#include "suspension_health_monitor/health/parameter_trend.h"
+#include "suspension_health_monitor/health/sensor_check.h"
+#include "suspension_health_monitor/health/strut_change.h"
 #include "suspension_health_monitor/strut_estimate.h"
 
 namespace suspension_health_monitor {
-
-/// Severity, numbered as in diagnostic_msgs/DiagnosticStatus.
-enum class HealthLevel : unsigned char { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
 
 struct HealthOptions {
   std::optional<double> nominal_damping_to_mass;    ///< b1 of the healthy strut [1/s]
@@ -18,7 +22,18 @@ struct HealthOptions {
   double damping_error = 0.30;                      ///< relative change that is an error [-]
   double stiffness_warn = 0.15;
   double stiffness_error = 0.30;
-  double confirm_time = 1.0;  ///< a new level must last this long before it is reported [s]
+  double confirm_time = 1.0;             ///< a new level must last this long before it is reported [s]
+  double hysteresis = 0.02;              ///< a level ends this far below its threshold [-]
+  double min_significance = 4.0;         ///< standard deviations that a change must have to be one
+  double payload_range = 0.35;           ///< relative change of the body's mass that may be payload; 0: none
+  double learn_time = 60.0;              ///< of valid estimates, when there are no nominal values [s]; 0: never
+  double early_change = 0.03;            ///< smaller changes need no early warning [-]
+  double false_alarm_interval = 1e6;     ///< mean time between two early warnings of a healthy strut [s]
+  double gravity_tolerance = 0.1;        ///< of a mean reading, as a share of g; 0: not judged
+  double forgetting_factor = 0.99;       ///< of the estimates that are judged
+  int horizon_samples = 30;              ///< L of their filter
+  double period = 0.02;                  ///< of a row [s]
+  int rows_per_update = 1;               ///< rows from one update() to the next
 
   /// @throws std::invalid_argument  if an error threshold is below its warning threshold.
   void validate() const;
@@ -26,36 +41,79 @@ struct HealthOptions {
 
 struct HealthReport {
   HealthLevel level = HealthLevel::kStale;
-  std::optional<double> damping_change;    ///< b1 / nominal - 1 [-]; empty without nominal value or estimate
-  std::optional<double> stiffness_change;  ///< b0 / nominal - 1 [-]
+  std::optional<double> damping_change;    ///< beta / healthy - 1 [-]; empty without healthy value or estimate
+  std::optional<double> stiffness_change;  ///< K / healthy - 1 [-]
+  std::optional<double> payload_change;    ///< M / healthy - 1 [-]; needs both healthy values
+  double damping_significance = std::nan("");    ///< change in its standard deviations; NaN: not known
+  double stiffness_significance = std::nan("");
   HealthLevel damping_level = HealthLevel::kOk;
   HealthLevel stiffness_level = HealthLevel::kOk;
+  bool estimate_valid = false;  ///< of LA
+  bool uncertain = false;       ///< valid, but a change as large as the error threshold would not be significant
+  bool early_warning = false;   ///< a small change is certain before it reaches a threshold; raises no level
+  bool outliers = false;        ///< LS and LA have disagreed for long: outliers or saturation
+  SensorReport sensor;
+  bool learned = false;                   ///< judged by a baseline from a drive, else by nominal values
+  std::optional<double> learning;         ///< progress 0..1 of learning the baseline
+  bool learning_restarted = false;        ///< because the strut was changing
 };
 
-/// Judges damping and stiffness by their relative change from nominal values.
-/// An estimate that is not valid gives kStale: "cannot tell", never "healthy".
-/// A level is reported once it has lasted for the confirm time. While levels alternate that are all worse (or all
-/// better) than the reported one, the one nearest to it counts as lasting, so that noise at a threshold hides nothing.
-/// Cost per estimate: O(1), no allocation.
+/// Judges damping and stiffness by their change from the healthy strut: nominal values, or a baseline that it learns.
+///
+/// - What is judged: the trend of LS (ParameterTrend), which has no lag behind a steady change, where LS and LA agree
+///   within kAgreement standard deviations of LA (without outliers LS scatters about twice as much), and that of LS is at
+///   most kTails times that of LA. Where they do not, there are outliers (LA is right) or there was a step (LS is ahead):
+///   the trend goes on as it was, for at most kCoastMemories, and the worse of it and LA counts; then it follows LA.
+/// - Payload moves both parameters, damage one (splitChange()).
+/// - A level needs the size and the significance; it ends below the threshold less the hysteresis, and must last for the
+///   confirm time (LevelConfirmation). A change that the error threshold could not prove is kStale, "cannot tell", as is
+///   an estimate that is not valid; never "healthy". A sensor that is at fault makes an error a warning: who knows.
+/// - Early warning: EarlyWarning over the changes, one every two memories and horizons.
+/// Cost per update: O(1), no allocation.
 class HealthAssessment {
  public:
   explicit HealthAssessment(const HealthOptions& options);
 
-  /// @param stamp  of the sample that the estimate includes; stamps that go back restart the confirmation.
-  const HealthReport& update(Stamp stamp, const StrutEstimate& estimate);
+  /// @param stamp  of the sample that the estimates include; stamps that go back restart the confirmation.
+  const HealthReport& update(Stamp stamp, const StrutEstimate& ls, const StrutEstimate& la);
+
+  /// @param sensor  what is known of the sensors; counts from the next update().
+  void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
+
+  /// Judges by this from now on; learning ends.
+  void setBaseline(const Baseline& baseline);
+  const Baseline& baseline() const { return baseline_; }
 
   const HealthReport& report() const { return report_; }
   const HealthOptions& options() const { return options_; }
 
  private:
+  static constexpr double kAgreement = 6.0, kTails = 4.0, kCoastMemories = 5.0;
+  static constexpr double kOutlierShare = 0.4, kOutlierMemories = 10.0;
+
+  void follow(const StrutEstimate& ls, const StrutEstimate& la);
+  void learn(Stamp stamp, const StrutEstimate& la);
+  StrutChange change(const StrutEstimate& ls, const StrutEstimate& la) const;
+  void judge(const StrutChange& change, HealthReport& now);
+  void warnEarly(const StrutChange& change);
+
   HealthOptions options_;
-  Stamp confirm_time_;
+  double memory_;  // of the estimates, in updates
+  LevelConfirmation confirmation_;
+  Baseline baseline_;
+  std::optional<BaselineLearner> learner_;
+  ParameterTrend damping_, stiffness_;
+  bool agree_ = false;
+  double coasted_ = 0.0;  // updates in a row
+  double disagreement_ = 0.0;  // share of the updates
+  EarlyWarning damping_early_, stiffness_early_;
+  double since_early_ = 0.0;  // updates
+  HealthLevel damping_level_ = HealthLevel::kOk, stiffness_level_ = HealthLevel::kOk;  // before they are confirmed
+  SensorReport sensor_;
   HealthReport report_;
-  HealthLevel pending_ = HealthLevel::kStale;
-  Stamp pending_since_{};
 };
 
-/// @return the report in one sentence for a person, e.g. "damping 31 % below nominal".
+/// @return the report in one sentence for a person, e.g. "damping 31 % below baseline (12 sigma), stiffness at baseline".
 std::string describe(const HealthReport& report);
 
 }  // namespace suspension_health_monitor

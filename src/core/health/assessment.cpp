@@ -7,34 +7,58 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr double kTrendMemories = 3.0;  // long enough to be calm, short enough to bend; measured in doc/health.md
+
 void checkThresholds(const char* parameter, double warn, double error) {
   if (!(error >= warn))
     throw std::invalid_argument("health/" + std::string(parameter) + "_error = " + std::to_string(error) +
                                 ", must be at least health/" + parameter + "_warn = " + std::to_string(warn));
 }
 
-std::optional<double> relativeChange(double value, const std::optional<double>& nominal) {
-  if (!nominal) return std::nullopt;
-  return value / *nominal - 1.0;
+// Of the estimates, in updates; one that never forgets has none.
+double memoryOf(const HealthOptions& options) {
+  return 1.0 / (1.0 - std::min(options.forgetting_factor, 1.0 - 1e-9)) / options.rows_per_update;
 }
 
-HealthLevel judge(const std::optional<double>& change, double warn, double error) {
-  if (!change || std::abs(*change) < warn) return HealthLevel::kOk;
-  return std::abs(*change) < error ? HealthLevel::kWarn : HealthLevel::kError;
+double horizonOf(const HealthOptions& options) {
+  return static_cast<double>(options.horizon_samples) / options.rows_per_update;
 }
 
-// Both worse than `level`, or both better. Not being able to tell confirms nothing but itself.
-bool confirmEachOther(HealthLevel level, HealthLevel a, HealthLevel b) {
-  if ((a == HealthLevel::kStale) != (b == HealthLevel::kStale)) return false;
-  return (a > level && b > level) || (a < level && b < level);
+// LS lags a ramp by its memory and by the filter.
+ParameterTrend trendOf(const HealthOptions& options) {
+  const double gain = std::min(0.5, 1.0 / (kTrendMemories * memoryOf(options)));
+  return {gain, memoryOf(options) + horizonOf(options)};
 }
 
-std::string describeChange(const char* parameter, const std::optional<double>& change) {
-  if (!change) return {};
-  const long percent = std::lround(100.0 * std::abs(*change));
-  if (percent == 0) return std::string(parameter) + " at nominal";
-  return std::string(parameter) + " " + std::to_string(percent) + " % " + (*change < 0.0 ? "below" : "above") +
-         " nominal";
+double spacingOfEarly(const HealthOptions& options) { return 2.0 * (memoryOf(options) + horizonOf(options)); }
+
+EarlyWarning earlyWarning(const HealthOptions& options) {
+  const double spacing = spacingOfEarly(options) * options.rows_per_update * options.period;  // [s]
+  return {options.early_change, std::max(2.0, options.false_alarm_interval / spacing)};
+}
+
+bool apart(double ls, double la, double ls_stddev, double la_stddev, double most, double tails) {
+  return std::abs(ls - la) > most * la_stddev || ls_stddev > tails * la_stddev;
+}
+
+// The value that tells of the larger change.
+double worse(double a, double b, double healthy) {
+  return std::abs(std::log(a / healthy)) > std::abs(std::log(b / healthy)) ? a : b;
+}
+
+// Level of one parameter. A level that holds already ends only below its threshold less the hysteresis.
+HealthLevel levelOf(double change, double stddev, double warn, double error, HealthLevel before,
+                    const HealthOptions& options) {
+  const double size = std::abs(change);
+  const bool certain = !(std::abs(std::log1p(change)) < options.min_significance * stddev);
+  const auto reaches = [&](HealthLevel level, double threshold) {
+    const bool holds = before >= level && before != HealthLevel::kStale;
+    return size + 1e-9 >= threshold - (holds ? options.hysteresis : 0.0) && certain;
+  };
+  if (reaches(HealthLevel::kError, error)) return HealthLevel::kError;
+  if (reaches(HealthLevel::kWarn, warn)) return HealthLevel::kWarn;
+  const bool blind = options.min_significance * stddev > error;  // a change as large as that would not be certain
+  return blind ? HealthLevel::kStale : HealthLevel::kOk;
 }
 
 }  // namespace
@@ -45,44 +69,122 @@ void HealthOptions::validate() const {
 }
 
 HealthAssessment::HealthAssessment(const HealthOptions& options)
-    : options_(options), confirm_time_(fromSeconds(options.confirm_time)) {
+    : options_(options),
+      memory_(memoryOf(options)),
+      confirmation_(fromSeconds(options.confirm_time)),
+      damping_(trendOf(options)),
+      stiffness_(trendOf(options)),
+      damping_early_(earlyWarning(options)),
+      stiffness_early_(earlyWarning(options)) {
   options.validate();
+  baseline_.damping_to_mass = options.nominal_damping_to_mass;
+  baseline_.stiffness_to_mass = options.nominal_stiffness_to_mass;
+  const double rows = options.learn_time / options.period;
+  if (baseline_.isEmpty() && rows > 0.0) learner_.emplace(rows, memory_ * options.rows_per_update);
 }
 
-const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& estimate) {
+void HealthAssessment::setBaseline(const Baseline& baseline) {
+  baseline_ = baseline;
+  learner_.reset();
+  damping_early_ = stiffness_early_ = earlyWarning(options_);
+  since_early_ = 0.0;
+  damping_level_ = stiffness_level_ = HealthLevel::kOk;
+}
+
+const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& ls, const StrutEstimate& la) {
   HealthReport now;
-  if (estimate.valid) {
-    now.damping_change = relativeChange(estimate.damping_to_mass, options_.nominal_damping_to_mass);
-    now.stiffness_change = relativeChange(estimate.stiffness_to_mass, options_.nominal_stiffness_to_mass);
-    now.damping_level = judge(now.damping_change, options_.damping_warn, options_.damping_error);
-    now.stiffness_level = judge(now.stiffness_change, options_.stiffness_warn, options_.stiffness_error);
-    now.level = std::max(now.damping_level, now.stiffness_level);
+  now.estimate_valid = la.valid;
+  now.sensor = sensor_;
+  if (la.valid) {
+    follow(ls, la);
+    if (learner_) learn(stamp, la);
+    const StrutChange changed = change(ls, la);
+    judge(changed, now);
+    warnEarly(changed);
   }
-  const HealthLevel reported = report_.level;
-  if (now.level == reported && pending_ == reported && stamp >= pending_since_) {  // nothing new, as nearly always
-    report_ = now;
-    return report_;
+  now.early_warning = damping_early_.isOn() || stiffness_early_.isOn();
+  now.outliers = disagreement_ > kOutlierShare;
+  now.learned = baseline_.learned;
+  if (learner_) {
+    now.learning = learner_->progress();
+    now.learning_restarted = learner_->restarts() > 0;
   }
-  if (stamp < pending_since_ || !confirmEachOther(reported, now.level, pending_)) {
-    pending_ = now.level;
-    pending_since_ = stamp;
-  } else {
-    pending_ = now.level > reported ? std::min(now.level, pending_) : std::max(now.level, pending_);
-  }
-  const bool confirmed = now.level == reported || stamp - pending_since_ >= confirm_time_;
-  const HealthLevel level = confirmed ? pending_ : reported;
-  if (estimate.valid || level == HealthLevel::kStale)
-    report_ = now;  // else the last judgement stands, with its reasons
+  const HealthLevel level = confirmation_.update(stamp, now.level);
+  if (la.valid || level == HealthLevel::kStale) report_ = now;  // else the last judgement stands, with its reasons
   report_.level = level;
   return report_;
 }
 
-std::string describe(const HealthReport& report) {
-  const std::string damping = describeChange("damping", report.damping_change);
-  const std::string stiffness = describeChange("stiffness", report.stiffness_change);
-  if (report.level == HealthLevel::kStale) return "cannot tell: no valid estimate (starting, parked, or poor input)";
-  if (damping.empty() && stiffness.empty()) return "estimates valid; no nominal values given to judge them by";
-  return damping + (damping.empty() || stiffness.empty() ? "" : ", ") + stiffness;
+void HealthAssessment::follow(const StrutEstimate& ls, const StrutEstimate& la) {
+  agree_ = ls.valid && !apart(ls.damping_to_mass, la.damping_to_mass, ls.damping_to_mass_stddev,
+                              la.damping_to_mass_stddev, kAgreement, kTails) &&
+           !apart(ls.stiffness_to_mass, la.stiffness_to_mass, ls.stiffness_to_mass_stddev, la.stiffness_to_mass_stddev,
+                  kAgreement, kTails);
+  disagreement_ += ((agree_ ? 0.0 : 1.0) - disagreement_) / (kOutlierMemories * memory_);
+  coasted_ = agree_ ? 0.0 : coasted_ + 1.0;
+  if (agree_) {
+    damping_.follow(ls.damping_to_mass, ls.damping_to_mass_stddev);
+    stiffness_.follow(ls.stiffness_to_mass, ls.stiffness_to_mass_stddev);
+  } else if (coasted_ <= kCoastMemories * memory_) {
+    damping_.coast();
+    stiffness_.coast();
+  } else {
+    damping_.follow(la.damping_to_mass, la.damping_to_mass_stddev);
+    stiffness_.follow(la.stiffness_to_mass, la.stiffness_to_mass_stddev);
+  }
+}
+
+void HealthAssessment::learn(Stamp stamp, const StrutEstimate& la) {
+  if (!agree_) return;
+  if (const std::optional<Baseline> learned = learner_->add(stamp, la, options_.rows_per_update)) setBaseline(*learned);
+}
+
+StrutChange HealthAssessment::change(const StrutEstimate& ls, const StrutEstimate& la) const {
+  const auto against = [&](const std::optional<double>& healthy, double healthy_stddev, const ParameterTrend& trend,
+                           double la_value, double stddev) -> std::optional<LogChange> {
+    if (!healthy) return std::nullopt;
+    const double by_trend = trend.now().value_or(la_value);
+    const bool usable = options_.forgetting_factor < 1.0 && by_trend > 0.0;
+    const double value = !usable ? la_value : agree_ ? by_trend : worse(by_trend, la_value, *healthy);
+    return LogChange{std::log(value / *healthy), std::hypot(stddev / la_value, healthy_stddev / *healthy)};
+  };
+  const StrutEstimate& of = agree_ ? ls : la;
+  return splitChange(against(baseline_.damping_to_mass, baseline_.damping_to_mass_stddev, damping_, la.damping_to_mass,
+                             of.damping_to_mass_stddev),
+                     against(baseline_.stiffness_to_mass, baseline_.stiffness_to_mass_stddev, stiffness_,
+                             la.stiffness_to_mass, of.stiffness_to_mass_stddev),
+                     options_.payload_range);
+}
+
+void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
+  now.damping_change = change.damping;
+  now.stiffness_change = change.stiffness;
+  now.payload_change = change.payload;
+  if (change.damping) {
+    now.damping_significance = std::abs(std::log1p(*change.damping)) / change.damping_stddev;
+    damping_level_ = levelOf(*change.damping, change.damping_stddev, options_.damping_warn, options_.damping_error,
+                             damping_level_, options_);
+  }
+  if (change.stiffness) {
+    now.stiffness_significance = std::abs(std::log1p(*change.stiffness)) / change.stiffness_stddev;
+    stiffness_level_ = levelOf(*change.stiffness, change.stiffness_stddev, options_.stiffness_warn,
+                               options_.stiffness_error, stiffness_level_, options_);
+  }
+  now.damping_level = damping_level_;
+  now.stiffness_level = stiffness_level_;
+  const auto known = [](HealthLevel level) { return level == HealthLevel::kStale ? HealthLevel::kOk : level; };
+  now.level = std::max(known(damping_level_), known(stiffness_level_));
+  now.uncertain = std::max(damping_level_, stiffness_level_) == HealthLevel::kStale;
+  if (now.level == HealthLevel::kOk && now.uncertain) now.level = HealthLevel::kStale;
+  if (now.sensor.fault != SensorFault::kNone) now.level = HealthLevel::kWarn;
+}
+
+void HealthAssessment::warnEarly(const StrutChange& change) {
+  since_early_ += 1.0;
+  if (!agree_ || since_early_ < spacingOfEarly(options_)) return;
+  since_early_ = 0.0;
+  if (change.damping) damping_early_.add(*change.damping, change.damping_stddev);
+  if (change.stiffness) stiffness_early_.add(*change.stiffness, change.stiffness_stddev);
 }
 
 }  // namespace suspension_health_monitor

@@ -1,0 +1,196 @@
+// Prints the tables of doc/health.md: how soon the judgement of health finds a change of the damping, and how often it
+// finds one in a healthy strut.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kRate = 100.0;  // [Hz]
+constexpr double kChangeAt = 80.0, kDuration = 180.0;
+constexpr int kNumSeeds = 3;
+constexpr double kGoldenB1 = 6.0, kGoldenB0 = 63.3;
+
+struct Change {
+  const char* name;
+  double left;      // share of the damping
+  double duration;  // [s]
+};
+constexpr Change kChanges[] = {{"none", 1.0, 0.02},       {"-10 %", 0.9, 0.02},        {"-20 %", 0.8, 0.02},
+                               {"-30 %", 0.7, 0.02},      {"-50 %", 0.5, 0.02},        {"-20 % in 60 s", 0.8, 60.0},
+                               {"-50 % in 60 s", 0.5, 60.0}};
+
+struct Road {
+  std::string iso_class;
+  double speed;
+};
+
+/// First time after the change at which something was said [s]; infinite: never. `before` it: false alarms.
+struct Delays {
+  std::vector<double> early, warn, error;
+  int false_early = 0, false_warn = 0, false_error = 0;
+  double hours_before = 0.0, stale = 0.0, samples = 0.0;
+};
+
+std::vector<CornerSample> simulate(const SimulationOptions& options) {
+  DriveSimulator simulator(options);
+  std::vector<CornerSample> samples;
+  while (const auto sample = simulator.next())
+    samples.push_back({sample->stamp, sample->sprung->acceleration, sample->unsprung->acceleration});
+  return samples;
+}
+
+MonitorOptions optionsFor(double period, double b1, double b0) {
+  MonitorOptions options;
+  options.sample_period = period;
+  options.integration_horizon = b0 > 30.0 ? 0.3 : 0.6;  // near what suspension_bag horizon proposes
+  options.forgetting_factor = 1.0 - period / 2.0;       // 2 s
+  options.nominal_damping_to_mass = b1;
+  options.nominal_stiffness_to_mass = b0;
+  return options;
+}
+
+void judge(const std::vector<CornerSample>& drive, const MonitorOptions& options, bool changes, Delays& delays) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  double early = kNever, warn = kNever, error = kNever;
+  const double end_of_healthy = changes ? kChangeAt : kDuration;
+  SuspensionMonitor monitor(options);
+  HealthReport before;
+  for (const CornerSample& sample : drive) {
+    const MonitorReport* report = monitor.addSample(sample);
+    const double t = toSeconds(sample.stamp);
+    if (report == nullptr || t < 15.0) continue;
+    const HealthReport& now = report->health;
+    const auto at_least = [&](HealthLevel level) { return now.level >= level && now.level != HealthLevel::kStale; };
+    delays.samples += 1.0;
+    delays.stale += now.level == HealthLevel::kStale ? 1.0 : 0.0;
+    if (t < end_of_healthy) {
+      delays.false_early += now.early_warning && !before.early_warning ? 1 : 0;
+      delays.false_warn += now.level == HealthLevel::kWarn && before.level != now.level ? 1 : 0;
+      delays.false_error += now.level == HealthLevel::kError && before.level != now.level ? 1 : 0;
+    } else {
+      if (now.early_warning) early = std::min(early, t - kChangeAt);
+      if (at_least(HealthLevel::kWarn)) warn = std::min(warn, t - kChangeAt);
+      if (at_least(HealthLevel::kError)) error = std::min(error, t - kChangeAt);
+    }
+    before = now;
+  }
+  delays.hours_before += (end_of_healthy - 15.0) / 3600.0;
+  if (!changes) return;
+  delays.early.push_back(early);
+  delays.warn.push_back(warn);
+  delays.error.push_back(error);
+}
+
+Delays judgeAll(const Road& road, const Change& change, double mass) {
+  Delays delays;
+  for (int seed = 1; seed <= kNumSeeds; ++seed) {
+    SimulationOptions options;
+    options.scenario = "iso_road";
+    options.iso_class = road.iso_class;
+    options.speed = road.speed;
+    options.rate = kRate;
+    options.duration = kDuration;
+    options.seed = seed;
+    options.damping_to_mass = kGoldenB1 / mass;
+    options.stiffness_to_mass = kGoldenB0 / mass;
+    options.damping_end_fraction = change.left;
+    options.ramp_start = kChangeAt;
+    options.ramp_end = kChangeAt + change.duration;
+    judge(simulate(options), optionsFor(1.0 / kRate, kGoldenB1, kGoldenB0), change.left < 1.0, delays);
+  }
+  return delays;
+}
+
+std::string median(std::vector<double> delays) {
+  if (delays.empty()) return "-";
+  std::sort(delays.begin(), delays.end());
+  const double middle = delays[delays.size() / 2];
+  if (std::isinf(middle)) return "never";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", middle);
+  return text;
+}
+
+void printRow(const char* first, const Change& change, const Delays& delays) {
+  const double hours = delays.hours_before;
+  std::printf("| %s | %s | %s | %s | %s | %.1f | %.1f | %.1f | %.0f %% |\n", first, change.name,
+              median(delays.early).c_str(), median(delays.warn).c_str(), median(delays.error).c_str(),
+              delays.false_early / hours, delays.false_warn / hours, delays.false_error / hours,
+              100.0 * delays.stale / std::max(1.0, delays.samples));
+  std::fflush(stdout);
+}
+
+constexpr const char* kHead =
+    "change | early notice [s] | WARN [s] | ERROR [s] | false notices/h | false WARN/h | false ERROR/h | cannot tell |\n"
+    "|---|---|---|---|---|---|---|---|---|\n";
+
+void printRoads() {
+  std::printf("| road | %s", kHead);
+  for (const char* iso_class : {"A", "B", "C", "D"})
+    for (const double speed : {3.0, 10.0, 30.0})
+      for (const Change& change : kChanges) {
+        const std::string name = std::string("ISO ") + iso_class + ", " + std::to_string(std::lround(speed)) + " m/s";
+        printRow(name.c_str(), change, judgeAll({iso_class, speed}, change, 1.0));
+      }
+}
+
+void printPayloads() {
+  std::printf("\n| payload, ISO C, 10 m/s | %s", kHead);
+  for (const double mass : {0.7, 1.3})
+    for (const Change& change : kChanges)
+      printRow(mass < 1.0 ? "-30 %" : "+30 %", change, judgeAll({"C", 10.0}, change, mass));
+}
+
+// The paper's healthy drive, repeated with fresh noise; in every minute a second of zeros and a bump into the stops.
+void printDay(double hours) {
+  constexpr double kPeriod = 0.02, kNoise = 0.024;
+  SimulationOptions options;
+  options.scenario = "paper_saturation";
+  options.damping_ramp = false;
+  options.noise = 0.0;
+  options.duration = 120.0;  // bumps at 85 s and 110 s
+  const std::vector<CornerSample> clean = simulate(options);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(-kNoise * std::sqrt(3.0), kNoise * std::sqrt(3.0));
+  SuspensionMonitor monitor(optionsFor(kPeriod, 3.0, 13.8));
+  long warn = 0, error = 0, stale = 0, early = 0, samples = 0;
+  HealthReport before;
+  for (Stamp stamp{}; toSeconds(stamp) < 3600.0 * hours;)
+    for (std::size_t k = 0; k + 1 < clean.size(); ++k, stamp += fromSeconds(kPeriod)) {
+      CornerSample sample{stamp, clean[k].sprung_acceleration + noise(random),
+                          clean[k].unsprung_acceleration + noise(random)};
+      if (k % 3000 >= 1250 && k % 3000 < 1300) sample.sprung_acceleration = sample.unsprung_acceleration = 0.0;
+      const MonitorReport* report = monitor.addSample(sample);
+      if (report == nullptr) continue;
+      const HealthReport& now = report->health;
+      warn += now.level == HealthLevel::kWarn && before.level != now.level ? 1 : 0;
+      error += now.level == HealthLevel::kError && before.level != now.level ? 1 : 0;
+      early += now.early_warning && !before.early_warning ? 1 : 0;
+      stale += now.level == HealthLevel::kStale ? 1 : 0;
+      ++samples;
+      before = now;
+    }
+  std::printf("\n%.0f h healthy, zeros once a minute, bumps twice in two minutes: %ld ERROR, %ld WARN, %ld early notices, "
+              "%.1f %% of the time cannot tell\n", hours, error, warn, early,
+              100.0 * static_cast<double>(stale) / static_cast<double>(samples));
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
+
+int main() {
+  using namespace suspension_health_monitor;
+  printDay(24.0);
+  printPayloads();
+  std::printf("\n");
+  printRoads();
+}

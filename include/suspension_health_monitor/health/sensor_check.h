@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "suspension_health_monitor/corner_sample.h"
+#include "suspension_health_monitor/strut_estimate.h"
+
+namespace suspension_health_monitor {
+
+/// What is wrong with the sensors rather than with the strut.
+enum class SensorFault : unsigned char {
+  kNone,
+  kSprungStuck,       ///< the body's IMU reads one value while the other moves
+  kUnsprungStuck,     ///< the wheel carrier's IMU, likewise
+  kSprungGravity,     ///< the body's IMU reads on average neither gravity nor 0: gain, offset or mount
+  kUnsprungGravity,   ///< the wheel carrier's IMU, likewise
+  kGravityOnOneSide,  ///< one reads gravity, the other does not
+  kUnrelated,         ///< both move, but the one is not what a strut makes of the other
+};
+
+/// What was found, with the mean readings [m/s^2] that say so.
+struct SensorReport {
+  SensorFault fault = SensorFault::kNone;
+  std::array<double, 2> mean{};  ///< sprung, unsprung
+};
+
+/// Tells faults of a sensor from those of the strut, by what a strut cannot do:
+/// - a vehicle does not climb for good, so a mean reading is gravity (REP 145: +9.81 at rest on the up axis) or 0 (taken
+///   out before). A gain error shows there as well as in the parameters, a worn damper does not; so do an offset and a
+///   mount that has turned;
+/// - a spring lets no wheel move without the body;
+/// - a model that explains less than half of a signal that is motion, not noise (its steps from sample to sample are
+///   smaller than white noise would have them), was given readings that do not belong together.
+/// Each verdict must have lasted for the memory. Nothing is said while the mean is uncertain: a mean counts as off by
+/// what exceeds kMeanNoise of the rms.
+/// Cost per sample looked at: O(1), no allocation.
+class SensorCheck {
+ public:
+  /// @param gravity_tolerance  share of g by which a mean may be off; 0: means are not judged.
+  /// @param memory  in samples looked at.
+  SensorCheck(double gravity_tolerance, double memory) : tolerance_(gravity_tolerance), memory_(memory) {}
+
+  /// @param previous  the sample before `sample`.
+  /// @param la  the estimate at the sample.  @param enough_rows  it has as many rows as a valid estimate needs.
+  const SensorReport& look(const CornerSample& previous, const CornerSample& sample, const StrutEstimate& la,
+                           bool enough_rows);
+
+  const SensorReport& report() const { return report_; }
+
+ private:
+  struct Reading {
+    double last = 0.0, mean = 0.0, variance = 0.0, step = 0.0;  // step: mean square from sample to sample
+    int still = 0;                                              // samples looked at without any change
+    void add(double before, double now, double slow, double quick);
+    bool isMotion() const { return step < kWhiteShare * 2.0 * variance; }
+  };
+
+  static constexpr double kMeanNoise = 0.2;   // of the rms: more than a mean over the memory is off by
+  static constexpr double kQuick = 10.0;      // motion is forgotten so much sooner than the mean: else a stop takes long
+  static constexpr double kWhiteShare = 0.5;  // of 2 variance, the mean square step of white noise
+  static constexpr int kStill = 20;           // samples looked at
+
+  SensorFault judge(const StrutEstimate& la, bool enough_rows);
+  SensorFault judgeMeans() const;
+  bool isOff(const Reading& reading) const;
+
+  double tolerance_, memory_;
+  double looked_ = 0.0;
+  double lasted_ = 0.0;  // of pending_
+  SensorFault pending_ = SensorFault::kNone;
+  std::array<Reading, 2> readings_;
+  SensorReport report_;
+};
+
+/// @return the finding in words for a person; empty for kNone.
+std::string describe(const SensorReport& report);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,124 @@
+#include "live_baseline.h"
+
+#include <filesystem>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+#include "whole_file.h"
+#include "yaml_settings.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+struct BaselineSettings {
+  std::optional<double> damping_to_mass, stiffness_to_mass;
+  std::optional<double> damping_to_mass_stddev, stiffness_to_mass_stddev;
+  std::optional<double> integration_horizon, sample_period;
+  std::optional<double> learned_from, learned_to;
+};
+
+using BaselineField = OptionField<BaselineSettings>;
+constexpr std::array kBaselineFields{
+    BaselineField{"damping_to_mass", "1/s", "b1 of the healthy strut", &BaselineSettings::damping_to_mass, 1e-9, 1e9},
+    BaselineField{"damping_to_mass_stddev", "1/s", "its standard deviation", &BaselineSettings::damping_to_mass_stddev,
+                  0.0, 1e9},
+    BaselineField{"stiffness_to_mass", "1/s^2", "b0 of the healthy strut", &BaselineSettings::stiffness_to_mass, 1e-9,
+                  1e12},
+    BaselineField{"stiffness_to_mass_stddev", "1/s^2", "its standard deviation",
+                  &BaselineSettings::stiffness_to_mass_stddev, 0.0, 1e12},
+    BaselineField{"integration_horizon", "s", "of the filter that it was learned with",
+                  &BaselineSettings::integration_horizon, 0.0, 1e9},
+    BaselineField{"sample_period", "s", "likewise", &BaselineSettings::sample_period, 1e-6, 10.0},
+    BaselineField{"learned_from", "s", "stamp of the first estimate", &BaselineSettings::learned_from, 0.0, 9e9},
+    BaselineField{"learned_to", "s", "stamp of the last estimate", &BaselineSettings::learned_to, 0.0, 9e9},
+};
+
+double needed(const std::optional<double>& value, const char* name) {
+  if (!value) throw std::invalid_argument(std::string(name) + " is missing, must be given");
+  return *value;
+}
+
+// A baseline that is not known to half its value can prove nothing.
+void checkStddev(double stddev, double value, const char* name) {
+  if (!(stddev <= 0.5 * value))
+    throw std::invalid_argument(std::string(name) + "_stddev = " + std::to_string(stddev) + ", must be at most half of " +
+                                name + " = " + std::to_string(value));
+}
+
+Baseline toBaseline(const BaselineSettings& settings) {
+  Baseline baseline;
+  baseline.damping_to_mass = needed(settings.damping_to_mass, "damping_to_mass");
+  baseline.stiffness_to_mass = needed(settings.stiffness_to_mass, "stiffness_to_mass");
+  baseline.damping_to_mass_stddev = settings.damping_to_mass_stddev.value_or(0.0);
+  baseline.stiffness_to_mass_stddev = settings.stiffness_to_mass_stddev.value_or(0.0);
+  checkStddev(baseline.damping_to_mass_stddev, *baseline.damping_to_mass, "damping_to_mass");
+  checkStddev(baseline.stiffness_to_mass_stddev, *baseline.stiffness_to_mass, "stiffness_to_mass");
+  baseline.learned = true;
+  baseline.from = fromSeconds(settings.learned_from.value_or(0.0));
+  baseline.to = fromSeconds(settings.learned_to.value_or(0.0));
+  return baseline;
+}
+
+}  // namespace
+
+std::string toYaml(const Baseline& baseline, double horizon, double sample_period) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::setprecision(17) << "# The healthy strut, written by the monitor.\n"
+       << "damping_to_mass: " << *baseline.damping_to_mass << "  # [1/s]\n"
+       << "damping_to_mass_stddev: " << baseline.damping_to_mass_stddev << '\n'
+       << "stiffness_to_mass: " << *baseline.stiffness_to_mass << "  # [1/s^2]\n"
+       << "stiffness_to_mass_stddev: " << baseline.stiffness_to_mass_stddev << '\n'
+       << "integration_horizon: " << horizon << "  # [s]\n"
+       << "sample_period: " << sample_period << "  # [s]\n"
+       << "learned_from: " << toSeconds(baseline.from) << "  # [s], stamp\n"
+       << "learned_to: " << toSeconds(baseline.to) << "  # [s], stamp\n";
+  return text.str();
+}
+
+Baseline readBaselineFile(const std::string& path) {
+  OptionMap values = readYaml(path);
+  try {
+    BaselineSettings settings;
+    takeOptions(values, kBaselineFields, settings);
+    refuseUnknown(values, describeOptions(kBaselineFields));
+    return toBaseline(settings);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path + ": " + error.what());
+  }
+}
+
+LiveBaseline::LiveBaseline(const PipelineOptions& options) : path_(options.shell.baseline_file) {
+  if (path_.empty()) return;
+  if (options.monitor.nominal_damping_to_mass || options.monitor.nominal_stiffness_to_mass)
+    throw std::invalid_argument("baseline_file = \"" + path_ +
+                                "\" and nominal values are both given, must be one of them");
+  if (std::filesystem::exists(path_)) known_ = readBaselineFile(path_);
+}
+
+std::string LiveBaseline::keepLearned(const SuspensionMonitor& monitor) {
+  if (known_ || !monitor.baseline().learned) return {};
+  known_ = monitor.baseline();
+  if (path_.empty()) return "baseline learned";
+  write(*known_, monitor);
+  return "baseline learned and written to " + path_;
+}
+
+void LiveBaseline::save(const SuspensionMonitor* monitor) {
+  if (monitor == nullptr || !monitor->report().la.valid)
+    throw std::runtime_error("nothing to save: the monitor has no valid estimate");
+  if (path_.empty()) throw std::runtime_error("no file to write to: set the parameter baseline_file");
+  const Baseline present = baselineOf(monitor->report().la, monitor->report().stamp);
+  write(present, *monitor);
+  known_ = present;
+}
+
+void LiveBaseline::write(const Baseline& baseline, const SuspensionMonitor& monitor) const {
+  TextFile file(path_);
+  std::fputs(toYaml(baseline, monitor.horizonSamples() * monitor.period(), monitor.period()).c_str(), file.stream());
+  file.commit();
+}
+
+}  // namespace suspension_health_monitor

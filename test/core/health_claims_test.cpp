@@ -1,0 +1,202 @@
+// What the judgement of health promises of simulated drives. The long tables are those of benchmark/health_table.cpp.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "monitor_settings.h"
+#include "paper_drive.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+MonitorOptions judgedOptions() {
+  MonitorOptions options = liveOptions();
+  options.nominal_damping_to_mass = kPaperB1;
+  options.nominal_stiffness_to_mass = kPaperB0;
+  return options;
+}
+
+HealthReport healthAfter(const std::vector<CornerSample>& drive, const MonitorOptions& options) {
+  SuspensionMonitor monitor(options);
+  for (const CornerSample& sample : drive) monitor.addSample(sample);
+  return monitor.report().health;
+}
+
+// The damping falls from 3 to 2 1/s between 40 s and 100 s.
+TEST(Health, WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp) {
+  for (const char* scenario : {"paper_clean", "paper_outliers"})
+    for (int seed = 1; seed <= 15; ++seed) {
+      SimulationOptions drive;
+      drive.scenario = scenario;
+      drive.seed = seed;
+      SuspensionMonitor monitor(judgedOptions());
+      std::optional<double> early, warn, error;
+      for (const CornerSample& sample : simulate(drive)) {
+        const MonitorReport* report = monitor.addSample(sample);
+        const double t = toSeconds(sample.stamp);
+        if (!early && report->health.early_warning) early = t;
+        if (!warn && report->health.level == HealthLevel::kWarn) warn = t;
+        if (!error && report->health.level == HealthLevel::kError) error = t;
+      }
+      ASSERT_TRUE(early && warn && error) << scenario << ' ' << seed;
+      EXPECT_NEAR(*warn, 67.0, 5.2) << scenario << ' ' << seed;  // 5 s, and one update of health
+      EXPECT_NEAR(*error, 94.0, 5.2) << scenario << ' ' << seed;
+      EXPECT_LT(*early, *warn) << scenario << ' ' << seed;
+      EXPECT_GT(*early, 40.0) << scenario << ' ' << seed;
+    }
+}
+
+// One hour; the whole day is in the benchmark. The clean drive is repeated with fresh noise; once a minute both readings
+// are 0 for a second, and once a minute a bump hits the stops, which adds a pulse to the body's reading.
+TEST(Health, HealthyDriveWithOutliersAndBumpsNeverWarns) {
+  constexpr int kPeriods = 60;
+  constexpr double kNoise = 0.024;
+  const std::vector<CornerSample> clean = healthyPaperDrive(60.0, 0.0);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> noise(-kNoise * std::sqrt(3.0), kNoise * std::sqrt(3.0));
+  SuspensionMonitor monitor(judgedOptions());
+  Stamp stamp{};
+  int early = 0;
+  for (int period = 0; period < kPeriods; ++period)
+    for (std::size_t k = 0; k + 1 < clean.size(); ++k, stamp += fromSeconds(0.02)) {
+      CornerSample sample = clean[k];
+      sample.stamp = stamp;
+      sample.sprung_acceleration += noise(random);
+      sample.unsprung_acceleration += noise(random);
+      if (k >= 1250 && k < 1300) sample.sprung_acceleration = sample.unsprung_acceleration = 0.0;
+      if (k >= 2500 && k < 2505) sample.sprung_acceleration += 10.0;
+      const MonitorReport* report = monitor.addSample(sample);
+      ASSERT_NE(report, nullptr);
+      ASSERT_NE(report->health.level, HealthLevel::kError) << "at " << toSeconds(stamp) << describe(report->health);
+      ASSERT_NE(report->health.level, HealthLevel::kWarn) << "at " << toSeconds(stamp) << describe(report->health);
+      early += report->health.early_warning ? 1 : 0;
+    }
+  EXPECT_EQ(early, 0);
+}
+
+TEST(Health, LearnsTheBaselineAndJudgesByIt) {
+  MonitorOptions options = liveOptions();
+  options.learn_time = 30.0;
+  SimulationOptions drive;
+  drive.ramp_start = 60.0;
+  drive.ramp_end = 60.02;
+  SuspensionMonitor monitor(options);
+  for (const CornerSample& sample : simulate(drive)) {
+    monitor.addSample(sample);
+    const double t = toSeconds(sample.stamp);
+    if (t > 5.0 && t < 30.0) {
+      ASSERT_TRUE(monitor.report().health.learning) << t;
+      ASSERT_FALSE(monitor.report().health.damping_change) << t;
+    }
+  }
+  EXPECT_NEAR(*monitor.baseline().damping_to_mass, kPaperB1, 0.06);
+  EXPECT_NEAR(*monitor.baseline().stiffness_to_mass, kPaperB0, 0.2);
+  EXPECT_EQ(monitor.report().health.level, HealthLevel::kError);
+  EXPECT_NEAR(*monitor.report().health.damping_change, -1.0 / 3.0, 0.03);
+  EXPECT_NE(describe(monitor.report().health).find("below baseline"), std::string::npos);
+}
+
+TEST(Health, DoesNotLearnAStrutThatIsWearingOut) {
+  MonitorOptions options = liveOptions();
+  options.learn_time = 50.0;
+  SimulationOptions drive;
+  drive.ramp_start = 2.0;
+  drive.ramp_end = 100.0;
+  drive.duration = 90.0;
+  SuspensionMonitor monitor(options);
+  for (const CornerSample& sample : simulate(drive)) monitor.addSample(sample);
+  EXPECT_TRUE(monitor.report().health.learning_restarted);
+  EXPECT_TRUE(monitor.baseline().isEmpty());
+}
+
+TEST(Health, TellsPayloadFromWear) {
+  SimulationOptions loaded;
+  loaded.damping_ramp = false;
+  loaded.duration = 60.0;
+  loaded.damping_to_mass = kPaperB1 / 1.3;
+  loaded.stiffness_to_mass = kPaperB0 / 1.3;
+  const HealthReport payload = healthAfter(simulate(loaded), judgedOptions());
+  EXPECT_EQ(payload.level, HealthLevel::kOk) << describe(payload);
+  EXPECT_NEAR(*payload.payload_change, 0.3, 0.04);
+  loaded.damping_to_mass = 0.6 * *loaded.damping_to_mass;
+  const HealthReport both = healthAfter(simulate(loaded), judgedOptions());
+  EXPECT_EQ(both.damping_level, HealthLevel::kError) << describe(both);
+  EXPECT_EQ(both.stiffness_level, HealthLevel::kOk) << describe(both);
+  EXPECT_NEAR(*both.damping_change, -0.4, 0.05);
+  MonitorOptions no_payload = judgedOptions();
+  no_payload.payload_range = 0.0;
+  loaded.damping_to_mass = kPaperB1 / 1.3;
+  EXPECT_EQ(healthAfter(simulate(loaded), no_payload).level, HealthLevel::kWarn);
+}
+
+TEST(Health, SaysThatOutliersArePresent) {
+  std::vector<CornerSample> drive = healthyPaperDrive(120.0, 0.024);
+  EXPECT_FALSE(healthAfter(drive, judgedOptions()).outliers);
+  for (std::size_t k = 1500; k < drive.size(); ++k)
+    if (k % 500 < 5) drive[k].sprung_acceleration += 5.0;
+  const HealthReport report = healthAfter(drive, judgedOptions());
+  EXPECT_TRUE(report.outliers) << describe(report);
+}
+
+std::vector<CornerSample> withGravity(std::vector<CornerSample> drive, double sprung_gain, double sprung_bias) {
+  for (CornerSample& sample : drive) {
+    sample.sprung_acceleration = sprung_gain * (sample.sprung_acceleration + 9.81) + sprung_bias;
+    sample.unsprung_acceleration += 9.81;
+  }
+  return drive;
+}
+
+TEST(Health, TellsASensorFaultFromADamper) {
+  const std::vector<CornerSample> drive = healthyPaperDrive(60.0, 0.024);
+  EXPECT_EQ(healthAfter(withGravity(drive, 1.0, 0.0), judgedOptions()).sensor.fault, SensorFault::kNone);
+  for (const auto& faulty : {withGravity(drive, 0.7, 0.0), withGravity(drive, 1.0, 2.0)}) {
+    const HealthReport report = healthAfter(faulty, judgedOptions());
+    EXPECT_EQ(report.sensor.fault, SensorFault::kSprungGravity) << describe(report);
+    EXPECT_NE(report.level, HealthLevel::kOk);  // a large offset leaves no valid estimate
+    EXPECT_NE(report.level, HealthLevel::kError);
+  }
+  MonitorOptions not_judged = judgedOptions();
+  not_judged.gravity_tolerance = 0.0;
+  EXPECT_EQ(healthAfter(withGravity(drive, 1.0, 2.0), not_judged).sensor.fault, SensorFault::kUnrelated);
+}
+
+TEST(Health, NamesTheSensorThatIsStuck) {
+  const std::vector<CornerSample> drive = healthyPaperDrive(60.0, 0.024);
+  for (const bool sprung : {true, false}) {
+    std::vector<CornerSample> stuck = drive;
+    for (std::size_t k = 1500; k < stuck.size(); ++k)
+      (sprung ? stuck[k].sprung_acceleration : stuck[k].unsprung_acceleration) = 0.3;
+    EXPECT_EQ(healthAfter(stuck, judgedOptions()).sensor.fault,
+              sprung ? SensorFault::kSprungStuck : SensorFault::kUnsprungStuck);
+  }
+}
+
+TEST(Health, SaysWhenTheReadingsDoNotBelongTogether) {
+  std::vector<CornerSample> drive = healthyPaperDrive(60.0, 0.024);
+  SimulationOptions other;
+  other.scenario = "iso_road";
+  other.vehicle = "rover";
+  other.duration = 60.0;
+  const std::vector<CornerSample> elsewhere = simulate(other);
+  for (std::size_t k = 0; k < drive.size(); ++k) drive[k].sprung_acceleration = elsewhere[k].sprung_acceleration;
+  const HealthReport report = healthAfter(drive, judgedOptions());
+  EXPECT_EQ(report.sensor.fault, SensorFault::kUnrelated) << describe(report);
+  EXPECT_EQ(report.level, HealthLevel::kStale);
+}
+
+// Noise alone, of a parked vehicle, is no motion that a strut would have to explain.
+TEST(Health, AParkedVehicleHasNoSensorFault) {
+  std::vector<CornerSample> drive = healthyPaperDrive(90.0, 0.024);
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.024);
+  for (std::size_t k = 1500; k < drive.size(); ++k) {
+    drive[k].sprung_acceleration = noise(random);
+    drive[k].unsprung_acceleration = noise(random);
+  }
+  EXPECT_EQ(healthAfter(drive, judgedOptions()).sensor.fault, SensorFault::kNone);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "suspension_health_monitor/health/baseline.h"
+#include "suspension_health_monitor/health/early_warning.h"
+#include "suspension_health_monitor/health/parameter_trend.h"
+#include "suspension_health_monitor/health/strut_change.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kSharp = 1e-4;  // standard deviation so small that nothing counts as noise
+
+StrutChange split(double damping, double stiffness, double mass, double range = 0.35, double stddev = kSharp) {
+  return splitChange(LogChange{std::log(damping / mass), stddev}, LogChange{std::log(stiffness / mass), stddev}, range);
+}
+
+TEST(SplitChange, TellsPayloadFromDamage) {
+  for (const double mass : {0.8, 1.0, 1.3})
+    for (const auto& [damping, stiffness] : {std::pair(1.0, 1.0), std::pair(0.7, 1.0), std::pair(1.0, 0.7)}) {
+      if (mass < 1.0 && damping * stiffness < 1.0) continue;  // less load hides a loss: see the next test
+      const StrutChange change = split(damping, stiffness, mass);
+      EXPECT_NEAR(*change.damping, damping - 1.0, 1e-5) << mass;
+      EXPECT_NEAR(*change.stiffness, stiffness - 1.0, 1e-5) << mass;
+      EXPECT_NEAR(*change.payload, mass - 1.0, 1e-5) << mass;
+    }
+}
+
+TEST(SplitChange, TakesNoPayloadWhereTheParametersMoveApart) {
+  const StrutChange change = split(0.8, 1.1, 1.0);
+  EXPECT_NEAR(*change.damping, -0.2, 1e-12);
+  EXPECT_NEAR(*change.stiffness, 0.1, 1e-12);
+  EXPECT_EQ(*change.payload, 0.0);
+}
+
+TEST(SplitChange, WhatIsBeyondThePayloadRangeIsDamage) {
+  const StrutChange change = split(1.0, 1.0, 1.5, 0.2);
+  EXPECT_NEAR(*change.payload, 0.2, 1e-12);
+  EXPECT_NEAR(*change.damping, 1.2 / 1.5 - 1.0, 1e-12);
+  EXPECT_NEAR(*change.stiffness, 1.2 / 1.5 - 1.0, 1e-12);
+  EXPECT_NEAR(*split(0.7, 0.7, 1.0, 0.0).damping, -0.3, 1e-12);
+}
+
+TEST(SplitChange, NoiseOfOneParameterDoesNotEnterTheOther) {
+  const StrutChange change = splitChange(LogChange{-0.2, 0.01}, LogChange{-0.019, 0.01}, 0.35);
+  EXPECT_EQ(std::log1p(*change.damping), -0.2);
+  EXPECT_NEAR(change.damping_stddev, 0.01, 1e-12);
+  const StrutChange loaded = splitChange(LogChange{-0.2, 0.01}, LogChange{-0.1, 0.02}, 0.35);
+  EXPECT_NEAR(loaded.damping_stddev, std::hypot(0.01, 0.02), 1e-12);
+  EXPECT_NEAR(std::log1p(*loaded.payload), 0.1 * (1.0 - 0.16), 1e-12);  // (2 * 0.02 / 0.1)^2
+  EXPECT_FALSE(splitChange(LogChange{-0.2, 0.01}, std::nullopt, 0.35).payload);
+}
+
+// A value that lags a ramp by the lag: the trend is the ramp itself, once it has seen it for some memories.
+TEST(ParameterTrend, FollowsARampWithoutLag) {
+  constexpr double kLag = 20.0, kSlope = 0.01;
+  ParameterTrend trend(0.05, kLag);
+  EXPECT_FALSE(trend.now());
+  for (int k = 0; k < 400; ++k) trend.follow(3.0 + kSlope * (k - kLag), 1.0);
+  EXPECT_NEAR(*trend.now(), 3.0 + kSlope * 399, 1e-5);
+  for (int k = 400; k < 450; ++k) trend.coast();
+  EXPECT_NEAR(*trend.now(), 3.0 + kSlope * 449, 1e-5);
+}
+
+TEST(ParameterTrend, DoesNotOvershootAStep) {
+  ParameterTrend trend(0.05, 20.0);
+  for (int k = 0; k < 200; ++k) trend.follow(3.0, 0.01);
+  for (int k = 0; k < 200; ++k) {
+    trend.follow(2.0, 0.01);
+    ASSERT_NEAR(*trend.now(), 2.0, 1e-9);
+  }
+}
+
+// The mean time between false alarms of a healthy strut, over sums that start at 0 after each: about N, and never less
+// than half of it (Siegmund's formula is an approximation; 100 alarms know their mean to 10 %).
+TEST(EarlyWarning, HasTheFalseAlarmRateThatWasAskedFor) {
+  constexpr double kWanted = 300.0;
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  double values = 0.0;
+  for (int alarm = 0; alarm < 400; ++alarm) {
+    EarlyWarning warning(0.0, kWanted);
+    do values += 1.0;
+    while (!warning.add(noise(random), 1.0));
+  }
+  EXPECT_NEAR(values / 400, kWanted, 0.25 * kWanted);
+}
+
+TEST(EarlyWarning, ProvesASmallChangeOfEitherSignAndEndsWithIt) {
+  for (const double sign : {-1.0, 1.0}) {
+    EarlyWarning warning(0.03, 1e5);
+    for (int k = 0; k < 100; ++k) ASSERT_FALSE(warning.add(sign * 0.02, 0.01));
+    int needed = 0;
+    while (!warning.add(sign * 0.07, 0.01) && needed < 100) ++needed;
+    EXPECT_EQ(needed, static_cast<int>(std::ceil(warning.threshold() / 4.0)) - 1);
+    for (int k = 0; k < 100; ++k) warning.add(0.0, 0.01);
+    EXPECT_FALSE(warning.isOn());
+  }
+}
+
+TEST(EarlyWarning, SaysNothingOfValuesWhoseUncertaintyIsNotKnown) {
+  EarlyWarning warning(0.03, 1e5);
+  for (int k = 0; k < 1000; ++k) ASSERT_FALSE(warning.add(-0.5, std::nan("")));
+}
+
+StrutEstimate estimate(double b1, double b0) {
+  StrutEstimate result;
+  result.damping_to_mass = b1;
+  result.stiffness_to_mass = b0;
+  result.damping_to_mass_stddev = 0.02;
+  result.stiffness_to_mass_stddev = 0.1;
+  result.valid = true;
+  return result;
+}
+
+TEST(BaselineLearner, IsTheMeanOfTheStretchWithItsUncertainty) {
+  BaselineLearner learner(4000.0, 100.0);
+  std::optional<Baseline> learned;
+  int calls = 0;
+  for (; !learned; ++calls) {
+    EXPECT_NEAR(learner.progress(), calls / 400.0, 1e-9);
+    learned = learner.add(fromSeconds(5.0 + calls), estimate(calls % 2 ? 3.02 : 2.98, 13.8), 10.0);
+  }
+  EXPECT_EQ(calls, 400);
+  EXPECT_NEAR(*learned->damping_to_mass, 3.0, 1e-9);
+  EXPECT_NEAR(*learned->stiffness_to_mass, 13.8, 1e-9);
+  EXPECT_NEAR(learned->damping_to_mass_stddev, 0.02 * std::sqrt(0.1), 1e-9);
+  EXPECT_NEAR(learned->stiffness_to_mass_stddev, 0.1 * std::sqrt(0.1), 1e-9);
+  EXPECT_TRUE(learned->learned);
+  EXPECT_EQ(learned->from, fromSeconds(5.0));
+  EXPECT_EQ(learned->to, fromSeconds(404.0));
+}
+
+TEST(BaselineLearner, DoesNotTakeAChangingStrutAsHealthy) {
+  for (const bool stiffness : {false, true}) {
+    BaselineLearner learner(4000.0, 100.0);
+    for (int k = 0; k < 400; ++k) {
+      const double share = 1.0 - 0.2 * k / 400.0;
+      const auto learned = learner.add(fromSeconds(k), stiffness ? estimate(3.0, 13.8 * share) : estimate(3.0 * share, 13.8),
+                                       10.0);
+      ASSERT_FALSE(learned);
+    }
+    EXPECT_EQ(learner.restarts(), 1);
+    EXPECT_EQ(learner.progress(), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
