@@ -33,7 +33,7 @@ struct InputStatus {
 /// Identifies one strut from a series of samples: the facade that the nodelet, the command line and the tests share.
 ///
 /// Per sample, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then
-/// the free run with LA's parameters against the measurement. Health is judged four times per horizon.
+/// the free run with LA's parameters against the measurement. Health is judged three times per two horizons.
 /// With effects in the model (ModelTracker) the plain one runs along, with LS and LA of its own, to be compared with.
 /// Cost per sample: O(1) whatever the horizon; no allocation, no lock.
 class SuspensionMonitor {

@@ -43,8 +43,8 @@ double needed(const std::optional<double>& value, const char* name) {
 // A baseline that is not known to half its value can prove nothing.
 void checkStddev(double stddev, double value, const char* name) {
   if (!(stddev <= 0.5 * value))
-    throw std::invalid_argument(std::string(name) + "_stddev = " + std::to_string(stddev) + ", must be at most half of " +
-                                name + " = " + std::to_string(value));
+    throw std::invalid_argument(std::string(name) + "_stddev = " + std::to_string(stddev) +
+                                ", must be at most half of " + name + " = " + std::to_string(value));
 }
 
 Baseline toBaseline(const BaselineSettings& settings) {

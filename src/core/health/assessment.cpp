@@ -41,6 +41,12 @@ bool apart(double ls, double la, double ls_stddev, double la_stddev, double most
   return std::abs(ls - la) > most * la_stddev || ls_stddev > tails * la_stddev;
 }
 
+// |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.
+double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); }
+
+// std::hypot without its care for huge and tiny numbers, which costs most of it.
+double sumOf(double a_stddev, double b_stddev) { return std::sqrt(a_stddev * a_stddev + b_stddev * b_stddev); }
+
 // The value that tells of the larger change.
 double worse(double a, double b, double healthy) {
   return std::abs(std::log(a / healthy)) > std::abs(std::log(b / healthy)) ? a : b;
@@ -50,7 +56,7 @@ double worse(double a, double b, double healthy) {
 HealthLevel levelOf(double change, double stddev, double warn, double error, HealthLevel before,
                     const HealthOptions& options) {
   const double size = std::abs(change);
-  const bool certain = !(std::abs(std::log1p(change)) < options.min_significance * stddev);
+  const bool certain = !(logSize(change) < options.min_significance * stddev);
   const auto reaches = [&](HealthLevel level, double threshold) {
     const bool holds = before >= level && before != HealthLevel::kStale;
     return size + 1e-9 >= threshold - (holds ? options.hysteresis : 0.0) && certain;
@@ -146,7 +152,7 @@ StrutChange HealthAssessment::change(const StrutEstimate& ls, const StrutEstimat
     const double by_trend = trend.now().value_or(la_value);
     const bool usable = options_.forgetting_factor < 1.0 && by_trend > 0.0;
     const double value = !usable ? la_value : agree_ ? by_trend : worse(by_trend, la_value, *healthy);
-    return LogChange{std::log(value / *healthy), std::hypot(stddev / la_value, healthy_stddev / *healthy)};
+    return LogChange{std::log(value / *healthy), sumOf(stddev / la_value, healthy_stddev / *healthy)};
   };
   const StrutEstimate& of = agree_ ? ls : la;
   return splitChange(against(baseline_.damping_to_mass, baseline_.damping_to_mass_stddev, damping_, la.damping_to_mass,
@@ -161,12 +167,12 @@ void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
   now.stiffness_change = change.stiffness;
   now.payload_change = change.payload;
   if (change.damping) {
-    now.damping_significance = std::abs(std::log1p(*change.damping)) / change.damping_stddev;
+    now.damping_significance = logSize(*change.damping) / change.damping_stddev;
     damping_level_ = levelOf(*change.damping, change.damping_stddev, options_.damping_warn, options_.damping_error,
                              damping_level_, options_);
   }
   if (change.stiffness) {
-    now.stiffness_significance = std::abs(std::log1p(*change.stiffness)) / change.stiffness_stddev;
+    now.stiffness_significance = logSize(*change.stiffness) / change.stiffness_stddev;
     stiffness_level_ = levelOf(*change.stiffness, change.stiffness_stddev, options_.stiffness_warn,
                                options_.stiffness_error, stiffness_level_, options_);
   }

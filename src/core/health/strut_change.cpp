@@ -32,8 +32,9 @@ StrutChange splitChange(const std::optional<LogChange>& damping, const std::opti
   }
   if (damping) change.damping = std::expm1(damping->size + payload.log_mass);
   if (stiffness) change.stiffness = std::expm1(stiffness->size + payload.log_mass);
-  change.damping_stddev = damping ? std::hypot(damping->stddev, payload.stddev) : NAN;
-  change.stiffness_stddev = stiffness ? std::hypot(stiffness->stddev, payload.stddev) : NAN;
+  const auto together = [&](double stddev) { return std::sqrt(stddev * stddev + payload.stddev * payload.stddev); };
+  change.damping_stddev = damping ? together(damping->stddev) : NAN;
+  change.stiffness_stddev = stiffness ? together(stiffness->stddev) : NAN;
   return change;
 }
 

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""The baseline: learned while driving, kept in a file that is whole, loaded again after a kill, renewed after a service."""
+import os
+import signal
+import tempfile
+import unittest
+
+import rospy
+import rostest
+import yaml
+from ros_session import PACKAGE, Collector, start_node, wait_until
+from std_srvs.srv import Trigger
+from suspension_health_monitor.msg import SuspensionHealth
+
+B1, B0 = 3.0, 13.8
+LEARN_TIME = 15.0  # [s]
+HEALTHY = {"real_time_factor": 20.0, "duration": 40.0, "scenario": "paper_clean", "damping_ramp": False}
+WORN = {**HEALTHY, "damping_to_mass": 0.6 * B1}
+
+
+class BaselineTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = os.path.join(self.folder.name, "strut.yaml")
+        self.parameters = {"baseline_file": self.path, "baseline": {"learn_time": LEARN_TIME}}
+        self.health = Collector("/monitor/health", SuspensionHealth)
+
+    def tearDown(self):
+        self.health.stop()
+        self.folder.cleanup()
+
+    def monitor(self, **changes):
+        return start_node("monitor_node", "monitor", {**self.parameters, **changes})
+
+    def drive(self, parameters, accepts, what):
+        """Lets the simulated strut drive until a message is accepted, which it returns."""
+        self.health.messages.clear()
+        self.health.wait_for_publisher()
+        with start_node("simulator_node", "drive", parameters):
+            return self.health.wait_for(accepts, 20.0, what)
+
+    def stored(self):
+        with open(self.path, encoding="utf-8") as stream:
+            return yaml.safe_load(stream)
+
+    def test_is_learned_stored_and_loaded_after_a_kill(self):
+        with self.monitor() as monitor:
+            learning = self.drive(HEALTHY, lambda health: 0.3 < health.learning_progress < 0.9, "progress")
+            self.assertRegex(learning.reason, r"^learning the baseline: [3-9][0-9] %")
+            self.assertFalse(os.path.exists(self.path))
+            learned = self.drive(HEALTHY, lambda health: abs(health.damping_change) < 1.0, "a judgement by the baseline")
+            self.assertEqual(os.listdir(self.folder.name), ["strut.yaml"])
+            monitor._process.send_signal(signal.SIGKILL)  # pylint: disable=protected-access
+            monitor.wait_for_end(5.0)
+        stored = self.stored()
+        self.assertAlmostEqual(stored["damping_to_mass"], B1, delta=0.1)
+        self.assertAlmostEqual(stored["stiffness_to_mass"], B0, delta=0.4)
+        self.assertAlmostEqual(stored["integration_horizon"], 0.6, delta=1e-6)
+        self.assertAlmostEqual(stored["sample_period"], 0.02, delta=1e-4)
+        self.assertGreaterEqual(stored["learned_to"] - stored["learned_from"], LEARN_TIME - 1.0)
+        self.assertAlmostEqual(learned.nominal_damping_to_mass, stored["damping_to_mass"], delta=1e-9)
+        with self.monitor():
+            worn = self.drive(WORN, lambda health: health.level == SuspensionHealth.ERROR, "an error")
+        self.assertAlmostEqual(worn.nominal_damping_to_mass, stored["damping_to_mass"], delta=1e-9)
+        self.assertRegex(worn.reason, r"^damping [34][0-9] % below baseline")
+        self.assertEqual(self.stored(), stored)
+
+    def test_service_makes_the_present_strut_the_baseline(self):
+        with self.monitor():
+            rospy.wait_for_service("/monitor/save_baseline", 10.0)
+            save = rospy.ServiceProxy("/monitor/save_baseline", Trigger)
+            refused = save()
+            self.assertFalse(refused.success)
+            self.assertIn("no valid estimate", refused.message)
+            self.health.wait_for_publisher()
+            with start_node("simulator_node", "drive", {**WORN, "duration": 200.0, "real_time_factor": 10.0}):
+                self.health.wait_for(lambda health: health.header.stamp.to_sec() > 0 and health.learning_progress > 0.5,
+                                     20.0, "a valid estimate")
+                saved = save()
+                self.assertTrue(saved.success, saved.message)
+                wait_until(lambda: "baseline" in self.health.messages[-1].reason
+                           and "learning" not in self.health.messages[-1].reason, 5.0, "a judgement by it")
+        self.assertAlmostEqual(self.stored()["damping_to_mass"], 0.6 * B1, delta=0.1)
+
+    def test_broken_file_is_refused_by_name_key_value_and_what_is_allowed(self):
+        broken = {"damping_to_mass: -3\nstiffness_to_mass: 13.8\n": ["damping_to_mass = -3", "must be in"],
+                  "damping_to_mass: 3\n": ["stiffness_to_mass is missing"],
+                  "damping_to_mass: 3\nstiffness_to_mass: 13.8\nstifness: 1\n": ["unknown option stifness = 1"],
+                  "damping_to_mass: 3\ndamping_to_mass_stddev: 2\nstiffness_to_mass: 13.8\n":
+                      ["damping_to_mass_stddev = 2", "at most half"],
+                  "damping_to_mass: [": ["line 1"]}
+        for text, parts in broken.items():
+            with open(self.path, "w", encoding="utf-8") as stream:
+                stream.write(text)
+            with self.monitor() as monitor:
+                self.assertNotEqual(monitor.wait_for_end(10.0), 0)
+                for part in [self.path, *parts]:
+                    self.assertIn(part, monitor.output())
+
+    def test_nominal_values_beside_a_file_are_refused(self):
+        with self.monitor(nominal={"damping_to_mass": 3.0}) as monitor:
+            self.assertNotEqual(monitor.wait_for_end(10.0), 0)
+            self.assertIn("baseline_file", monitor.output())
+            self.assertIn("must be one of them", monitor.output())
+
+
+if __name__ == "__main__":
+    rospy.init_node("baseline_test")
+    rostest.rosrun(PACKAGE, "baseline", BaselineTest)
