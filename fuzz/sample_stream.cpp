@@ -138,9 +138,11 @@ class Stream {
       ++samples_;
       take(monitor_.addSample(*sample));
     }
-    const std::uint64_t counted = 2 * samples_ + grid_.rejected().total();
-    require(counted <= readings_ && readings_ - counted <= 2 * UniformGrid::kMostWaiting,
-            "every reading waits, is used or is counted");
+    const RejectCounts rejected = grid_.rejected();
+    // A stuck sensor is counted once for the pair; a reading that begins a new series is counted and used.
+    const std::uint64_t seen = 2 * samples_ + rejected.total() + rejected.count(RejectReason::kStuck);
+    require(readings_ <= seen + 2 * UniformGrid::kMostWaiting, "every reading waits, is used or is counted");
+    require(seen <= readings_ + rejected.count(RejectReason::kTimeWentBack), "no reading is counted twice");
     require(monitor_.input().samples + monitor_.rejected().total() == samples_, "every sample is used or counted");
   }
 
@@ -149,7 +151,9 @@ class Stream {
     check(report->ls);
     check(report->la);
     require(!(report->comparison.predicted && !std::isfinite(*report->comparison.predicted)), "predictions are finite");
-    require(!(reported_ == report->stamp), "no stamp is reported twice in a row");
+    if (monitor_.input().restarts == restarts_)
+      require(!(reported_ && report->stamp <= *reported_), "stamps of reports rise until the clock goes back");
+    restarts_ = monitor_.input().restarts;
     reported_ = report->stamp;
   }
 
@@ -166,7 +170,7 @@ class Stream {
   SuspensionMonitor monitor_;
   UniformGrid grid_;
   Stamp period_, clock_ = std::chrono::seconds(1000);
-  std::uint64_t readings_ = 0, samples_ = 0;
+  std::uint64_t readings_ = 0, samples_ = 0, restarts_ = 0;
   std::uint64_t random_ = 1;
   double travel_ = 0.0, rate_ = 0.0;
   std::optional<Stamp> reported_;

@@ -43,6 +43,11 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
   extended_.emplace(std::move(next));
 }
 
+void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
+  options_ = checked(options);
+  health_.setOptions(options.health());
+}
+
 // Flat: a sample passes a dozen small functions, whose calls alone would cost a fifth of its time.
 [[gnu::flatten]] const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
   if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) {

@@ -37,6 +37,12 @@ void ImuPipeline::setEffects(const std::vector<ActiveEffect>& effects) {
     effects_ = effects;
 }
 
+void ImuPipeline::reconfigure(MonitorOptions options) {
+  options.sample_period = options_.monitor.sample_period;
+  if (monitor_) monitor_->reconfigure(options);
+  options_.monitor = options;
+}
+
 void ImuPipeline::keepSamples(double span) {
   kept_span_ = span;
   if (!monitor_) return;

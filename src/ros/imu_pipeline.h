@@ -35,6 +35,9 @@ class ImuPipeline {
   /// @throws std::invalid_argument  as there; while the sample period is being measured, the samples that end this do.
   void setEffects(const std::vector<ActiveEffect>& effects);
 
+  /// Goes on with other settings, see SuspensionMonitor::reconfigure().
+  void reconfigure(MonitorOptions options);
+
   /// From now on keeps the newest samples: those of `span` [s], at most kMostKept.
   void keepSamples(double span);
   static constexpr std::size_t kMostKept = 4000000;  // 64 bytes each

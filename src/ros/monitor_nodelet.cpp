@@ -23,6 +23,7 @@ LiveModel::Shapes shapesOf(const SetEffectsRequest& request) {
 MonitorNodelet::~MonitorNodelet() {
   // Nothing may call back into members that are already gone.
   diagnose_.reset();
+  reconfigure_.reset();
   tick_.stop();
   static_transforms_.shutdown();
   for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
@@ -45,6 +46,8 @@ void MonitorNodelet::onInit() {
   health_ = private_node.advertise<SuspensionHealth>("health", queue_size);
   if (!options_.shell.target_frame.empty())
     static_transforms_ = node.subscribe("/tf_static", queue_size, &MonitorNodelet::onTransforms, this);
+  model_topic_.emplace(private_node);
+  publishModel();
   subscribe();
   diagnostics_.emplace(node, private_node, getName(), options_.shell, imu_, *model_);
   advertiseServices();
@@ -68,6 +71,24 @@ void MonitorNodelet::advertiseServices() {
                     DiagnoseService::Nodelet{[this](double window) { return giveSamples(window); },
                                              [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); }},
                     search);
+  reconfigure_.emplace(private_node);  // writes down the parameters as they were given, and defaults
+  reconfigure_->setCallback([this](LiveSettings& settings, std::uint32_t) { onReconfigure(settings); });
+}
+
+void MonitorNodelet::onReconfigure(LiveSettings& settings) {
+  try {
+    const PipelineOptions changed = settings.appliedTo(options_);
+    pipeline_->reconfigure(changed.monitor);
+    options_ = changed;
+  } catch (const std::invalid_argument& error) {
+    NODELET_WARN("%s; all settings stay as they were", error.what());
+  }
+  settings = LiveSettings(options_);
+}
+
+void MonitorNodelet::publishModel() {
+  const SuspensionMonitor* monitor = pipeline_->monitor();
+  model_topic_->change(monitor != nullptr ? monitor->effects() : model_->effects(), monitor, frames_.front());
 }
 
 void MonitorNodelet::subscribe() {
@@ -103,6 +124,7 @@ void MonitorNodelet::onImu(Side side, const sensor_msgs::ImuConstPtr& imu) {
 
 void MonitorNodelet::publish(const MonitorReport& report) {
   if (diagnostics_->noteLevel(report.health.level)) onTick();
+  model_topic_->note(*pipeline_->monitor(), frames_.front());
   if (reports_++ % static_cast<std::uint64_t>(options_.shell.publish_every) != 0) return;
   std_msgs::Header header;
   header.stamp = toRosTime(report.stamp);
@@ -125,6 +147,7 @@ void MonitorNodelet::onTick() { diagnostics_->publish(*pipeline_); }
 
 bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   makePipeline();
+  publishModel();
   diagnostics_->input().restart();
   if (!imu_.front()) subscribe();
   response.success = true;
@@ -138,6 +161,7 @@ bool MonitorNodelet::onSetEffects(SetEffectsRequest& request, SetEffectsResponse
         model_->choose(request.names, shapesOf(request), [this] { return motionScaleNow(); });
     pipeline_->setEffects(effects);
     model_->setEffects(std::move(effects));
+    publishModel();
     response.success = true;
     response.message = "the model is now " + model_->describe();
     onTick();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dynamic_reconfigure/server.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
@@ -16,6 +17,8 @@
 #include "diagnose_service.h"
 #include "imu_pipeline.h"
 #include "live_model.h"
+#include "live_settings.h"
+#include "model_topic.h"
 #include "monitor_diagnostics.h"
 
 namespace suspension_health_monitor {
@@ -34,12 +37,14 @@ class MonitorNodelet : public nodelet::Nodelet {
   void onImu(Side side, const sensor_msgs::ImuConstPtr& imu);
   void publish(const MonitorReport& report);
   void onTick();
+  void onReconfigure(LiveSettings& settings);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
   bool onSaveModel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   SearchTask giveSamples(double window) const;
   void takeDiagnosis(const Diagnosis& diagnosis);
   std::optional<MotionScale> motionScaleNow() const;
+  void publishModel();
   void advertiseServices();
   void makePipeline();
   void subscribe();
@@ -53,7 +58,9 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::uint64_t reports_ = 0;
   std::array<std::string, 2> frames_;
   ros::Publisher ls_, la_, comparison_, health_;
+  std::optional<ModelTopic> model_topic_;
   std::array<ros::ServiceServer, 3> services_;
+  std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
   std::optional<DiagnoseService> diagnose_;
   ros::WallTimer tick_;
   ros::Subscriber static_transforms_;

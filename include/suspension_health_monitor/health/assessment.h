@@ -44,6 +44,10 @@ class HealthAssessment {
   /// @param stamp  of the sample that the estimate includes; stamps that go back restart the confirmation.
   const HealthReport& update(Stamp stamp, const StrutEstimate& estimate);
 
+  /// Judges by other thresholds from now on; a level that is being confirmed stays so.
+  /// @throws std::invalid_argument  as HealthOptions::validate(); the thresholds then stay as they were.
+  void setOptions(const HealthOptions& options);
+
   const HealthReport& report() const { return report_; }
   const HealthOptions& options() const { return options_; }
 

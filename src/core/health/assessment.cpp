@@ -49,6 +49,12 @@ HealthAssessment::HealthAssessment(const HealthOptions& options)
   options.validate();
 }
 
+void HealthAssessment::setOptions(const HealthOptions& options) {
+  options.validate();
+  options_ = options;
+  confirm_time_ = fromSeconds(options.confirm_time);
+}
+
 const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& estimate) {
   HealthReport now;
   if (estimate.valid) {
