@@ -52,6 +52,9 @@ class ModelTracker {
   /// @throws std::invalid_argument  as FreeRun::setEffects().
   void setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report);
 
+  /// Goes on with the forgetting factor of these options; estimates and filters stay.
+  void setForgettingFactor(const MonitorOptions& options);
+
   const std::vector<ActiveEffect>& effects() const { return free_run_.model().effects; }
 
   /// Takes in the next sample of an uninterrupted uniform series.

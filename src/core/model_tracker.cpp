@@ -36,11 +36,15 @@ std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const
   return columns;
 }
 
+double rowsForValid(const MonitorOptions& options) {
+  return std::min<double>(options.valid_min_rows, 0.9 / (1.0 - std::min(options.forgetting_factor, 1 - 1e-12)));
+}
+
 }  // namespace
 
 ModelTracker::ModelTracker(const MonitorOptions& options)
     : filter_(options.filter(*options.sample_period)),
-      min_rows_(std::min<double>(options.valid_min_rows, 0.9 / (1.0 - std::min(options.forgetting_factor, 1 - 1e-12)))),
+      min_rows_(rowsForValid(options)),
       min_explained_(options.valid_min_explained),
       rows_of_model_(std::numeric_limits<double>::infinity()),
       regression_(filter_),
@@ -64,6 +68,12 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelRep
   }
   if (least_absolute_.effectiveRows() > 0.0) describe(report);
   report.ls.valid = report.la.valid = false;
+}
+
+void ModelTracker::setForgettingFactor(const MonitorOptions& options) {
+  min_rows_ = rowsForValid(options);
+  least_squares_.setForgettingFactor(options.forgetting_factor);
+  least_absolute_.setForgettingFactor(options.forgetting_factor);
 }
 
 void ModelTracker::add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report) {
@@ -100,7 +110,8 @@ void ModelTracker::describe(ModelReport& report) const {
 
 bool ModelTracker::isValid(const StrutEstimate& estimate) const {
   return std::min(estimate.effective_rows, rows_of_model_) >= min_rows_ && estimate.explained >= min_explained_ &&
-         estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
+         estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0 &&
+         std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev);
 }
 
 void ModelTracker::takeModel(const StrutEstimate& la) {

@@ -46,6 +46,8 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
 void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   options_ = checked(options);
   health_.setOptions(options.health());
+  plain_.setForgettingFactor(options);
+  if (extended_) extended_->setForgettingFactor(options);
 }
 
 // Flat: a sample passes a dozen small functions, whose calls alone would cost a fifth of its time.

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "queued_work.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -18,19 +20,6 @@ constexpr int kNiceness = 10;
 /// Ends a search from within its progress report.
 struct Stopped : std::runtime_error {
   Stopped() : std::runtime_error("the monitor is shutting down") {}
-};
-
-/// Work for a callback queue.
-class Work : public ros::CallbackInterface {
- public:
-  explicit Work(std::function<void()> run) : run_(std::move(run)) {}
-  CallResult call() override {
-    run_();
-    return Success;
-  }
-
- private:
-  std::function<void()> run_;
 };
 
 /// Sets a flag for as long as it lives.
@@ -98,9 +87,7 @@ DiagnoseResponse DiagnoseService::answer(double window) {
 // The work owns all that it touches, as nobody may wait for it any more when it is done.
 template <class Result>
 Result DiagnoseService::inNodelet(std::function<Result()> work) {
-  const auto task = std::make_shared<std::packaged_task<Result()>>(std::move(work));
-  std::future<Result> result = task->get_future();
-  nodelet_queue_.addCallback(boost::make_shared<Work>([task] { (*task)(); }), owner());
+  std::future<Result> result = addWork<Result>(nodelet_queue_, std::move(work), owner());
   while (result.wait_for(kPoll) != std::future_status::ready) stopIfAsked();
   return result.get();
 }

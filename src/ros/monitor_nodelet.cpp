@@ -31,27 +31,32 @@ MonitorNodelet::~MonitorNodelet() {
 }
 
 void MonitorNodelet::onInit() {
-  ros::NodeHandle& node = getNodeHandle();
-  ros::NodeHandle& private_node = getPrivateNodeHandle();
-  startOrRefuse(private_node, [&] {
-    options_ = PipelineOptions::fromValues(readParameters(private_node));
+  node_ = getNodeHandle();
+  private_node_ = getPrivateNodeHandle();
+  for (ros::NodeHandle* node : {&node_, &private_node_}) node->setCallbackQueue(&thread_->queue());
+  startOrRefuse(private_node_, [&] {
+    options_ = PipelineOptions::fromValues(readParameters(private_node_));
     model_.emplace(options_.shell);
     makePipeline();
   });
   for (const std::string& remark : model_->remarks()) NODELET_WARN("%s", remark.c_str());
+  thread_->run([this] { start(); });  // there, so that no callback comes before all is set up
+}
+
+void MonitorNodelet::start() {
   const auto queue_size = static_cast<std::uint32_t>(options_.shell.queue_size);
-  ls_ = private_node.advertise<ParameterEstimate>("ls", queue_size);
-  la_ = private_node.advertise<ParameterEstimate>("la", queue_size);
-  comparison_ = private_node.advertise<ModelComparison>("comparison", queue_size);
-  health_ = private_node.advertise<SuspensionHealth>("health", queue_size);
+  ls_ = private_node_.advertise<ParameterEstimate>("ls", queue_size);
+  la_ = private_node_.advertise<ParameterEstimate>("la", queue_size);
+  comparison_ = private_node_.advertise<ModelComparison>("comparison", queue_size);
+  health_ = private_node_.advertise<SuspensionHealth>("health", queue_size);
   if (!options_.shell.target_frame.empty())
-    static_transforms_ = node.subscribe("/tf_static", queue_size, &MonitorNodelet::onTransforms, this);
-  model_topic_.emplace(private_node);
+    static_transforms_ = node_.subscribe("/tf_static", queue_size, &MonitorNodelet::onTransforms, this);
+  model_topic_.emplace(private_node_);
   publishModel();
   subscribe();
-  diagnostics_.emplace(node, private_node, getName(), options_.shell, imu_, *model_);
+  diagnostics_.emplace(node_, private_node_, getName(), options_.shell, imu_, *model_);
   advertiseServices();
-  tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
+  tick_ = node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
 }
 
 void MonitorNodelet::makePipeline() {
@@ -61,17 +66,16 @@ void MonitorNodelet::makePipeline() {
 }
 
 void MonitorNodelet::advertiseServices() {
-  ros::NodeHandle& private_node = getPrivateNodeHandle();
-  services_ = {private_node.advertiseService("reset", &MonitorNodelet::onReset, this),
-               private_node.advertiseService("set_effects", &MonitorNodelet::onSetEffects, this),
-               private_node.advertiseService("save_model", &MonitorNodelet::onSaveModel, this)};
+  services_ = {private_node_.advertiseService("reset", &MonitorNodelet::onReset, this),
+               private_node_.advertiseService("set_effects", &MonitorNodelet::onSetEffects, this),
+               private_node_.advertiseService("save_model", &MonitorNodelet::onSaveModel, this)};
   SearchOptions search;
   search.threads = options_.shell.diagnose_threads;
-  diagnose_.emplace(private_node, *getNodeHandle().getCallbackQueue(),
+  diagnose_.emplace(private_node_, thread_->queue(),
                     DiagnoseService::Nodelet{[this](double window) { return giveSamples(window); },
                                              [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); }},
                     search);
-  reconfigure_.emplace(private_node);  // writes down the parameters as they were given, and defaults
+  reconfigure_.emplace(private_node_);  // writes down the parameters as they were given, and defaults
   reconfigure_->setCallback([this](LiveSettings& settings, std::uint32_t) { onReconfigure(settings); });
 }
 
@@ -94,7 +98,7 @@ void MonitorNodelet::publishModel() {
 void MonitorNodelet::subscribe() {
   const auto queue_size = static_cast<std::uint32_t>(options_.shell.queue_size);
   const auto listen = [&](Side side, const char* topic) {
-    return getNodeHandle().subscribe<sensor_msgs::Imu>(
+    return node_.subscribe<sensor_msgs::Imu>(
         topic, queue_size, [this, side](const sensor_msgs::ImuConstPtr& imu) { onImu(side, imu); }, nullptr,
         ros::TransportHints().tcpNoDelay());
   };

@@ -20,11 +20,13 @@
 #include "live_settings.h"
 #include "model_topic.h"
 #include "monitor_diagnostics.h"
+#include "monitor_thread.h"
 
 namespace suspension_health_monitor {
 
 /// Two IMU topics in; estimates, comparison, health and diagnostics out. One per strut.
-/// Every callback comes from one serial queue, so nothing here needs a lock; ~diagnose works beside it.
+/// Every callback comes from one thread, that of all monitors of the process, so nothing here needs a lock; ~diagnose
+/// works beside it.
 class MonitorNodelet : public nodelet::Nodelet {
  public:
   ~MonitorNodelet() override;
@@ -32,6 +34,8 @@ class MonitorNodelet : public nodelet::Nodelet {
  private:
   /// @throws std::invalid_argument  on a wrong parameter, after logging it: the loader drops the nodelet and lives on.
   void onInit() override;
+
+  void start();
 
   void onTransforms(const tf2_msgs::TFMessageConstPtr& tree);
   void onImu(Side side, const sensor_msgs::ImuConstPtr& imu);
@@ -50,6 +54,8 @@ class MonitorNodelet : public nodelet::Nodelet {
   void subscribe();
   void stopListening(const std::string& reason);
 
+  std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
+  ros::NodeHandle node_, private_node_;
   PipelineOptions options_;
   tf2::BufferCore transforms_;  // static ones
   std::optional<LiveModel> model_;

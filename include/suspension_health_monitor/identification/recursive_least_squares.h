@@ -44,6 +44,10 @@ class RecursiveEstimator {
   /// the initial variance says, in either case free of units. Allocates.
   void changeColumns(const std::vector<ColumnOrigin>& columns);
 
+  /// Goes on with another forgetting factor; estimates, covariance and means stay.
+  /// @throws std::invalid_argument  if it is not in (0, 1].
+  void setForgettingFactor(double forgetting_factor);
+
   int numParameters() const { return static_cast<int>(theta_.size()); }
   const Eigen::VectorXd& parameters() const { return theta_; }  ///< theta, (p)
   const UdCovariance& covariance() const { return covariance_; }

@@ -23,6 +23,14 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
   options.validate();
 }
 
+void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
+  RecursiveOptions options = options_;
+  options.forgetting_factor = forgetting_factor;
+  options.validate();
+  options_ = options;
+  means_.setForgettingFactor(forgetting_factor);
+}
+
 double RecursiveEstimator::innovate(const RegressionRow& row) {
   double innovation = row.output;
   const double* const phi = row.regressor.data();

@@ -1,0 +1,46 @@
+#include "monitor_thread.h"
+
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+#include "queued_work.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::chrono::microseconds kRest(500);
+const ros::WallDuration kLongestWait(0.1);  // for a callback, before it looks whether it is to end
+
+}  // namespace
+
+std::shared_ptr<MonitorThread> MonitorThread::ofThisProcess() {
+  static std::mutex mutex;
+  static std::weak_ptr<MonitorThread> shared;
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::shared_ptr<MonitorThread> thread = shared.lock();
+  if (!thread) {
+    thread = std::make_shared<MonitorThread>();
+    shared = thread;
+  }
+  return thread;
+}
+
+MonitorThread::MonitorThread() : thread_([this] { loop(); }) {}
+
+MonitorThread::~MonitorThread() {
+  ends_ = true;
+  queue_.disable();
+  thread_.join();
+}
+
+void MonitorThread::run(std::function<void()> work) { addWork<void>(queue_, std::move(work), 0).get(); }
+
+void MonitorThread::loop() {
+  while (!ends_) {
+    queue_.callAvailable(kLongestWait);
+    std::this_thread::sleep_for(kRest);
+  }
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <thread>
+
+namespace suspension_health_monitor {
+
+/// One queue and one thread for the callbacks of all monitors of a process, so that none of them needs a lock.
+///
+/// The thread rests for half a millisecond after it has emptied the queue, and then takes what has come meanwhile. A
+/// manager's own worker threads are woken for every single message, which at a rate of 1 kHz costs several times what
+/// the monitor does with it.
+class MonitorThread {
+ public:
+  /// @return that of this process; it ends with the last one who holds it.
+  static std::shared_ptr<MonitorThread> ofThisProcess();
+
+  MonitorThread();
+  ~MonitorThread();
+  MonitorThread(const MonitorThread&) = delete;
+  MonitorThread& operator=(const MonitorThread&) = delete;
+
+  ros::CallbackQueue& queue() { return queue_; }
+
+  /// Has work done between two callbacks, and waits for its end. Not to be called by a callback.
+  /// @throws whatever the work throws.
+  void run(std::function<void()> work);
+
+ private:
+  void loop();
+
+  ros::CallbackQueue queue_;
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+}  // namespace suspension_health_monitor
