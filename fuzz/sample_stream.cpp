@@ -74,7 +74,8 @@ class Stream {
 
   /// A stretch of honest driving, so that the estimates come to something.
   void drive(FuzzBytes& bytes) {
-    const std::size_t samples = bytes.choose(256);
+    const std::size_t samples = std::min(bytes.choose(256), drive_left_);
+    drive_left_ -= samples;
     const double size = std::ldexp(1.0, bytes.take<std::int8_t>() / 8);
     const double dt = std::min(toSeconds(period_), 0.05);
     for (std::size_t i = 0; i < samples; ++i) {
@@ -171,6 +172,7 @@ class Stream {
   UniformGrid grid_;
   Stamp period_, clock_ = std::chrono::seconds(1000);
   std::uint64_t readings_ = 0, samples_ = 0, restarts_ = 0;
+  std::size_t drive_left_ = 3000;  // samples, so that many inputs can be tried
   std::uint64_t random_ = 1;
   double travel_ = 0.0, rate_ = 0.0;
   std::optional<Stamp> reported_;
