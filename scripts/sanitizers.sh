@@ -15,9 +15,9 @@ testSanitizedCopy() {
     esac
   done
   export SANITIZE=address,undefined
-  # detect_stack_use_after_return and the like are off in gcc 12 unless asked for
   local common=exitcode=99:print_stacktrace=1:log_path=$copy/build/sanitizer_reports/report
   export ASAN_OPTIONS=$common:detect_leaks=1:strict_string_checks=1:check_initialization_order=1:detect_stack_use_after_return=1
+  ASAN_OPTIONS+=:suppressions=$copy/scripts/faults_of_others.txt
   export UBSAN_OPTIONS=$common LSAN_OPTIONS=suppressions=$copy/scripts/leaks_of_others.txt:print_suppressions=0
   rm -rf "$copy/build/sanitizer_reports"
   mkdir -p "$copy/build/sanitizer_reports"
