@@ -47,6 +47,10 @@ class SuspensionMonitor {
   /// @throws std::invalid_argument  naming what is wrong with the effects; the model then stays as it was.
   void setEffects(const std::vector<ActiveEffect>& effects);
 
+  /// Forgets faster or more slowly from the next sample on; the estimates stay. Not for the sample path.
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  void setForgettingFactor(double forgetting_factor);
+
   /// @return the effects in the model, with the coefficients that the free run has now.
   const std::vector<ActiveEffect>& effects() const { return tracker().effects(); }
 

@@ -10,6 +10,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr std::uint64_t kJudgeEvery = 8;  // samples; at once when the estimate gets or ceases to be valid
+
 const MonitorOptions& checked(const MonitorOptions& options) {
   if (!options.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
   options.validate();
@@ -43,6 +45,15 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
   extended_.emplace(std::move(next));
 }
 
+void SuspensionMonitor::setForgettingFactor(double forgetting_factor) {
+  MonitorOptions changed = options_;
+  changed.forgetting_factor = forgetting_factor;
+  changed.validate();
+  options_ = changed;
+  plain_.setForgettingFactor(forgetting_factor);
+  if (extended_) extended_->setForgettingFactor(forgetting_factor);
+}
+
 // Flat: a sample passes a dozen small functions, whose calls alone would cost a fifth of its time.
 [[gnu::flatten]] const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
   if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) {
@@ -56,7 +67,9 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
   if (of_row == nullptr || (reported_until_ && of_row->stamp <= *reported_until_)) return nullptr;
   report_.stamp = of_row->stamp;
   report_.measured = of_row->sprung_acceleration;
-  report_.health = health_.update(report_.stamp, report_.la);
+  const bool told_before = report_.health.level != HealthLevel::kStale;
+  if (input_.samples % kJudgeEvery == 0 || report_.la.valid != told_before)
+    report_.health = health_.update(report_.stamp, report_.la);
   return &report_;
 }
 
