@@ -15,13 +15,15 @@ void readSamples(const ImuBags& bags, const PipelineOptions& options,
   Stamp last_body{};
   readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
     const std::optional<double> acceleration = axes[static_cast<std::size_t>(side)].acceleration(imu);
-    const std::optional<CornerSample> sample =
+    std::optional<CornerSample> sample =
         acceleration ? grid.push(side, toStamp(imu.header.stamp), *acceleration) : std::nullopt;
     if (take_body && side == Side::kSprung && toStamp(imu.header.stamp) > last_body) {
       last_body = toStamp(imu.header.stamp);
       take_body(axes[0].across(imu));
     }
-    return !sample || take(*sample);
+    for (; sample; sample = grid.next())
+      if (!take(*sample)) return false;
+    return true;
   });
 }
 

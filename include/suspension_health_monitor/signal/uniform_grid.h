@@ -8,11 +8,9 @@
 
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/identification/running_mean.h"
+#include "suspension_health_monitor/signal/alignment.h"
 
 namespace suspension_health_monitor {
-
-/// The two sensors of a strut.
-enum class Side : std::size_t { kSprung = 0, kUnsprung = 1 };
 
 /// Why a reading was kept out.
 enum class RejectReason : std::size_t {
@@ -41,21 +39,30 @@ class RejectCounts {
   std::array<std::uint64_t, kRejectReasonNames.size()> counts_{};
 };
 
-/// Brings the readings of the two sensors onto one clock: pairs those whose stamps agree within half a sample.
-/// The result does not depend on the order in which the two streams interleave, as long as neither runs more than
+/// Brings the readings of the sensors onto one clock: pairs those whose stamps agree within half a sample.
+/// The result does not depend on the order in which the streams interleave, as long as none runs more than
 /// kMostWaiting readings ahead, so that a replay gives what the live run gave.
-/// Cost per reading: O(1) amortised, no allocation.
+/// A road sensor, if there is one, is waited for, but no longer than kMostRoadLag readings of the others: a strut does
+/// not need it. Cost per reading: O(1) amortised, no allocation.
 class UniformGrid {
  public:
   static constexpr std::size_t kMostWaiting = 4096;
+  static constexpr std::size_t kMostRoadLag = 64;
 
   /// @param period  sampling time T > 0 [s].
-  explicit UniformGrid(double period);
+  explicit UniformGrid(double period, const GridOptions& options = {});
 
   /// Takes in one reading of one sensor; each stream comes in the order in which it was measured.
   /// @param acceleration  along the strut, up positive [m/s^2].
-  /// @return the sample that this reading completes, stamped by the sprung sensor.
+  /// @return the first sample that this reading completes, stamped by the sprung sensor. It may complete several:
+  ///     for (auto sample = grid.push(side, stamp, acceleration); sample; sample = grid.next())
   std::optional<CornerSample> push(Side side, Stamp stamp, double acceleration);
+
+  /// @return the next sample that the readings so far complete.
+  std::optional<CornerSample> next() { return match(); }
+
+  /// @return the road's acceleration at the sample given last [m/s^2]; none without a reading near it.
+  std::optional<double> roadAcceleration() const { return road_acceleration_; }
 
   const RejectCounts& rejected() const { return rejected_; }
 
@@ -90,14 +97,19 @@ class UniformGrid {
   bool admit(Side side, Stamp stamp, double acceleration);
   bool isAbsurd(std::size_t index, double acceleration);
   std::optional<CornerSample> match();
+  bool findRoad(Stamp stamp);
   void drop(Queue& queue);
   void startNewSeries();
 
   Stamp period_;
-  std::array<Queue, 2> waiting_;
-  std::array<std::optional<Stamp>, 2> last_;
-  std::array<RunningMean, 2> usual_{RunningMean(kUsualMemory), RunningMean(kUsualMemory)};  // |acceleration|
-  std::array<int, 2> absurd_in_a_row_{};
+  GridOptions options_;
+  std::array<Queue, kMostStreams> waiting_;
+  std::array<std::optional<Stamp>, kMostStreams> last_;
+  std::array<RunningMean, kMostStreams> usual_{RunningMean(kUsualMemory), RunningMean(kUsualMemory),
+                                               RunningMean(kUsualMemory)};  // |acceleration|
+  std::array<int, kMostStreams> absurd_in_a_row_{};
+  bool road_is_silent_ = false;
+  std::optional<double> road_acceleration_;
   RejectCounts rejected_;
 };
 

@@ -33,13 +33,15 @@ RejectCounts& RejectCounts::operator+=(const RejectCounts& other) {
   return *this;
 }
 
-UniformGrid::UniformGrid(double period) : period_(checked(period)) {}
+UniformGrid::UniformGrid(double period, const GridOptions& options)
+    : period_(checked(period)), options_(options) {}
 
 std::optional<CornerSample> UniformGrid::push(Side side, Stamp stamp, double acceleration) {
   if (!admit(side, stamp, acceleration)) return std::nullopt;
   Queue& queue = waiting_[static_cast<std::size_t>(side)];
   if (queue.full()) drop(queue);
   queue.push({stamp, acceleration});
+  if (side == Side::kRoad) road_is_silent_ = false;
   return match();
 }
 
@@ -79,6 +81,7 @@ std::optional<CornerSample> UniformGrid::match() {
     const Reading body = sprung.front();
     const Reading wheel = unsprung.front();
     if (2 * std::chrono::abs(body.stamp - wheel.stamp) <= period_) {
+      if (options_.has_road && !findRoad(body.stamp)) return std::nullopt;
       sprung.pop();
       unsprung.pop();
       return CornerSample{body.stamp, body.acceleration, wheel.acceleration};
@@ -86,6 +89,21 @@ std::optional<CornerSample> UniformGrid::match() {
     drop(body.stamp < wheel.stamp ? sprung : unsprung);
   }
   return std::nullopt;
+}
+
+// @return false: the road's reading of this instant may still come.
+bool UniformGrid::findRoad(Stamp stamp) {
+  Queue& road = waiting_[static_cast<std::size_t>(Side::kRoad)];
+  while (!road.empty() && 2 * (stamp - road.front().stamp) > period_) drop(road);
+  road_acceleration_.reset();
+  if (road.empty()) {
+    road_is_silent_ = road_is_silent_ || waiting_[static_cast<std::size_t>(Side::kSprung)].size() > kMostRoadLag;
+    return road_is_silent_;
+  }
+  if (2 * (road.front().stamp - stamp) > period_) return true;
+  road_acceleration_ = road.front().acceleration;
+  road.pop();
+  return true;
 }
 
 void UniformGrid::drop(Queue& queue) {
