@@ -18,27 +18,6 @@ ros::Time toRosTime(Stamp stamp) {
   return time;
 }
 
-StrutAxis::StrutAxis(const std::string& name) : letter_(name.back()), sign_(name.front() == '-' ? -1.0 : 1.0) {}
-
-std::optional<double> StrutAxis::acceleration(const sensor_msgs::Imu& imu) const {
-  if (imu.linear_acceleration_covariance[0] == -1.0) return std::nullopt;
-  const geometry_msgs::Vector3& a = imu.linear_acceleration;
-  return sign_ * (letter_ == 'x' ? a.x : letter_ == 'y' ? a.y : a.z);
-}
-
-BodyMotion StrutAxis::across(const sensor_msgs::Imu& imu) const {
-  // The other two axes in turn, so that they and the upward one are right-handed; turned over, y changes its side.
-  const auto turned = [this](const geometry_msgs::Vector3& v) -> std::array<double, 2> {
-    if (letter_ == 'x') return {v.y, sign_ * v.z};
-    if (letter_ == 'y') return {v.z, sign_ * v.x};
-    return {v.x, sign_ * v.y};
-  };
-  BodyMotion motion{toStamp(imu.header.stamp), turned(imu.linear_acceleration), turned(imu.angular_velocity)};
-  if (imu.linear_acceleration_covariance[0] == -1.0) motion.acceleration = {kUnknown, kUnknown};
-  if (imu.angular_velocity_covariance[0] == -1.0) motion.angular_rate = {kUnknown, kUnknown};
-  return motion;
-}
-
 ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, const std_msgs::Header& header,
                         const std::vector<ActiveEffect>& effects, const std::optional<double>& sprung_mass) {
   ParameterEstimate msg;

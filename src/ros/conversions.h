@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/discrepancy/body_motion.h"
 #include "suspension_health_monitor/simulation/drive_simulator.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
@@ -21,24 +20,6 @@ namespace suspension_health_monitor {
 
 Stamp toStamp(const ros::Time& time);
 ros::Time toRosTime(Stamp stamp);  ///< @pre stamp >= 0
-
-/// The axis of an IMU that points up along the strut.
-class StrutAxis {
- public:
-  /// @param name  one of kAxisNames (shell_options.h).
-  explicit StrutAxis(const std::string& name);
-
-  /// @return acceleration along the axis, gravity included as measured (REP 145) [m/s^2]; nothing if the message says
-  /// that it carries none (covariance -1, sensor_msgs/Imu).
-  std::optional<double> acceleration(const sensor_msgs::Imu& imu) const;
-
-  /// @return what the IMU measures across the axis; NaN what it says it does not measure.
-  BodyMotion across(const sensor_msgs::Imu& imu) const;
-
- private:
-  char letter_;
-  double sign_;
-};
 
 /// @param effects  those in the model.  @param sprung_mass  [kg], for damping and stiffness in SI.
 ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, const std_msgs::Header& header,

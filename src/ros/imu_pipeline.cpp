@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "conversions.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -12,9 +14,9 @@ constexpr std::size_t kMostEarly = 2 * UniformGrid::kMostWaiting;
 
 }  // namespace
 
-ImuPipeline::ImuPipeline(const PipelineOptions& options, Sink sink)
+ImuPipeline::ImuPipeline(const PipelineOptions& options, Sink sink, const tf2::BufferCore* transforms)
     : options_(options),
-      axes_{StrutAxis(options.shell.sprung_axis), StrutAxis(options.shell.unsprung_axis)},
+      mounts_(ImuMount::of(options.shell, transforms)),
       sink_(std::move(sink)),
       measurement_(kSpacingsForPeriod) {
   if (options.monitor.sample_period) start(*options.monitor.sample_period);
@@ -53,14 +55,14 @@ std::vector<BodyMotion> ImuPipeline::newestBodyMotion(double span) const {
 }
 
 void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
-  const std::optional<double> acceleration = axes_[static_cast<std::size_t>(side)].acceleration(imu);
-  if (!acceleration) {
-    rejected_.add(RejectReason::kNotMeasured);
+  const auto acceleration = mounts_[static_cast<std::size_t>(side)].acceleration(imu);
+  if (const RejectReason* reason = std::get_if<RejectReason>(&acceleration)) {
+    rejected_.add(*reason);
     return;
   }
-  const Reading reading{side, toStamp(imu.header.stamp), *acceleration};
+  const Reading reading{side, toStamp(imu.header.stamp), std::get<double>(acceleration)};
   if (recent_body_ && side == Side::kSprung)
-    if (const BodyMotion motion = axes_[0].across(imu); recent_body_->isNewer(motion)) recent_body_->push(motion);
+    if (const BodyMotion motion = mounts_[0].across(imu); recent_body_->isNewer(motion)) recent_body_->push(motion);
   if (monitor_) {
     push(reading);
     return;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "conversions.h"
+#include "imu_mount.h"
 #include "shell_options.h"
 #include "suspension_health_monitor/discrepancy/body_motion.h"
 #include "suspension_health_monitor/discrepancy/search_drives.h"
@@ -25,8 +25,9 @@ class ImuPipeline {
   using Sink = std::function<void(const MonitorReport&)>;
 
   /// @param sink  called with the report after every sample that was taken in.
+  /// @param transforms  with a target_frame: where those of the IMUs are looked up; outlives this object.
   /// @throws std::invalid_argument  as MonitorOptions::validate().
-  ImuPipeline(const PipelineOptions& options, Sink sink);
+  ImuPipeline(const PipelineOptions& options, Sink sink, const tf2::BufferCore* transforms = nullptr);
 
   void push(Side side, const sensor_msgs::Imu& imu);
 
@@ -47,6 +48,11 @@ class ImuPipeline {
   /// @return the monitor; nullptr while the sample period is being measured.
   const SuspensionMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
 
+  const ImuMount& mount(Side side) const { return mounts_[static_cast<std::size_t>(side)]; }
+
+  /// @return what passes readings on to the monitor; nullptr while the sample period is being measured.
+  const UniformGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
+
   /// @return everything that was kept out so far, wherever it was noticed.
   RejectCounts rejected() const;
 
@@ -62,7 +68,7 @@ class ImuPipeline {
   void start(double period);
 
   PipelineOptions options_;
-  std::array<StrutAxis, 2> axes_;
+  std::array<ImuMount, 2> mounts_;
   Sink sink_;
   PeriodMeasurement measurement_;
   std::vector<Reading> early_;  // readings that wait for the sample period

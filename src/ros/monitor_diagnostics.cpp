@@ -1,15 +1,11 @@
 #include "monitor_diagnostics.h"
 
-#include <cmath>
-
 #include "search_words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-
-constexpr double kPeriodTolerance = 0.02;  // of the mean spacing against sample_period
 
 void addEstimate(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
                  const StrutEstimate& estimate) {
@@ -31,12 +27,9 @@ MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::N
                                        const std::string& name, const ShellOptions& options,
                                        const std::array<ros::Subscriber, 2>& imu,
                                        const LiveModel& model)
-    : options_(options),
-      model_(model),
-      topics_{imu[0].getTopic(), imu[1].getTopic()},
-      updater_(node, private_node, name) {
+    : input_(options, imu), model_(model), updater_(node, private_node, name) {
   updater_.setHardwareID(options.hardware_id);
-  updater_.add("Input", this, &MonitorDiagnostics::describeInput);
+  updater_.add("Input", [this](Status& status) { input_.describe(*pipeline_, status); });
   updater_.add("Health", this, &MonitorDiagnostics::describeHealth);
   updater_.add("Model", this, &MonitorDiagnostics::describeModel);
 }
@@ -47,60 +40,10 @@ bool MonitorDiagnostics::noteLevel(HealthLevel level) {
   return changed;
 }
 
-void MonitorDiagnostics::restart() {
-  rejected_before_ = {};
-  gaps_before_ = 0;
-  refusal_.clear();
-}
-
 void MonitorDiagnostics::publish(const ImuPipeline& pipeline) {
   pipeline_ = &pipeline;
   updater_.force_update();
   pipeline_ = nullptr;
-}
-
-void MonitorDiagnostics::describeInput(Status& status) {
-  status.summary(DiagnosticStatus::OK, "both IMUs arrive as expected");
-  const SuspensionMonitor* monitor = pipeline_->monitor();
-  if (monitor != nullptr) {
-    const InputStatus& input = monitor->input();
-    if (input.gaps + input.restarts > gaps_before_) status.mergeSummary(DiagnosticStatus::WARN, "gap in the input");
-    gaps_before_ = input.gaps + input.restarts;
-    if (input.mean_period > 0.0 && std::abs(input.mean_period / monitor->period() - 1.0) > kPeriodTolerance)
-      status.mergeSummary(DiagnosticStatus::WARN, "stamps do not fit sample_period");
-    status.addf("rate [Hz]", "%.4g", input.mean_period > 0.0 ? 1.0 / input.mean_period : 0.0);
-    status.addf("sample_period [s]", "%.9g", monitor->period());
-    status.addf("horizon_samples", "%d", monitor->horizonSamples());
-    status.add("samples", input.samples);
-    status.add("regression rows", input.rows);
-    status.add("gaps", input.gaps);
-    status.add("clock jumps", input.restarts);
-  }
-  const RejectCounts rejected = pipeline_->rejected();
-  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i) {
-    const auto reason = static_cast<RejectReason>(i);
-    const std::string name(kRejectReasonNames[i]);
-    if (rejected.count(reason) > rejected_before_.count(reason))
-      status.mergeSummary(DiagnosticStatus::WARN, "readings rejected: " + name);
-    status.add("rejected " + name, rejected.count(reason));
-  }
-  rejected_before_ = rejected;
-  if (refusal_.empty())
-    describeSilence(status);
-  else
-    status.mergeSummary(DiagnosticStatus::ERROR, "stopped listening until reset: " + refusal_);
-}
-
-void MonitorDiagnostics::describeSilence(Status& status) const {
-  for (std::size_t i = 0; i < topics_.size(); ++i) {
-    if (!last_message_[i]) {
-      status.mergeSummary(DiagnosticStatus::ERROR, "no message yet on " + topics_[i]);
-      continue;
-    }
-    const double silence = (ros::WallTime::now() - *last_message_[i]).toSec();
-    if (silence > options_.input_timeout)
-      status.mergeSummaryf(DiagnosticStatus::ERROR, "no message on %s for %.1f s", topics_[i].c_str(), silence);
-  }
 }
 
 void MonitorDiagnostics::describeHealth(Status& status) {

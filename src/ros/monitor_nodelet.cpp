@@ -2,6 +2,7 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
+#include "conversions.h"
 #include "parameters.h"
 
 namespace suspension_health_monitor {
@@ -23,6 +24,7 @@ MonitorNodelet::~MonitorNodelet() {
   // Nothing may call back into members that are already gone.
   diagnose_.reset();
   tick_.stop();
+  static_transforms_.shutdown();
   for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
 }
@@ -41,6 +43,8 @@ void MonitorNodelet::onInit() {
   la_ = private_node.advertise<ParameterEstimate>("la", queue_size);
   comparison_ = private_node.advertise<ModelComparison>("comparison", queue_size);
   health_ = private_node.advertise<SuspensionHealth>("health", queue_size);
+  if (!options_.shell.target_frame.empty())
+    static_transforms_ = node.subscribe("/tf_static", queue_size, &MonitorNodelet::onTransforms, this);
   subscribe();
   diagnostics_.emplace(node, private_node, getName(), options_.shell, imu_, *model_);
   advertiseServices();
@@ -48,7 +52,7 @@ void MonitorNodelet::onInit() {
 }
 
 void MonitorNodelet::makePipeline() {
-  pipeline_.emplace(options_, [this](const MonitorReport& report) { publish(report); });
+  pipeline_.emplace(options_, [this](const MonitorReport& report) { publish(report); }, &transforms_);
   pipeline_->setEffects(model_->effects());
   pipeline_->keepSamples(options_.shell.diagnose_window);
 }
@@ -78,13 +82,18 @@ void MonitorNodelet::subscribe() {
 
 void MonitorNodelet::stopListening(const std::string& reason) {
   NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
-  diagnostics_->setRefusal(reason);
+  diagnostics_->input().setRefusal(reason);
   for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
+}
+
+void MonitorNodelet::onTransforms(const tf2_msgs::TFMessageConstPtr& tree) {
+  for (const geometry_msgs::TransformStamped& transform : tree->transforms)
+    transforms_.setTransform(transform, "/tf_static", true);
 }
 
 void MonitorNodelet::onImu(Side side, const sensor_msgs::ImuConstPtr& imu) {
   frames_[static_cast<std::size_t>(side)] = imu->header.frame_id;
-  diagnostics_->noteMessage(side);
+  diagnostics_->input().noteMessage(side, imu->header.stamp);
   try {
     pipeline_->push(side, *imu);
   } catch (const std::invalid_argument& error) {  // the options do not fit the sample period that was measured
@@ -116,7 +125,7 @@ void MonitorNodelet::onTick() { diagnostics_->publish(*pipeline_); }
 
 bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   makePipeline();
-  diagnostics_->restart();
+  diagnostics_->input().restart();
   if (!imu_.front()) subscribe();
   response.success = true;
   response.message = "estimates, filters and counters start anew";

@@ -5,6 +5,8 @@
 #include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
 #include <suspension_health_monitor/SetEffects.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <array>
 #include <memory>
@@ -28,6 +30,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   /// @throws std::invalid_argument  on a wrong parameter, after logging it: the loader drops the nodelet and lives on.
   void onInit() override;
 
+  void onTransforms(const tf2_msgs::TFMessageConstPtr& tree);
   void onImu(Side side, const sensor_msgs::ImuConstPtr& imu);
   void publish(const MonitorReport& report);
   void onTick();
@@ -43,6 +46,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   void stopListening(const std::string& reason);
 
   PipelineOptions options_;
+  tf2::BufferCore transforms_;  // static ones
   std::optional<LiveModel> model_;
   std::optional<ImuPipeline> pipeline_;
   std::optional<MonitorDiagnostics> diagnostics_;
@@ -52,6 +56,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::array<ros::ServiceServer, 3> services_;
   std::optional<DiagnoseService> diagnose_;
   ros::WallTimer tick_;
+  ros::Subscriber static_transforms_;
   std::array<ros::Subscriber, 2> imu_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,14 @@ namespace suspension_health_monitor {
 struct ShellOptions {
   std::string sprung_axis = "z";
   std::string unsprung_axis = "z";
+  std::string target_frame;
+  std::optional<double> sprung_range;
+  std::optional<double> unsprung_range;
   double input_timeout = 2.0;
+  std::optional<double> max_lag;
+  std::optional<double> sprung_rate;
+  std::optional<double> unsprung_rate;
+  double rate_tolerance = 0.1;
   int queue_size = 1000;
   int publish_every = 1;
   std::string hardware_id = "suspension";
@@ -28,12 +36,26 @@ inline constexpr std::string_view kAxisNames = "x y z -x -y -z";
 
 using ShellField = OptionField<ShellOptions>;
 inline constexpr std::array kShellFields{
-    ShellField{"sprung_axis", "-", "axis of the body IMU that points up along the strut", &ShellOptions::sprung_axis, 0,
+    ShellField{"sprung_axis", "-", "axis of the body IMU (or of target_frame) that points up along the strut", &ShellOptions::sprung_axis, 0,
                0, kAxisNames},
-    ShellField{"unsprung_axis", "-", "axis of the wheel carrier IMU that points up along the strut",
+    ShellField{"unsprung_axis", "-", "axis of the wheel carrier IMU (or of target_frame) that points up along the strut",
                &ShellOptions::unsprung_axis, 0, 0, kAxisNames},
-    ShellField{"input_timeout", "s", "wall time without a message of an IMU that is reported as an error",
+    ShellField{"target_frame", "-",
+               "frame whose axes sprung_axis and unsprung_axis name, by static transforms; empty: the IMUs' own axes",
+               &ShellOptions::target_frame},
+    ShellField{"sprung_range", "m/s^2", "range of the body IMU: readings at its end are clipped and kept out",
+               &ShellOptions::sprung_range, 1e-6, 1e6},
+    ShellField{"unsprung_range", "m/s^2", "range of the wheel carrier IMU, likewise", &ShellOptions::unsprung_range,
+               1e-6, 1e6},
+    ShellField{"input_timeout", "s", "silence of an IMU, by the clock and by the wall clock, that is reported as an error",
                &ShellOptions::input_timeout, 0.01, 3600.0},
+    ShellField{"max_lag", "s", "mean lag of an IMU's messages behind their stamps that is warned of",
+               &ShellOptions::max_lag, 0.0, 3600.0},
+    ShellField{"expected_rate/sprung", "Hz", "rate of the body IMU; one that is off by more than the tolerance is warned of",
+               &ShellOptions::sprung_rate, 0.1, 1e6},
+    ShellField{"expected_rate/unsprung", "Hz", "rate of the wheel carrier IMU, likewise", &ShellOptions::unsprung_rate,
+               0.1, 1e6},
+    ShellField{"expected_rate/tolerance", "-", "share of the expected rate", &ShellOptions::rate_tolerance, 0.001, 1.0},
     ShellField{"queue_size", "-", "messages of either IMU that may wait for the monitor", &ShellOptions::queue_size, 1,
                1000000},
     ShellField{"publish_every", "-", "publish after every n-th sample", &ShellOptions::publish_every, 1, 1000000},

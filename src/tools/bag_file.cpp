@@ -67,10 +67,12 @@ BagChunk BagFile::toChunk(const BagRecord& record) const {
   const auto end = record.time(rosbag::END_TIME_FIELD_NAME);
   if (!position || !start || !end)
     throw InputError(path_ + ": the table of contents is damaged (rosbag reindex repairs it)");
-  BagChunk chunk{*position, *start, *end, 0};
+  BagChunk chunk{*position, *start, *end, 0, {}};
   constexpr std::size_t kEntry = 8;  // connection and number of its messages, 32 bit each
-  for (std::string_view rest = record.body; rest.size() >= kEntry; rest.remove_prefix(kEntry))
+  for (std::string_view rest = record.body; rest.size() >= kEntry; rest.remove_prefix(kEntry)) {
+    chunk.connections.push_back(*toInteger<std::uint32_t>(rest.substr(0, kEntry / 2)));
     chunk.num_messages += *toInteger<std::uint32_t>(rest.substr(kEntry / 2, kEntry / 2));
+  }
   return chunk;
 }
 

@@ -21,11 +21,13 @@ struct BagConnection {
   std::string topic, type, md5sum;
 };
 
-/// Where a chunk of messages stands, which recording times it spans [ns], and how many messages it holds.
+/// Where a chunk of messages stands, which recording times it spans [ns], and how many messages it holds, of which
+/// connections.
 struct BagChunk {
   std::uint64_t position = 0;
   std::uint64_t start = 0, end = 0;
   std::uint64_t num_messages = 0;
+  std::vector<std::uint32_t> connections;
 };
 
 /// One message inside a chunk.

@@ -41,6 +41,7 @@ BagOptions readBagOptions(const po::variables_map& values) {
   const OptionMap settings =
       gatherOptions(values["config"].as<std::string>(), values["set"].as<std::vector<std::string>>());
   options.pipeline = PipelineOptions::fromValues(settings);
+  if (!options.pipeline.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
   MonitorOptions& monitor = options.pipeline.monitor;
   options.period_measured = !monitor.sample_period;
   options.horizon_measured = !monitor.integration_horizon && !monitor.horizon_samples;

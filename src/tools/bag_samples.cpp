@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "../ros/conversions.h"
+#include "../ros/imu_mount.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
@@ -10,16 +11,17 @@ namespace suspension_health_monitor {
 void readSamples(const ImuBags& bags, const PipelineOptions& options,
                  const std::function<bool(const CornerSample&)>& take,
                  const std::function<void(const BodyMotion&)>& take_body) {
-  const std::array<StrutAxis, 2> axes{StrutAxis(options.shell.sprung_axis), StrutAxis(options.shell.unsprung_axis)};
+  std::array<ImuMount, 2> mounts = ImuMount::of(options.shell, bags.transforms.get());
   UniformGrid grid(*options.monitor.sample_period);
   Stamp last_body{};
   readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
-    const std::optional<double> acceleration = axes[static_cast<std::size_t>(side)].acceleration(imu);
-    std::optional<CornerSample> sample =
-        acceleration ? grid.push(side, toStamp(imu.header.stamp), *acceleration) : std::nullopt;
+    const auto acceleration = mounts[static_cast<std::size_t>(side)].acceleration(imu);
+    const double* const value = std::get_if<double>(&acceleration);
+    if (value == nullptr) return true;
+    std::optional<CornerSample> sample = grid.push(side, toStamp(imu.header.stamp), *value);
     if (take_body && side == Side::kSprung && toStamp(imu.header.stamp) > last_body) {
       last_body = toStamp(imu.header.stamp);
-      take_body(axes[0].across(imu));
+      take_body(mounts[0].across(imu));
     }
     for (; sample; sample = grid.next())
       if (!take(*sample)) return false;

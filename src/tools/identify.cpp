@@ -191,7 +191,7 @@ void identify(const Arguments& arguments) {
     if (!report.has_row) return;
     ever_valid = ever_valid || report.la.valid || report.ls.valid;
     digest.add(report);
-  });
+  }, options.bags.transforms.get());
   pipeline.setEffects(model.effects());
   readImuMessages(options.bags, [&](Side side, const sensor_msgs::Imu& imu) {
     pipeline.push(side, imu);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <sensor_msgs/Imu.h>
+#include <tf2/buffer_core.h>
 
 #include <array>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,7 +20,12 @@ struct ImuBags {
   std::array<std::string, 2> topics;  ///< by Side
   double start = 0.0;                 ///< seconds after the beginning of each bag
   double end = std::numeric_limits<double>::infinity();
+  std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted
 };
+
+/// @return the static transforms (/tf_static) of all bags.
+/// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
+std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths);
 
 /// Reads the IMU messages of all bags in the order of their recording, with a progress bar.
 /// Memory does not grow with the bags; only chunks that overlap in time are held together.

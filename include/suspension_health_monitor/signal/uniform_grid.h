@@ -1,43 +1,15 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "suspension_health_monitor/corner_sample.h"
-#include "suspension_health_monitor/identification/running_mean.h"
 #include "suspension_health_monitor/signal/alignment.h"
+#include "suspension_health_monitor/signal/reject_reason.h"
+#include "suspension_health_monitor/signal/stream_gate.h"
 
 namespace suspension_health_monitor {
-
-/// Why a reading was kept out.
-enum class RejectReason : std::size_t {
-  kNotMeasured,     ///< the message says that it carries no acceleration (covariance -1)
-  kNotFinite,       ///< NaN, infinite or absurdly large (isUsable())
-  kAbsurd,          ///< a million times what this sensor has read on average, for at most three readings
-  kZeroStamp,       ///< stamp 0 in a series that has stamps
-  kRepeatedStamp,   ///< same stamp as the reading before
-  kTimeWentBack,    ///< older than the reading before; a jump far back starts a new series
-  kMissingPartner,  ///< no reading of the other sensor within half a sample
-  kTooSoon,         ///< less than half a sample after the one before: sample_period is too long for this input
-};
-inline constexpr std::array<std::string_view, 8> kRejectReasonNames{
-    "not_measured", "not_finite", "absurd", "zero_stamp", "repeated_stamp", "time_went_back",
-    "missing_partner", "too_soon"};
-
-/// Number of rejected readings by reason.
-class RejectCounts {
- public:
-  void add(RejectReason reason) { ++counts_[static_cast<std::size_t>(reason)]; }
-  std::uint64_t count(RejectReason reason) const { return counts_[static_cast<std::size_t>(reason)]; }
-  std::uint64_t total() const;
-  RejectCounts& operator+=(const RejectCounts& other);
-
- private:
-  std::array<std::uint64_t, kRejectReasonNames.size()> counts_{};
-};
 
 /// Brings the readings of the sensors onto one clock: pairs those whose stamps agree within half a sample.
 /// The result does not depend on the order in which the streams interleave, as long as none runs more than
@@ -64,14 +36,16 @@ class UniformGrid {
   /// @return the road's acceleration at the sample given last [m/s^2]; none without a reading near it.
   std::optional<double> roadAcceleration() const { return road_acceleration_; }
 
-  const RejectCounts& rejected() const { return rejected_; }
+  /// @return what was kept out, of all sensors.
+  RejectCounts rejected() const;
+
+  const StreamGate& gate(Side side) const { return gates_[static_cast<std::size_t>(side)]; }
 
  private:
-  static constexpr double kUsualMemory = 0.999;  // forgetting factor
-
   struct Reading {
     Stamp stamp;
     double acceleration;
+    bool still;  // StreamGate::isStill()
   };
 
   /// First in, first out, of fixed capacity.
@@ -95,22 +69,18 @@ class UniformGrid {
   };
 
   bool admit(Side side, Stamp stamp, double acceleration);
-  bool isAbsurd(std::size_t index, double acceleration);
   std::optional<CornerSample> match();
   bool findRoad(Stamp stamp);
   void drop(Queue& queue);
-  void startNewSeries();
+  void startNewSeries(std::size_t first);
 
   Stamp period_;
   GridOptions options_;
   std::array<Queue, kMostStreams> waiting_;
-  std::array<std::optional<Stamp>, kMostStreams> last_;
-  std::array<RunningMean, kMostStreams> usual_{RunningMean(kUsualMemory), RunningMean(kUsualMemory),
-                                               RunningMean(kUsualMemory)};  // |acceleration|
-  std::array<int, kMostStreams> absurd_in_a_row_{};
+  std::array<StreamGate, kMostStreams> gates_;
   bool road_is_silent_ = false;
   std::optional<double> road_acceleration_;
-  RejectCounts rejected_;
+  RejectCounts rejected_;  // by the pairing
 };
 
 }  // namespace suspension_health_monitor

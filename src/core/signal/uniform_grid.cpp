@@ -1,21 +1,10 @@
 #include "suspension_health_monitor/signal/uniform_grid.h"
 
-#include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
 namespace suspension_health_monitor {
 namespace {
-
-// A reading that is older than its predecessor by more than this is a clock that jumped or a bag that loops, not a
-// message that was overtaken.
-constexpr int kReorderedPeriods = 50;
-
-// A spike of this size takes an estimator with forgetting thousands of rows to forget; no road makes one.
-constexpr double kAbsurdRatio = 1e6;
-constexpr double kFewestForUsual = 100.0;
-constexpr int kMostAbsurd = 3;  // in a row; after that it is how the sensor reads now
 
 // Before the conversion to whole nanoseconds, which is undefined for NaN and what does not fit.
 Stamp checked(double period) {
@@ -26,52 +15,25 @@ Stamp checked(double period) {
 
 }  // namespace
 
-std::uint64_t RejectCounts::total() const { return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}); }
-
-RejectCounts& RejectCounts::operator+=(const RejectCounts& other) {
-  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
-  return *this;
-}
-
 UniformGrid::UniformGrid(double period, const GridOptions& options)
-    : period_(checked(period)), options_(options) {}
+    : period_(checked(period)),
+      options_(options),
+      gates_{StreamGate(period_), StreamGate(period_), StreamGate(period_)} {}
 
 std::optional<CornerSample> UniformGrid::push(Side side, Stamp stamp, double acceleration) {
   if (!admit(side, stamp, acceleration)) return std::nullopt;
   Queue& queue = waiting_[static_cast<std::size_t>(side)];
   if (queue.full()) drop(queue);
-  queue.push({stamp, acceleration});
+  queue.push({stamp, acceleration, gates_[static_cast<std::size_t>(side)].isStill()});
   if (side == Side::kRoad) road_is_silent_ = false;
   return match();
 }
 
 bool UniformGrid::admit(Side side, Stamp stamp, double acceleration) {
-  std::optional<Stamp>& last = last_[static_cast<std::size_t>(side)];
-  const auto reject = [this](RejectReason reason) {
-    rejected_.add(reason);
-    return false;
-  };
-  if (!isUsable(acceleration)) return reject(RejectReason::kNotFinite);
-  if (last && stamp.count() == 0) return reject(RejectReason::kZeroStamp);
-  if (last && stamp == *last) return reject(RejectReason::kRepeatedStamp);
-  if (last && stamp < *last) {
-    rejected_.add(RejectReason::kTimeWentBack);
-    if (*last - stamp <= kReorderedPeriods * period_) return false;
-    startNewSeries();
-  }
-  if (isAbsurd(static_cast<std::size_t>(side), acceleration)) return reject(RejectReason::kAbsurd);
-  last = stamp;
-  return true;
-}
-
-bool UniformGrid::isAbsurd(std::size_t index, double acceleration) {
-  const double size = std::abs(acceleration);
-  RunningMean& usual = usual_[index];
-  const bool absurd = usual.weight() >= kFewestForUsual && usual.mean() > 0.0 && size > kAbsurdRatio * usual.mean() &&
-                      absurd_in_a_row_[index] < kMostAbsurd;
-  absurd_in_a_row_[index] = absurd ? absurd_in_a_row_[index] + 1 : 0;
-  if (!absurd) usual.add(size);
-  return absurd;
+  const auto index = static_cast<std::size_t>(side);
+  const StreamGate::Verdict verdict = gates_[index].judge(stamp, acceleration);
+  if (verdict == StreamGate::Verdict::kBeginsAnew) startNewSeries(index);
+  return verdict != StreamGate::Verdict::kRejected;
 }
 
 std::optional<CornerSample> UniformGrid::match() {
@@ -84,6 +46,10 @@ std::optional<CornerSample> UniformGrid::match() {
       if (options_.has_road && !findRoad(body.stamp)) return std::nullopt;
       sprung.pop();
       unsprung.pop();
+      if (body.still != wheel.still) {
+        rejected_.add(RejectReason::kStuck);
+        continue;
+      }
       return CornerSample{body.stamp, body.acceleration, wheel.acceleration};
     }
     drop(body.stamp < wheel.stamp ? sprung : unsprung);
@@ -111,10 +77,18 @@ void UniformGrid::drop(Queue& queue) {
   queue.pop();
 }
 
-void UniformGrid::startNewSeries() {
+// @param first  the stream whose clock went back before those of the others.
+void UniformGrid::startNewSeries(std::size_t first) {
   for (Queue& queue : waiting_)
     while (!queue.empty()) drop(queue);
-  last_ = {};
+  for (std::size_t i = 0; i < gates_.size(); ++i)
+    if (i != first) gates_[i].startNewSeries();
+}
+
+RejectCounts UniformGrid::rejected() const {
+  RejectCounts all = rejected_;
+  for (const StreamGate& gate : gates_) all += gate.rejected();
+  return all;
 }
 
 }  // namespace suspension_health_monitor

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace suspension_health_monitor {
+
+/// Why a reading was kept out.
+enum class RejectReason : std::size_t {
+  kNotMeasured,     ///< the message says that it carries no acceleration (covariance -1)
+  kNotFinite,       ///< NaN, infinite or absurdly large (isUsable())
+  kAbsurd,          ///< a million times what this sensor has read on average, for at most three readings
+  kZeroStamp,       ///< stamp 0 in a series that has stamps
+  kRepeatedStamp,   ///< same stamp as the reading before
+  kTimeWentBack,    ///< older than the reading before; a jump far back starts a new series
+  kMissingPartner,  ///< no reading of the other sensor within half a sample
+  kTooSoon,         ///< less than half a sample after the one before: sample_period is too long for this input
+  kClipped,         ///< at the end of the sensor's range
+  kStuck,           ///< the same value again and again while the other sensor moves
+  kNoTransform,     ///< nobody has told how this sensor is mounted
+};
+inline constexpr std::array<std::string_view, 11> kRejectReasonNames{
+    "not_measured",    "not_finite", "absurd",  "zero_stamp", "repeated_stamp", "time_went_back",
+    "missing_partner", "too_soon",   "clipped", "stuck",      "no_transform"};
+
+/// Number of rejected readings by reason.
+class RejectCounts {
+ public:
+  void add(RejectReason reason) { ++counts_[static_cast<std::size_t>(reason)]; }
+  std::uint64_t count(RejectReason reason) const { return counts_[static_cast<std::size_t>(reason)]; }
+  std::uint64_t total() const;
+  RejectCounts& operator+=(const RejectCounts& other);
+
+ private:
+  std::array<std::uint64_t, kRejectReasonNames.size()> counts_{};
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "suspension_health_monitor/corner_sample.h"
+#include "suspension_health_monitor/identification/running_mean.h"
+#include "suspension_health_monitor/signal/reject_reason.h"
+#include "suspension_health_monitor/signal/stream_timing.h"
+
+namespace suspension_health_monitor {
+
+/// Lets the readings of one sensor pass that can be true, by their stamps and values, and counts the others by reason.
+///
+/// Clipping is recognised without knowing the sensor's range: a flat top (kFlatTop equal readings in a row) at the very
+/// highest or lowest value that the sensor has ever read, well away from its usual ones, of a sensor that resolves far
+/// finer. From then on every reading at that value is kept out, until a reading beyond it shows that it was no limit.
+/// Cost per reading: O(1), no allocation.
+class StreamGate {
+ public:
+  /// @param period  sampling time T; a reading that is more than 50 T older than its predecessor is a clock that jumped
+  ///                or a bag that loops, not a message that was overtaken.
+  explicit StreamGate(Stamp period) : longest_overtaking_(50 * period) {}
+
+  enum class Verdict {
+    kPasses,
+    kRejected,
+    kBeginsAnew,  ///< passes, but the clock went back: what came before belongs to another series
+  };
+
+  /// Looks at the next reading. A reading that is rejected for its stamp leaves no trace but in the counters.
+  Verdict judge(Stamp stamp, double acceleration);
+
+  /// Forgets the last stamp: the next reading may have any.
+  void startNewSeries();
+
+  /// @return true if the last kStill readings were all the same: a sensor that is stuck, or a vehicle at rest and a
+  /// sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
+  bool isStill() const { return equal_in_a_row_ == kStill; }
+
+  const RejectCounts& rejected() const { return rejected_; }
+  const StreamTiming& timing() const { return timing_; }
+
+ private:
+  static constexpr int kStill = 20;              // equal readings in a row; fewer occur where the resolution is coarse
+  static constexpr int kFlatTop = 3;             // equal readings in a row
+  static constexpr double kUsualMemory = 0.999;  // forgetting factor
+
+  std::optional<RejectReason> faultOfStamp(Stamp stamp) const;
+  bool isAbsurd(double acceleration);
+  bool isClipped(double acceleration);
+  void noteValue(double acceleration);
+  Verdict reject(RejectReason reason);
+
+  Stamp longest_overtaking_;
+  std::optional<Stamp> last_;
+  std::optional<double> value_;  // of the last reading
+  int equal_in_a_row_ = 0;
+  int absurd_in_a_row_ = 0;
+  double highest_ = 0.0, lowest_ = 0.0, finest_step_ = 0.0;  // of all readings that passed; steps other than 0
+  std::optional<double> upper_limit_, lower_limit_;          // where it clips
+  RunningMean size_{kUsualMemory};                           // |acceleration|
+  RunningMean mean_{kUsualMemory}, deviation_{kUsualMemory};  // of the acceleration; |acceleration - mean|
+  RejectCounts rejected_;
+  StreamTiming timing_;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,14 @@
+#include "suspension_health_monitor/signal/reject_reason.h"
+
+#include <numeric>
+
+namespace suspension_health_monitor {
+
+std::uint64_t RejectCounts::total() const { return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}); }
+
+RejectCounts& RejectCounts::operator+=(const RejectCounts& other) {
+  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+  return *this;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,92 @@
+#include "imu_mount.h"
+
+#include <tf2/LinearMath/Matrix3x3.h>
+#include <tf2/LinearMath/Quaternion.h>
+
+#include <cmath>
+#include <limits>
+
+#include "conversions.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEndOfRange = 0.999;  // share of it; the largest number of a 12 bit sensor is 0.9995
+
+// An axis that does not contribute may read NaN.
+double along(const std::array<double, 3>& direction, const geometry_msgs::Vector3& v) {
+  double sum = 0.0;
+  if (direction[0] != 0.0) sum += direction[0] * v.x;
+  if (direction[1] != 0.0) sum += direction[1] * v.y;
+  if (direction[2] != 0.0) sum += direction[2] * v.z;
+  return sum;
+}
+
+// tf2 knows no frames with a slash in front, some drivers still do.
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+}  // namespace
+
+ImuMount::ImuMount(const std::string& axis, const std::string& target_frame, const std::optional<double>& range,
+                   const tf2::BufferCore* transforms)
+    : axes_{}, target_frame_(withoutSlash(target_frame)), range_(range), transforms_(transforms) {
+  // The other two axes in turn, so that they and the upward one are right-handed; turned over, the second changes sides.
+  const auto up = static_cast<std::size_t>(axis.back() - 'x');
+  const double sign = axis.front() == '-' ? -1.0 : 1.0;
+  axes_[0][(up + 1) % 3] = 1.0;
+  axes_[1][(up + 2) % 3] = sign;
+  axes_[2][up] = sign;
+  directions_ = axes_;
+}
+
+std::array<ImuMount, 2> ImuMount::of(const ShellOptions& options, const tf2::BufferCore* transforms) {
+  return {ImuMount(options.sprung_axis, options.target_frame, options.sprung_range, transforms),
+          ImuMount(options.unsprung_axis, options.target_frame, options.unsprung_range, transforms)};
+}
+
+std::variant<double, RejectReason> ImuMount::acceleration(const sensor_msgs::Imu& imu) {
+  if (imu.linear_acceleration_covariance[0] == -1.0) return RejectReason::kNotMeasured;
+  if (!target_frame_.empty() && imu.header.frame_id != frame_ && !findTransform(imu.header.frame_id))
+    return RejectReason::kNoTransform;
+  if (isClipped(imu.linear_acceleration)) return RejectReason::kClipped;
+  return along(directions_[2], imu.linear_acceleration);
+}
+
+bool ImuMount::findTransform(const std::string& frame) {
+  const std::string source = withoutSlash(frame);
+  missing_ = source.empty() ? "(no frame_id)" : source;
+  if (source.empty() || !transforms_->canTransform(target_frame_, source, ros::Time())) return false;
+  const geometry_msgs::Quaternion q =
+      transforms_->lookupTransform(target_frame_, source, ros::Time()).transform.rotation;
+  const tf2::Matrix3x3 rotation(tf2::Quaternion(q.x, q.y, q.z, q.w));  // from the IMU's axes to those of the target
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const tf2::Vector3 axis(axes_[i][0], axes_[i][1], axes_[i][2]);
+    for (std::size_t j = 0; j < 3; ++j) directions_[i][j] = rotation.getColumn(static_cast<int>(j)).dot(axis);
+  }
+  frame_ = frame;
+  missing_.clear();
+  return true;
+}
+
+bool ImuMount::isClipped(const geometry_msgs::Vector3& acceleration) const {
+  if (!range_) return false;
+  const double end = kEndOfRange * *range_;
+  const Direction& up = directions_[2];
+  return (up[0] != 0.0 && std::abs(acceleration.x) >= end) || (up[1] != 0.0 && std::abs(acceleration.y) >= end) ||
+         (up[2] != 0.0 && std::abs(acceleration.z) >= end);
+}
+
+BodyMotion ImuMount::across(const sensor_msgs::Imu& imu) const {
+  const auto both = [this](const geometry_msgs::Vector3& v) -> std::array<double, 2> {
+    return {along(directions_[0], v), along(directions_[1], v)};
+  };
+  BodyMotion motion{toStamp(imu.header.stamp), both(imu.linear_acceleration), both(imu.angular_velocity)};
+  if (imu.linear_acceleration_covariance[0] == -1.0) motion.acceleration = {kUnknown, kUnknown};
+  if (imu.angular_velocity_covariance[0] == -1.0) motion.angular_rate = {kUnknown, kUnknown};
+  return motion;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <sensor_msgs/Imu.h>
+#include <tf2/buffer_core.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "shell_options.h"
+#include "suspension_health_monitor/discrepancy/body_motion.h"
+#include "suspension_health_monitor/signal/reject_reason.h"
+
+namespace suspension_health_monitor {
+
+/// How one IMU sits on the strut: takes the components along and across the strut out of its messages (REP 145).
+/// Without a target frame the axes are those of the IMU; with one those of that frame, and a static transform says how
+/// the IMU is turned against it. Only the rotation counts; that an IMU sits away from the strut top is what the effect
+/// lever_arm is for.
+/// Not for two threads at a time. No lock once the transform is known.
+class ImuMount {
+ public:
+  /// @param axis  one of kAxisNames: what points up along the strut.
+  /// @param range  the sensor's range [m/s^2]: readings at its end are clipped.
+  /// @param transforms  with a target frame: where the transform is looked up until it is there; outlives this object.
+  ImuMount(const std::string& axis, const std::string& target_frame, const std::optional<double>& range,
+           const tf2::BufferCore* transforms);
+
+  /// The mounts of sprung and unsprung IMU.
+  static std::array<ImuMount, 2> of(const ShellOptions& options, const tf2::BufferCore* transforms);
+
+  /// @return acceleration along the strut, gravity included as measured [m/s^2]; or why there is none: kNotMeasured (the
+  /// message says so: covariance -1, sensor_msgs/Imu), kNoTransform, kClipped.
+  std::variant<double, RejectReason> acceleration(const sensor_msgs::Imu& imu);
+
+  /// @return what the IMU measures across the strut; NaN what it says it does not measure.
+  /// @pre acceleration() has found the transform.
+  BodyMotion across(const sensor_msgs::Imu& imu) const;
+
+  /// @return the frame of the IMU whose transform is missing; empty if none is.
+  const std::string& missingTransform() const { return missing_; }
+
+ private:
+  /// A direction of the strut in the IMU's axes: a unit vector.
+  using Direction = std::array<double, 3>;
+
+  bool findTransform(const std::string& frame);
+  bool isClipped(const geometry_msgs::Vector3& acceleration) const;
+
+  std::array<Direction, 3> axes_;        // across (two) and up, in the target frame, or in the IMU itself
+  std::array<Direction, 3> directions_;  // the same in the IMU
+  std::string target_frame_;
+  std::optional<double> range_;
+  const tf2::BufferCore* transforms_;
+  std::optional<std::string> frame_;  // of the IMU, whose transform is known
+  std::string missing_;
+};
+
+}  // namespace suspension_health_monitor

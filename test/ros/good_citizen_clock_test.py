@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Wall time under use_sim_time, and a clock that stands still, jumps or is not there."""
+import time
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticStatus
+from measured_drive import PERIOD, MeasuredDrive
+from ros_session import PACKAGE, values, wait_until
+from rosgraph_msgs.msg import Clock
+
+START = 1000.0  # [s]
+
+
+class GoodCitizenClockTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.clock = rospy.Publisher("/clock", Clock, queue_size=100)
+        cls.drive = MeasuredDrive()
+        wait_until(lambda: cls.clock.get_num_connections() >= 2, 10.0, "test and manager on /clock")
+
+    def setUp(self):
+        self.assertTrue(self.drive.reset().success)
+        self.drive.estimates.messages.clear()
+        self.before = len(self.drive.diagnostics.messages)
+
+    def set_clock(self, seconds):
+        self.clock.publish(rospy.Time.from_sec(seconds))
+
+    def feed(self, first, last, start=START):
+        for begin in range(first, last, 10):
+            self.set_clock(start + begin * PERIOD)
+            self.drive.feed(begin, begin + 10, start)
+
+    def test_wall_time_under_use_sim_time_with_a_paused_clock(self):
+        self.feed(0, 400)
+        status = self.drive.input_status(lambda s: "the clock stands still" in s.message, timeout=10.0,
+                                         after=len(self.drive.diagnostics.messages))
+        self.assertEqual(status.level, DiagnosticStatus.OK, status.message)
+        self.assertNotIn("no message", status.message)
+        self.assertTrue(all(value not in ("nan", "inf") for value in values(status).values()), values(status))
+        self.feed(400, 700)  # and on
+        self.drive.assert_estimate_is_good(self)
+        self.assertEqual(values(self.drive.input_status(lambda s: values(s)["samples"] == "700", after=self.before))["gaps"], "0")
+
+    def test_silence_is_measured_by_the_clock(self):
+        self.feed(0, 300)
+        for k in range(40):  # the clock runs, the sensors do not
+            self.set_clock(START + 6.0 + 0.1 * k)
+            time.sleep(0.05)
+        self.drive.input_status(lambda s: s.level == DiagnosticStatus.ERROR and "no message on" in s.message,
+                                after=self.before)
+
+    def test_clock_that_jumps_back(self):
+        self.feed(0, 400)
+        self.feed(0, 400, START - 500.0)
+        self.drive.assert_estimate_is_good(self)
+        counted = values(self.drive.input_status(lambda s: values(s)["samples"] == "800", after=self.before))
+        self.assertEqual(counted["clock jumps"], "1")
+
+    def test_clock_that_jumps_forward(self):
+        self.feed(0, 400)
+        self.feed(400, 800, START + 3600.0)
+        self.drive.assert_estimate_is_good(self)
+        counted = values(self.drive.input_status(lambda s: values(s)["samples"] == "800", after=self.before))
+        self.assertEqual((counted["clock jumps"], counted["gaps"]), ("0", "1"))
+
+    def test_diagnostics_are_stamped_by_the_clock(self):
+        self.feed(0, 300, 5000.0)
+        stamps = [array.header.stamp.to_sec() for array in self.drive.diagnostics.messages[self.before:]
+                  if any(s.name == self.drive.input_task for s in array.status)]
+        self.assertTrue(stamps)
+        self.assertLess(max(stamps), 1e6)
+
+
+if __name__ == "__main__":
+    rospy.init_node("good_citizen_clock_test")
+    rostest.rosrun(PACKAGE, "good_citizen_clock", GoodCitizenClockTest)

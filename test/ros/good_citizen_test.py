@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+"""What users of neighbouring packages have complained of, one test each; the time under use_sim_time is in
+good_citizen_clock_test.py, zero copy in good_citizen_zero_copy.cpp, dynamic_reconfigure in reconfigure_test.py."""
+import math
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import TransformStamped
+from measured_drive import PERIOD, VALID_AFTER, MeasuredDrive
+from ros_session import PACKAGE, Collector, load_nodelet, statuses, values, wait_until
+from suspension_health_monitor.msg import ModelComparison, SuspensionHealth
+from tf2_msgs.msg import TFMessage
+
+START = 1000.0  # [s]
+LOOPS = 4
+
+
+def load_monitor(name, **parameters):
+    """A monitor that reads NAME/sprung and NAME/unsprung."""
+    return load_nodelet("MonitorNodelet", name, {"sample_period": PERIOD, **parameters},
+                        **{"sprung/imu": f"/{name}/sprung", "unsprung/imu": f"/{name}/unsprung"})
+
+
+def drive_for(name):
+    return MeasuredDrive(name, f"/{name}/sprung", f"/{name}/unsprung")
+
+
+def pitch(frame, target, angle):
+    """A frame that is turned by an angle [rad] about y."""
+    transform = TransformStamped()
+    transform.header.frame_id, transform.child_frame_id = target, frame
+    transform.transform.rotation.y, transform.transform.rotation.w = math.sin(angle / 2), math.cos(angle / 2)
+    return transform
+
+
+class GoodCitizenTest(unittest.TestCase):
+    def setUp(self):
+        self.drive = MeasuredDrive()
+        self.assertTrue(self.drive.reset().success)
+        self.drive.estimates.messages.clear()
+
+    def tearDown(self):
+        self.drive.stop()
+
+    def counts(self, accepts, what):
+        status = self.drive.input_status(lambda status: accepts(values(status)), what=what,
+                                         after=len(self.drive.diagnostics.messages))
+        return values(status)
+
+    def test_filters_go_mad_when_a_bag_loops(self):
+        for loop in range(LOOPS):
+            before = len(self.drive.estimates.messages)
+            self.drive.feed(0, 400, START)
+            self.drive.assert_estimate_is_good(self)
+            first = self.drive.estimates.messages[before:]
+            if loop > 0:
+                self.assertFalse(first[0].valid, "the last estimate, marked stale")
+                self.assertTrue(math.isfinite(first[0].damping_to_mass))
+        counted = self.counts(lambda v: v.get("samples") == str(LOOPS * 400), "all samples")
+        self.assertEqual(int(counted["clock jumps"]), LOOPS - 1)
+        self.assertEqual(int(counted["rejected time_went_back"]), LOOPS - 1)
+
+    def test_zero_old_or_late_stamps_silently_ignored(self):
+        before = len(self.drive.diagnostics.messages)
+
+        def wrong_stamps(index, pair):
+            sprung, unsprung = pair
+            if index == 300:
+                sprung.header.stamp = rospy.Time(0)
+            elif index == 400:
+                unsprung.header.stamp -= rospy.Duration(0.2)
+        self.drive.feed(0, 900, START, wrong_stamps)
+        counted = self.counts(lambda v: v.get("samples") == "898", "all samples but two")
+        self.assertEqual((counted["rejected zero_stamp"], counted["rejected time_went_back"]), ("1", "1"))
+        self.assertEqual((counted["sprung rejected"], counted["unsprung rejected"]), ("1", "1"))
+        for side in ("sprung", "unsprung"):
+            self.assertAlmostEqual(float(counted[f"{side} rate [Hz]"]), 1.0 / PERIOD, delta=0.01)
+            self.assertLess(float(counted[f"{side} jitter [s]"]), 1e-6)
+            self.assertAlmostEqual(float(counted[f"{side} lag [s]"]), rospy.get_time() - START, delta=100.0)
+        for name in ("zero_stamp", "time_went_back"):
+            self.drive.input_status(lambda s: f"readings rejected: {name}" in s.message, after=before)
+        self.drive.assert_estimate_is_good(self)
+
+    def test_late_messages_are_warned_of_when_asked(self):
+        with load_monitor("late", max_lag=1.0):
+            late = drive_for("late")
+            late.feed(0, 200, START)  # decades ago
+            late.input_status(lambda s: s.level == DiagnosticStatus.WARN and "sprung IMU is" in s.message)
+            late.stop()
+
+    def test_diagnostics_flood_at_sensor_rate(self):
+        before = len(self.drive.diagnostics.messages)
+        began = rospy.get_time()
+        self.drive.feed(0, 1200, START)  # as fast as it can
+        rospy.sleep(2.0)
+        inputs = [s for a in self.drive.diagnostics.messages[before:] for s in a.status
+                  if s.name == self.drive.input_task]
+        changes = 4  # of the health's level, at the most, are published at once
+        self.assertLessEqual(len(inputs), rospy.get_time() - began + 2 + changes)
+
+    def test_expected_rate_hard_coded(self):
+        with load_monitor("rated", expected_rate={"sprung": 1.0 / PERIOD, "unsprung": 2.0 / PERIOD}):
+            rated = drive_for("rated")
+            rated.feed(0, 300, START)
+            status = rated.input_status(lambda s: "unsprung IMU comes at 50 Hz, expected 100" in s.message)
+            self.assertEqual(status.level, DiagnosticStatus.WARN)
+            self.assertNotIn("; sprung IMU comes", status.message)
+            rated.stop()
+
+    def test_exception_in_oninit_takes_the_manager_down_or_hides(self):
+        with load_monitor("refused", forgetting_factor=2.0) as refused:
+            self.assertNotEqual(refused.wait_for_end(5.0), 0)
+        self.drive.feed(0, 300, START)  # the monitor beside it lives
+        self.drive.assert_estimate_is_good(self)
+
+    def test_stale_diagnostics_not_shown(self):
+        health = "monitor: Health"
+        before = len(self.drive.diagnostics.messages)
+
+        def parked(_, pair):
+            for imu in pair:
+                imu.linear_acceleration.z = 9.81
+        self.drive.feed(0, 400, START)
+        wait_until(lambda: [s for s in statuses(self.drive.diagnostics, health)[before:]
+                            if s.level == DiagnosticStatus.OK], 5.0, "health OK")
+        self.drive.feed(400, 700, START, parked)
+        status = wait_until(lambda: statuses(self.drive.diagnostics, health)[-1:], 5.0, "a status")[0]
+        wait_until(lambda: statuses(self.drive.diagnostics, health)[-1].level == DiagnosticStatus.STALE, 5.0,
+                   "health STALE")
+        status = statuses(self.drive.diagnostics, health)[-1]
+        self.assertIn("cannot tell", status.message)
+        self.assertFalse(self.drive.estimates.messages[-1].valid)
+
+    def test_plots_use_the_receive_time(self):
+        topics = {"la": type(None), "comparison": ModelComparison, "health": SuspensionHealth}
+        collectors = [Collector(f"/monitor/{topic}", kind) for topic, kind in topics.items() if topic != "la"]
+        for collector in collectors:
+            collector.wait_for_publisher()
+        self.drive.feed(0, 300, START)
+        stamps = {imu.header.stamp for index in range(300) for imu in self.drive.pair(index, START)}
+        for collector in [self.drive.estimates, *collectors]:
+            wait_until(lambda: len(collector.messages) > 200, 5.0, f"messages on {collector.topic}")
+            self.assertTrue({message.header.stamp for message in collector.messages} <= stamps, collector.topic)
+        for collector in collectors:
+            collector.stop()
+
+    def test_gravity_sign_ned_enu_covariance_minus_1(self):
+        frames = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        frames.publish(TFMessage([pitch("tilted", "strut", math.radians(30.0)), pitch("ned", "strut", math.pi)]))
+        with load_monitor("mounted", target_frame="strut", horizon_samples=30):
+            mounted = drive_for("mounted")
+
+            def as_mounted(index, pair):
+                sprung, unsprung = pair
+                for imu, frame, angle in ((sprung, "tilted", math.radians(30.0)), (unsprung, "ned", math.pi)):
+                    up = imu.linear_acceleration.z  # in the frame of the strut; the IMU is turned against it
+                    imu.header.frame_id = frame
+                    imu.linear_acceleration.x = -math.sin(angle) * up
+                    imu.linear_acceleration.z = math.cos(angle) * up
+                if index == 100:
+                    sprung.linear_acceleration_covariance[0] = -1.0  # none in this message
+                if index == 150:
+                    sprung.linear_acceleration_covariance[0] = 0.0  # unknown
+            wait_until(lambda: frames.get_num_connections() >= 1, 5.0, "the monitor on /tf_static")
+            mounted.feed(0, 2 * VALID_AFTER + 600, START, as_mounted)
+            mounted.assert_estimate_is_good(self)
+            status = mounted.input_status(lambda s: values(s).get("rejected not_measured") == "1")
+            self.assertEqual(values(status)["rejected no_transform"], "0")
+            mounted.stop()
+
+    def test_mount_that_nobody_has_told(self):
+        with load_monitor("lost", target_frame="strut_of_another_car"):
+            lost = drive_for("lost")
+            for index in range(50):
+                for publisher, imu in zip(lost.publishers, lost.pair(index, START)):
+                    imu.header.frame_id = "imu_link"
+                    publisher.publish(imu)
+            status = lost.input_status(lambda s: "no static transform from imu_link" in s.message)
+            self.assertEqual(status.level, DiagnosticStatus.ERROR)
+            lost.stop()
+
+    def test_the_synchroniser_drops_everything_silently(self):
+        before = len(self.drive.diagnostics.messages)
+        for index in range(200):  # the other one is silent
+            self.drive.publishers[MeasuredDrive.SPRUNG].publish(self.drive.pair(index, START)[MeasuredDrive.SPRUNG])
+        self.drive.feed(300, 800, START)
+        counted = self.counts(lambda v: v.get("samples") == "500", "the samples of both")
+        self.assertEqual(int(counted["rejected missing_partner"]), 200)
+        self.drive.input_status(lambda s: s.level == DiagnosticStatus.WARN and "missing_partner" in s.message,
+                                after=before)
+        self.drive.assert_estimate_is_good(self)
+
+
+if __name__ == "__main__":
+    rospy.init_node("good_citizen_test")
+    rostest.rosrun(PACKAGE, "good_citizen", GoodCitizenTest)
