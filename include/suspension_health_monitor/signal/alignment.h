@@ -25,7 +25,8 @@ Alignment alignment(std::string_view name);
 /// What a UniformGrid brings together, and how.
 struct GridOptions {
   Alignment alignment = Alignment::kPaired;
-  bool has_road = false;  ///< there is a third stream, Side::kRoad
+  bool has_road = false;   ///< there is a third stream, Side::kRoad
+  int fill_samples = 120;  ///< in a row that fill the integral filter: 2 L; kAuto judges by it
 };
 
 }  // namespace suspension_health_monitor

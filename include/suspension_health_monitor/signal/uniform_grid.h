@@ -2,17 +2,21 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/signal/alignment.h"
+#include "suspension_health_monitor/signal/alignment_judge.h"
 #include "suspension_health_monitor/signal/reject_reason.h"
+#include "suspension_health_monitor/signal/resampled_grid.h"
 #include "suspension_health_monitor/signal/stream_gate.h"
 
 namespace suspension_health_monitor {
 
-/// Brings the readings of the sensors onto one clock: pairs those whose stamps agree within half a sample.
-/// The result does not depend on the order in which the streams interleave, as long as none runs more than
+/// Brings the readings of the sensors onto one clock: pairs those whose stamps agree within half a sample, or resamples
+/// all streams (ResampledGrid). With Alignment::kAuto it pairs until the stamps show that this does badly
+/// (AlignmentJudge), and resamples from then on. The result does not depend on the order in which the streams interleave, as long as none runs more than
 /// kMostWaiting readings ahead, so that a replay gives what the live run gave.
 /// A road sensor, if there is one, is waited for, but no longer than kMostRoadLag readings of the others: a strut does
 /// not need it. Cost per reading: O(1) amortised, no allocation.
@@ -26,15 +30,25 @@ class UniformGrid {
 
   /// Takes in one reading of one sensor; each stream comes in the order in which it was measured.
   /// @param acceleration  along the strut, up positive [m/s^2].
-  /// @return the first sample that this reading completes, stamped by the sprung sensor. It may complete several:
+  /// @return the first sample that this reading completes, stamped by the sprung sensor or, resampled, by the grid.
+  /// It may complete several:
   ///     for (auto sample = grid.push(side, stamp, acceleration); sample; sample = grid.next())
   std::optional<CornerSample> push(Side side, Stamp stamp, double acceleration);
 
   /// @return the next sample that the readings so far complete.
-  std::optional<CornerSample> next() { return match(); }
+  std::optional<CornerSample> next();
 
   /// @return the road's acceleration at the sample given last [m/s^2]; none without a reading near it.
-  std::optional<double> roadAcceleration() const { return road_acceleration_; }
+  std::optional<double> roadAcceleration() const {
+    return resamples_ ? resampled_->roadAcceleration() : road_acceleration_;
+  }
+
+  /// @return true if the samples are resampled; why(), if that was found out, tells the reason in words.
+  bool resamples() const { return resamples_; }
+  std::string why() const { return describe(judge_.verdict()); }
+
+  /// @return lost readings that were interpolated over, of all sensors.
+  std::uint64_t bridged() const { return resampled_ ? resampled_->bridged() : 0; }
 
   /// @return what was kept out, of all sensors.
   RejectCounts rejected() const;
@@ -72,10 +86,15 @@ class UniformGrid {
   std::optional<CornerSample> match();
   bool findRoad(Stamp stamp);
   void drop(Queue& queue);
+  void resample(Side side, const Reading& reading);
+  void startResampling();
   void startNewSeries(std::size_t first);
 
   Stamp period_;
   GridOptions options_;
+  AlignmentJudge judge_;
+  std::optional<ResampledGrid> resampled_;  // unless it shall only pair
+  bool resamples_;
   std::array<Queue, kMostStreams> waiting_;
   std::array<StreamGate, kMostStreams> gates_;
   bool road_is_silent_ = false;
