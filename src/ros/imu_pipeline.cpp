@@ -25,7 +25,7 @@ ImuPipeline::ImuPipeline(const PipelineOptions& options, Sink sink, const tf2::B
 void ImuPipeline::start(double period) {
   options_.monitor.sample_period = period;
   monitor_.emplace(options_.monitor);
-  grid_.emplace(period);
+  grid_.emplace(period, options_.grid(period));
   if (!effects_.empty()) monitor_->setEffects(effects_);
   if (kept_span_) keepSamples(*kept_span_);
 }

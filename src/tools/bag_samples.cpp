@@ -12,7 +12,7 @@ void readSamples(const ImuBags& bags, const PipelineOptions& options,
                  const std::function<bool(const CornerSample&)>& take,
                  const std::function<void(const BodyMotion&)>& take_body) {
   std::array<ImuMount, 2> mounts = ImuMount::of(options.shell, bags.transforms.get());
-  UniformGrid grid(*options.monitor.sample_period);
+  UniformGrid grid(*options.monitor.sample_period, options.grid(*options.monitor.sample_period));
   Stamp last_body{};
   readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
     const auto acceleration = mounts[static_cast<std::size_t>(side)].acceleration(imu);

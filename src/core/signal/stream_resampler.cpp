@@ -1,6 +1,11 @@
 #include "suspension_health_monitor/signal/stream_resampler.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+constexpr std::size_t kFewest = 3;  // readings in the window
+
+}  // namespace
 
 StreamResampler::StreamResampler(Stamp period)
     : reach_(kHalfWidth * period), per_period_(1.0 / static_cast<double>(period.count())), readings_(kCapacity) {}
@@ -49,11 +54,14 @@ StreamResampler::Value StreamResampler::at(Stamp t) const {
              it.acceleration - reference);
     if (it.stamp <= t) still = it.still;
   }
-  if (i > 1) return {reference + sums.value(), still};
-  // A stream so slow that no reading lies in the window.
-  const double part = static_cast<double>((t - reading(0).stamp).count()) /
-                      static_cast<double>((reading(1).stamp - reading(0).stamp).count());
-  return {reference + part * (reading(1).acceleration - reference), still};
+  if (i > kFewest) return {reference + sums.value(), still};
+  // A stream so slow that the window tells nothing of its course.
+  for (i = 0; reading(i + 1).stamp <= t; ++i) continue;
+  const Reading& before = reading(i);
+  const Reading& after = reading(i + 1);
+  const double part =
+      static_cast<double>((t - before.stamp).count()) / static_cast<double>((after.stamp - before.stamp).count());
+  return {before.acceleration + part * (after.acceleration - before.acceleration), before.still};
 }
 
 }  // namespace suspension_health_monitor
