@@ -1,11 +1,8 @@
 // What the estimates lose when the input comes as it really does: doc/alignment.md.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "simulated_drive.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
@@ -56,42 +53,57 @@ Estimates identify(const SimulationOptions& drive_options, Alignment alignment) 
   return mean;
 }
 
-SimulationOptions asItComes(SimulationOptions options) {
-  options.unsprung_rate = 333.0;
-  options.unsprung_phase = 0.0011;
-  options.dropout = 0.02;
-  return options;
-}
-
-void print(const char* name, const Estimates& e, const Estimates& ideal) {
-  std::printf("%-28s LA %8.4f %8.3f (%+5.2f %% %+5.2f %%)  LS %8.4f %8.3f (%+5.2f %% %+5.2f %%) valid %.3f\n", name,
-              e.la_damping, e.la_stiffness, 100 * (e.la_damping / ideal.la_damping - 1),
-              100 * (e.la_stiffness / ideal.la_stiffness - 1), e.ls_damping, e.ls_stiffness,
-              100 * (e.ls_damping / ideal.ls_damping - 1), 100 * (e.ls_stiffness / ideal.ls_stiffness - 1), e.valid);
-}
-
-TEST(X, Y) {
-  for (const char* name : {"paper_clean", "iso_road"}) {
-    for (int seed : {1, 2}) {
-    SimulationOptions options = scenario(name, 60.0);
-    options.rate = 200.0;
-    options.seed = seed;
-    const Estimates ideal = identify(options, Alignment::kPaired);
-    print("ideal", ideal, ideal);
-    print("ideal, resampled", identify(options, Alignment::kResampled), ideal);
-    SimulationOptions real = asItComes(options);
-    print("rates, lost", identify(real, Alignment::kAuto), ideal);
-    real.sampling_jitter = 0.001;
-    print("sampling jitter", identify(real, Alignment::kAuto), ideal);
-    print("sampling jitter, paired", identify(real, Alignment::kPaired), ideal);
-    real.sampling_jitter = 0.0;
-    real.stamp_jitter = 0.001;
-    print("stamp jitter", identify(real, Alignment::kAuto), ideal);
-    real.sampling_jitter = 0.001;
-    print("both jitters", identify(real, Alignment::kAuto), ideal);
-    }
+class AsItReallyComes : public testing::TestWithParam<const char*> {
+ protected:
+  AsItReallyComes() {
+    ideal_.rate = 1.0 / kPeriod;
+    real_ = ideal_;
+    real_.unsprung_rate = 333.0;
+    real_.unsprung_phase = 0.0011;
+    real_.dropout = 0.02;
   }
+
+  SimulationOptions ideal_ = scenario(GetParam(), 60.0), real_;
+};
+
+void expectNear(const Estimates& actual, const Estimates& expected, double share) {
+  EXPECT_NEAR(actual.la_damping, expected.la_damping, share * expected.la_damping);
+  EXPECT_NEAR(actual.la_stiffness, expected.la_stiffness, share * expected.la_stiffness);
+  EXPECT_NEAR(actual.ls_damping, expected.ls_damping, share * expected.ls_damping);
+  EXPECT_NEAR(actual.ls_stiffness, expected.ls_stiffness, share * expected.ls_stiffness);
+  EXPECT_GT(actual.valid, 0.99);
 }
+
+TEST_P(AsItReallyComes, ResamplingOfIdealReadingsChangesNothing) {
+  const Estimates paired = identify(ideal_, Alignment::kAuto);
+  EXPECT_FALSE(paired.resampled);
+  expectNear(identify(ideal_, Alignment::kResampled), paired, 0.002);
+}
+
+// 200 Hz and 333 Hz, out of step, readings taken up to 1 ms late, 2 % lost.
+TEST_P(AsItReallyComes, EstimatesAreWithinTwoPercentOfThoseFromIdealReadings) {
+  real_.sampling_jitter = 0.001;
+  const Estimates real = identify(real_, Alignment::kAuto);
+  EXPECT_TRUE(real.resampled);
+  expectNear(real, identify(ideal_, Alignment::kPaired), 0.02);
+}
+
+TEST_P(AsItReallyComes, PairingWouldLeadToNothing) {
+  real_.sampling_jitter = 0.001;
+  EXPECT_LT(identify(real_, Alignment::kPaired).valid, 0.01);
+}
+
+// Stamps that are up to 1 ms late of readings that are not. Times of readings that are wrong by 0.3 ms are noise where
+// the wheel shakes: nothing on the paper's road, but a bias of the stiffness on an ISO road, see doc/alignment.md.
+TEST_P(AsItReallyComes, WrongStampsCostNoMoreThanSaid) {
+  real_.stamp_jitter = 0.001;
+  const Estimates real = identify(real_, Alignment::kAuto), ideal = identify(ideal_, Alignment::kPaired);
+  const bool shakes = GetParam() == std::string("iso_road");
+  expectNear(real, ideal, shakes ? 0.18 : 0.02);
+  EXPECT_NEAR(real.la_damping, ideal.la_damping, 0.02 * ideal.la_damping);
+}
+
+INSTANTIATE_TEST_SUITE_P(Roads, AsItReallyComes, testing::Values("paper_clean", "iso_road"));
 
 }  // namespace
 }  // namespace suspension_health_monitor

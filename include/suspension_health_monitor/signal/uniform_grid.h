@@ -43,9 +43,12 @@ class UniformGrid {
     return resamples_ ? resampled_->roadAcceleration() : road_acceleration_;
   }
 
-  /// @return true if the samples are resampled; why(), if that was found out, tells the reason in words.
+  /// @return true if the samples are resampled; why() tells the reason in words, if it was found out.
   bool resamples() const { return resamples_; }
   std::string why() const { return describe(judge_.verdict()); }
+
+  /// @return "paired", "resampled", or "resampled because ...".
+  std::string describeAlignment() const;
 
   /// @return lost readings that were interpolated over, of all sensors.
   std::uint64_t bridged() const { return resampled_ ? resampled_->bridged() : 0; }

@@ -117,6 +117,11 @@ void UniformGrid::startNewSeries(std::size_t first) {
     if (i != first) gates_[i].startNewSeries();
 }
 
+std::string UniformGrid::describeAlignment() const {
+  if (!resamples_) return "paired";
+  return why().empty() ? "resampled" : "resampled because " + why();
+}
+
 RejectCounts UniformGrid::rejected() const {
   RejectCounts all = rejected_;
   if (resampled_) all += resampled_->rejected();
