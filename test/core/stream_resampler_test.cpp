@@ -112,8 +112,9 @@ TEST(StreamResampler, GivesTwoStreamsOfDifferentRateTheSameAmplitudeAndPhase) {
   }
 }
 
+// Onto what the strut answers to, below 0.8 times the Nyquist frequency.
 TEST(StreamResampler, KeepsOutWhatTheGridWouldFold) {
-  for (const double frequency : {112.0, 125.0, 160.0, 190.0, 300.0, 420.0}) {
+  for (const double frequency : {121.0, 135.0, 160.0, 190.0, 300.0, 420.0}) {
     const Sampling fast{1000.0, 0.0, 0.0, 0.0};
     EXPECT_LT(worst(resampled(timesOf(fast, 5), sine(frequency)), [](double) { return 0.0; }), 0.01) << frequency;
   }
@@ -132,8 +133,8 @@ TEST(StreamResampler, IsLinearInTheReadings) {
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(both[i], 2.0 * a[i] - 3.0 * b[i] + 5.0, 1e-11);
 }
 
-// The sum of the squared weights is the variance of the value for readings with white noise: the pass band's share of
-// the stream's band, 0.9 of the slower stream's, and a little more for what is made good.
+// The sum of the squared weights is the variance of the value for readings with white noise: the grid's share of the
+// stream's band.
 TEST(StreamResampler, LowersNoiseByTheShareOfTheBandThatItKeeps) {
   std::mt19937_64 engine(8);
   std::normal_distribution<double> normal;
@@ -142,7 +143,7 @@ TEST(StreamResampler, LowersNoiseByTheShareOfTheBandThatItKeeps) {
     for (unsigned run = 0; run < 10; ++run)
       for (const double value : resampled(timesOf(sampling, run), [&](double) { return normal(engine); }))
         sum += value * value;
-    EXPECT_NEAR(sum / (10 * kCount), 0.88 * 200.0 / sampling.rate, 0.09 * 200.0 / sampling.rate) << sampling.rate;
+    EXPECT_NEAR(sum / (10 * kCount), 200.0 / sampling.rate, 0.05 * 200.0 / sampling.rate) << sampling.rate;
   }
 }
 

@@ -9,7 +9,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kCutoff = 0.45;         // -6 dB [cycles per grid period]
+constexpr double kCutoff = 0.5;          // -6 dB [cycles per grid period]
 constexpr double kKaiser = 5.0;          // shape of the window: ripple 1.4e-3
 constexpr double kHighestLine = 0.3;     // [cycles per grid period]
 constexpr double kHighestRidge = 0.1;    // of the highest line, relative to the sum of g
