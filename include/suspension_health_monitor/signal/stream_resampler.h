@@ -13,8 +13,9 @@ namespace suspension_health_monitor {
 /// neither for a rate nor for equal spacings. Any two streams so treated have passed the same filter.
 ///
 /// With tau_i the time of reading i from the instant asked for, in T, q_i half the time between its neighbours, h a
-/// Kaiser-windowed sinc (half width kHalfWidth, flat to 0.8 of the grid's Nyquist frequency, -6 dB there, stop band from
-/// 1.2: what folds, folds onto frequencies above 0.8; white noise stays white, by which later judges tell it) and g_i = q_i (1 - (tau_i/kHalfWidth)^2)^2, the value is
+/// Kaiser-windowed sinc (half width kHalfWidth, flat to 0.8 of the grid's Nyquist frequency, -6 dB at 1, stop band from
+/// 1.2: what folds, folds onto frequencies above 0.8; white noise stays white, by which later judges tell it) and
+/// g_i = q_i (1 - (tau_i/kHalfWidth)^2)^2, the value is
 ///   sum_i w_i x_i,   w_i = q_i h(tau_i) + g_i (a_0 + sum_k a_k cos(k theta tau_i) + b_k sin(k theta tau_i)).
 /// On equal spacings the first term alone is that filter. The second makes good what jitter and lost readings do to the
 /// quadrature: its 2 kLines + 1 coefficients are chosen so that sinusoids of frequency 0, 0.1, ... 0.6 times the

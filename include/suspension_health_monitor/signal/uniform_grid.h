@@ -16,8 +16,8 @@ namespace suspension_health_monitor {
 
 /// Brings the readings of the sensors onto one clock: pairs those whose stamps agree within half a sample, or resamples
 /// all streams (ResampledGrid). With Alignment::kAuto it pairs until the stamps show that this does badly
-/// (AlignmentJudge), and resamples from then on. The result does not depend on the order in which the streams interleave, as long as none runs more than
-/// kMostWaiting readings ahead, so that a replay gives what the live run gave.
+/// (AlignmentJudge), and resamples from then on. The result does not depend on the order in which the streams
+/// interleave, as long as none runs more than kMostWaiting readings ahead, so that a replay gives what the live run gave.
 /// A road sensor, if there is one, is waited for, but no longer than kMostRoadLag readings of the others: a strut does
 /// not need it. Cost per reading: O(1) amortised, no allocation.
 class UniformGrid {
