@@ -82,7 +82,7 @@ void SimulatorNodelet::waitForTurn(const SimulatorOptions& options, ros::Time st
     return;
   }
   if (pace_.getNumPublishers() == 0 || pace_is_lost_) return;
-  const double lead = kLeadSamples / options.drive.rate;
+  const double lead = kLeadSamples / fasterRate(options.drive);
   const Clock::time_point give_up = Clock::now() + kLongestWaitForPace;
   while (running_ && ros::ok() && now.toSec() - std::max(paced_until_.load(), start.toSec()) > lead &&
          Clock::now() < give_up)

@@ -109,6 +109,8 @@ void writeJson(std::FILE* out, const ImuPipeline& pipeline) {
                               {"rows", monitor.input().rows},
                               {"gaps", monitor.input().gaps},
                               {"clock_jumps", monitor.input().restarts},
+                              {"alignment", pipeline.grid()->describeAlignment()},
+                              {"bridged", pipeline.grid()->bridged()},
                               {"rejected", rejected},
                               {"sample_period", monitor.period()},
                               {"horizon_samples", monitor.horizonSamples()},
@@ -125,12 +127,14 @@ void printInput(const ImuPipeline& pipeline, const BagOptions& options) {
               monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
   std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
               input.rows, input.gaps, input.restarts);
+  if (pipeline.grid()->resamples())
+    std::printf(", bridged %" PRIu64, pipeline.grid()->bridged());
   const RejectCounts rejected = pipeline.rejected();
   if (rejected.total() == 0) std::printf(", rejected 0");
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
       std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
-  std::printf("\n\n");
+  std::printf("\nreadings %s\n\n", pipeline.grid()->describeAlignment().c_str());
 }
 
 void printTable(const std::vector<MonitorReport>& reports) {
