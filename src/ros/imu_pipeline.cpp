@@ -84,10 +84,10 @@ void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
 }
 
 void ImuPipeline::push(const Reading& reading) {
-  const std::optional<CornerSample> sample = grid_->push(reading.side, reading.stamp, reading.acceleration);
-  if (!sample) return;
-  if (recent_) keep(*sample);
-  if (const MonitorReport* report = monitor_->addSample(*sample)) sink_(*report);
+  for (auto sample = grid_->push(reading.side, reading.stamp, reading.acceleration); sample; sample = grid_->next()) {
+    if (recent_) keep(*sample);
+    if (const MonitorReport* report = monitor_->addSample(*sample)) sink_(*report);
+  }
 }
 
 void ImuPipeline::keep(const CornerSample& sample) {

@@ -18,12 +18,14 @@ void readSamples(const ImuBags& bags, const PipelineOptions& options,
     const auto acceleration = mounts[static_cast<std::size_t>(side)].acceleration(imu);
     const double* const value = std::get_if<double>(&acceleration);
     if (value == nullptr) return true;
-    const std::optional<CornerSample> sample = grid.push(side, toStamp(imu.header.stamp), *value);
+    std::optional<CornerSample> sample = grid.push(side, toStamp(imu.header.stamp), *value);
     if (take_body && side == Side::kSprung && toStamp(imu.header.stamp) > last_body) {
       last_body = toStamp(imu.header.stamp);
       take_body(mounts[0].across(imu));
     }
-    return !sample || take(*sample);
+    for (; sample; sample = grid.next())
+      if (!take(*sample)) return false;
+    return true;
   });
 }
 
