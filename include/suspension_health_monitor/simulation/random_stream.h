@@ -14,6 +14,8 @@ enum class RandomPurpose : unsigned {
   kUnsprungDelivery,
   kSway,
   kSwayNoise,
+  kRoadNoise,
+  kRoadDelivery,
 };
 
 /// Reproducible random numbers, the same with every standard library: engine and seeding are fixed by the C++ standard,

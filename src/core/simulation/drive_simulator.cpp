@@ -30,6 +30,7 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       scenario_(makeScenario(options)),
       sprung_(options, Accelerometer::Place::kSprung),
       unsprung_(options, Accelerometer::Place::kUnsprung),
+      road_(options, Accelerometer::Place::kRoad),
       sway_(options),
       faults_(SensorFaults::from(options.hidden_faults)),
       sway_noise_(options.seed, RandomPurpose::kSwayNoise),
@@ -53,10 +54,12 @@ std::optional<DriveSample> DriveSimulator::next() {
   sample.sprung = sprung_.read(t, readBody(t, sway));
   sample.body = readSway(sway);
   sample.unsprung = unsprung_.read(t, sample.truth.unsprung_acceleration);
+  sample.road = road_.read(t, sample.truth.road_acceleration);
   for (const TimeWindow& window : scenario_.zero_readings) {
     if (!window.contains(t)) continue;
     if (sample.sprung) sample.sprung->acceleration = 0.0;
     if (sample.unsprung) sample.unsprung->acceleration = 0.0;
+    if (sample.road) sample.road->acceleration = 0.0;
     sample.body = {};
   }
   return sample;
@@ -78,6 +81,7 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
   truth.travel = w - z;
   truth.travel_rate = w_rate - z_rate;
   truth.road_height = road.height;
+  truth.road_acceleration = road.acceleration;
   truth.sprung_acceleration = scenario_.strut.forcePerMass(truth.travel, truth.travel_rate, t, memory);
   if (rigid) {
     truth.unsprung_acceleration = road.acceleration;
