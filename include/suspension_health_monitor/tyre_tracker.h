@@ -13,7 +13,7 @@
 namespace suspension_health_monitor {
 
 /// What one estimator knows of wheel and tyre. NaN: nothing yet.
-struct TyreEstimate {
+struct WheelEstimate {
   double damping_to_wheel_mass = std::nan("");           ///< beta/m [1/s]
   double stiffness_to_wheel_mass = std::nan("");         ///< K/m [1/s^2]
   double tyre_to_wheel_mass = std::nan("");              ///< K0/m [1/s^2]
@@ -31,11 +31,11 @@ struct TyreEstimate {
 };
 
 /// @return m/M = b1 / (beta/m) [-], the share of the wheel's mass in the body's; none unless both are valid.
-std::optional<double> massRatio(const StrutEstimate& strut, const TyreEstimate& tyre);
+std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate& tyre);
 
 struct TyreReport {
   bool has_row = false;  ///< the newest sample gave a regression row
-  TyreEstimate ls, la;
+  WheelEstimate ls, la;
 };
 
 /// Wheel and tyre of one strut, followed through a drive by LS and LA side by side, with a third accelerometer where

@@ -8,7 +8,7 @@ namespace suspension_health_monitor {
 namespace {
 
 template <class Estimator>
-void describe(const Estimator& estimator, TyreEstimate& estimate) {
+void describe(const Estimator& estimator, WheelEstimate& estimate) {
   const Eigen::VectorXd& theta = estimator.parameters();
   const auto stddev = [&](int i) { return std::sqrt(estimator.parameterVariance(i)); };
   estimate.damping_to_wheel_mass = theta[kDampingToWheelMass];
@@ -22,14 +22,14 @@ void describe(const Estimator& estimator, TyreEstimate& estimate) {
   estimate.explained = output > 0.0 ? 1.0 - estimator.meanAbsoluteResidual() / output : 0.0;
 }
 
-bool isWheel(const TyreEstimate& estimate) {
+bool isWheel(const WheelEstimate& estimate) {
   return estimate.damping_to_wheel_mass > 0.0 && estimate.stiffness_to_wheel_mass > 0.0 &&
          estimate.tyre_to_wheel_mass > 0.0;
 }
 
 }  // namespace
 
-std::optional<double> massRatio(const StrutEstimate& strut, const TyreEstimate& tyre) {
+std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate& tyre) {
   if (!strut.valid || !tyre.valid) return std::nullopt;
   return strut.damping_to_mass / tyre.damping_to_wheel_mass;
 }
@@ -69,7 +69,7 @@ void TyreTracker::estimate(const RegressionRow& row) {
     describe(least_squares_, report_.ls);
     describe(least_absolute_, report_.la);
   }
-  for (TyreEstimate* estimate : {&report_.ls, &report_.la})
+  for (WheelEstimate* estimate : {&report_.ls, &report_.la})
     estimate->valid = moves && estimate->effective_rows >= min_rows_ && estimate->explained >= min_explained_ &&
                       isWheel(*estimate);
 }

@@ -17,6 +17,8 @@ struct ShellOptions {
   std::string target_frame;
   std::optional<double> sprung_range;
   std::optional<double> unsprung_range;
+  bool tyre = false;
+  std::string road_axis = "z";
   double input_timeout = 2.0;
   std::optional<double> max_lag;
   std::optional<double> sprung_rate;
@@ -47,6 +49,10 @@ inline constexpr std::array kShellFields{
                &ShellOptions::sprung_range, 1e-6, 1e6},
     ShellField{"unsprung_range", "m/s^2", "range of the wheel carrier IMU, likewise", &ShellOptions::unsprung_range,
                1e-6, 1e6},
+    ShellField{"tyre/enabled", "-", "listen to road/imu, an IMU where the tyre touches the road, and identify the tyre",
+               &ShellOptions::tyre},
+    ShellField{"tyre/road_axis", "-", "axis of the road's IMU (or of target_frame) that points up along the strut",
+               &ShellOptions::road_axis, 0, 0, kAxisNames},
     ShellField{"input_timeout", "s", "silence of an IMU, by the clock and by the wall clock, that is reported as an error",
                &ShellOptions::input_timeout, 0.01, 3600.0},
     ShellField{"max_lag", "s", "mean lag of an IMU's messages behind their stamps that is warned of",

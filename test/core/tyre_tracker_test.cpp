@@ -31,7 +31,7 @@ CornerSample cornerSample(const DriveSample& sample) {
   return {sample.stamp, sample.sprung->acceleration, sample.unsprung->acceleration};
 }
 
-void expectCar(const TyreEstimate& estimate, const QuarterCar& car, double tolerance) {
+void expectCar(const WheelEstimate& estimate, const QuarterCar& car, double tolerance) {
   EXPECT_TRUE(estimate.valid);
   EXPECT_NEAR(estimate.damping_to_wheel_mass * car.unsprung_mass / car.damping, 1.0, tolerance);
   EXPECT_NEAR(estimate.stiffness_to_wheel_mass * car.unsprung_mass / car.stiffness, 1.0, tolerance);
@@ -61,7 +61,7 @@ TEST(TyreRegression, EqualsTheIntegralsOfASineInClosedForm) {
   EXPECT_EQ(rows, 140);
 }
 
-// Without noise only the integration rule errs: the fourth power of the sampling time, below 1e-4 at 90 samples per hop.
+// Without noise only the integration rule errs, by the fourth power of the sampling time: 90 samples per hop.
 TEST(TyreTracker, FindsWheelAndTyreOfANoiseFreeDrive) {
   for (const char* vehicle : {"golden_car", "rover", "ugv"}) {
     SCOPED_TRACE(vehicle);
