@@ -19,6 +19,8 @@ struct ShellOptions {
   std::optional<double> sprung_range;
   std::optional<double> unsprung_range;
   std::string alignment = "auto";
+  bool tyre = false;
+  std::string road_axis = "z";
   double input_timeout = 2.0;
   std::optional<double> max_lag;
   std::optional<double> sprung_rate;
@@ -52,6 +54,10 @@ inline constexpr std::array kShellFields{
     ShellField{"alignment", "-",
                "readings paired by stamp, resampled onto a grid, or auto: paired until that does badly",
                &ShellOptions::alignment, 0, 0, kAlignmentNames},
+    ShellField{"tyre/enabled", "-", "listen to road/imu, an IMU where the tyre touches the road, and identify the tyre",
+               &ShellOptions::tyre},
+    ShellField{"tyre/road_axis", "-", "axis of the road's IMU (or of target_frame) that points up along the strut",
+               &ShellOptions::road_axis, 0, 0, kAxisNames},
     ShellField{"input_timeout", "s", "silence of an IMU, by the clock and by the wall clock, that is reported as an error",
                &ShellOptions::input_timeout, 0.01, 3600.0},
     ShellField{"max_lag", "s", "mean lag of an IMU's messages behind their stamps that is warned of",
@@ -98,6 +104,7 @@ struct PipelineOptions {
     GridOptions options;
     options.alignment = alignment(shell.alignment);
     options.fill_samples = 2 * monitor.horizonSamples(period);
+    options.has_road = shell.tyre;
     return options;
   }
 

@@ -27,6 +27,7 @@ void writeDrive(const SimulatorOptions& options, rosbag::Bag& bag) {
     const ros::Time recorded = std::max(messages->time, ros::TIME_MIN);  // a bag cannot hold time 0
     if (messages->sprung) bag.write("/sprung/imu", recorded, *messages->sprung);
     if (messages->unsprung) bag.write("/unsprung/imu", recorded, *messages->unsprung);
+    if (messages->road) bag.write("/road/imu", recorded, *messages->road);
     bag.write("/simulator/truth", recorded, messages->truth);
     progress.update(messages->time.toSec() - options.publishing.start_time);
   }

@@ -21,6 +21,7 @@ struct DriveTruth {
   double road_height = 0.0;            ///< mu [m]
   double sprung_acceleration = 0.0;    ///< z'' without noise [m/s^2]
   double unsprung_acceleration = 0.0;  ///< w'' without noise [m/s^2]
+  double road_acceleration = 0.0;      ///< mu'' without noise [m/s^2]
 };
 
 /// One instant of a simulated drive.
@@ -28,11 +29,13 @@ struct DriveSample {
   Stamp stamp{};                                 ///< true time since the start of the drive
   std::optional<AccelerometerReading> sprung;    ///< none: message lost, or the sensor reads at another instant
   std::optional<AccelerometerReading> unsprung;  ///< likewise
+  std::optional<AccelerometerReading> road;      ///< where the tyre touches it, with the wheel's; none: message lost
   Sway body;                                     ///< what the body's IMU reads besides, noise included
   DriveTruth truth;
 };
 
-/// Drives a quarter car, equations (1)-(2) or with a rigid wheel (27), over a road and measures its two accelerations.
+/// Drives a quarter car, equations (1)-(2) or with a rigid wheel (27), over a road and measures its two accelerations,
+/// and that of the road under the wheel.
 ///
 /// The body and a wheel on a tyre start at rest relative to the road, travel 0.
 /// Integration: Dormand-Prince 5(4) with error control, 1e-10 absolute (m, m/s) and 1e-10 relative per step; steps end
@@ -65,6 +68,7 @@ class DriveSimulator {
   Accelerometer sprung_;
   Accelerometer unsprung_;
   SensorSchedule sprung_schedule_, unsprung_schedule_;
+  Accelerometer road_;
   BodySway sway_;
   SensorFaults faults_;
   RandomStream sway_noise_;

@@ -16,6 +16,8 @@ enum class RandomPurpose : unsigned {
   kSwayNoise,
   kSprungTiming,
   kUnsprungTiming,
+  kRoadNoise,
+  kRoadDelivery,
 };
 
 /// Reproducible random numbers, the same with every standard library: engine and seeding are fixed by the C++ standard,

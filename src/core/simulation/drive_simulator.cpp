@@ -33,6 +33,7 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       sprung_schedule_(options.sprung_rate.value_or(options.rate), 0.0, options, RandomPurpose::kSprungTiming),
       unsprung_schedule_(options.unsprung_rate.value_or(options.rate), options.unsprung_phase, options,
                          RandomPurpose::kUnsprungTiming),
+      road_(options, Accelerometer::Place::kRoad),
       sway_(options),
       faults_(SensorFaults::from(options.hidden_faults)),
       sway_noise_(options.seed, RandomPurpose::kSwayNoise),
@@ -62,12 +63,14 @@ std::optional<DriveSample> DriveSimulator::next() {
   }
   if (wheel_reads) {
     sample.unsprung = unsprung_.read(t, sample.truth.unsprung_acceleration);
+    sample.road = road_.read(t, sample.truth.road_acceleration);
     unsprung_schedule_.advance();
   }
   for (const TimeWindow& window : scenario_.zero_readings) {
     if (!window.contains(t)) continue;
     if (sample.sprung) sample.sprung->acceleration = 0.0;
     if (sample.unsprung) sample.unsprung->acceleration = 0.0;
+    if (sample.road) sample.road->acceleration = 0.0;
     sample.body = {};
   }
   return sample;
@@ -89,6 +92,7 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
   truth.travel = w - z;
   truth.travel_rate = w_rate - z_rate;
   truth.road_height = road.height;
+  truth.road_acceleration = road.acceleration;
   truth.sprung_acceleration = scenario_.strut.forcePerMass(truth.travel, truth.travel_rate, t, memory);
   if (rigid) {
     truth.unsprung_acceleration = road.acceleration;
