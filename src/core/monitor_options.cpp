@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/monitor_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -40,6 +41,17 @@ IntegralFilterOptions MonitorOptions::filter(double period) const {
                                 " [s] with sample_period = " + std::to_string(period) + " [s] makes " + error.what());
   }
   return filter;
+}
+
+IntegralFilterOptions MonitorOptions::tyreFilter(double period) const {
+  MonitorOptions options = *this;
+  constexpr double kShare = 1.0 / 8.0;
+  constexpr int kFewestSamples = 5;
+  const double horizon = tyre_horizon.value_or(kShare * horizonSamples(period) * period);
+  options.integration_horizon.reset();
+  options.horizon_samples = std::max(kFewestSamples, static_cast<int>(std::lround(horizon / period)));
+  if (options.integration_rule == "simpson" && *options.horizon_samples % 2 != 0) ++*options.horizon_samples;
+  return options.filter(period);
 }
 
 RecursiveOptions MonitorOptions::recursive() const {

@@ -10,6 +10,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr std::uint64_t kJudgeEvery = 8;  // samples; at once when the estimate gets or ceases to be valid
+
 const MonitorOptions& checked(const MonitorOptions& options) {
   if (!options.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
   options.validate();
@@ -46,8 +48,8 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
 void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   options_ = checked(options);
   health_.setOptions(options.health());
-  plain_.setForgettingFactor(options);
-  if (extended_) extended_->setForgettingFactor(options);
+  plain_.setForgettingFactor(options.forgetting_factor);
+  if (extended_) extended_->setForgettingFactor(options.forgetting_factor);
 }
 
 // Flat: a sample passes a dozen small functions, whose calls alone would cost a fifth of its time.
@@ -63,7 +65,9 @@ void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   if (of_row == nullptr || (reported_until_ && of_row->stamp <= *reported_until_)) return nullptr;
   report_.stamp = of_row->stamp;
   report_.measured = of_row->sprung_acceleration;
-  report_.health = health_.update(report_.stamp, report_.la);
+  const bool told_before = report_.health.level != HealthLevel::kStale;
+  if (input_.samples % kJudgeEvery == 0 || report_.la.valid != told_before)
+    report_.health = health_.update(report_.stamp, report_.la);
   return &report_;
 }
 

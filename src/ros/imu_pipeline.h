@@ -14,6 +14,7 @@
 #include "suspension_health_monitor/signal/recent_samples.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
 #include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/tyre_tracker.h"
 
 namespace suspension_health_monitor {
 
@@ -51,6 +52,9 @@ class ImuPipeline {
   /// @return the monitor; nullptr while the sample period is being measured.
   const SuspensionMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
 
+  /// @return what follows the tyre; nullptr without tyre/enabled and while the sample period is being measured.
+  const TyreTracker* tyre() const { return tyre_ ? &*tyre_ : nullptr; }
+
   const ImuMount& mount(Side side) const { return mounts_[static_cast<std::size_t>(side)]; }
 
   /// @return what passes readings on to the monitor; nullptr while the sample period is being measured.
@@ -71,12 +75,13 @@ class ImuPipeline {
   void start(double period);
 
   PipelineOptions options_;
-  std::array<ImuMount, 2> mounts_;
+  std::array<ImuMount, kMostStreams> mounts_;
   Sink sink_;
   PeriodMeasurement measurement_;
   std::vector<Reading> early_;  // readings that wait for the sample period
   std::optional<UniformGrid> grid_;
   std::optional<SuspensionMonitor> monitor_;
+  std::optional<TyreTracker> tyre_;
   std::vector<ActiveEffect> effects_;  // until there is a monitor
   std::optional<double> kept_span_;    // [s]
   std::optional<RecentSamples> recent_;

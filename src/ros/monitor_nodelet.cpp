@@ -27,6 +27,7 @@ MonitorNodelet::~MonitorNodelet() {
   tick_.stop();
   static_transforms_.shutdown();
   for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
+  road_.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
 }
 
@@ -51,6 +52,7 @@ void MonitorNodelet::start() {
   health_ = private_node_.advertise<SuspensionHealth>("health", queue_size);
   if (!options_.shell.target_frame.empty())
     static_transforms_ = node_.subscribe("/tf_static", queue_size, &MonitorNodelet::onTransforms, this);
+  if (options_.shell.tyre) tyre_.emplace(private_node_, queue_size);
   model_topic_.emplace(private_node_);
   publishModel();
   subscribe();
@@ -103,12 +105,14 @@ void MonitorNodelet::subscribe() {
         ros::TransportHints().tcpNoDelay());
   };
   imu_ = {listen(Side::kSprung, "sprung/imu"), listen(Side::kUnsprung, "unsprung/imu")};
+  if (options_.shell.tyre) road_ = listen(Side::kRoad, "road/imu");
 }
 
 void MonitorNodelet::stopListening(const std::string& reason) {
   NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
   diagnostics_->input().setRefusal(reason);
   for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
+  road_.shutdown();
 }
 
 void MonitorNodelet::onTransforms(const tf2_msgs::TFMessageConstPtr& tree) {
@@ -118,7 +122,7 @@ void MonitorNodelet::onTransforms(const tf2_msgs::TFMessageConstPtr& tree) {
 
 void MonitorNodelet::onImu(Side side, const sensor_msgs::ImuConstPtr& imu) {
   frames_[static_cast<std::size_t>(side)] = imu->header.frame_id;
-  diagnostics_->input().noteMessage(side, imu->header.stamp);
+  if (side != Side::kRoad) diagnostics_->input().noteMessage(side, imu->header.stamp);
   try {
     pipeline_->push(side, *imu);
   } catch (const std::invalid_argument& error) {  // the options do not fit the sample period that was measured
@@ -144,6 +148,7 @@ void MonitorNodelet::publish(const MonitorReport& report) {
   send(la_, [&] { return toMsg(report.la, "la", header, effects, mass); });
   if (report.comparison.has_sample)
     send(comparison_, [&] { return toMsg(report.comparison, header.frame_id); });
+  if (tyre_) tyre_->publish(*pipeline_->tyre(), report.la, header);
   send(health_, [&] { return toMsg(report, options_.monitor, header); });
 }
 

@@ -21,6 +21,7 @@
 #include "model_topic.h"
 #include "monitor_diagnostics.h"
 #include "monitor_thread.h"
+#include "tyre_output.h"
 
 namespace suspension_health_monitor {
 
@@ -62,7 +63,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::optional<ImuPipeline> pipeline_;
   std::optional<MonitorDiagnostics> diagnostics_;
   std::uint64_t reports_ = 0;
-  std::array<std::string, 2> frames_;
+  std::array<std::string, kMostStreams> frames_;
   ros::Publisher ls_, la_, comparison_, health_;
   std::optional<ModelTopic> model_topic_;
   std::array<ros::ServiceServer, 3> services_;
@@ -71,6 +72,8 @@ class MonitorNodelet : public nodelet::Nodelet {
   ros::WallTimer tick_;
   ros::Subscriber static_transforms_;
   std::array<ros::Subscriber, 2> imu_;
+  ros::Subscriber road_;
+  std::optional<TyreOutput> tyre_;
 };
 
 }  // namespace suspension_health_monitor
