@@ -45,7 +45,9 @@ buildPackage() {
   fi
   mkdir -p "$build"
   say "building in $build with $jobs jobs"
-  cmake -S "$repository" -B "$build" > "$build/configure.log" 2>&1 ||
+  local options=()
+  [ -z "${SANITIZE:-}" ] || options=(-DSANITIZE="$SANITIZE" -DBUILD_BENCHMARKS=OFF)
+  cmake -S "$repository" -B "$build" "${options[@]}" > "$build/configure.log" 2>&1 ||
     { cat "$build/configure.log"; fail "cmake failed"; }
   cmake --build "$build" --parallel "$jobs" --target "${@:-all}"
 }

@@ -4,6 +4,7 @@
 catkin_test_results counts gtest and rostest files twice, so the cases are counted here, in the result files:
 - each <testcase> of gtest, rostest nodes, pytest and roslaunch checks is one test;
 - a rostest-*.xml tells only whether its nodes ran: its cases count when they failed (crash, time limit, missing node);
+- each report of a sanitizer, of any process that a test has started, is one failure;
 - catkin writes MISSING-*.xml in place of a result file that a test did not write (it crashed): one failure.
 """
 import argparse
@@ -71,6 +72,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("results", type=pathlib.Path, help="folder with the result files")
     parser.add_argument("--ctest-status", type=int, default=0, help="exit status of ctest")
+    parser.add_argument("--sanitizer-reports", type=pathlib.Path, help="folder with a file for each defect found")
     parser.add_argument("--log", type=pathlib.Path, help="what ctest printed")
     options = parser.parse_args()
 
@@ -79,6 +81,8 @@ def main():
     passed = sum(result[0] for result in results)
     skipped = sum(result[1] for result in results)
     failed = [failure for result in results for failure in result[2]]
+    if options.sanitizer_reports:
+        failed += [(path.name, path.read_text(errors="replace")) for path in sorted(options.sanitizer_reports.iterdir())]
     if options.ctest_status != 0 and not failed:
         failed.append(("ctest", f"exit status {options.ctest_status}, though no result file tells of a failure"))
     if passed == 0 and not failed:

@@ -8,6 +8,7 @@
 #include "suspension_health_monitor/discrepancy/running_comparison.h"
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/identification/regressor_noise.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
 #include "suspension_health_monitor/model/free_run.h"
 #include "suspension_health_monitor/monitor_options.h"
@@ -65,21 +66,29 @@ class ModelTracker {
 
   void startNewSeries(ModelReport& report);
 
+  /// From the next row on; the estimates stay.
+  /// @throws std::invalid_argument  as RecursiveOptions::validate().
+  void setForgettingFactor(double forgetting_factor);
+
  private:
   void estimate(const RegressionRow& row, ModelReport& report);
   void describe(ModelReport& report) const;
+  [[gnu::noinline]] void describeSpreads(ModelReport& report) const;
   bool isValid(const StrutEstimate& estimate) const;
   void takeModel(const StrutEstimate& la);
   void fallBack();
   void compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report);
 
   IntegralFilterOptions filter_;
+  int valid_min_rows_;
   double min_rows_, min_explained_;
+  int spread_phase_ = 0;
   int silent_rows_ = 0;      // rows of output 0 without a break; counts up to L and stays there
   double rows_of_model_;     // since the effects were set; infinite for the plain model
   bool has_own_model_ = false;
   std::uint64_t runaways_ = 0;
   SuspensionRegression regression_;
+  RegressorNoise noise_;
   RecursiveLeastSquares least_squares_;
   RecursiveLeastAbsolute least_absolute_;
   FreeRun free_run_;

@@ -28,6 +28,7 @@ struct MonitorOptions {
   int valid_min_rows = 50;
   double valid_min_explained = 0.5;
   double comparison_window = 10.0;
+  std::optional<double> tyre_horizon;
   std::optional<double> sprung_mass;
   std::optional<double> nominal_damping_to_mass;
   std::optional<double> nominal_stiffness_to_mass;
@@ -53,6 +54,9 @@ struct MonitorOptions {
   int horizonSamples(double period) const;
 
   IntegralFilterOptions filter(double period) const;
+
+  /// That of the wheel's regression: tyre/integration_horizon, or an eighth of the strut's, of at least 5 samples.
+  IntegralFilterOptions tyreFilter(double period) const;
   RecursiveOptions recursive() const;
   LeastAbsoluteOptions leastAbsolute() const;
   /// @param period  sampling time [s].
@@ -88,6 +92,9 @@ inline constexpr std::array kMonitorFields{
                  &MonitorOptions::valid_min_explained, 0.0, 1.0},
     MonitorField{"comparison_window", "s", "memory of rmse and fit of the free run", &MonitorOptions::comparison_window,
                  1e-3, 1e5},
+    MonitorField{"tyre/integration_horizon", "s",
+                 "horizon of the wheel's regression, near one period of its hop; left out: an eighth of the strut's",
+                 &MonitorOptions::tyre_horizon, 1e-5, 1e3},
     MonitorField{"sprung_mass", "kg", "body mass on this strut, for damping and stiffness in SI",
                  &MonitorOptions::sprung_mass, 1e-6, 1e6},
     MonitorField{"nominal/damping_to_mass", "1/s", "b1 of the healthy strut", &MonitorOptions::nominal_damping_to_mass,

@@ -12,7 +12,8 @@ namespace suspension_health_monitor {
 struct StrutEstimate {
   double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
   double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
-  double damping_to_mass_stddev = std::nan("");    ///< [1/s], for residuals taken as white
+  double damping_to_mass_stddev = std::nan("");    ///< [1/s], with the residuals' correlation and the shift by noise in
+                                                   ///< the regressors; renewed every few rows
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
   std::size_t num_effects = 0;                     ///< in the model
   std::array<double, StrutState::kMostEffects> coefficients{};         ///< c_j [unit of the effect's coefficient]

@@ -50,6 +50,11 @@ class SuspensionMonitor {
   /// @return the effects in the model, with the coefficients that the free run has now.
   const std::vector<ActiveEffect>& effects() const { return tracker().effects(); }
 
+  /// Goes on with another forgetting factor and other thresholds of health; estimates and filters are kept.
+  /// @param options  which differ from options() in nothing else.
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed; all then stays as it was.
+  void reconfigure(const MonitorOptions& options);
+
   /// Takes in the next sample. A gap or a clock that goes back empties the filter (2 L samples without rows follow);
   /// estimates hold meanwhile, marked as not valid. They do so, too, after L rows of output exactly 0: without any
   /// noise there is no motion but a sensor that is stuck or a simulated vehicle at rest, and rows that LA hits exactly

@@ -3,24 +3,49 @@
 #include <algorithm>
 #include <limits>
 
+#include "suspension_health_monitor/pi.h"
+
 namespace suspension_health_monitor {
 namespace {
+
+// Standard deviations change slowly, and are the dear part of a description.
+constexpr int kSpreadEvery = 32;  // rows
+constexpr int kModelEvery = 8;    // rows, between models of the free run: a new one costs as much as a step of it
 
 template <class Estimator>
 void describeStrut(const Estimator& estimator, StrutEstimate& estimate) {
   estimate.damping_to_mass = estimator.parameters()[kDampingToMass];
   estimate.stiffness_to_mass = estimator.parameters()[kStiffnessToMass];
-  estimate.damping_to_mass_stddev = std::sqrt(estimator.parameterVariance(kDampingToMass));
-  estimate.stiffness_to_mass_stddev = std::sqrt(estimator.parameterVariance(kStiffnessToMass));
   estimate.num_effects = static_cast<std::size_t>(estimator.numParameters() - kNumStrutParameters);
-  for (std::size_t j = 0; j < estimate.num_effects; ++j) {
-    const int i = kNumStrutParameters + static_cast<int>(j);
-    estimate.coefficients[j] = estimator.parameters()[i];
-    estimate.coefficient_stddevs[j] = std::sqrt(estimator.parameterVariance(i));
-  }
+  for (std::size_t j = 0; j < estimate.num_effects; ++j)
+    estimate.coefficients[j] = estimator.parameters()[kNumStrutParameters + static_cast<int>(j)];
   estimate.effective_rows = estimator.effectiveRows();
   const double output = estimator.meanAbsoluteOutput();
   estimate.explained = output > 0.0 ? 1.0 - estimator.meanAbsoluteResidual() / output : 0.0;
+}
+
+/// What is random, and what the sensors' noise in the regressors shifts.
+template <class Estimator>
+void describeSpread(const Estimator& estimator, const Eigen::Vector2d& noise_moment, StrutEstimate& estimate) {
+  const auto stddev = [&](int i) {
+    const double shift = estimator.parameterShift(i, noise_moment);
+    return std::sqrt(estimator.parameterVariance(i) + shift * shift);
+  };
+  estimate.damping_to_mass_stddev = stddev(kDampingToMass);
+  estimate.stiffness_to_mass_stddev = stddev(kStiffnessToMass);
+  for (std::size_t j = 0; j < estimate.num_effects; ++j)
+    estimate.coefficient_stddevs[j] = stddev(kNumStrutParameters + static_cast<int>(j));
+}
+
+/// Each reading of a sensor is in 2 L + 1 rows.
+RecursiveOptions recursiveOptions(const MonitorOptions& options, const IntegralFilterOptions& filter) {
+  RecursiveOptions recursive = options.recursive();
+  recursive.correlated_rows = 2 * filter.horizon_samples;
+  return recursive;
+}
+
+double fewestRows(int wanted, double forgetting_factor) {
+  return std::min<double>(wanted, 0.9 / (1.0 - std::min(forgetting_factor, 1 - 1e-12)));
 }
 
 std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const std::vector<ActiveEffect>& after) {
@@ -40,12 +65,14 @@ std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const
 
 ModelTracker::ModelTracker(const MonitorOptions& options)
     : filter_(options.filter(*options.sample_period)),
-      min_rows_(std::min<double>(options.valid_min_rows, 0.9 / (1.0 - std::min(options.forgetting_factor, 1 - 1e-12)))),
+      valid_min_rows_(options.valid_min_rows),
+      min_rows_(fewestRows(valid_min_rows_, options.forgetting_factor)),
       min_explained_(options.valid_min_explained),
       rows_of_model_(std::numeric_limits<double>::infinity()),
       regression_(filter_),
-      least_squares_(kNumStrutParameters, options.recursive()),
-      least_absolute_(kNumStrutParameters, options.recursive(), options.leastAbsolute()),
+      noise_(filter_),
+      least_squares_(kNumStrutParameters, recursiveOptions(options, filter_)),
+      least_absolute_(kNumStrutParameters, recursiveOptions(options, filter_), options.leastAbsolute()),
       free_run_(*options.sample_period),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {}
 
@@ -62,7 +89,10 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelRep
     starts_.push_back(least_absolute_.parameters()[kNumStrutParameters + static_cast<Eigen::Index>(j)]);
     free_run_.setCoefficient(j, starts_[j]);
   }
-  if (least_absolute_.effectiveRows() > 0.0) describe(report);
+  if (least_absolute_.effectiveRows() > 0.0) {
+    describe(report);
+    describeSpreads(report);
+  }
   report.ls.valid = report.la.valid = false;
 }
 
@@ -75,7 +105,7 @@ void ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
   const RegressionRow* row = of_row != nullptr ? regression_.push(*of_row, free_run_.effectForces()) : nullptr;
   report.has_row = row != nullptr;
   if (row != nullptr) estimate(*row, report);
-  if (report.la.valid) takeModel(report.la);
+  if (report.la.valid && (spread_phase_ % kModelEvery == 0 || !has_own_model_)) takeModel(report.la);
   report.comparison.has_sample = compared != nullptr;
   if (compared != nullptr) compare(*compared, predicted, report);
 }
@@ -88,6 +118,8 @@ void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
     least_squares_.update(row);
     least_absolute_.update(row);
     describe(report);
+    if (spread_phase_ == 0) describeSpreads(report);
+    spread_phase_ = (spread_phase_ + 1) % kSpreadEvery;
   }
   report.ls.valid = moves && isValid(report.ls);
   report.la.valid = moves && isValid(report.la);
@@ -98,9 +130,25 @@ void ModelTracker::describe(ModelReport& report) const {
   describeStrut(least_absolute_, report.la);
 }
 
+void ModelTracker::describeSpreads(ModelReport& report) const {
+  // LA's residuals, which outliers hardly touch; for a normal distribution the variance is pi/2 times their mean squared.
+  const double size = least_absolute_.meanAbsoluteResidual();
+  const Eigen::Vector2d strut(report.la.damping_to_mass, report.la.stiffness_to_mass);
+  const Eigen::Vector2d moment = noise_.moment(strut, 0.5 * kPi * size * size);
+  describeSpread(least_squares_, moment, report.ls);
+  describeSpread(least_absolute_, moment, report.la);
+}
+
+void ModelTracker::setForgettingFactor(double forgetting_factor) {
+  least_squares_.setForgettingFactor(forgetting_factor);
+  least_absolute_.setForgettingFactor(forgetting_factor);
+  min_rows_ = fewestRows(valid_min_rows_, forgetting_factor);
+}
+
 bool ModelTracker::isValid(const StrutEstimate& estimate) const {
   return std::min(estimate.effective_rows, rows_of_model_) >= min_rows_ && estimate.explained >= min_explained_ &&
-         estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
+         estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0 &&
+         std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev);
 }
 
 void ModelTracker::takeModel(const StrutEstimate& la) {
@@ -138,6 +186,8 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
 
 void ModelTracker::startNewSeries(ModelReport& report) {
   regression_.reset();
+  least_squares_.interrupt();
+  least_absolute_.interrupt();
   free_run_.reset();
   report.comparison.predicted.reset();
   report.ls.valid = report.la.valid = false;

@@ -44,6 +44,17 @@ IntegralFilterOptions MonitorOptions::filter(double period) const {
   return filter;
 }
 
+IntegralFilterOptions MonitorOptions::tyreFilter(double period) const {
+  MonitorOptions options = *this;
+  constexpr double kShare = 1.0 / 8.0;
+  constexpr int kFewestSamples = 5;
+  const double horizon = tyre_horizon.value_or(kShare * horizonSamples(period) * period);
+  options.integration_horizon.reset();
+  options.horizon_samples = std::max(kFewestSamples, static_cast<int>(std::lround(horizon / period)));
+  if (options.integration_rule == "simpson" && *options.horizon_samples % 2 != 0) ++*options.horizon_samples;
+  return options.filter(period);
+}
+
 RecursiveOptions MonitorOptions::recursive() const {
   return {forgetting_factor, initial_variance,
           initial_variance_rule == "relative" ? InitialVariance::kRelative : InitialVariance::kAbsolute};

@@ -46,6 +46,13 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
   extended_.emplace(std::move(next));
 }
 
+void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
+  options_ = checked(options);
+  health_.setOptions(options.health(period()));
+  plain_.setForgettingFactor(options.forgetting_factor);
+  if (extended_) extended_->setForgettingFactor(options.forgetting_factor);
+}
+
 // Flat: a sample passes a dozen small functions, whose calls alone would cost a fifth of its time.
 [[gnu::flatten]] const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
   if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) {

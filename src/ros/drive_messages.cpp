@@ -18,6 +18,7 @@ DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp st
       hidden_faults_(options.drive.hidden_faults),
       gravity_(options.publishing.gravity),
       has_gyro_(options.drive.body_rate > 0.0),
+      has_road_(options.publishing.road_imu),
       start_(start) {}
 
 std::optional<DriveMessages> DriveMessageSource::next() {
@@ -27,7 +28,8 @@ std::optional<DriveMessages> DriveMessageSource::next() {
   header.stamp = stampAt(start_ + sample->stamp);
   header.frame_id = "sprung_imu";
   DriveMessages messages{header.stamp, toMessage(sample->sprung, "sprung_imu"),
-                         toMessage(sample->unsprung, "unsprung_imu"), toMessage(sample->truth, header)};
+                         toMessage(sample->unsprung, "unsprung_imu"), toMessage(sample->truth, header), std::nullopt};
+  if (has_road_) messages.road = toMessage(sample->road, "road_imu");
   if (messages.sprung) addSway(sample->body, *messages.sprung);
   return messages;
 }

@@ -16,6 +16,7 @@ struct DriveMessages {
   ros::Time time;
   std::optional<sensor_msgs::Imu> sprung, unsprung;
   SimulationTruth truth;
+  std::optional<sensor_msgs::Imu> road;  ///< with road_imu
 };
 
 /// The simulated drive as messages, the same for the simulator nodelet and for `suspension_bag simulate`.
@@ -39,6 +40,7 @@ class DriveMessageSource {
   std::vector<ActiveMeasurementEffect> hidden_faults_;
   double gravity_;
   bool has_gyro_;
+  bool has_road_;
   Stamp start_;
 };
 

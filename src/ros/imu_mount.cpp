@@ -42,9 +42,10 @@ ImuMount::ImuMount(const std::string& axis, const std::string& target_frame, con
   directions_ = axes_;
 }
 
-std::array<ImuMount, 2> ImuMount::of(const ShellOptions& options, const tf2::BufferCore* transforms) {
+std::array<ImuMount, kMostStreams> ImuMount::of(const ShellOptions& options, const tf2::BufferCore* transforms) {
   return {ImuMount(options.sprung_axis, options.target_frame, options.sprung_range, transforms),
-          ImuMount(options.unsprung_axis, options.target_frame, options.unsprung_range, transforms)};
+          ImuMount(options.unsprung_axis, options.target_frame, options.unsprung_range, transforms),
+          ImuMount(options.road_axis, options.target_frame, std::nullopt, transforms)};
 }
 
 std::variant<double, RejectReason> ImuMount::acceleration(const sensor_msgs::Imu& imu) {

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "shell_options.h"
+#include "suspension_health_monitor/signal/alignment.h"
 #include "suspension_health_monitor/discrepancy/body_motion.h"
 #include "suspension_health_monitor/signal/reject_reason.h"
 
@@ -28,7 +29,7 @@ class ImuMount {
            const tf2::BufferCore* transforms);
 
   /// The mounts of sprung and unsprung IMU.
-  static std::array<ImuMount, 2> of(const ShellOptions& options, const tf2::BufferCore* transforms);
+  static std::array<ImuMount, kMostStreams> of(const ShellOptions& options, const tf2::BufferCore* transforms);
 
   /// @return acceleration along the strut, gravity included as measured [m/s^2]; or why there is none: kNotMeasured (the
   /// message says so: covariance -1, sensor_msgs/Imu), kNoTransform, kClipped.

@@ -25,7 +25,8 @@ ImuPipeline::ImuPipeline(const PipelineOptions& options, Sink sink, const tf2::B
 void ImuPipeline::start(double period) {
   options_.monitor.sample_period = period;
   monitor_.emplace(options_.monitor);
-  grid_.emplace(period);
+  grid_.emplace(period, options_.grid(period));
+  if (options_.shell.tyre) tyre_.emplace(options_.monitor);
   if (!effects_.empty()) monitor_->setEffects(effects_);
   if (baseline_) monitor_->setBaseline(*baseline_);
   if (kept_span_) keepSamples(*kept_span_);
@@ -43,6 +44,12 @@ void ImuPipeline::setEffects(const std::vector<ActiveEffect>& effects) {
     monitor_->setEffects(effects);
   else
     effects_ = effects;
+}
+
+void ImuPipeline::reconfigure(MonitorOptions options) {
+  options.sample_period = options_.monitor.sample_period;
+  if (monitor_) monitor_->reconfigure(options);
+  options_.monitor = options;
 }
 
 void ImuPipeline::keepSamples(double span) {
@@ -92,10 +99,11 @@ void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
 }
 
 void ImuPipeline::push(const Reading& reading) {
-  const std::optional<CornerSample> sample = grid_->push(reading.side, reading.stamp, reading.acceleration);
-  if (!sample) return;
-  if (recent_) keep(*sample);
-  if (const MonitorReport* report = monitor_->addSample(*sample)) sink_(*report);
+  for (auto sample = grid_->push(reading.side, reading.stamp, reading.acceleration); sample; sample = grid_->next()) {
+    if (recent_) keep(*sample);
+    if (tyre_) tyre_->add(*sample, grid_->roadAcceleration());
+    if (const MonitorReport* report = monitor_->addSample(*sample)) sink_(*report);
+  }
 }
 
 void ImuPipeline::keep(const CornerSample& sample) {

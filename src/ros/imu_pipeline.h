@@ -14,6 +14,7 @@
 #include "suspension_health_monitor/signal/recent_samples.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
 #include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/tyre_tracker.h"
 
 namespace suspension_health_monitor {
 
@@ -38,6 +39,9 @@ class ImuPipeline {
   /// Has health judged by this from now on.
   void setBaseline(const Baseline& baseline);
 
+  /// Goes on with other settings, see SuspensionMonitor::reconfigure().
+  void reconfigure(MonitorOptions options);
+
   /// From now on keeps the newest samples: those of `span` [s], at most kMostKept.
   void keepSamples(double span);
   static constexpr std::size_t kMostKept = 4000000;  // 64 bytes each
@@ -50,6 +54,9 @@ class ImuPipeline {
 
   /// @return the monitor; nullptr while the sample period is being measured.
   const SuspensionMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
+
+  /// @return what follows the tyre; nullptr without tyre/enabled and while the sample period is being measured.
+  const TyreTracker* tyre() const { return tyre_ ? &*tyre_ : nullptr; }
 
   const ImuMount& mount(Side side) const { return mounts_[static_cast<std::size_t>(side)]; }
 
@@ -71,12 +78,13 @@ class ImuPipeline {
   void start(double period);
 
   PipelineOptions options_;
-  std::array<ImuMount, 2> mounts_;
+  std::array<ImuMount, kMostStreams> mounts_;
   Sink sink_;
   PeriodMeasurement measurement_;
   std::vector<Reading> early_;  // readings that wait for the sample period
   std::optional<UniformGrid> grid_;
   std::optional<SuspensionMonitor> monitor_;
+  std::optional<TyreTracker> tyre_;
   std::vector<ActiveEffect> effects_;  // until there is a monitor
   std::optional<Baseline> baseline_;   // until there is a monitor
   std::optional<double> kept_span_;    // [s]

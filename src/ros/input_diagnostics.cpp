@@ -32,6 +32,10 @@ void InputDiagnostics::restart() {
 void InputDiagnostics::describe(const ImuPipeline& pipeline, Status& status) {
   status.summary(DiagnosticStatus::OK, "both IMUs arrive as expected");
   if (pipeline.monitor() != nullptr) describeSeries(*pipeline.monitor(), status);
+  if (pipeline.grid() != nullptr) {
+    status.add("alignment", pipeline.grid()->describeAlignment());
+    status.add("bridged", pipeline.grid()->bridged());
+  }
   for (const Side side : {Side::kSprung, Side::kUnsprung}) describeStream(side, pipeline, status);
   describeRejected(pipeline.rejected(), status);
   describeTransforms(pipeline, status);

@@ -1,6 +1,7 @@
 #include "monitor_diagnostics.h"
 
 #include "search_words.h"
+#include "tyre_output.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -32,6 +33,7 @@ MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::N
   updater_.add("Input", [this](Status& status) { input_.describe(*pipeline_, status); });
   updater_.add("Health", this, &MonitorDiagnostics::describeHealth);
   updater_.add("Model", this, &MonitorDiagnostics::describeModel);
+  if (options.tyre) updater_.add("Tyre", [this](Status& status) { describeTyre(*pipeline_, status); });
 }
 
 bool MonitorDiagnostics::noteLevel(HealthLevel level) {

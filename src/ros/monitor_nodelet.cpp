@@ -23,9 +23,11 @@ LiveModel::Shapes shapesOf(const SetEffectsRequest& request) {
 MonitorNodelet::~MonitorNodelet() {
   // Nothing may call back into members that are already gone.
   diagnose_.reset();
+  reconfigure_.reset();
   tick_.stop();
   static_transforms_.shutdown();
   for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
+  road_.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
 }
 
@@ -51,6 +53,9 @@ void MonitorNodelet::start() {
   health_ = private_node_.advertise<SuspensionHealth>("health", queue_size);
   if (!options_.shell.target_frame.empty())
     static_transforms_ = node_.subscribe("/tf_static", queue_size, &MonitorNodelet::onTransforms, this);
+  if (options_.shell.tyre) tyre_.emplace(private_node_, queue_size);
+  model_topic_.emplace(private_node_);
+  publishModel();
   subscribe();
   diagnostics_.emplace(node_, private_node_, getName(), options_.shell, imu_, *model_);
   advertiseServices();
@@ -75,6 +80,24 @@ void MonitorNodelet::advertiseServices() {
                     DiagnoseService::Nodelet{[this](double window) { return giveSamples(window); },
                                              [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); }},
                     search);
+  reconfigure_.emplace(private_node_);  // writes down the parameters as they were given, and defaults
+  reconfigure_->setCallback([this](LiveSettings& settings, std::uint32_t) { onReconfigure(settings); });
+}
+
+void MonitorNodelet::onReconfigure(LiveSettings& settings) {
+  try {
+    const PipelineOptions changed = settings.appliedTo(options_);
+    pipeline_->reconfigure(changed.monitor);
+    options_ = changed;
+  } catch (const std::invalid_argument& error) {
+    NODELET_WARN("%s; all settings stay as they were", error.what());
+  }
+  settings = LiveSettings(options_);
+}
+
+void MonitorNodelet::publishModel() {
+  const SuspensionMonitor* monitor = pipeline_->monitor();
+  model_topic_->change(monitor != nullptr ? monitor->effects() : model_->effects(), monitor, frames_.front());
 }
 
 void MonitorNodelet::subscribe() {
@@ -85,12 +108,14 @@ void MonitorNodelet::subscribe() {
         ros::TransportHints().tcpNoDelay());
   };
   imu_ = {listen(Side::kSprung, "sprung/imu"), listen(Side::kUnsprung, "unsprung/imu")};
+  if (options_.shell.tyre) road_ = listen(Side::kRoad, "road/imu");
 }
 
 void MonitorNodelet::stopListening(const std::string& reason) {
   NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
   diagnostics_->input().setRefusal(reason);
   for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
+  road_.shutdown();
 }
 
 void MonitorNodelet::onTransforms(const tf2_msgs::TFMessageConstPtr& tree) {
@@ -100,7 +125,7 @@ void MonitorNodelet::onTransforms(const tf2_msgs::TFMessageConstPtr& tree) {
 
 void MonitorNodelet::onImu(Side side, const sensor_msgs::ImuConstPtr& imu) {
   frames_[static_cast<std::size_t>(side)] = imu->header.frame_id;
-  diagnostics_->input().noteMessage(side, imu->header.stamp);
+  if (side != Side::kRoad) diagnostics_->input().noteMessage(side, imu->header.stamp);
   try {
     pipeline_->push(side, *imu);
   } catch (const std::invalid_argument& error) {  // the options do not fit the sample period that was measured
@@ -110,6 +135,7 @@ void MonitorNodelet::onImu(Side side, const sensor_msgs::ImuConstPtr& imu) {
 
 void MonitorNodelet::publish(const MonitorReport& report) {
   if (diagnostics_->noteLevel(report.health.level)) onTick();
+  model_topic_->note(*pipeline_->monitor(), frames_.front());
   if (report.health.learned && !baseline_->known()) keepBaseline();
   if (reports_++ % static_cast<std::uint64_t>(options_.shell.publish_every) != 0) return;
   std_msgs::Header header;
@@ -126,6 +152,7 @@ void MonitorNodelet::publish(const MonitorReport& report) {
   send(la_, [&] { return toMsg(report.la, "la", header, effects, mass); });
   if (report.comparison.has_sample)
     send(comparison_, [&] { return toMsg(report.comparison, header.frame_id); });
+  if (tyre_) tyre_->publish(*pipeline_->tyre(), report.la, header);
   send(health_, [&] { return toMsg(report, pipeline_->monitor()->baseline(), header); });
 }
 
@@ -133,6 +160,7 @@ void MonitorNodelet::onTick() { diagnostics_->publish(*pipeline_); }
 
 bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   makePipeline();
+  publishModel();
   diagnostics_->input().restart();
   if (!imu_.front()) subscribe();
   response.success = true;
@@ -146,6 +174,7 @@ bool MonitorNodelet::onSetEffects(SetEffectsRequest& request, SetEffectsResponse
         model_->choose(request.names, shapesOf(request), [this] { return motionScaleNow(); });
     pipeline_->setEffects(effects);
     model_->setEffects(std::move(effects));
+    publishModel();
     response.success = true;
     response.message = "the model is now " + model_->describe();
     onTick();

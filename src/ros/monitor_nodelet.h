@@ -1,5 +1,6 @@
 #pragma once
 
+#include <dynamic_reconfigure/server.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
@@ -17,8 +18,11 @@
 #include "imu_pipeline.h"
 #include "live_baseline.h"
 #include "live_model.h"
+#include "live_settings.h"
+#include "model_topic.h"
 #include "monitor_diagnostics.h"
 #include "monitor_thread.h"
+#include "tyre_output.h"
 
 namespace suspension_health_monitor {
 
@@ -39,6 +43,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   void onImu(Side side, const sensor_msgs::ImuConstPtr& imu);
   void publish(const MonitorReport& report);
   void onTick();
+  void onReconfigure(LiveSettings& settings);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
   bool onSaveModel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -47,6 +52,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   SearchTask giveSamples(double window) const;
   void takeDiagnosis(const Diagnosis& diagnosis);
   std::optional<MotionScale> motionScaleNow() const;
+  void publishModel();
   void advertiseServices();
   void makePipeline();
   void subscribe();
@@ -61,13 +67,17 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::optional<ImuPipeline> pipeline_;
   std::optional<MonitorDiagnostics> diagnostics_;
   std::uint64_t reports_ = 0;
-  std::array<std::string, 2> frames_;
+  std::array<std::string, kMostStreams> frames_;
   ros::Publisher ls_, la_, comparison_, health_;
+  std::optional<ModelTopic> model_topic_;
   std::array<ros::ServiceServer, 4> services_;
+  std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
   std::optional<DiagnoseService> diagnose_;
   ros::WallTimer tick_;
   ros::Subscriber static_transforms_;
   std::array<ros::Subscriber, 2> imu_;
+  ros::Subscriber road_;
+  std::optional<TyreOutput> tyre_;
 };
 
 }  // namespace suspension_health_monitor

@@ -7,6 +7,7 @@
 
 #include "suspension_health_monitor/discrepancy/effect_search.h"
 #include "suspension_health_monitor/monitor_options.h"
+#include "suspension_health_monitor/signal/alignment.h"
 
 namespace suspension_health_monitor {
 
@@ -17,6 +18,9 @@ struct ShellOptions {
   std::string target_frame;
   std::optional<double> sprung_range;
   std::optional<double> unsprung_range;
+  std::string alignment = "auto";
+  bool tyre = false;
+  std::string road_axis = "z";
   double input_timeout = 2.0;
   std::optional<double> max_lag;
   std::optional<double> sprung_rate;
@@ -48,6 +52,13 @@ inline constexpr std::array kShellFields{
                &ShellOptions::sprung_range, 1e-6, 1e6},
     ShellField{"unsprung_range", "m/s^2", "range of the wheel carrier IMU, likewise", &ShellOptions::unsprung_range,
                1e-6, 1e6},
+    ShellField{"alignment", "-",
+               "readings paired by stamp, resampled onto a grid, or auto: paired until that does badly",
+               &ShellOptions::alignment, 0, 0, kAlignmentNames},
+    ShellField{"tyre/enabled", "-", "listen to road/imu, an IMU where the tyre touches the road, and identify the tyre",
+               &ShellOptions::tyre},
+    ShellField{"tyre/road_axis", "-", "axis of the road's IMU (or of target_frame) that points up along the strut",
+               &ShellOptions::road_axis, 0, 0, kAxisNames},
     ShellField{"input_timeout", "s", "silence of an IMU, by the clock and by the wall clock, that is reported as an error",
                &ShellOptions::input_timeout, 0.01, 3600.0},
     ShellField{"max_lag", "s", "mean lag of an IMU's messages behind their stamps that is warned of",
@@ -89,6 +100,15 @@ struct PipelineOptions {
     takeOptions(values, kShellFields, options.shell);
     refuseUnknown(values, describe());
     options.monitor.validate();
+    return options;
+  }
+
+  /// @param period  sampling time [s].
+  GridOptions grid(double period) const {
+    GridOptions options;
+    options.alignment = alignment(shell.alignment);
+    options.fill_samples = 2 * monitor.horizonSamples(period);
+    options.has_road = shell.tyre;
     return options;
   }
 

@@ -31,6 +31,7 @@ void SimulatorNodelet::onInit() {
   startOrRefuse(private_node, [&] { options = SimulatorOptions::fromValues(readParameters(private_node)); });
   sprung_ = node.advertise<sensor_msgs::Imu>("sprung/imu", kQueueSize);
   unsprung_ = node.advertise<sensor_msgs::Imu>("unsprung/imu", kQueueSize);
+  if (options.publishing.road_imu) road_ = node.advertise<sensor_msgs::Imu>("road/imu", kQueueSize);
   truth_ = private_node.advertise<SimulationTruth>("truth", kQueueSize);
   if (options.publishing.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize);
   pace_ = node.subscribe<ParameterEstimate>(
@@ -82,7 +83,7 @@ void SimulatorNodelet::waitForTurn(const SimulatorOptions& options, ros::Time st
     return;
   }
   if (pace_.getNumPublishers() == 0 || pace_is_lost_) return;
-  const double lead = kLeadSamples / options.drive.rate;
+  const double lead = kLeadSamples / fasterRate(options.drive);
   const Clock::time_point give_up = Clock::now() + kLongestWaitForPace;
   while (running_ && ros::ok() && now.toSec() - std::max(paced_until_.load(), start.toSec()) > lead &&
          Clock::now() < give_up)
@@ -103,6 +104,7 @@ void SimulatorNodelet::publish(const DriveMessages& messages, bool publish_clock
   if (publish_clock) publishClock(messages.time);
   if (messages.sprung) sprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.sprung));
   if (messages.unsprung) unsprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.unsprung));
+  if (messages.road) road_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.road));
   truth_.publish(boost::make_shared<const SimulationTruth>(messages.truth));
 }
 

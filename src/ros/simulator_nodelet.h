@@ -29,7 +29,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   void publishClock(ros::Time now) const;
   void publish(const DriveMessages& messages, bool publish_clock);
 
-  ros::Publisher sprung_, unsprung_, truth_, clock_;
+  ros::Publisher sprung_, unsprung_, road_, truth_, clock_;
   ros::Subscriber pace_;
   std::atomic<double> paced_until_{0.0};  // stamp of the newest estimate of the monitor that sets the pace [s]
   std::atomic<bool> running_{true};

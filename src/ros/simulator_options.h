@@ -2,6 +2,7 @@
 
 #include <array>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "model_file.h"
@@ -14,6 +15,7 @@ namespace suspension_health_monitor {
 /// How a simulated drive is published, and what it may hide.
 struct PublishingOptions {
   double gravity = 9.81;
+  bool road_imu = false;
   double start_time = 0.0;
   double real_time_factor = 1.0;
   bool publish_clock = false;
@@ -28,6 +30,8 @@ using PublishingField = OptionField<PublishingOptions>;
 inline constexpr std::array kPublishingFields{
     PublishingField{"gravity", "m/s^2", "what both IMUs read on z at rest (REP 145)", &PublishingOptions::gravity,
                     -100.0, 100.0},
+    PublishingField{"road_imu", "-", "a third IMU where the tyre touches the road, on road/imu; of vehicles on a tyre",
+                    &PublishingOptions::road_imu},
     PublishingField{"start_time", "s", "stamp at the start of the drive; live without publish_clock it is now",
                     &PublishingOptions::start_time, 0.0, 4e9},
     PublishingField{"real_time_factor", "-", "drive seconds per wall second; 0: as fast as subscribers keep up",
@@ -62,6 +66,9 @@ struct SimulatorOptions {
     takeOptions(values, kSimulationFields, options.drive);
     refuseUnknown(values, describe());
     validate(options.drive);
+    if (options.publishing.road_imu && !makeScenario(options.drive).vehicle.tyre_stiffness)
+      throw std::invalid_argument("road_imu = true, must be false for vehicle = " + options.drive.vehicle +
+                                  " in scenario = " + options.drive.scenario + ": its wheel is rigid");
     return options;
   }
 

@@ -2,59 +2,97 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr int kDeepest = 5;  // no name has more parts; an alias that contains itself has no end
+constexpr std::size_t kMostValues = 10000;
+constexpr std::size_t kLargestText = 1U << 20U;  // [bytes]
 
-/// A list such as the names of effects; no option is a list of numbers.
-bool isListOfTexts(const YAML::Node& node) {
-  const auto isText = [](const YAML::Node& item) {
-    double number = 0.0;
-    return item.IsScalar() && !YAML::convert<double>::decode(item, number);
-  };
-  return node.IsSequence() && std::all_of(node.begin(), node.end(), isText);
+[[noreturn]] void refuseSize(const std::string& name) {
+  throw std::invalid_argument(name + ": is too large for settings, must be at most " + std::to_string(kMostValues) +
+                              " values in " + std::to_string(kLargestText >> 20U) + " MiB");
 }
 
-std::string joined(const YAML::Node& list) {
-  std::string text;
-  for (const YAML::Node& item : list) text += (text.empty() ? "" : ", ") + item.as<std::string>();
-  return text;
-}
+/// Walks through a document. Aliases let a short one be endless to walk through, so what it makes is counted.
+class Flattening {
+ public:
+  explicit Flattening(std::string text_name) : text_name_(std::move(text_name)) {}
 
-void flatten(const std::string& name, int depth, const YAML::Node& node, const std::string& file, OptionMap& values) {
-  if (node.IsMap() && depth < kDeepest) {
-    for (const auto& entry : node) {
-      const auto key = entry.first.as<std::string>();
-      flatten(name.empty() ? key : name + '/' + key, depth + 1, entry.second, file, values);
-    }
-  } else if ((node.IsScalar() || isListOfTexts(node)) && !name.empty()) {
-    if (!values.emplace(name, node.IsScalar() ? node.as<std::string>() : joined(node)).second)
-      throw std::invalid_argument(file + ": line " + std::to_string(node.Mark().line + 1) + ": " + name +
-                                  " is given twice, must be given once");
-  } else if (!(node.IsNull() && name.empty())) {  // a file of comments only sets nothing
-    throw std::invalid_argument(file + ": line " + std::to_string(node.Mark().line + 1) + ": " +
-                                (name.empty() ? "the file" : name) + " must be a name with a plain value");
+  OptionMap operator()(const YAML::Node& document) {
+    flatten("", 0, document);
+    return std::move(values_);
   }
-}
+
+ private:
+  void flatten(const std::string& name, int depth, const YAML::Node& node) {
+    count(name.size());
+    if (node.IsMap() && depth < kDeepest) {
+      for (const auto& entry : node) {
+        const auto key = entry.first.as<std::string>();
+        flatten(name.empty() ? key : name + '/' + key, depth + 1, entry.second);
+      }
+      return;
+    }
+    if (node.IsNull() && name.empty()) return;  // a file of comments only sets nothing
+    const std::optional<std::string> value = node.IsScalar() ? node.as<std::string>() : joinedTexts(node);
+    if (!value || name.empty()) refuse(node, (name.empty() ? "the file" : name) + " must be a name with a plain value");
+    count(value->size());
+    if (!values_.emplace(name, *value).second) refuse(node, name + " is given twice, must be given once");
+  }
+
+  /// A list such as the names of effects; no option is a list of numbers.
+  std::optional<std::string> joinedTexts(const YAML::Node& list) {
+    if (!list.IsSequence()) return std::nullopt;
+    std::string text;
+    for (const YAML::Node& item : list) {
+      double number = 0.0;
+      if (!item.IsScalar() || YAML::convert<double>::decode(item, number)) return std::nullopt;
+      count(item.Scalar().size());
+      text += (text.empty() ? "" : ", ") + item.Scalar();
+    }
+    return text;
+  }
+
+  void count(std::size_t characters) {
+    characters_ += characters;
+    if (++values_counted_ > kMostValues || characters_ > kLargestText) refuseSize(text_name_);
+  }
+
+  [[noreturn]] void refuse(const YAML::Node& node, const std::string& why) const {
+    throw std::invalid_argument(text_name_ + ": line " + std::to_string(node.Mark().line + 1) + ": " + why);
+  }
+
+  std::string text_name_;
+  std::size_t values_counted_ = 0, characters_ = 0;
+  OptionMap values_;
+};
 
 }  // namespace
 
+OptionMap parseYaml(const std::string& text, const std::string& name) {
+  if (text.size() > kLargestText) refuseSize(name);
+  try {
+    return Flattening(name)(YAML::Load(text));
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(name + ": line " + std::to_string(error.mark.line + 1) + ": " + error.msg);
+  }
+}
+
 OptionMap readYaml(const std::string& path) {
   if (std::filesystem::is_directory(path)) throw std::invalid_argument(path + ": is a folder, must be a YAML file");
-  OptionMap values;
-  try {
-    flatten("", 0, YAML::LoadFile(path), path, values);
-  } catch (const YAML::BadFile&) {
-    throw std::invalid_argument(path + ": cannot be read, must be a YAML file");
-  } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(path + ": line " + std::to_string(error.mark.line + 1) + ": " + error.msg);
-  }
-  return values;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::invalid_argument(path + ": cannot be read, must be a YAML file");
+  std::string text(kLargestText + 1, '\0');  // and no more, of what may have no end
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return parseYaml(text, path);
 }
 
 }  // namespace suspension_health_monitor

@@ -21,6 +21,7 @@ void addBagOptions(po::options_description& description) {
       "NAME=VALUE: any option of `suspension_bag options monitor`");
   add("sprung-topic", po::value<std::string>()->default_value("/sprung/imu"), "Imu topic of the body");
   add("unsprung-topic", po::value<std::string>()->default_value("/unsprung/imu"), "Imu topic of the wheel carrier");
+  add("road-topic", po::value<std::string>(), "Imu topic of the road under the tyre: identifies the tyre, too");
   add("start", po::value<double>()->default_value(0.0), "[s] after the beginning of each bag");
   add("end", po::value<double>(), "[s] after the beginning of each bag (its end)");
   add("json", po::value<std::string>(), "write the result as JSON");
@@ -31,8 +32,11 @@ BagOptions readBagOptions(const po::variables_map& values) {
   ImuBags& bags = options.bags;
   bags.paths = values["bag"].as<std::vector<std::string>>();
   bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
+  if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
   if (bags.topics[0] == bags.topics[1])
     throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + bags.topics[0] + ", must differ");
+  if (bags.topics.size() > 2 && (bags.topics[2] == bags.topics[0] || bags.topics[2] == bags.topics[1]))
+    throw std::invalid_argument("--road-topic " + bags.topics[2] + " is one of the other two, must differ");
   bags.start = values["start"].as<double>();
   if (values.count("end") != 0) bags.end = values["end"].as<double>();
   if (!(bags.start >= 0.0 && bags.end > bags.start))
@@ -41,6 +45,7 @@ BagOptions readBagOptions(const po::variables_map& values) {
   const OptionMap settings =
       gatherOptions(values["config"].as<std::string>(), values["set"].as<std::vector<std::string>>());
   options.pipeline = PipelineOptions::fromValues(settings);
+  options.pipeline.shell.tyre = bags.topics.size() > 2;
   if (!options.pipeline.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
   MonitorOptions& monitor = options.pipeline.monitor;
   options.period_measured = !monitor.sample_period;

@@ -99,21 +99,39 @@ nlohmann::json toJson(const StrutEstimate& estimate) {
           {"valid", estimate.valid}};
 }
 
+nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
+  nlohmann::json json{{"damping_to_wheel_mass", estimate.damping_to_wheel_mass},
+                      {"stiffness_to_wheel_mass", estimate.stiffness_to_wheel_mass},
+                      {"tyre_to_wheel_mass", estimate.tyre_to_wheel_mass},
+                      {"damping_to_wheel_mass_stddev", estimate.damping_to_wheel_mass_stddev},
+                      {"stiffness_to_wheel_mass_stddev", estimate.stiffness_to_wheel_mass_stddev},
+                      {"tyre_to_wheel_mass_stddev", estimate.tyre_to_wheel_mass_stddev},
+                      {"wheel_hop_frequency", estimate.wheelHopFrequency()},
+                      {"valid", estimate.valid}};
+  if (const auto ratio = massRatio(strut, estimate)) json["mass_ratio"] = *ratio;
+  return json;
+}
+
 void writeJson(std::FILE* out, const ImuPipeline& pipeline) {
   const SuspensionMonitor& monitor = *pipeline.monitor();
   nlohmann::json rejected = nlohmann::json::object();
   const RejectCounts counts = pipeline.rejected();
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     rejected[std::string(kRejectReasonNames[i])] = counts.count(static_cast<RejectReason>(i));
-  const nlohmann::json result{{"samples", monitor.input().samples},
+  nlohmann::json result{{"samples", monitor.input().samples},
                               {"rows", monitor.input().rows},
                               {"gaps", monitor.input().gaps},
                               {"clock_jumps", monitor.input().restarts},
+                              {"alignment", pipeline.grid()->describeAlignment()},
+                              {"bridged", pipeline.grid()->bridged()},
                               {"rejected", rejected},
                               {"sample_period", monitor.period()},
                               {"horizon_samples", monitor.horizonSamples()},
                               {"ls", toJson(monitor.report().ls)},
                               {"la", toJson(monitor.report().la)}};
+  if (const TyreTracker* tyre = pipeline.tyre())
+    result["tyre"] = {{"ls", toJson(tyre->report().ls, monitor.report().ls)},
+                      {"la", toJson(tyre->report().la, monitor.report().la)}};
   std::fprintf(out, "%s\n", result.dump(2).c_str());
 }
 
@@ -125,12 +143,14 @@ void printInput(const ImuPipeline& pipeline, const BagOptions& options) {
               monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
   std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
               input.rows, input.gaps, input.restarts);
+  if (pipeline.grid()->resamples())
+    std::printf(", bridged %" PRIu64, pipeline.grid()->bridged());
   const RejectCounts rejected = pipeline.rejected();
   if (rejected.total() == 0) std::printf(", rejected 0");
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
       std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
-  std::printf("\n\n");
+  std::printf("\nreadings %s\n\n", pipeline.grid()->describeAlignment().c_str());
 }
 
 void printTable(const std::vector<MonitorReport>& reports) {
@@ -151,6 +171,16 @@ void printResult(const char* name, const StrutEstimate& estimate, const std::opt
   if (mass)
     std::printf("    damping %.4g N s/m, stiffness %.5g N/m\n", *mass * estimate.damping_to_mass,
                 *mass * estimate.stiffness_to_mass);
+}
+
+void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut) {
+  std::printf("%s: damping/wheel mass %.4f +- %.4f 1/s, stiffness/wheel mass %.2f +- %.2f 1/s^2, "
+              "tyre/wheel mass %.2f +- %.2f 1/s^2, wheel hop %.3f Hz%s\n",
+              name, estimate.damping_to_wheel_mass, estimate.damping_to_wheel_mass_stddev,
+              estimate.stiffness_to_wheel_mass, estimate.stiffness_to_wheel_mass_stddev, estimate.tyre_to_wheel_mass,
+              estimate.tyre_to_wheel_mass_stddev, estimate.wheelHopFrequency(),
+              estimate.valid ? "" : "  NOT VALID: too little or too poor excitation");
+  if (const auto ratio = massRatio(strut, estimate)) std::printf("    wheel mass / body mass %.4f\n", *ratio);
 }
 
 void checkEnough(const ImuPipeline& pipeline) {
@@ -208,6 +238,10 @@ void identify(const Arguments& arguments) {
   std::printf("\nat the end, over the last %.0f rows:\n", pipeline.monitor()->report().la.effective_rows);
   printResult("LS", pipeline.monitor()->report().ls, options.pipeline.monitor.sprung_mass);
   printResult("LA", pipeline.monitor()->report().la, options.pipeline.monitor.sprung_mass);
+  if (const TyreTracker* tyre = pipeline.tyre()) {
+    printTyre("LS", tyre->report().ls, pipeline.monitor()->report().ls);
+    printTyre("LA", tyre->report().la, pipeline.monitor()->report().la);
+  }
   if (!ever_valid)
     throw TooLittleError("no estimate was ever valid: too short, too little motion, or not the two sides of one strut");
 }

@@ -30,8 +30,8 @@ std::string listImuTopics(const std::vector<BagConnection>& connections) {
 /// For every connection of a bag the IMU that it carries, if any.
 using Sides = std::map<std::uint32_t, std::optional<Side>>;
 
-Sides findSides(const BagFile& file, const std::array<std::string, 2>& topics) {
-  static constexpr std::array<const char*, 2> kOptions{"--sprung-topic", "--unsprung-topic"};
+Sides findSides(const BagFile& file, const std::vector<std::string>& topics) {
+  static constexpr std::array<const char*, 3> kOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
   Sides sides;
   for (const BagConnection& connection : file.connections()) sides[connection.id] = std::nullopt;
   for (std::size_t i = 0; i < topics.size(); ++i) {

@@ -17,7 +17,7 @@ namespace suspension_health_monitor {
 /// What to read: one or more bags, the topics of the two IMUs, and a part of each bag.
 struct ImuBags {
   std::vector<std::string> paths;
-  std::array<std::string, 2> topics;  ///< by Side
+  std::vector<std::string> topics;  ///< by Side; the road's may be left out
   double start = 0.0;                 ///< seconds after the beginning of each bag
   double end = std::numeric_limits<double>::infinity();
   std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted

@@ -23,13 +23,13 @@ void writeDrive(const SimulatorOptions& options, rosbag::Bag& bag) {
   DriveMessageSource drive(options, fromSeconds(options.publishing.start_time));
   Progress progress("simulating", options.drive.duration);
   bag.setCompression(rosbag::compression::LZ4);
-  std::size_t count = 0;
   while (const std::optional<DriveMessages> messages = drive.next()) {
     const ros::Time recorded = std::max(messages->time, ros::TIME_MIN);  // a bag cannot hold time 0
     if (messages->sprung) bag.write("/sprung/imu", recorded, *messages->sprung);
     if (messages->unsprung) bag.write("/unsprung/imu", recorded, *messages->unsprung);
+    if (messages->road) bag.write("/road/imu", recorded, *messages->road);
     bag.write("/simulator/truth", recorded, messages->truth);
-    progress.update(static_cast<double>(++count) / options.drive.rate);
+    progress.update(messages->time.toSec() - options.publishing.start_time);
   }
   bag.close();
 }

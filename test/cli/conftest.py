@@ -11,6 +11,8 @@ import imu_bag
 
 PAPER_SETTINGS = imu_bag.REPOSITORY / "config/paper.yaml"
 
+SANITIZED = "SANITIZE" in os.environ  # by scripts/test --sanitize
+
 # A small process between: the peak of a child begins with that of its parent.
 MEASURE_PEAK = """import os, sys
 child = os.spawnv(os.P_NOWAIT, sys.argv[1], sys.argv[1:])
@@ -50,6 +52,8 @@ class Program:
 
     def peak_kilobytes(self, *arguments):
         """@return the most memory that a run, whatever its outcome, had resident."""
+        if SANITIZED:
+            pytest.skip("AddressSanitizer takes memory of its own")
         output = subprocess.run([sys.executable, "-S", "-c", MEASURE_PEAK, self.path, *map(str, arguments)], check=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, encoding="utf-8", timeout=60).stdout
         return int(output.split()[-1])

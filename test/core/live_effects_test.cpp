@@ -152,7 +152,7 @@ TEST(LiveEffects, EstimatesCarryOver) {
   const StrutEstimate after = monitor.report().la;
   EXPECT_EQ(after.damping_to_mass, before.damping_to_mass);
   EXPECT_EQ(after.stiffness_to_mass, before.stiffness_to_mass);
-  EXPECT_NEAR(after.stiffness_to_mass_stddev, before.stiffness_to_mass_stddev, 1e-12);
+  EXPECT_NEAR(after.stiffness_to_mass_stddev / before.stiffness_to_mass_stddev, 1.0, 0.1);
   EXPECT_EQ(after.coefficients[0], 1.5);
   EXPECT_FALSE(after.valid);
 
@@ -165,8 +165,9 @@ TEST(LiveEffects, EstimatesCarryOver) {
   EXPECT_EQ(more.damping_to_mass, found.damping_to_mass);
   EXPECT_EQ(more.coefficients[0], 0.2);
   EXPECT_EQ(more.coefficients[1], found.coefficients[0]);  // it stays: no start value
-  EXPECT_NEAR(more.coefficient_stddevs[1], found.coefficient_stddevs[0], 1e-9 * found.coefficient_stddevs[0]);
-  EXPECT_NEAR(more.damping_to_mass_stddev, found.damping_to_mass_stddev, 1e-9);
+  // Standard deviations of a report are up to 31 rows old, a third of the memory; those after setEffects() are new.
+  EXPECT_NEAR(more.coefficient_stddevs[1] / found.coefficient_stddevs[0], 1.0, 0.1);
+  EXPECT_NEAR(more.damping_to_mass_stddev / found.damping_to_mass_stddev, 1.0, 0.1);
 
   monitor.setEffects({});
   EXPECT_EQ(monitor.report().la.num_effects, 0u);

@@ -120,6 +120,26 @@ TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {
   EXPECT_GT(grid.rejected().count(RejectReason::kMissingPartner), 2u);
 }
 
+TEST(SamplePath, AllocatesNothingInAGridThatTurnsToResampling) {
+  UniformGrid grid(0.02, {Alignment::kAuto, true, 60});
+  Stamp stamp{};
+  int samples = 0, readings = 0;
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              stamp += std::chrono::milliseconds(++readings % 400 == 0 ? 1000 : 20);
+              const auto push = [&](Side side, int late) {
+                const Stamp at = stamp + std::chrono::milliseconds(late);
+                for (auto next = grid.push(side, at, sample.sprung_acceleration); next; next = grid.next()) ++samples;
+              };
+              push(Side::kSprung, 0);
+              if (readings % 97 != 0) push(Side::kUnsprung, 7);
+              push(Side::kUnsprung, 19);
+              push(Side::kRoad, 19);
+            }),
+            0);
+  EXPECT_TRUE(grid.resamples());
+  EXPECT_GT(samples, 900);
+}
+
 TEST(SamplePath, AllocatesNothingInLawsOfTheUser) {
   OptionMap settings{{"effects/own/force", std::string("max(0, d - x)^2 + (v > 0 ? tanh(v / x) : s)")},
                      {"effects/own/memory_rate", std::string("(v - abs(v) * s) / x")},

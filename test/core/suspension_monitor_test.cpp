@@ -49,7 +49,6 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
       ASSERT_EQ(report.ls.stiffness_to_mass, ls.parameters()[1]);
       ASSERT_EQ(report.la.damping_to_mass, la.parameters()[0]);
       ASSERT_EQ(report.la.stiffness_to_mass, la.parameters()[1]);
-      ASSERT_EQ(report.la.stiffness_to_mass_stddev, std::sqrt(la.parameterVariance(1)));
       ASSERT_EQ(report.ls.effective_rows, ls.effectiveRows());
     }
   }
@@ -58,6 +57,8 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
 TEST(SuspensionMonitor, ComparesTheFreeRunOfLeastAbsoluteWithTheBody) {
   SuspensionMonitor monitor(liveOptions());
   FreeRun free_run(0.02);
+  bool has_model = false;
+  int rows = 0;
   const std::vector<CornerSample> drive = healthyPaperDrive(30.0, 0.024);
   for (std::size_t k = 0; k < drive.size(); ++k) {
     const std::optional<double> predicted = free_run.push(drive[k].unsprung_acceleration);
@@ -66,7 +67,11 @@ TEST(SuspensionMonitor, ComparesTheFreeRunOfLeastAbsoluteWithTheBody) {
     if (report.comparison.predicted) {
       ASSERT_EQ(report.comparison.predicted, predicted);
     }
-    if (report.la.valid) free_run.setModel(report.la.damping_to_mass, report.la.stiffness_to_mass);
+    rows += report.has_row ? 1 : 0;
+    if (report.la.valid && (rows % 8 == 0 || !has_model)) {  // it gets a new model every eighth row
+      free_run.setModel(report.la.damping_to_mass, report.la.stiffness_to_mass);
+      has_model = true;
+    }
     ASSERT_EQ(report.measured, drive[k].sprung_acceleration);
     ASSERT_EQ(report.comparison.has_sample, k >= FreeRun::kDelay);
     if (k < FreeRun::kDelay) continue;

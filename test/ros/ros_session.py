@@ -81,6 +81,14 @@ class Program:
         except subprocess.TimeoutExpired:
             raise AssertionError(f"{self._process.args} still runs after {timeout} s:\n{self.output()}") from None
 
+    def process_id(self):
+        return self._process.pid
+
+    def kill(self):
+        """kill -9."""
+        self._process.kill()
+        self._process.wait()
+
     def stop(self):
         if self.running():
             self._process.send_signal(signal.SIGINT)

@@ -49,7 +49,6 @@ class Screening {
   ScreenedModel expect(const Columns& columns, const Projection& projection) const;
   StrutModel changed(const Eigen::VectorXd& common) const;
 
-  const HeldOut* held_out_;
   LinearResponse response_;
   Eigen::VectorXd residual_;  // measured - predicted
   Eigen::VectorXd weight_;    // of a sample in training; 0: held out

@@ -84,6 +84,10 @@ class HealthAssessment {
   void setBaseline(const Baseline& baseline);
   const Baseline& baseline() const { return baseline_; }
 
+  /// Judges by other thresholds from now on; a level that is being confirmed stays so.
+  /// @throws std::invalid_argument  as HealthOptions::validate(); the thresholds then stay as they were.
+  void setOptions(const HealthOptions& options);
+
   const HealthReport& report() const { return report_; }
   const HealthOptions& options() const { return options_; }
 

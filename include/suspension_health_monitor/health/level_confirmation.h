@@ -14,6 +14,8 @@ class LevelConfirmation {
  public:
   explicit LevelConfirmation(Stamp confirm_time) : confirm_time_(confirm_time) {}
 
+  void setConfirmTime(Stamp confirm_time) { confirm_time_ = confirm_time; }
+
   /// @param stamp  stamps that go back restart the confirmation.
   /// @return the confirmed level.
   HealthLevel update(Stamp stamp, HealthLevel now);

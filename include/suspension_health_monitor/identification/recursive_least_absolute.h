@@ -32,15 +32,24 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
   /// @return the innovation before the update, in the unit of psi.
   double update(const RegressionRow& row);
 
-  /// @return variance of theta_i if the residuals were white and Laplacian: mean|epsilon| P_ii, since the variance of a
-  /// median is 1 / (4 f(0)^2) per row with density f(0) = 1 / (2 mean|epsilon|). During the first k0 rows that of LS.
-  double parameterVariance(int i) const;
+  /// @return variance of theta_i: mean|epsilon| P_ii times what the residuals' correlation and LA's slower convergence
+  /// make of it (ScoreCovariance). During the first k0 rows that of LS.
+  double parameterVariance(int i) const { return varianceAt(i, leads() ? meanAbsoluteResidual() : meanSquareResidual()); }
+
+  /// As RecursiveLeastSquares::parameterShift(): by rows of that weight.
+  double parameterShift(int i, const Eigen::Vector2d& moment) const {
+    return shiftAt(i, moment) * (leads() ? slopes_.mean(kWeight) : 1.0);
+  }
 
  private:
   bool leads() const { return rows_ == absolute_.start_rows; }  // else LS does
   void takeOver();
+  [[gnu::noinline]] void noteSlope(double innovation, const RowWeight& weight);
+
+  enum Mean : std::size_t { kSlope, kWeight, kNumMeans };
 
   LeastAbsoluteOptions absolute_;
+  RunningMeans<kNumMeans> slopes_;  // of the weighted residual at 0; of the weight
   int rows_ = 0;  // counts up to k0 and stays there
 };
 

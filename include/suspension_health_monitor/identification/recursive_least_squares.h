@@ -6,6 +6,7 @@
 
 #include "suspension_health_monitor/identification/regression_row.h"
 #include "suspension_health_monitor/identification/running_mean.h"
+#include "suspension_health_monitor/identification/score_covariance.h"
 #include "suspension_health_monitor/identification/ud_covariance.h"
 
 namespace suspension_health_monitor {
@@ -22,6 +23,7 @@ struct RecursiveOptions {
   double forgetting_factor = 0.98;  ///< lambda in (0, 1]; memory 1 / (1 - lambda) rows
   double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
   InitialVariance initial_variance_rule = InitialVariance::kRelative;
+  int correlated_rows = 0;  ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
 
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   void validate() const;
@@ -49,6 +51,13 @@ class RecursiveEstimator {
   const UdCovariance& covariance() const { return covariance_; }
   double forgettingFactor() const { return options_.forgetting_factor; }
 
+  /// Forgets faster or more slowly from the next row on; the estimate stays.
+  /// @throws std::invalid_argument  as RecursiveOptions::validate().
+  void setForgettingFactor(double forgetting_factor);
+
+  /// The next row does not follow the one before: residuals of both are not correlated.
+  void interrupt() { scores_.interrupt(); }
+
   /// @return sum of lambda^(k-i): the number of rows that the estimate rests on.
   double effectiveRows() const { return means_.weight(); }
 
@@ -67,12 +76,24 @@ class RecursiveEstimator {
     if (num_released_ < numParameters()) release(row.regressor, residual_variance, unit);
   }
 
-  /// theta <- theta + gain epsilon; the row counts as `weight` rows of an LS problem, weight > 0.
-  void correct(const RegressionRow& row, double innovation, double weight);
+  /// theta <- theta + gain epsilon.
+  /// @param scale  what P is multiplied by to be a variance, of this row.
+  void correct(const RegressionRow& row, double innovation, const RowWeight& weight, double scale);
+
+  /// @return variance of theta_i; `scale` as the mean of that in correct().
+  double varianceAt(int i, double scale) const {
+    return scale * covariance_.variance(i) * scores_.inflation(i, effectiveRows());
+  }
+
+  /// @return P phi_e sum lambda^(k-i): how far row moments E[phi e] shift theta_i; of parameters beyond moment's size 0.
+  double shiftAt(int i, const Eigen::Vector2d& moment) const {
+    return effectiveRows() * (covariance_.entry(i, 0) * moment[0] + covariance_.entry(i, 1) * moment[1]);
+  }
 
   RecursiveOptions options_;
   Eigen::VectorXd theta_;
   UdCovariance covariance_;
+  ScoreCovariance scores_;
 
  private:
   void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
@@ -98,8 +119,13 @@ class RecursiveLeastSquares : public RecursiveEstimator {
   /// @return the innovation psi - phi' theta before the update, in the unit of psi.
   double update(const RegressionRow& row);
 
-  /// @return variance of theta_i if the residuals were white: mean(epsilon^2) P_ii.
-  double parameterVariance(int i) const { return meanSquareResidual() * covariance_.variance(i); }
+  /// @return variance of theta_i: mean(epsilon^2) P_ii times what the residuals' correlation makes of it
+  /// (ScoreCovariance).
+  double parameterVariance(int i) const { return varianceAt(i, meanSquareResidual()); }
+
+  /// @param moment  E[phi e] of a row.
+  /// @return what it shifts theta_i by; p >= 2.
+  double parameterShift(int i, const Eigen::Vector2d& moment) const { return shiftAt(i, moment); }
 };
 
 }  // namespace suspension_health_monitor

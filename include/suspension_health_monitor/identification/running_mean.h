@@ -19,6 +19,9 @@ class RunningMeans {
     for (std::size_t i = 0; i < N; ++i) means_[i] += gain * (values[i] - means_[i]);
   }
 
+  /// From now on; what has been taken in keeps its weight.
+  void setForgettingFactor(double forgetting_factor) { forgetting_factor_ = forgetting_factor; }
+
   double mean(std::size_t i) const { return means_[i]; }  ///< 0 before the first values
   double weight() const { return weight_; }               ///< sum lambda^(k-i), at most 1 / (1 - lambda)
 

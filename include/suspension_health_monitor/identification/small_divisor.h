@@ -16,11 +16,15 @@ inline constexpr std::string_view kSmallDivisorNames = "absolute relative";
 
 /// @param smallest  eps_min >= 0, [unit of psi] if absolute, [-] if relative.
 /// @param residual_scale  mean |epsilon| >= 0 [unit of psi], only used by the relative rule.
-/// @return max(|residual|, threshold) [unit of psi], at least 1e-100, so that a row hit exactly under a threshold of 0
-///         has a weight whose square is still a number.
+/// @return what |residual| is at least taken for [unit of psi]; at least 1e-100, so that a row hit exactly under a
+///         threshold of 0 has a weight whose square is still a number.
+inline double smallestDivisor(SmallDivisor rule, double smallest, double residual_scale) {
+  return std::max(rule == SmallDivisor::kRelative ? smallest * residual_scale : smallest, 1e-100);
+}
+
+/// @return max(|residual|, smallestDivisor()).
 inline double boundedDivisor(double residual, SmallDivisor rule, double smallest, double residual_scale) {
-  const double threshold = rule == SmallDivisor::kRelative ? smallest * residual_scale : smallest;
-  return std::max({std::abs(residual), threshold, 1e-100});
+  return std::max(std::abs(residual), smallestDivisor(rule, smallest, residual_scale));
 }
 
 }  // namespace suspension_health_monitor

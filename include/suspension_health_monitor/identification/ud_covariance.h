@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -49,6 +50,13 @@ class UdCovariance {
       for (Eigen::Index j = i + 1; j < p; ++j) sum += upper_(i, j) * upper_(i, j) * diagonal_[j];
       return sum;
     });
+  }
+
+  /// @return P_ij.
+  double entry(int i, int j) const {
+    double sum = 0.0;
+    for (Eigen::Index k = std::max(i, j); k < diagonal_.size(); ++k) sum += upper_(i, k) * upper_(j, k) * diagonal_[k];
+    return sum;
   }
 
   /// @return P, (p, p).

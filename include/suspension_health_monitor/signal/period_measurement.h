@@ -10,9 +10,10 @@
 
 namespace suspension_health_monitor {
 
-/// The sampling time of two streams, measured from their stamps, of the slower stream: the mean of all spacings within
-/// half and one and a half times their median. The median passes over gaps and clocks that jump, as long as they are
-/// the minority; the mean takes the jitter of n stamps down to 1/n of it.
+/// The sampling time of a strut's two streams, measured from their stamps, of the slower stream: the mean of all
+/// spacings within half and one and a half times their median. The median passes over gaps and clocks that jump, as
+/// long as they are the minority; the mean takes the jitter of n stamps down to 1/n of it. The road's stamps have no
+/// say.
 class PeriodMeasurement {
  public:
   /// @param spacings_wanted  of each stream before a period is given, >= 1.
@@ -26,8 +27,8 @@ class PeriodMeasurement {
 
  private:
   std::size_t spacings_wanted_;
-  std::array<std::optional<Stamp>, 2> last_;
-  std::array<std::vector<Stamp>, 2> spacings_;
+  std::array<std::optional<Stamp>, kMostStreams> last_;
+  std::array<std::vector<Stamp>, 2> spacings_;  // of the strut's sensors
 };
 
 }  // namespace suspension_health_monitor

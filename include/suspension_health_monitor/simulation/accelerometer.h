@@ -17,8 +17,8 @@ struct AccelerometerReading {
 /// A simulated accelerometer: adds noise, loses messages, stamps by its own clock.
 class Accelerometer {
  public:
-  /// The unsprung sensor's clock shows true time; clock_offset and clock_skew are the sprung sensor's.
-  enum class Place { kSprung, kUnsprung };
+  /// The clocks of wheel and road show true time; clock_offset and clock_skew are the sprung sensor's.
+  enum class Place { kSprung, kUnsprung, kRoad };
 
   Accelerometer(const SimulationOptions& options, Place place);
 

@@ -8,6 +8,7 @@
 #include "suspension_health_monitor/simulation/body_sway.h"
 #include "suspension_health_monitor/simulation/scenario.h"
 #include "suspension_health_monitor/simulation/sensor_faults.h"
+#include "suspension_health_monitor/simulation/sensor_schedule.h"
 
 namespace suspension_health_monitor {
 
@@ -20,18 +21,21 @@ struct DriveTruth {
   double road_height = 0.0;            ///< mu [m]
   double sprung_acceleration = 0.0;    ///< z'' without noise [m/s^2]
   double unsprung_acceleration = 0.0;  ///< w'' without noise [m/s^2]
+  double road_acceleration = 0.0;      ///< mu'' without noise [m/s^2]
 };
 
 /// One instant of a simulated drive.
 struct DriveSample {
   Stamp stamp{};                                 ///< true time since the start of the drive
-  std::optional<AccelerometerReading> sprung;    ///< none: message lost
-  std::optional<AccelerometerReading> unsprung;  ///< none: message lost
+  std::optional<AccelerometerReading> sprung;    ///< none: message lost, or the sensor reads at another instant
+  std::optional<AccelerometerReading> unsprung;  ///< likewise
+  std::optional<AccelerometerReading> road;      ///< where the tyre touches it, with the wheel's; none: message lost
   Sway body;                                     ///< what the body's IMU reads besides, noise included
   DriveTruth truth;
 };
 
-/// Drives a quarter car, equations (1)-(2) or with a rigid wheel (27), over a road and measures its two accelerations.
+/// Drives a quarter car, equations (1)-(2) or with a rigid wheel (27), over a road and measures its two accelerations,
+/// and that of the road under the wheel.
 ///
 /// The body and a wheel on a tyre start at rest relative to the road, travel 0.
 /// Integration: Dormand-Prince 5(4) with error control, 1e-10 absolute (m, m/s) and 1e-10 relative per step; steps end
@@ -42,7 +46,8 @@ class DriveSimulator {
   /// @throws std::invalid_argument  as validate(SimulationOptions).
   explicit DriveSimulator(const SimulationOptions& options);
 
-  /// @return the sample at k / rate for the k-th call, k = 0 .. duration * rate; none after the end of the drive.
+  /// @return the next instant at which a sensor reads, both at k / rate, k = 0 .. duration * rate, unless the options
+  /// set them apart; none after the end of the drive.
   std::optional<DriveSample> next();
 
  private:
@@ -62,6 +67,8 @@ class DriveSimulator {
   Scenario scenario_;
   Accelerometer sprung_;
   Accelerometer unsprung_;
+  SensorSchedule sprung_schedule_, unsprung_schedule_;
+  Accelerometer road_;
   BodySway sway_;
   SensorFaults faults_;
   RandomStream sway_noise_;
@@ -69,7 +76,7 @@ class DriveSimulator {
   State delayed_state_{};  // as the body's IMU sees it, faults_.delay ago
   double delayed_time_ = 0.0;
   double max_step_;  // [s]
-  long long next_index_ = 0;
+  double time_ = 0.0;  // of state_ [s]
 };
 
 }  // namespace suspension_health_monitor

@@ -14,6 +14,10 @@ enum class RandomPurpose : unsigned {
   kUnsprungDelivery,
   kSway,
   kSwayNoise,
+  kSprungTiming,
+  kUnsprungTiming,
+  kRoadNoise,
+  kRoadDelivery,
 };
 
 /// Reproducible random numbers, the same with every standard library: engine and seeding are fixed by the C++ standard,

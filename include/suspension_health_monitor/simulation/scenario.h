@@ -28,6 +28,10 @@ struct SimulationOptions {
   std::optional<double> speed;
   double duration = 120.0;
   double rate = 50.0;
+  std::optional<double> sprung_rate;
+  std::optional<double> unsprung_rate;
+  double unsprung_phase = 0.0;
+  double sampling_jitter = 0.0;
   int seed = 1;
 
   double noise = 0.024;
@@ -78,6 +82,16 @@ inline constexpr std::array kSimulationFields{
     OptionField<SimulationOptions>{"rate", "Hz",
                                    "samples per second of both sensors; a car on iso_road shakes up to 2.83 speed Hz",
                                    &SimulationOptions::rate, 0.1, 20000.0},
+    OptionField<SimulationOptions>{"sprung_rate", "Hz", "samples per second of the sprung sensor; none: rate",
+                                   &SimulationOptions::sprung_rate, 0.1, 20000.0},
+    OptionField<SimulationOptions>{"unsprung_rate", "Hz", "samples per second of the unsprung sensor; none: rate",
+                                   &SimulationOptions::unsprung_rate, 0.1, 20000.0},
+    OptionField<SimulationOptions>{"unsprung_phase", "s", "when the unsprung sensor reads first",
+                                   &SimulationOptions::unsprung_phase, 0.0, 10.0},
+    OptionField<SimulationOptions>{"sampling_jitter", "s",
+                                   "readings are taken, and stamped, late by a uniform 0..sampling_jitter, less than "
+                                   "one period of the faster sensor",
+                                   &SimulationOptions::sampling_jitter, 0.0, 10.0},
     OptionField<SimulationOptions>{"seed", "-", "same options and seed, same drive", &SimulationOptions::seed, 0,
                                    2147483647},
     OptionField<SimulationOptions>{"noise", "m/s^2", "standard deviation of either sensor's white noise",
@@ -87,7 +101,8 @@ inline constexpr std::array kSimulationFields{
     OptionField<SimulationOptions>{"dropout", "-", "share of messages lost, each sensor by itself",
                                    &SimulationOptions::dropout, 0.0, 1.0},
     OptionField<SimulationOptions>{"stamp_jitter", "s",
-                                   "stamps are late by a uniform 0..stamp_jitter, less than one sample period",
+                                   "stamps are late by a uniform 0..stamp_jitter, less than one sample period; the "
+                                   "readings are not",
                                    &SimulationOptions::stamp_jitter, 0.0, 10.0},
     OptionField<SimulationOptions>{"clock_offset", "s",
                                    "what the sprung sensor's clock shows at the start of the drive",
@@ -108,6 +123,9 @@ inline constexpr std::array kSimulationFields{
 /// hidden effects, and that hidden faults are known and have a motion to act on.
 /// @throws std::invalid_argument  naming option, value and what is allowed.
 void validate(const SimulationOptions& options);
+
+/// @return readings per second of the faster sensor.
+double fasterRate(const SimulationOptions& options);
 
 /// A stretch of time [first, last] in [s], both ends included.
 struct TimeWindow {

@@ -58,7 +58,7 @@ double hat(double x, int i) {
 }  // namespace
 
 Screening::Screening(const std::vector<const DriveRecord*>& records, const HeldOut& held_out, const ModelFit& fit)
-    : held_out_(&held_out), response_(records, fit) {
+    : response_(records, fit) {
   const Eigen::Index n = response_.numSamples();
   residual_ = joined(fit.residuals, n);
   weight_ = trainingWeights(held_out, residual_);

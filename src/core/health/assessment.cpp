@@ -89,6 +89,12 @@ HealthAssessment::HealthAssessment(const HealthOptions& options)
   if (baseline_.isEmpty() && rows > 0.0) learner_.emplace(rows, memory_ * options.rows_per_update);
 }
 
+void HealthAssessment::setOptions(const HealthOptions& options) {
+  options.validate();
+  options_ = options;
+  confirmation_.setConfirmTime(fromSeconds(options.confirm_time));
+}
+
 void HealthAssessment::setBaseline(const Baseline& baseline) {
   baseline_ = baseline;
   learner_.reset();

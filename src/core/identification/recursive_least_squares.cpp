@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -13,12 +14,15 @@ void RecursiveOptions::validate() const {
     throw std::invalid_argument("forgetting_factor = " + std::to_string(forgetting_factor) + ", must be in (0, 1]");
   if (!(std::isfinite(initial_variance) && initial_variance > 0.0))
     throw std::invalid_argument("initial_variance = " + std::to_string(initial_variance) + ", must be above 0");
+  if (correlated_rows < 0)
+    throw std::invalid_argument("correlated_rows = " + std::to_string(correlated_rows) + ", must be at least 0");
 }
 
 RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOptions& options)
     : options_(options),
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
+      scores_(num_parameters, std::max(0, options.correlated_rows), options.forgetting_factor),
       means_(options.forgetting_factor) {
   options.validate();
 }
@@ -34,9 +38,19 @@ double RecursiveEstimator::innovate(const RegressionRow& row) {
   return innovation;
 }
 
-void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {
+void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
+  RecursiveOptions changed = options_;
+  changed.forgetting_factor = forgetting_factor;
+  changed.validate();
+  options_ = changed;
+  means_.setForgettingFactor(forgetting_factor);
+  scores_.setForgettingFactor(forgetting_factor);
+}
+
+void RecursiveEstimator::correct(const RegressionRow& row, double innovation, const RowWeight& weight, double scale) {
+  scores_.add(row, theta_, weight, scale);
   const double* const gain =
-      covariance_.update(row.regressor, options_.forgetting_factor / weight, options_.forgetting_factor).data();
+      covariance_.update(row.regressor, options_.forgetting_factor / weight.weight, options_.forgetting_factor).data();
   double* const theta = theta_.data();
   withPlainSize(theta_.size(), [&](auto p) {
     for (Eigen::Index i = 0; i < p; ++i) theta[i] += gain[i] * innovation;
@@ -64,6 +78,7 @@ void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns)
     sources.push_back(column.before);
   }
   covariance_ = UdCovariance(covariance_, sources);
+  scores_ = ScoreCovariance(scores_, sources);
   num_released_ = 0;
   for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;
 }
@@ -72,7 +87,7 @@ double RecursiveLeastSquares::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
   const double innovation = innovate(row);
   releaseExcited(row, meanSquareResidual(), 1.0);
-  correct(row, innovation, 1.0);
+  correct(row, innovation, {}, innovation * innovation);
   return innovation;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <regex>
 #include <stdexcept>
 
 #include "law_expression.h"
@@ -58,8 +57,9 @@ Settings take(const std::string& where, OptionMap values, const std::array<Optio
 
 /// Names stand in files, tables, messages and expressions.
 void checkName(const std::string& where, const std::string& name) {
-  static const std::regex allowed("[A-Za-z][A-Za-z0-9_]*");
-  if (!std::regex_match(name, allowed)) refuse(where, "the name must be letters, digits and _, a letter first");
+  static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  if (name.find_first_of(letters) != 0 || name.find_first_not_of(letters + "0123456789_") != std::string::npos)
+    refuse(where, "the name must be letters, digits and _, a letter first");
 }
 
 void checkText(const std::string& where, const std::string& text) {

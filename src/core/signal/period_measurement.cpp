@@ -7,7 +7,8 @@ namespace suspension_health_monitor {
 bool PeriodMeasurement::add(Side side, Stamp stamp) {
   const auto index = static_cast<std::size_t>(side);
   if (last_[index] == stamp) return false;
-  if (last_[index] && stamp > *last_[index]) spacings_[index].push_back(stamp - *last_[index]);
+  const bool counts = index < spacings_.size() && last_[index] && stamp > *last_[index];
+  if (counts) spacings_[index].push_back(stamp - *last_[index]);
   last_[index] = stamp;
   return true;
 }

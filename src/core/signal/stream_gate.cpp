@@ -9,6 +9,7 @@ namespace {
 // A spike of this size takes an estimator with forgetting thousands of rows to forget; no road makes one.
 constexpr double kAbsurdRatio = 1e6;
 constexpr int kMostAbsurd = 3;  // in a row; after that it is how the sensor reads now
+constexpr double kFewestForAbsurd = 10.0;  // soon: a spike among the first rows would be remembered longest
 
 constexpr double kFewestForUsual = 100.0;
 constexpr double kFarOut = 1.5;           // mean deviations from the mean: as far as a sine's peak
@@ -48,7 +49,7 @@ std::optional<RejectReason> StreamGate::faultOfStamp(Stamp stamp) const {
 
 bool StreamGate::isAbsurd(double acceleration) {
   const double size = std::abs(acceleration);
-  const bool absurd = size_.weight() >= kFewestForUsual && size_.mean() > 0.0 && size > kAbsurdRatio * size_.mean() &&
+  const bool absurd = size_.weight() >= kFewestForAbsurd && size_.mean() > 0.0 && size > kAbsurdRatio * size_.mean() &&
                       absurd_in_a_row_ < kMostAbsurd;
   absurd_in_a_row_ = absurd ? absurd_in_a_row_ + 1 : 0;
   if (!absurd) size_.add(size);

@@ -15,33 +15,54 @@ Stamp checked(double period) {
 
 }  // namespace
 
-UniformGrid::UniformGrid(double period)
-    : period_(checked(period)), gates_{StreamGate(period_), StreamGate(period_)} {}
+UniformGrid::UniformGrid(double period, const GridOptions& options)
+    : period_(checked(period)),
+      options_(options),
+      judge_(period_, options.fill_samples),
+      resamples_(options.alignment == Alignment::kResampled),
+      gates_{StreamGate(period_), StreamGate(period_), StreamGate(period_)} {
+  if (options.alignment != Alignment::kPaired) resampled_.emplace(period_, options.has_road);
+}
 
 std::optional<CornerSample> UniformGrid::push(Side side, Stamp stamp, double acceleration) {
   if (!admit(side, stamp, acceleration)) return std::nullopt;
-  Queue& queue = waiting_[static_cast<std::size_t>(side)];
-  if (queue.full()) drop(queue);
-  queue.push({stamp, acceleration, gates_[static_cast<std::size_t>(side)].isStill()});
-  return match();
+  const auto index = static_cast<std::size_t>(side);
+  const Reading reading{stamp, acceleration, gates_[index].isStill()};
+  if (resamples_) {
+    resample(side, reading);
+    return resampled_->next();
+  }
+  if (waiting_[index].full()) drop(waiting_[index]);
+  waiting_[index].push(reading);
+  if (side == Side::kRoad) road_is_silent_ = false;
+  return next();
+}
+
+std::optional<CornerSample> UniformGrid::next() {
+  if (!resamples_)
+    if (const std::optional<CornerSample> sample = match()) return sample;
+  return resamples_ ? resampled_->next() : std::nullopt;
 }
 
 bool UniformGrid::admit(Side side, Stamp stamp, double acceleration) {
   const auto index = static_cast<std::size_t>(side);
   const StreamGate::Verdict verdict = gates_[index].judge(stamp, acceleration);
-  if (verdict == StreamGate::Verdict::kBeginsAnew) startNewSeries(1 - index);
+  if (verdict == StreamGate::Verdict::kBeginsAnew) startNewSeries(index);
   return verdict != StreamGate::Verdict::kRejected;
 }
 
 std::optional<CornerSample> UniformGrid::match() {
   Queue& sprung = waiting_[static_cast<std::size_t>(Side::kSprung)];
   Queue& unsprung = waiting_[static_cast<std::size_t>(Side::kUnsprung)];
-  while (!sprung.empty() && !unsprung.empty()) {
+  while (!sprung.empty() && !unsprung.empty() && !resamples_) {
     const Reading body = sprung.front();
     const Reading wheel = unsprung.front();
     if (2 * std::chrono::abs(body.stamp - wheel.stamp) <= period_) {
+      if (options_.has_road && !findRoad(body.stamp)) return std::nullopt;
       sprung.pop();
       unsprung.pop();
+      if (resampled_) judge_.addPair(body.stamp, wheel.stamp);
+      if (judge_.verdict() != AlignmentJudge::Verdict::kDoesWell) startResampling();
       if (body.still != wheel.still) {
         rejected_.add(RejectReason::kStuck);
         continue;
@@ -49,8 +70,25 @@ std::optional<CornerSample> UniformGrid::match() {
       return CornerSample{body.stamp, body.acceleration, wheel.acceleration};
     }
     drop(body.stamp < wheel.stamp ? sprung : unsprung);
+    if (resampled_) judge_.addLone();
+    if (judge_.verdict() != AlignmentJudge::Verdict::kDoesWell) startResampling();
   }
   return std::nullopt;
+}
+
+// @return false: the road's reading of this instant may still come.
+bool UniformGrid::findRoad(Stamp stamp) {
+  Queue& road = waiting_[static_cast<std::size_t>(Side::kRoad)];
+  while (!road.empty() && 2 * (stamp - road.front().stamp) > period_) drop(road);
+  road_acceleration_.reset();
+  if (road.empty()) {
+    road_is_silent_ = road_is_silent_ || waiting_[static_cast<std::size_t>(Side::kSprung)].size() > kMostRoadLag;
+    return road_is_silent_;
+  }
+  if (2 * (road.front().stamp - stamp) > period_) return true;
+  road_acceleration_ = road.front().acceleration;
+  road.pop();
+  return true;
 }
 
 void UniformGrid::drop(Queue& queue) {
@@ -58,14 +96,35 @@ void UniformGrid::drop(Queue& queue) {
   queue.pop();
 }
 
-void UniformGrid::startNewSeries(std::size_t other) {
+void UniformGrid::resample(Side side, const Reading& reading) {
+  const double own_period = gates_[static_cast<std::size_t>(side)].timing().period();
+  resampled_->push(side, reading.stamp, reading.acceleration, reading.still, own_period);
+}
+
+void UniformGrid::startResampling() {
+  resamples_ = true;
+  for (std::size_t i = 0; i < waiting_.size(); ++i)
+    for (; !waiting_[i].empty(); waiting_[i].pop()) resample(static_cast<Side>(i), waiting_[i].front());
+}
+
+// @param first  the stream whose clock went back before those of the others.
+void UniformGrid::startNewSeries(std::size_t first) {
+  judge_.startNewSeries();
+  if (resampled_) resampled_->startNewSeries();
   for (Queue& queue : waiting_)
     while (!queue.empty()) drop(queue);
-  gates_[other].startNewSeries();
+  for (std::size_t i = 0; i < gates_.size(); ++i)
+    if (i != first) gates_[i].startNewSeries();
+}
+
+std::string UniformGrid::describeAlignment() const {
+  if (!resamples_) return "paired";
+  return why().empty() ? "resampled" : "resampled because " + why();
 }
 
 RejectCounts UniformGrid::rejected() const {
   RejectCounts all = rejected_;
+  if (resampled_) all += resampled_->rejected();
   for (const StreamGate& gate : gates_) all += gate.rejected();
   return all;
 }

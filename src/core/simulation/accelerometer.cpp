@@ -3,12 +3,23 @@
 #include <cmath>
 
 namespace suspension_health_monitor {
+namespace {
+
+RandomPurpose noisePurpose(Accelerometer::Place place) {
+  if (place == Accelerometer::Place::kRoad) return RandomPurpose::kRoadNoise;
+  return place == Accelerometer::Place::kSprung ? RandomPurpose::kSprungNoise : RandomPurpose::kUnsprungNoise;
+}
+
+RandomPurpose deliveryPurpose(Accelerometer::Place place) {
+  if (place == Accelerometer::Place::kRoad) return RandomPurpose::kRoadDelivery;
+  return place == Accelerometer::Place::kSprung ? RandomPurpose::kSprungDelivery : RandomPurpose::kUnsprungDelivery;
+}
+
+}  // namespace
 
 Accelerometer::Accelerometer(const SimulationOptions& options, Place place)
-    : noise_random_(options.seed,
-                    place == Place::kSprung ? RandomPurpose::kSprungNoise : RandomPurpose::kUnsprungNoise),
-      delivery_random_(options.seed,
-                       place == Place::kSprung ? RandomPurpose::kSprungDelivery : RandomPurpose::kUnsprungDelivery),
+    : noise_random_(options.seed, noisePurpose(place)),
+      delivery_random_(options.seed, deliveryPurpose(place)),
       noise_(options.noise),
       gaussian_(options.noise_distribution == "gaussian"),
       dropout_(options.dropout),

@@ -30,6 +30,10 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       scenario_(makeScenario(options)),
       sprung_(options, Accelerometer::Place::kSprung),
       unsprung_(options, Accelerometer::Place::kUnsprung),
+      sprung_schedule_(options.sprung_rate.value_or(options.rate), 0.0, options, RandomPurpose::kSprungTiming),
+      unsprung_schedule_(options.unsprung_rate.value_or(options.rate), options.unsprung_phase, options,
+                         RandomPurpose::kUnsprungTiming),
+      road_(options, Accelerometer::Place::kRoad),
       sway_(options),
       faults_(SensorFaults::from(options.hidden_faults)),
       sway_noise_(options.seed, RandomPurpose::kSwayNoise),
@@ -40,23 +44,33 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
 }
 
 std::optional<DriveSample> DriveSimulator::next() {
-  // A duration that is a whole number of periods must not lose its last sample to rounding.
-  if (static_cast<double>(next_index_) > options_.duration * options_.rate + 1e-6) return std::nullopt;
-  const double t = static_cast<double>(next_index_) / options_.rate;
-  if (next_index_ > 0) integrate(state_, static_cast<double>(next_index_ - 1) / options_.rate, t);
-  ++next_index_;
+  const std::optional<double> body_time = sprung_schedule_.next(), wheel_time = unsprung_schedule_.next();
+  if (!body_time && !wheel_time) return std::nullopt;
+  const bool body_reads = body_time && (!wheel_time || *body_time <= *wheel_time);
+  const bool wheel_reads = wheel_time && (!body_time || *wheel_time <= *body_time);
+  const double t = body_reads ? *body_time : *wheel_time;
+  if (t > time_) integrate(state_, time_, t);
+  time_ = t;
 
   DriveSample sample;
   sample.stamp = fromSeconds(t);
   sample.truth = motionAt(state_, t).truth;
-  const Sway sway = sway_.at(t);
-  sample.sprung = sprung_.read(t, readBody(t, sway));
-  sample.body = readSway(sway);
-  sample.unsprung = unsprung_.read(t, sample.truth.unsprung_acceleration);
+  if (body_reads) {
+    const Sway sway = sway_.at(t);
+    sample.sprung = sprung_.read(t, readBody(t, sway));
+    sample.body = readSway(sway);
+    sprung_schedule_.advance();
+  }
+  if (wheel_reads) {
+    sample.unsprung = unsprung_.read(t, sample.truth.unsprung_acceleration);
+    sample.road = road_.read(t, sample.truth.road_acceleration);
+    unsprung_schedule_.advance();
+  }
   for (const TimeWindow& window : scenario_.zero_readings) {
     if (!window.contains(t)) continue;
     if (sample.sprung) sample.sprung->acceleration = 0.0;
     if (sample.unsprung) sample.unsprung->acceleration = 0.0;
+    if (sample.road) sample.road->acceleration = 0.0;
     sample.body = {};
   }
   return sample;
@@ -78,6 +92,7 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
   truth.travel = w - z;
   truth.travel_rate = w_rate - z_rate;
   truth.road_height = road.height;
+  truth.road_acceleration = road.acceleration;
   truth.sprung_acceleration = scenario_.strut.forcePerMass(truth.travel, truth.travel_rate, t, memory);
   if (rigid) {
     truth.unsprung_acceleration = road.acceleration;

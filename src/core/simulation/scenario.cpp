@@ -70,8 +70,13 @@ void validate(const SimulationOptions& options) {
   if (options.ramp_end <= options.ramp_start) {
     refuse("ramp_end", options.ramp_end, "s", "later than ramp_start", options.ramp_start);
   }
-  if (options.stamp_jitter >= 1.0 / options.rate) {
-    refuse("stamp_jitter", options.stamp_jitter, "s", "less than one sample period, 1 / rate", 1.0 / options.rate);
+  const double shortest = 1.0 / fasterRate(options);
+  if (options.stamp_jitter >= shortest) {
+    refuse("stamp_jitter", options.stamp_jitter, "s", "less than one sample period, 1 / rate", shortest);
+  }
+  if (options.sampling_jitter > 0.0 && options.sampling_jitter >= shortest - options.stamp_jitter) {
+    refuse("sampling_jitter", options.sampling_jitter, "s", "less than one sample period, 1 / rate, less stamp_jitter",
+           shortest - options.stamp_jitter);
   }
   if (options.hidden.size() > kMostHiddenEffects) {
     refuse("number of hidden effects", static_cast<double>(options.hidden.size()), "-", "at most",
@@ -83,6 +88,10 @@ void validate(const SimulationOptions& options) {
     throw std::invalid_argument("body_acceleration = 0 [m/s^2], must be above 0 for mount_tilt to show");
   if (acts(faults.position) && options.body_rate == 0.0)
     throw std::invalid_argument("body_rate = 0 [rad/s], must be above 0 for lever_arm to show");
+}
+
+double fasterRate(const SimulationOptions& options) {
+  return std::max(options.sprung_rate.value_or(options.rate), options.unsprung_rate.value_or(options.rate));
 }
 
 Scenario makeScenario(const SimulationOptions& options) {

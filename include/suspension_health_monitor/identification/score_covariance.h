@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/identification/regression_row.h"
+
+namespace suspension_health_monitor {
+
+/// What a row counts in a weighted recursion.
+struct RowWeight {
+  double weight = 1.0;            ///< w > 0, as many rows of an LS problem
+  double smallest_divisor = 0.0;  ///< d if w = 1 / max(|epsilon|, d); 0: w does not depend on the residual
+};
+
+/// By how much the estimates of a weighted recursion scatter more, or less, than P says, because the residuals of
+/// neighbouring rows are correlated: each reading of a sensor is in 2 L + 1 rows of the integral filter.
+///
+/// With weights w_i the estimate is theta + R^-1 sum lambda^(k-i) s_i, R = sum lambda^(k-i) w_i phi_i phi_i', with scores
+/// s_i = w_i e_i phi_i, hence the sandwich V = P G P, G = (sum lambda^2i) sum_m mu^|m| E[s_i s_(i-m)'] over the lags
+/// |m| <= 2 L, beyond which white sensor noise leaves no correlation (Newey and West, Econometrica 55 (1987), with their
+/// kernel cut where this residual's correlation ends). What is kept is its ratio to P, parameter by parameter, so that a
+/// change of road or noise acts at once through P and the residuals' scale, though G is a mean over a long time.
+/// Two things that the paper's estimators need beside:
+/// - Innovations are whiter than the noise, since the estimate follows correlated noise. So e_i is the residual against a
+///   slow mean of the estimate.
+/// - LA moves more slowly than lambda says: a row's step is P phi w epsilon, a bounded function of epsilon, which an error
+///   of the estimate turns by its mean slope rho / E[w] only. So mu = 1 - (1 - lambda) rho, and the variance is 1/rho times as
+///   large; in the scores w is that of e_i.
+/// Once it has learned enough it looks at a sixth of the rows, in stretches of 6 L, which is plenty for what changes as
+/// slowly as this.
+/// Cost per row: O(p^2), independent of L, no allocation.
+class ScoreCovariance {
+ public:
+  /// @param num_parameters  p >= 1.
+  /// @param correlated_rows  2 L; 0: the residuals are white.
+  /// @param forgetting_factor  lambda in (0, 1].
+  ScoreCovariance(int num_parameters, int correlated_rows, double forgetting_factor);
+
+  /// Starts with what was known of other parameters: parameter i of the new ones was parameter sources[i], or is new.
+  ScoreCovariance(const ScoreCovariance& before, const std::vector<std::optional<int>>& sources);
+
+  /// Takes in a row.
+  /// @param theta  the estimate before it, (p).
+  /// @param scale  what P is multiplied by to be a variance, of this row: epsilon^2 for LS, |epsilon| for LA.
+  void add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double scale);
+
+  /// The next row does not follow the one before.
+  void interrupt();
+
+  /// For a recursion that begins to weigh its rows differently: what was learned does not hold any more.
+  void restart();
+
+  void setForgettingFactor(double forgetting_factor);
+
+  /// @param slope  rho in (0, 1], see above.
+  void setSlope(double slope) { slope_ = slope; }
+
+  /// @return true at every few rows: often enough to look at what changes slowly.
+  bool isNowAndThen() const { return phase_ % kFewRows == 0; }
+
+  /// @return V_ii / (P_ii scale) with the mean scale of the newest rows.
+  /// @param weight  sum lambda^(k-i).
+  double inflation(int i, double weight) const {
+    const double forgetting = 1.0 - forgetting_factor_;
+    return ratio_[i] * (2.0 - forgetting * weight) / (slope_ * (2.0 - forgetting * slope_));
+  }
+
+ private:
+  static constexpr int kFewRows = 8;  // between looks at what changes slowly
+
+  void addScore(const RegressionRow& row, double smallest_divisor);
+  void endStretch();
+  // Out of line: rare, and long enough to take the registers of what comes with every row.
+  [[gnu::noinline]] void nowAndThen(const Eigen::VectorXd& theta);
+  void follow(const Eigen::VectorXd& theta);
+  void average(const double* regressor, double weight, double scale);
+  void refresh();
+  void setDecay();
+
+  int size_, lags_;
+  double forgetting_factor_;
+  double slope_ = 1.0;
+  double decay_ = 1.0, end_decay_ = 1.0;     // mu, mu^(2 L + 1)
+  double slow_gain_ = 0.0;                   // of the means, once they are long enough
+  Eigen::VectorXd slow_theta_;               // slow mean of the estimate
+  Eigen::VectorXd score_, lagged_;           // s_k; sum_{m=1..2L} mu^m s_(k-m)
+  std::vector<double> line_;                 // the newest 2 L + 1 scores
+  std::size_t mask_;
+  std::size_t newest_ = 0;
+  int first_rows_ = 0;                       // that are still to come, of the start or a restart
+  int rest_ = 0;                             // rows that are not looked at
+  int in_stretch_ = 0;                       // rows that have been, without a break
+  int phase_ = 0;                            // number of the row, modulo what is done only now and then
+  double averaged_ = 0.0;                    // rows in the means below
+  Eigen::MatrixXd long_run_, lag0_, information_;  // means of s s' + s c' + c s', s s', w phi phi'
+  double scale_ = 0.0;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd unit_, column_;
+  Eigen::VectorXd prior_, ratio_;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace suspension_health_monitor {
+
+/// The sensors of a strut. The road's, at the tyre's contact, is optional.
+enum class Side : std::size_t { kSprung = 0, kUnsprung = 1, kRoad = 2 };
+inline constexpr std::size_t kMostStreams = 3;
+
+/// How the readings of several sensors come onto one clock, see UniformGrid.
+enum class Alignment {
+  kAuto,      ///< paired as long as that does well, then resampled
+  kPaired,    ///< readings whose stamps agree within half a sample, as they are
+  kResampled  ///< every stream low-pass filtered and interpolated at the same instants, see StreamResampler
+};
+inline constexpr std::string_view kAlignmentNames = "auto paired resampled";  // in the order of the enumerators
+
+/// @param name  one of kAlignmentNames.
+/// @throws std::invalid_argument  on another name.
+Alignment alignment(std::string_view name);
+
+/// What a UniformGrid brings together, and how.
+struct GridOptions {
+  Alignment alignment = Alignment::kPaired;
+  bool has_road = false;   ///< there is a third stream, Side::kRoad
+  int fill_samples = 120;  ///< in a row that fill the integral filter: 2 L; kAuto judges by it
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "suspension_health_monitor/corner_sample.h"
+#include "suspension_health_monitor/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/identification/tyre_regression.h"
+#include "suspension_health_monitor/monitor_options.h"
+#include "suspension_health_monitor/strut_estimate.h"
+
+namespace suspension_health_monitor {
+
+/// What one estimator knows of wheel and tyre. NaN: nothing yet.
+struct WheelEstimate {
+  double damping_to_wheel_mass = std::nan("");           ///< beta/m [1/s]
+  double stiffness_to_wheel_mass = std::nan("");         ///< K/m [1/s^2]
+  double tyre_to_wheel_mass = std::nan("");              ///< K0/m [1/s^2]
+  double damping_to_wheel_mass_stddev = std::nan("");    ///< [1/s], for residuals taken as white
+  double stiffness_to_wheel_mass_stddev = std::nan("");  ///< [1/s^2], likewise
+  double tyre_to_wheel_mass_stddev = std::nan("");       ///< [1/s^2], likewise
+  double effective_rows = 0.0;                           ///< rows in the estimator's memory
+  double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory
+  bool valid = false;      ///< enough rows, enough explained, all three parameters positive
+
+  /// @return undamped natural frequency of the wheel between strut and tyre, the body held fast [Hz].
+  double wheelHopFrequency() const {
+    return std::sqrt(stiffness_to_wheel_mass + tyre_to_wheel_mass) / (2 * M_PI);
+  }
+};
+
+/// @return m/M = b1 / (beta/m) [-], the share of the wheel's mass in the body's; none unless both are valid.
+std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate& tyre);
+
+struct TyreReport {
+  bool has_row = false;  ///< the newest sample gave a regression row
+  WheelEstimate ls, la;
+};
+
+/// Wheel and tyre of one strut, followed through a drive by LS and LA side by side, with a third accelerometer where
+/// the tyre touches the road. Samples without a reading of it empty the filter, as does a gap: estimates hold meanwhile,
+/// marked as not valid.
+/// Cost per sample: O(1), no allocation.
+class TyreTracker {
+ public:
+  /// @param options  with sample_period given.
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  explicit TyreTracker(const MonitorOptions& options);
+
+  /// Takes in the next sample of the strut.
+  /// @param road_acceleration  mu'' at this sample [m/s^2]; none: the road's sensor is silent.
+  const TyreReport& add(const CornerSample& sample, const std::optional<double>& road_acceleration);
+
+  const TyreReport& report() const { return report_; }
+  int horizonSamples() const { return filter_.horizon_samples; }
+
+ private:
+  bool continues(Stamp stamp) const;
+  void estimate(const RegressionRow& row);
+  void startNewSeries();
+
+  IntegralFilterOptions filter_;
+  Stamp period_;
+  double min_rows_, min_explained_;
+  int silent_rows_ = 0;  // rows of output 0 without a break; counts up to L and stays there
+  TyreRegression regression_;
+  RecursiveLeastSquares least_squares_;
+  RecursiveLeastAbsolute least_absolute_;
+  std::optional<Stamp> last_stamp_;
+  TyreReport report_;
+};
+
+}  // namespace suspension_health_monitor

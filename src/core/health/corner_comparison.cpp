@@ -1,0 +1,196 @@
+#include "suspension_health_monitor/health/corner_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace suspension_health_monitor {
+namespace {
+
+/// One corner on a logarithmic scale.
+struct Change {
+  double damping = 0.0, stiffness = 0.0;  // ln(b / reference)
+  double variance = 0.0;                  // of damping - stiffness, correlation neglected
+  double strut() const { return damping - stiffness; }  // free of the load
+};
+
+using Changes = std::array<Change, kNumCorners>;
+using Members = std::vector<std::size_t>;
+
+double medianOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 != 0 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+template <class Quantity>
+double medianOfOthers(const Changes& changes, const Members& members, std::size_t corner, Quantity quantity) {
+  std::vector<double> values;
+  for (const std::size_t other : members)
+    if (other != corner) values.push_back(quantity(changes[other]));
+  return medianOf(std::move(values));
+}
+
+double damping(const Change& change) { return change.damping; }
+double stiffness(const Change& change) { return change.stiffness; }
+double strut(const Change& change) { return change.strut(); }
+
+constexpr std::size_t sameAxle(std::size_t corner) { return corner ^ 1u; }
+
+bool has(const Members& members, std::size_t corner) {
+  return std::find(members.begin(), members.end(), corner) != members.end();
+}
+
+bool counts(double deviation, double variance, const CornerComparisonOptions& options) {
+  return std::abs(deviation) > std::abs(std::log1p(-options.threshold)) &&
+         deviation * deviation > options.significance * options.significance * variance;
+}
+
+std::string percent(double log_ratio) {
+  return std::to_string(std::lround(100.0 * std::abs(std::expm1(log_ratio)))) + " %";
+}
+
+bool isUsableCorner(const CornerState& corner) {
+  return corner.valid && corner.damping_to_mass > 0.0 && corner.stiffness_to_mass > 0.0;
+}
+
+bool hasNominal(const CornerState& corner) {
+  return corner.nominal_damping_to_mass.value_or(0.0) > 0.0 && corner.nominal_stiffness_to_mass.value_or(0.0) > 0.0;
+}
+
+Change changeOf(const CornerState& corner, bool from_nominal) {
+  const auto square = [](double x) { return x * x; };
+  Change change;
+  change.damping = std::log(corner.damping_to_mass / (from_nominal ? *corner.nominal_damping_to_mass : 1.0));
+  change.stiffness = std::log(corner.stiffness_to_mass / (from_nominal ? *corner.nominal_stiffness_to_mass : 1.0));
+  change.variance = square(corner.damping_to_mass_stddev / corner.damping_to_mass) +
+                    square(corner.stiffness_to_mass_stddev / corner.stiffness_to_mass);
+  return change;
+}
+
+std::string nameOf(std::size_t corner) { return std::string(kCornerNames[corner]); }
+
+void add(std::string& sentence, const std::string& part) {
+  sentence += (sentence.empty() ? "" : "; ") + part;
+}
+
+void accuse(CornerComparisonReport& report, std::size_t corner, double damping_deviation, double stiffness_deviation,
+            const std::string& reference) {
+  const bool damper = std::abs(damping_deviation) >= std::abs(stiffness_deviation);
+  const double deviation = damper ? damping_deviation : stiffness_deviation;
+  report.verdicts[corner] = damper ? CornerVerdict::kDamper : CornerVerdict::kSpring;
+  report.level = HealthLevel::kWarn;
+  add(report.sentence, nameOf(corner) + (damper ? " damping " : " stiffness ") + percent(deviation) +
+                           (deviation < 0.0 ? " below " : " above ") + reference + ": damage");
+}
+
+// Accuses the corner furthest from the others, takes it out, and so on.
+Members takeOutDamaged(const Changes& changes, Members members, const CornerComparisonOptions& options,
+                       CornerComparisonReport& report) {
+  while (members.size() >= 3) {
+    const auto deviation = [&](std::size_t corner) {
+      return changes[corner].strut() - medianOfOthers(changes, members, corner, strut);
+    };
+    const std::size_t worst = *std::max_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
+      return std::abs(deviation(a)) < std::abs(deviation(b));
+    });
+    double variance = 0.0;
+    for (const std::size_t other : members)
+      if (other != worst) variance = std::max(variance, changes[other].variance);
+    if (!counts(deviation(worst), variance + changes[worst].variance, options)) break;
+    members.erase(std::find(members.begin(), members.end(), worst));
+    const std::size_t partner = sameAxle(worst);
+    const bool paired = has(members, partner);
+    const double reference_damping =
+        paired ? changes[partner].damping : medianOfOthers(changes, members, worst, damping);
+    const double reference_stiffness =
+        paired ? changes[partner].stiffness : medianOfOthers(changes, members, worst, stiffness);
+    accuse(report, worst, changes[worst].damping - reference_damping,
+           changes[worst].stiffness - reference_stiffness, "the other corners");
+  }
+  return members;
+}
+
+// Of corners that are not damaged: whose mass has changed.
+void findLoad(const Changes& changes, const Members& healthy, std::size_t num_valid,
+              const CornerComparisonOptions& options, CornerComparisonReport& report) {
+  std::string names;
+  std::vector<double> stiffness_changes, strut_changes;
+  for (const std::size_t corner : healthy) {
+    strut_changes.push_back(changes[corner].strut());
+    if (!counts(changes[corner].stiffness, changes[corner].variance, options)) continue;
+    report.verdicts[corner] = CornerVerdict::kLoad;
+    names += (names.empty() ? "" : ", ") + nameOf(corner);
+    stiffness_changes.push_back(changes[corner].stiffness);
+  }
+  if (!stiffness_changes.empty()) {
+    const double change = medianOf(stiffness_changes);
+    add(report.sentence, (stiffness_changes.size() == num_valid ? "all corners" : names) + " stiffness/mass " +
+                             percent(change) + (change < 0.0 ? " down: payload" : " up: unloaded"));
+  }
+  const double common = medianOf(strut_changes);
+  if (counts(common, 0.0, options))
+    add(report.sentence, "damping of all other corners alike " + percent(common) +
+                             (common < 0.0 ? " down: warm or worn dampers" : " up: cold dampers"));
+}
+
+void compareAxles(const Changes& changes, const Members& valid, const CornerComparisonOptions& options,
+                  CornerComparisonReport& report) {
+  for (const std::size_t left : {std::size_t{0}, std::size_t{2}}) {
+    const std::size_t right = sameAxle(left);
+    if (!has(valid, left) || !has(valid, right)) {
+      for (const std::size_t corner : {left, right}) report.verdicts[corner] = CornerVerdict::kCannotTell;
+      continue;
+    }
+    const double damping_ratio = changes[left].damping - changes[right].damping;
+    const double stiffness_ratio = changes[left].stiffness - changes[right].stiffness;
+    if (!counts(damping_ratio - stiffness_ratio, changes[left].variance + changes[right].variance, options)) continue;
+    const bool damper = std::abs(damping_ratio) >= std::abs(stiffness_ratio);
+    const bool left_is_weaker = (damper ? damping_ratio : stiffness_ratio) < 0.0;
+    const double sign = left_is_weaker ? 1.0 : -1.0;
+    accuse(report, left_is_weaker ? left : right, sign * damping_ratio, sign * stiffness_ratio,
+           nameOf(left_is_weaker ? right : left) + " (no baseline)");
+  }
+}
+
+}  // namespace
+
+CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>& corners,
+                                      const CornerComparisonOptions& options) {
+  CornerComparisonReport report;
+  Members valid;
+  bool from_nominal = true;
+  for (std::size_t corner = 0; corner < kNumCorners; ++corner) {
+    if (!isUsableCorner(corners[corner])) continue;
+    valid.push_back(corner);
+    from_nominal = from_nominal && hasNominal(corners[corner]);
+  }
+  if (valid.size() < 3) {
+    report.sentence = "cannot tell: " + std::to_string(valid.size()) + " corners have a valid estimate, 3 are needed";
+    return report;
+  }
+  report.level = HealthLevel::kOk;
+  Changes changes{};
+  for (const std::size_t corner : valid) {
+    changes[corner] = changeOf(corners[corner], from_nominal);
+    report.verdicts[corner] = CornerVerdict::kAlike;
+  }
+  if (from_nominal) {
+    for (const std::size_t corner : valid) {
+      const Change& change = changes[corner];
+      report.damping_deviation[corner] =
+          std::expm1(change.damping - medianOfOthers(changes, valid, corner, damping));
+      report.stiffness_deviation[corner] =
+          std::expm1(change.stiffness - medianOfOthers(changes, valid, corner, stiffness));
+    }
+    const Members healthy = takeOutDamaged(changes, valid, options, report);
+    findLoad(changes, healthy, valid.size(), options, report);
+  } else {
+    compareAxles(changes, valid, options, report);
+  }
+  if (report.sentence.empty())
+    report.sentence = from_nominal ? "all corners alike" : "left and right alike (no baseline)";
+  return report;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,185 @@
+#include "suspension_health_monitor/identification/score_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/identification/plain_size.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kMemories = 30.0;       // of the estimate, that the means last
+constexpr double kLongestMemory = 1e5;   // [rows] of an estimate that never forgets
+constexpr int kFirstRows = 100;          // while the estimate comes from its start
+constexpr int kRefreshEvery = 64;        // rows
+constexpr int kStretch = 3;              // windows of lags that it looks at without a break
+constexpr double kEnough = 6000.0;       // rows in the means, to rest between stretches from then on
+constexpr int kRest = 5;                 // stretches
+constexpr double kFading = 2.0;          // the first rows, when the slow mean is still poor, count least
+constexpr double kWhiteRatio = 2.0;      // of variances, before anything is known: the usual horizons give 0.5 to 3
+constexpr double kSmallestShare = 0.4;   // of what uncorrelated scores would give: below, the lags' sum is mostly noise
+// Whatever lambda, rounding and outliers that have left the window are forgotten after a thousand windows.
+constexpr double kWindows = 1000.0;
+
+std::size_t roundUp(std::size_t length) {
+  std::size_t size = 1;
+  while (size < length) size *= 2;
+  return size;
+}
+
+}  // namespace
+
+ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double forgetting_factor)
+    : size_(num_parameters),
+      lags_(correlated_rows),
+      forgetting_factor_(forgetting_factor),
+      slow_theta_(Eigen::VectorXd::Zero(size_)),
+      score_(Eigen::VectorXd::Zero(size_)),
+      lagged_(Eigen::VectorXd::Zero(size_)),
+      line_(roundUp(static_cast<std::size_t>(lags_) + 1) * static_cast<std::size_t>(size_), 0.0),
+      mask_(roundUp(static_cast<std::size_t>(lags_) + 1) - 1),
+      long_run_(Eigen::MatrixXd::Zero(size_, size_)),
+      lag0_(long_run_),
+      information_(long_run_),
+      factor_(size_),
+      unit_(Eigen::VectorXd::Zero(size_)),
+      column_(unit_),
+      prior_(Eigen::VectorXd::Constant(size_, kWhiteRatio)),
+      ratio_(prior_) {
+  first_rows_ = kFirstRows;
+  setForgettingFactor(forgetting_factor);
+}
+
+ScoreCovariance::ScoreCovariance(const ScoreCovariance& before, const std::vector<std::optional<int>>& sources)
+    : ScoreCovariance(static_cast<int>(sources.size()), before.lags_, before.forgetting_factor_) {
+  slope_ = before.slope_;
+  for (int i = 0; i < size_; ++i)
+    if (const std::optional<int>& source = sources[static_cast<std::size_t>(i)]) prior_[i] = before.ratio_[*source];
+  ratio_ = prior_;
+}
+
+void ScoreCovariance::setForgettingFactor(double forgetting_factor) {
+  forgetting_factor_ = forgetting_factor;
+  slow_gain_ = std::max(1.0 - forgetting_factor, 1.0 / kLongestMemory) / kMemories;
+  setDecay();
+}
+
+void ScoreCovariance::setDecay() {
+  const double forgetting = std::max((1.0 - forgetting_factor_) * slope_, 1.0 / (kWindows * (lags_ + 1)));
+  decay_ = 1.0 - forgetting;
+  end_decay_ = std::pow(decay_, lags_ + 1);
+}
+
+void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double scale) {
+  if (rest_ > 0) {
+    --rest_;
+    return;
+  }
+  phase_ = (phase_ + 1) % kRefreshEvery;
+  addScore(row, weight.smallest_divisor);
+  if (in_stretch_ > lags_) average(row.regressor.data(), weight.weight, scale);
+  if (isNowAndThen() || first_rows_ > 0) nowAndThen(theta);
+}
+
+void ScoreCovariance::nowAndThen(const Eigen::VectorXd& theta) {
+  const int whole = kStretch * (lags_ + kFewRows);
+  if (first_rows_ == 0) in_stretch_ = std::min(in_stretch_ + kFewRows, whole);
+  if (phase_ == 0) refresh();
+  follow(theta);
+  if (averaged_ >= kEnough && in_stretch_ == whole) endStretch();
+}
+
+void ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor) {
+  const double* const phi = row.regressor.data();
+  const double* const slow = slow_theta_.data();
+  double* const score = score_.data();
+  double* const lagged = lagged_.data();
+  const double decay = decay_, end_decay = end_decay_;
+  newest_ = (newest_ + 1) & mask_;
+  const std::size_t end = (newest_ + mask_ - static_cast<std::size_t>(lags_)) & mask_;
+  withPlainSize(size_, [&](auto p) {
+    double* const at_newest = line_.data() + newest_ * static_cast<std::size_t>(p);
+    const double* const at_end = line_.data() + end * static_cast<std::size_t>(p);
+    double residual = row.output;
+    for (Eigen::Index i = 0; i < p; ++i) residual -= phi[i] * slow[i];
+    if (smallest_divisor > 0.0) residual /= std::max(std::abs(residual), smallest_divisor);
+    for (Eigen::Index i = 0; i < p; ++i) {
+      lagged[i] = decay * (lagged[i] + score[i]) - end_decay * at_end[i];
+      score[i] = residual * phi[i];
+      at_newest[i] = score[i];
+    }
+  });
+}
+
+void ScoreCovariance::endStretch() {
+  rest_ = kRest * in_stretch_;
+  interrupt();
+}
+
+// The slow mean of the estimate, from when this has left its start.
+void ScoreCovariance::follow(const Eigen::VectorXd& theta) {
+  if (first_rows_ > 0) {
+    --first_rows_;
+    slow_theta_ = theta;
+    return;
+  }
+  slow_theta_ += kFewRows * std::max(slow_gain_, kFading / (averaged_ + kFading * kFewRows)) * (theta - slow_theta_);
+}
+
+void ScoreCovariance::average(const double* regressor, double weight, double scale) {
+  averaged_ += 1.0;
+  const double gain = std::max(slow_gain_, kFading / (averaged_ + kFading - 1.0));
+  withPlainSize(size_, [&](auto p) {
+    for (Eigen::Index j = 0; j < p; ++j) {
+      for (Eigen::Index i = 0; i <= j; ++i) {
+        const double now = score_[i] * score_[j];
+        lag0_(i, j) += gain * (now - lag0_(i, j));
+        long_run_(i, j) += gain * (now + score_[i] * lagged_[j] + lagged_[i] * score_[j] - long_run_(i, j));
+        information_(i, j) += gain * (weight * regressor[i] * regressor[j] - information_(i, j));
+      }
+    }
+  });
+  scale_ += gain * (scale - scale_);
+}
+
+// ratio_i = (R^-1 G R^-1)_ii / (R^-1)_ii / scale, by the columns of R^-1.
+void ScoreCovariance::refresh() {
+  setDecay();
+  factor_.compute(information_.selfadjointView<Eigen::Upper>());
+  if (factor_.info() != Eigen::Success || !(scale_ > 0.0)) return;  // some parameter has not been excited yet
+  // What was known before counts as some windows' rows.
+  const double doubted = kFirstRows + 4.0 * lags_;
+  const double trust = averaged_ * averaged_ / (averaged_ * averaged_ + doubted * doubted);
+  for (int i = 0; i < size_; ++i) {
+    unit_.setZero();
+    unit_[i] = 1.0;
+    column_ = unit_;
+    factor_.solveInPlace(column_);
+    double correlated = 0.0, uncorrelated = 0.0;
+    for (int b = 0; b < size_; ++b) {
+      for (int a = 0; a <= b; ++a) {
+        const double product = (a == b ? 1.0 : 2.0) * column_[a] * column_[b];
+        correlated += product * long_run_(a, b);
+        uncorrelated += product * lag0_(a, b);
+      }
+    }
+    const double found = std::max(correlated, kSmallestShare * uncorrelated) / (column_[i] * scale_);
+    if (std::isfinite(found)) ratio_[i] = prior_[i] + trust * (found - prior_[i]);
+  }
+}
+
+void ScoreCovariance::interrupt() {
+  in_stretch_ = 0;
+  std::fill(line_.begin(), line_.end(), 0.0);
+  score_.setZero();
+  lagged_.setZero();
+}
+
+void ScoreCovariance::restart() {
+  interrupt();
+  first_rows_ = kFirstRows;
+  rest_ = 0;
+  averaged_ = 0.0;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,82 @@
+#include "suspension_health_monitor/tyre_tracker.h"
+
+#include <algorithm>
+
+#include "suspension_health_monitor/signal/continuity.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+template <class Estimator>
+void describe(const Estimator& estimator, WheelEstimate& estimate) {
+  const Eigen::VectorXd& theta = estimator.parameters();
+  const auto stddev = [&](int i) { return std::sqrt(estimator.parameterVariance(i)); };
+  estimate.damping_to_wheel_mass = theta[kDampingToWheelMass];
+  estimate.stiffness_to_wheel_mass = theta[kStiffnessToWheelMass];
+  estimate.tyre_to_wheel_mass = theta[kTyreToWheelMass];
+  estimate.damping_to_wheel_mass_stddev = stddev(kDampingToWheelMass);
+  estimate.stiffness_to_wheel_mass_stddev = stddev(kStiffnessToWheelMass);
+  estimate.tyre_to_wheel_mass_stddev = stddev(kTyreToWheelMass);
+  estimate.effective_rows = estimator.effectiveRows();
+  const double output = estimator.meanAbsoluteOutput();
+  estimate.explained = output > 0.0 ? 1.0 - estimator.meanAbsoluteResidual() / output : 0.0;
+}
+
+bool isWheel(const WheelEstimate& estimate) {
+  return estimate.damping_to_wheel_mass > 0.0 && estimate.stiffness_to_wheel_mass > 0.0 &&
+         estimate.tyre_to_wheel_mass > 0.0;
+}
+
+}  // namespace
+
+std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate& tyre) {
+  if (!strut.valid || !tyre.valid) return std::nullopt;
+  return strut.damping_to_mass / tyre.damping_to_wheel_mass;
+}
+
+TyreTracker::TyreTracker(const MonitorOptions& options)
+    : filter_(options.tyreFilter(*options.sample_period)),
+      period_(fromSeconds(*options.sample_period)),
+      min_rows_(std::min<double>(options.valid_min_rows, 0.9 / (1.0 - std::min(options.forgetting_factor, 1 - 1e-12)))),
+      min_explained_(options.valid_min_explained),
+      regression_(filter_),
+      least_squares_(kNumTyreParameters, options.recursive()),
+      least_absolute_(kNumTyreParameters, options.recursive(), options.leastAbsolute()) {}
+
+const TyreReport& TyreTracker::add(const CornerSample& sample, const std::optional<double>& road_acceleration) {
+  report_.has_row = false;
+  const bool usable = isUsable(sample.sprung_acceleration) && isUsable(sample.unsprung_acceleration) &&
+                      road_acceleration && isUsable(*road_acceleration);
+  if (!usable || !continues(sample.stamp)) startNewSeries();
+  last_stamp_ = sample.stamp;
+  if (!usable) return report_;
+  if (const RegressionRow* row = regression_.push(sample, *road_acceleration)) estimate(*row);
+  return report_;
+}
+
+bool TyreTracker::continues(Stamp stamp) const {
+  return !last_stamp_ || continuity(stamp - *last_stamp_, period_) == Continuity::kContinues;
+}
+
+void TyreTracker::estimate(const RegressionRow& row) {
+  report_.has_row = true;
+  // Without any noise there is no motion but a sensor that is stuck or a vehicle at rest, see SuspensionMonitor.
+  silent_rows_ = row.output == 0.0 ? std::min(silent_rows_ + 1, filter_.horizon_samples) : 0;
+  const bool moves = silent_rows_ < filter_.horizon_samples;
+  if (moves) {
+    least_squares_.update(row);
+    least_absolute_.update(row);
+    describe(least_squares_, report_.ls);
+    describe(least_absolute_, report_.la);
+  }
+  for (WheelEstimate* estimate : {&report_.ls, &report_.la})
+    estimate->valid = moves && estimate->effective_rows >= min_rows_ && estimate->explained >= min_explained_ &&
+                      isWheel(*estimate);
+}
+
+void TyreTracker::startNewSeries() {
+  regression_.reset();
+  report_.ls.valid = report_.la.valid = false;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <dynamic_reconfigure/Config.h>
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <ros/node_handle.h>
+
+#include <array>
+#include <string_view>
+
+#include "shell_options.h"
+
+namespace suspension_health_monitor {
+
+/// Settings that a user may turn while watching (rqt_reconfigure): those that change without starting estimates anew.
+inline constexpr std::array<std::string_view, 7> kLiveSettings{
+    "forgetting_factor",      "health/damping_warn", "health/damping_error", "health/stiffness_warn",
+    "health/stiffness_error", "health/confirm_time", "publish_every"};
+
+/// What dynamic_reconfigure::Server wants of the class that its generator would make of a .cfg file. Here names, types,
+/// defaults, ranges and texts come from kMonitorFields and kShellFields, where all other settings have them from, and
+/// the names are those of the launch parameters. Nothing is clamped: what is not allowed is refused by appliedTo().
+class LiveSettings {
+ public:
+  LiveSettings() : LiveSettings(PipelineOptions{}) {}
+  explicit LiveSettings(const PipelineOptions& options);
+
+  /// @return the options with these settings.
+  /// @throws std::invalid_argument  naming option, value and what is allowed.
+  PipelineOptions appliedTo(PipelineOptions options) const;
+
+  // The names that dynamic_reconfigure::Server calls.
+  static const dynamic_reconfigure::ConfigDescription& __getDescriptionMessage__();
+  static const LiveSettings& __getMin__();
+  static const LiveSettings& __getMax__();
+  static const LiveSettings& __getDefault__();
+  void __fromServer__(const ros::NodeHandle& node);  ///< @throws std::invalid_argument  as PipelineOptions::fromValues()
+  void __toServer__(const ros::NodeHandle& node) const;
+  bool __fromMessage__(const dynamic_reconfigure::Config& message);  ///< what the message lacks stays
+  void __toMessage__(dynamic_reconfigure::Config& message) const;
+  void __clamp__() {}
+  std::uint32_t __level__(const LiveSettings&) const { return 0; }
+
+ private:
+  OptionMap values_;  // of kLiveSettings; int or double
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,34 @@
+#include "model_topic.h"
+
+#include <cmath>
+
+#include "conversions.h"
+#include "suspension_health_monitor/model/model_settings.h"
+
+namespace suspension_health_monitor {
+
+void ModelTopic::change(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor,
+                        const std::string& frame) {
+  has_estimate_ = monitor != nullptr && monitor->report().la.valid;
+  auto message = boost::make_shared<ModelInUse>();
+  message->header.frame_id = frame;
+  if (monitor != nullptr) message->header.stamp = toRosTime(monitor->report().stamp);
+  message->damping_to_mass = message->stiffness_to_mass = std::nan("");
+  for (const ActiveEffect& active : effects) {
+    message->effect_names.push_back(active.effect.name);
+    message->effect_coefficients.push_back(active.coefficient);
+    for (std::size_t i = 0; i < active.shapes.size(); ++i) {
+      message->shape_names.push_back(active.effect.name + '/' + active.effect.shapes[i].name);
+      message->shapes.push_back(active.shapes[i]);
+    }
+  }
+  if (has_estimate_) {
+    const StrutEstimate& la = monitor->report().la;
+    message->damping_to_mass = la.damping_to_mass;
+    message->stiffness_to_mass = la.stiffness_to_mass;
+    message->yaml = toYaml({la.damping_to_mass, la.stiffness_to_mass, effects, {}});
+  }
+  publisher_.publish(message);
+}
+
+}  // namespace suspension_health_monitor

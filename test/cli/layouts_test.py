@@ -1,0 +1,79 @@
+"""The layouts for rqt and PlotJuggler: well-formed, and every topic and field that they show exists."""
+import ast
+import json
+import pathlib
+import re
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+CONFIG = REPOSITORY / "config"
+PERSPECTIVE = json.loads((CONFIG / "rqt_suspension.perspective").read_text())
+LAYOUT = ElementTree.parse(CONFIG / "plotjuggler_layout.xml").getroot()
+NUMBERS = r"(?:float64|byte|bool|uint8)"
+
+
+def topics_of_the_monitor():
+    """Message type by name of the topic, as the nodelet advertises them."""
+    sources = " ".join(path.read_text() for path in (REPOSITORY / "src" / "ros").glob("*.cpp")
+                       if path.name in ("monitor_nodelet.cpp", "tyre_output.cpp"))
+    return {topic: message for message, topic in re.findall(r'advertise<(\w+)>\("(\w+)"', sources)}
+
+
+def numeric_fields(message):
+    lines = (REPOSITORY / "msg" / f"{message}.msg").read_text().splitlines()
+    return {match[1] for match in (re.match(rf"{NUMBERS}\s+(\w+)\s*(?:#.*)?$", line) for line in lines) if match}
+
+
+def plugins():
+    return ast.literal_eval(PERSPECTIVE["groups"]["pluginmanager"]["keys"]["running-plugins"]["repr"])
+
+
+def settings_of(plugin, number):
+    name = f"plugin__{plugin.replace('/', '__')}__{number}"
+    return PERSPECTIVE["groups"]["pluginmanager"]["groups"][name]["groups"]["plugin"]["keys"]
+
+
+def rqt_curves():
+    return [topic for number in plugins()["rqt_plot/Plot"]
+            for topic in ast.literal_eval(settings_of("rqt_plot/Plot", number)["topics"]["repr"])]
+
+
+def plotjuggler_curves():
+    return [curve.get("name") for curve in LAYOUT.iter("curve")]
+
+
+@pytest.mark.parametrize("curve", [*rqt_curves(), *plotjuggler_curves()])
+def test_curve_is_a_number_that_the_monitor_publishes(curve):
+    node, topic, field = curve.strip("/").split("/")
+    assert node == "monitor"
+    assert field in numeric_fields(topics_of_the_monitor()[topic])
+
+
+def test_perspective_has_the_settings_of_every_running_plugin_and_no_others():
+    running = {f"plugin__{plugin.replace('/', '__')}__{number}"
+               for plugin, numbers in plugins().items() for number in numbers}
+    assert running == set(PERSPECTIVE["groups"]["pluginmanager"]["groups"])
+    assert set(plugins()) == {"rqt_plot/Plot", "rqt_robot_monitor/RobotMonitor", "rqt_reconfigure/Param"}
+
+
+def test_every_value_of_the_perspective_can_be_read_back():
+    def check(group):
+        assert set(group) == {"groups", "keys"}
+        for value in group["keys"].values():
+            assert value["type"] == "repr"
+            ast.literal_eval(value["repr"])
+        for child in group["groups"].values():
+            check(child)
+    check(PERSPECTIVE)
+
+
+def test_plotjuggler_splitters_have_as_many_sizes_and_plots_as_they_say():
+    splitters = list(LAYOUT.iter("DockSplitter"))
+    assert splitters
+    for splitter in splitters:
+        count = int(splitter.get("count"))
+        sizes = [float(size) for size in splitter.get("sizes").split(";")]
+        assert len(sizes) == count == len(splitter.findall("DockArea/plot"))
+        assert sum(sizes) == pytest.approx(1.0, abs=1e-4)

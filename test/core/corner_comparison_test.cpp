@@ -1,0 +1,126 @@
+#include "suspension_health_monitor/health/corner_comparison.h"
+
+#include <gtest/gtest.h>
+
+namespace suspension_health_monitor {
+namespace {
+
+using Corners = std::array<CornerState, kNumCorners>;
+enum { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
+
+// Front and rear struts of a car differ; so do their baselines.
+Corners healthyCorners() {
+  Corners corners;
+  for (std::size_t i = 0; i < kNumCorners; ++i) {
+    CornerState& corner = corners[i];
+    corner.valid = true;
+    corner.nominal_damping_to_mass = corner.damping_to_mass = i < 2 ? 6.0 : 4.0;
+    corner.nominal_stiffness_to_mass = corner.stiffness_to_mass = i < 2 ? 63.3 : 50.0;
+    corner.damping_to_mass_stddev = 0.01 * corner.damping_to_mass;
+    corner.stiffness_to_mass_stddev = 0.01 * corner.stiffness_to_mass;
+  }
+  return corners;
+}
+
+void load(CornerState& corner, double mass_ratio) {
+  corner.damping_to_mass /= mass_ratio;
+  corner.stiffness_to_mass /= mass_ratio;
+}
+
+void forgetBaselines(Corners& corners) {
+  for (CornerState& corner : corners) corner.nominal_damping_to_mass = corner.nominal_stiffness_to_mass = std::nullopt;
+}
+
+TEST(CornerComparison, HealthyCornersAreAlike) {
+  const CornerComparisonReport report = compareCorners(healthyCorners());
+  EXPECT_EQ(report.level, HealthLevel::kOk);
+  EXPECT_EQ(report.sentence, "all corners alike");
+  for (const CornerVerdict verdict : report.verdicts) EXPECT_EQ(verdict, CornerVerdict::kAlike);
+}
+
+TEST(CornerComparison, NamesTheOneCornerWhoseDamperIsWornWhicheverItIs) {
+  for (std::size_t worn = 0; worn < kNumCorners; ++worn) {
+    Corners corners = healthyCorners();
+    corners[worn].damping_to_mass *= 0.72;
+    const CornerComparisonReport report = compareCorners(corners);
+    EXPECT_EQ(report.level, HealthLevel::kWarn);
+    EXPECT_EQ(report.sentence, std::string(kCornerNames[worn]) + " damping 28 % below the other corners: damage");
+    EXPECT_NEAR(*report.damping_deviation[worn], -0.28, 1e-12);
+    EXPECT_NEAR(*report.stiffness_deviation[worn], 0.0, 1e-12);
+    for (std::size_t i = 0; i < kNumCorners; ++i)
+      EXPECT_EQ(report.verdicts[i], i == worn ? CornerVerdict::kDamper : CornerVerdict::kAlike);
+  }
+}
+
+TEST(CornerComparison, LoadMovesAllCornersOrAnAxleAndIsNoDamage) {
+  Corners all = healthyCorners();
+  for (CornerState& corner : all) load(corner, 1.25);
+  EXPECT_EQ(compareCorners(all).level, HealthLevel::kOk);
+  EXPECT_EQ(compareCorners(all).sentence, "all corners stiffness/mass 20 % down: payload");
+  Corners rear = healthyCorners();
+  load(rear[kRearLeft], 1.25);
+  load(rear[kRearRight], 1.25);
+  const CornerComparisonReport report = compareCorners(rear);
+  EXPECT_EQ(report.level, HealthLevel::kOk);
+  EXPECT_EQ(report.sentence, "rear_left, rear_right stiffness/mass 20 % down: payload");
+  EXPECT_EQ(report.verdicts[kRearLeft], CornerVerdict::kLoad);
+  EXPECT_EQ(report.verdicts[kFrontLeft], CornerVerdict::kAlike);
+}
+
+TEST(CornerComparison, TellsDamperFromSpringUnderLoad) {
+  for (const double mass_ratio : {0.8, 1.0, 1.25}) {
+    Corners damper = healthyCorners(), spring = healthyCorners();
+    for (const int corner : {kRearLeft, kRearRight}) {
+      load(damper[corner], mass_ratio);
+      load(spring[corner], mass_ratio);
+    }
+    damper[kRearLeft].damping_to_mass *= 0.7;
+    spring[kRearLeft].stiffness_to_mass *= 0.7;
+    EXPECT_EQ(compareCorners(damper).verdicts[kRearLeft], CornerVerdict::kDamper) << mass_ratio;
+    EXPECT_EQ(compareCorners(spring).verdicts[kRearLeft], CornerVerdict::kSpring) << mass_ratio;
+    EXPECT_EQ(compareCorners(spring).verdicts[kFrontRight], CornerVerdict::kAlike) << mass_ratio;
+  }
+}
+
+TEST(CornerComparison, WarmDampersAccuseNone) {
+  Corners corners = healthyCorners();
+  for (CornerState& corner : corners) corner.damping_to_mass *= 0.7;
+  const CornerComparisonReport report = compareCorners(corners);
+  EXPECT_EQ(report.level, HealthLevel::kOk);
+  EXPECT_NE(report.sentence.find("warm or worn dampers"), std::string::npos) << report.sentence;
+}
+
+TEST(CornerComparison, AnUncertainEstimateAccusesNone) {
+  Corners corners = healthyCorners();
+  corners[kFrontLeft].damping_to_mass *= 0.72;
+  corners[kFrontLeft].damping_to_mass_stddev = 0.2 * corners[kFrontLeft].damping_to_mass;  // ln 0.72 is 1.6 of it
+  EXPECT_EQ(compareCorners(corners).level, HealthLevel::kOk);
+}
+
+TEST(CornerComparison, ThreeCornersAreEnoughAndTwoAreNot) {
+  Corners corners = healthyCorners();
+  corners[kFrontLeft].damping_to_mass *= 0.65;
+  corners[kRearRight].valid = false;
+  const CornerComparisonReport three = compareCorners(corners);
+  EXPECT_EQ(three.verdicts[kFrontLeft], CornerVerdict::kDamper);
+  EXPECT_EQ(three.verdicts[kFrontRight], CornerVerdict::kAlike);
+  EXPECT_EQ(three.verdicts[kRearRight], CornerVerdict::kCannotTell);
+  corners[kRearLeft].valid = false;
+  const CornerComparisonReport two = compareCorners(corners);
+  EXPECT_EQ(two.level, HealthLevel::kStale);
+  EXPECT_EQ(two.sentence, "cannot tell: 2 corners have a valid estimate, 3 are needed");
+}
+
+TEST(CornerComparison, WithoutBaselinesTheWheelsOfAnAxleAreCompared) {
+  Corners corners = healthyCorners();
+  forgetBaselines(corners);
+  EXPECT_EQ(compareCorners(corners).sentence, "left and right alike (no baseline)");
+  corners[kRearRight].damping_to_mass *= 0.7;
+  const CornerComparisonReport report = compareCorners(corners);
+  EXPECT_EQ(report.verdicts[kRearRight], CornerVerdict::kDamper);
+  EXPECT_EQ(report.verdicts[kRearLeft], CornerVerdict::kAlike);
+  EXPECT_EQ(report.sentence, "rear_right damping 30 % below rear_left (no baseline): damage");
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor

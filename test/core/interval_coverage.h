@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/identification/horizon_survey.h"
+#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+
+/// How often an estimate plus and minus 1.96 stddev holds the truth.
+struct Coverage {
+  int intervals = 0, hits = 0;
+  double squares = 0.0;  ///< of error / stddev
+
+  void add(double error, double stddev) {
+    ++intervals;
+    hits += std::abs(error) <= 1.96 * stddev ? 1 : 0;
+    squares += error * error / (stddev * stddev);
+  }
+  Coverage& operator+=(const Coverage& other) {
+    intervals += other.intervals;
+    hits += other.hits;
+    squares += other.squares;
+    return *this;
+  }
+  double share() const { return static_cast<double>(hits) / intervals; }
+  double rms() const { return std::sqrt(squares / intervals); }
+};
+
+/// By estimator (LS, LA) and parameter (b1, b0).
+using Coverages = std::array<std::array<Coverage, 2>, 2>;
+
+inline Coverages& operator+=(Coverages& sum, const Coverages& other) {
+  for (std::size_t e = 0; e < 2; ++e)
+    for (std::size_t i = 0; i < 2; ++i) sum[e][i] += other[e][i];
+  return sum;
+}
+
+/// A drive without noise, whose parameters stay, to be measured again and again.
+struct CleanDrive {
+  std::vector<CornerSample> samples;
+  double period, damping_to_mass, stiffness_to_mass;
+};
+
+inline CleanDrive cleanDrive(SimulationOptions options) {
+  options.noise = 0.0;
+  options.damping_ramp = false;
+  DriveSimulator simulator(options);
+  CleanDrive drive{{}, 1.0 / options.rate, 0.0, 0.0};
+  while (const auto sample = simulator.next()) {
+    drive.samples.push_back({sample->stamp, sample->sprung->acceleration, sample->unsprung->acceleration});
+    drive.damping_to_mass = sample->truth.damping_to_mass;
+    drive.stiffness_to_mass = sample->truth.stiffness_to_mass;
+  }
+  return drive;
+}
+
+/// Calls take(sample) with the samples as two sensors with normal white noise of the same size read them.
+template <class Take>
+void measure(const CleanDrive& drive, double noise, unsigned seed, const Take& take) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal(0.0, noise);
+  for (CornerSample sample : drive.samples) {
+    sample.sprung_acceleration += normal(generator);
+    sample.unsprung_acceleration += normal(generator);
+    take(sample);
+  }
+}
+
+inline int proposedHorizon(const CleanDrive& drive, double noise) {
+  HorizonSurvey survey(drive.period, IntegrationRule::kCubic, 4096);
+  measure(drive, noise, 1, [&](const CornerSample& sample) { survey.push(sample); });
+  return survey.horizonSamples().value();
+}
+
+/// @param options  without a sample_period.  @param seeds  number of times that the drive is measured.
+/// The intervals are looked at every three memories of LS, from the tenth memory on.
+inline Coverages coverageOf(const CleanDrive& drive, double noise, MonitorOptions options, int seeds) {
+  options.sample_period = drive.period;
+  const double memory = 1.0 / (1.0 - options.forgetting_factor);
+  const auto every = static_cast<std::uint64_t>(3.0 * memory), first = static_cast<std::uint64_t>(10.0 * memory);
+  Coverages coverages;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    SuspensionMonitor monitor(options);
+    measure(drive, noise, static_cast<unsigned>(1000 + seed), [&](const CornerSample& sample) {
+      const MonitorReport* report = monitor.addSample(sample);
+      const std::uint64_t rows = monitor.input().rows;
+      if (report == nullptr || !report->has_row || rows < first || rows % every != 0) return;
+      for (std::size_t e = 0; e < 2; ++e) {
+        const StrutEstimate& estimate = e == 0 ? report->ls : report->la;
+        coverages[e][0].add(estimate.damping_to_mass - drive.damping_to_mass, estimate.damping_to_mass_stddev);
+        coverages[e][1].add(estimate.stiffness_to_mass - drive.stiffness_to_mass, estimate.stiffness_to_mass_stddev);
+      }
+    });
+  }
+  return coverages;
+}
+
+}  // namespace suspension_health_monitor

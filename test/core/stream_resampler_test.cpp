@@ -1,0 +1,198 @@
+#include "suspension_health_monitor/signal/stream_resampler.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "suspension_health_monitor/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kPeriod = 0.005;  // of the grid [s]
+constexpr double kNyquist = 0.5 / kPeriod;
+constexpr int kCount = 600;  // instants of the grid
+
+/// How a sensor reads.
+struct Sampling {
+  double rate = 200.0;       // [Hz]
+  double phase = 0.0013;     // [s]
+  double jitter = 0.0;       // readings are late by 0..jitter [s], and stamped so
+  double lost = 0.0;         // share
+};
+
+std::vector<double> timesOf(const Sampling& sampling, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<double> times;
+  for (int k = 0; k / sampling.rate < kPeriod * (kCount + 80); ++k) {
+    const double t = k / sampling.rate + sampling.phase + sampling.jitter * uniform(engine);
+    if (uniform(engine) >= sampling.lost) times.push_back(t);
+  }
+  return times;
+}
+
+/// Values at grid instants 10 .. kCount + 9.
+std::vector<double> resampled(const std::vector<double>& times, const std::function<double(double)>& signal,
+                              Stamp start = {}) {
+  StreamResampler stream(fromSeconds(kPeriod));
+  for (const double t : times) {
+    const Stamp stamp = fromSeconds(t);  // whole nanoseconds
+    stream.push({start + stamp, signal(toSeconds(stamp)), false, false});
+  }
+  std::vector<double> values;
+  for (int k = 10; k < kCount + 10; ++k) {
+    const Stamp t = start + k * fromSeconds(kPeriod);
+    EXPECT_EQ(stream.look(t), StreamResampler::Coverage::kCovered) << k;
+    values.push_back(stream.at(t).acceleration);
+  }
+  return values;
+}
+
+/// Largest deviation of the values from `expected` at their instants.
+double worst(const std::vector<double>& values, const std::function<double(double)>& expected) {
+  double error = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    error = std::max(error, std::abs(values[i] - expected(kPeriod * static_cast<double>(i + 10))));
+  return error;
+}
+
+std::function<double(double)> sine(double frequency) {
+  return [frequency](double t) { return std::sin(2.0 * kPi * frequency * t + 0.3); };
+}
+
+const std::vector<Sampling> kSamplings{{200.0, 0.0, 0.0, 0.0},       {200.0, 0.0013, 0.0, 0.0},
+                                       {333.0, 0.0007, 0.0, 0.0},    {200.0, 0.0, 0.001, 0.02},
+                                       {333.0, 0.0007, 0.001, 0.02}, {1000.0, 0.0, 0.0009, 0.02}};
+
+TEST(StreamResampler, PassesAConstantExactly) {
+  for (const Sampling& sampling : kSamplings)
+    EXPECT_EQ(worst(resampled(timesOf(sampling, 1), [](double) { return 9.81; }), [](double) { return 9.81; }), 0.0);
+}
+
+// Within the window of +-40 ms a cubic of the size of gravity is a sum of slow sinusoids, of which those between the
+// lines pass to 1e-3: so do a slope and a curvature of a few m/s^2 per second.
+TEST(StreamResampler, PassesSlowTrendsOnTheirInstants) {
+  const auto cubic = [](double t) {
+    const double s = t - 1.5;
+    return 9.81 + 2.0 * s - 3.0 * s * s + s * s * s;
+  };
+  for (const Sampling& sampling : kSamplings)
+    EXPECT_LT(worst(resampled(timesOf(sampling, 2), cubic), cubic), 1e-3) << sampling.rate << " " << sampling.lost;
+}
+
+// Of regular readings: the ripple of the filter, 1.4e-3, taken down by the lines. Jitter of 0.2 spacings and lost
+// readings leave errors that grow with frequency as the ridge does.
+TEST(StreamResampler, GivesSinesWithTheirAmplitudeAndPhase) {
+  for (const Sampling& sampling : kSamplings) {
+    const bool regular = sampling.jitter == 0.0;
+    for (const double frequency : {1.0, 3.0, 7.0, 12.0, 20.0, 25.0, 35.0, 45.0, 58.0}) {
+      const double share = frequency / (0.6 * kNyquist);
+      const double error = worst(resampled(timesOf(sampling, 3), sine(frequency)), sine(frequency));
+      EXPECT_LT(error, regular ? 4e-3 : 3e-3 + 0.5 * std::pow(share, 4)) << sampling.rate << " Hz, " << frequency;
+    }
+  }
+}
+
+TEST(StreamResampler, GivesTwoStreamsOfDifferentRateTheSameAmplitudeAndPhase) {
+  const auto response = [](const Sampling& sampling, double frequency) {
+    const std::vector<double> values = resampled(timesOf(sampling, 4), sine(frequency));
+    std::complex<double> sum;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      sum += 2.0 / kCount * values[i] * std::polar(1.0, -2.0 * kPi * frequency * kPeriod * static_cast<double>(i + 10));
+    return sum;
+  };
+  for (const double frequency : {2.0, 10.0, 25.0, 40.0, 60.0}) {  // whole numbers of periods in kCount
+    const std::complex<double> slow = response({200.0, 0.0013, 0.0, 0.0}, frequency);
+    const std::complex<double> fast = response({333.0, 0.0002, 0.0, 0.0}, frequency);
+    EXPECT_NEAR(std::abs(slow), 1.0, 3e-3) << frequency;
+    EXPECT_LT(std::abs(slow - fast), 1e-3) << frequency;
+  }
+}
+
+// Onto what the strut answers to, below 0.8 times the Nyquist frequency.
+TEST(StreamResampler, KeepsOutWhatTheGridWouldFold) {
+  for (const double frequency : {121.0, 135.0, 160.0, 190.0, 300.0, 420.0}) {
+    const Sampling fast{1000.0, 0.0, 0.0, 0.0};
+    EXPECT_LT(worst(resampled(timesOf(fast, 5), sine(frequency)), [](double) { return 0.0; }), 0.01) << frequency;
+  }
+}
+
+TEST(StreamResampler, DependsOnlyOnTheTimeBetweenStamps) {
+  const std::vector<double> times = timesOf({333.0, 0.0007, 0.001, 0.02}, 6);
+  EXPECT_EQ(resampled(times, sine(11.0)), resampled(times, sine(11.0), std::chrono::hours(24 * 365 * 55)));
+}
+
+TEST(StreamResampler, IsLinearInTheReadings) {
+  const std::vector<double> times = timesOf({200.0, 0.0, 0.001, 0.05}, 7);
+  const std::vector<double> a = resampled(times, sine(4.0)), b = resampled(times, sine(31.0));
+  const std::vector<double> both =
+      resampled(times, [](double t) { return 2.0 * sine(4.0)(t) - 3.0 * sine(31.0)(t) + 5.0; });
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(both[i], 2.0 * a[i] - 3.0 * b[i] + 5.0, 1e-11);
+}
+
+// The sum of the squared weights is the variance of the value for readings with white noise: the grid's share of the
+// stream's band.
+TEST(StreamResampler, LowersNoiseByTheShareOfTheBandThatItKeeps) {
+  std::mt19937_64 engine(8);
+  std::normal_distribution<double> normal;
+  for (const Sampling& sampling : kSamplings) {
+    double sum = 0.0;
+    for (unsigned run = 0; run < 10; ++run)
+      for (const double value : resampled(timesOf(sampling, run), [&](double) { return normal(engine); }))
+        sum += value * value;
+    EXPECT_NEAR(sum / (10 * kCount), 200.0 / sampling.rate, 0.05 * 200.0 / sampling.rate) << sampling.rate;
+  }
+}
+
+TEST(StreamResampler, BridgesThreeLostReadingsWithoutMakingNoiseOfThem) {
+  std::mt19937_64 engine(9);
+  std::normal_distribution<double> normal;
+  std::vector<double> times = timesOf({200.0, 0.0, 0.0, 0.0}, 9);
+  times.erase(times.begin() + 300, times.begin() + 303);
+  EXPECT_LT(worst(resampled(times, sine(3.0)), sine(3.0)), 0.02);
+  double most = 0.0;
+  for (int run = 0; run < 100; ++run)
+    most += std::pow(resampled(times, [&](double) { return normal(engine); })[301 - 10], 2) / 100;
+  EXPECT_LT(most, 20.0);
+}
+
+TEST(StreamResampler, ReadsAStreamSlowerThanTheGrid) {
+  for (const double rate : {90.0, 50.0, 9.0}) {  // the slowest is interpolated on a straight line
+    const Sampling slow{rate, 0.0, 0.0, 0.0};
+    const double share = 0.3 / rate;  // of the rate
+    const auto signal = sine(rate * share);
+    EXPECT_LT(worst(resampled(timesOf(slow, 10), signal), signal), 0.03) << rate;
+  }
+}
+
+TEST(StreamResampler, TellsWhatItCovers) {
+  using Coverage = StreamResampler::Coverage;
+  const auto at = [](int k) { return k * fromSeconds(kPeriod); };
+  StreamResampler stream(at(1));
+  EXPECT_EQ(stream.look(at(0)), Coverage::kComes);
+  EXPECT_FALSE(stream.earliest());
+  for (int k = 0; k <= 20; ++k) stream.push({at(k), 1.0, false, false});
+  EXPECT_EQ(*stream.earliest(), at(8));
+  EXPECT_EQ(stream.look(at(7)), Coverage::kInterrupted);
+  EXPECT_EQ(stream.look(at(8)), Coverage::kCovered);
+  EXPECT_EQ(stream.look(at(12)), Coverage::kCovered);
+  EXPECT_EQ(stream.look(at(13)), Coverage::kComes);
+  stream.push({at(30), 1.0, false, true});
+  EXPECT_EQ(stream.look(at(13)), Coverage::kInterrupted);
+  EXPECT_EQ(*stream.earliest(), at(38));
+  for (int k = 31; k <= 46; ++k) stream.push({at(k), 1.0, k == 38, false});
+  EXPECT_EQ(stream.look(at(38)), Coverage::kCovered);
+  EXPECT_TRUE(stream.at(at(38)).still);
+  stream.push({at(47), 1.0, false, false});
+  EXPECT_EQ(stream.look(at(39)), Coverage::kCovered);
+  EXPECT_FALSE(stream.at(at(39)).still);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor

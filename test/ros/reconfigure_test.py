@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""What rqt_reconfigure does: settings turned while the estimates go on."""
+import json
+import subprocess
+import unittest
+
+import rospy
+import rostest
+from dynamic_reconfigure.client import Client
+from dynamic_reconfigure.msg import ConfigDescription
+from measured_drive import MeasuredDrive, PERIOD
+from ros_session import PACKAGE, Collector, find_program, load_nodelet, wait_until
+from rosgraph_msgs.msg import Log
+from suspension_health_monitor.msg import SuspensionHealth
+
+START = 1000.0  # [s]
+# Not one of them is the default. b1 of the drive is 3 1/s: 25 % below nominal.
+GIVEN = {"forgetting_factor": 0.98, "publish_every": 1,
+         "health": {"damping_warn": 0.2, "damping_error": 0.5, "stiffness_warn": 0.4, "stiffness_error": 2,
+                    "confirm_time": 0.5},
+         "nominal": {"damping_to_mass": 4.0, "stiffness_to_mass": 13.8}}
+AS_GIVEN = {"forgetting_factor": 0.98, "publish_every": 1, "health/damping_warn": 0.2, "health/damping_error": 0.5,
+            "health/stiffness_warn": 0.4, "health/stiffness_error": 2.0, "health/confirm_time": 0.5}
+# What is asked for, and what the warning must hold.
+REFUSED = {
+    "error below warn": ({"health/damping_error": 0.1}, ["health/damping_error = 0.1", "at least health/damping_warn"]),
+    "warn above error": ({"health/stiffness_warn": 3.0}, ["health/stiffness_error", "at least health/stiffness_warn"]),
+    "out of range": ({"forgetting_factor": 1.5}, ["forgetting_factor = 1.5", "must be in [0.9, 1]"]),
+    "not a number": ({"health/confirm_time": float("nan")}, ["health/confirm_time = nan", "must be in"]),
+    "one wrong, one right": ({"publish_every": 0, "forgetting_factor": 0.95}, ["publish_every = 0", "must be"]),
+}
+
+
+def options_by_name():
+    """What `suspension_bag options` says, the table of all options."""
+    output = subprocess.run([find_program(PACKAGE, "suspension_bag"), "options"], check=True, text=True, timeout=10.0,
+                            stdout=subprocess.PIPE).stdout
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in output.splitlines() if line.startswith("|")]
+    return {row[0].strip("`"): row[1:] for row in rows}
+
+
+class ReconfigureTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.program = load_nodelet("MonitorNodelet", "monitor", {"sample_period": PERIOD, **GIVEN})
+        cls.rosout = Collector("/rosout", Log)
+        cls.rosout.wait_for_publisher()
+        cls.health = Collector("/monitor/health", SuspensionHealth)
+        cls.drive = MeasuredDrive()
+        cls.client = Client("/monitor", timeout=10.0)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.client.close()
+        cls.drive.stop()
+        cls.health.stop()
+        cls.rosout.stop()
+        cls.program.stop()
+
+    def setUp(self):
+        self.turn(**AS_GIVEN)
+        self.drive.reset()
+
+    def turn(self, **changes):
+        """@return all settings after the change."""
+        return {name: value for name, value in self.client.update_configuration(changes).items() if name != "groups"}
+
+    def now(self):
+        return self.turn(**{})
+
+    def level(self):
+        return self.health.messages[-1].level
+
+    def test_dynamic_reconfigure_overwrites_launch_parameters(self):
+        topics = {"sprung/imu": "/fresh/sprung", "unsprung/imu": "/fresh/unsprung"}
+        with load_nodelet("MonitorNodelet", "fresh", {"sample_period": PERIOD, **GIVEN}, **topics):
+            client = Client("/fresh", timeout=10.0)
+            first = client.get_configuration(10.0)
+            self.assertEqual({name: first[name] for name in AS_GIVEN}, AS_GIVEN)
+            self.assertEqual(rospy.get_param("/fresh/health"), GIVEN["health"])
+            client.close()
+
+    def test_a_change_jumps_no_other(self):
+        for name, value in (("forgetting_factor", 0.995), ("health/damping_error", 0.6), ("publish_every", 3)):
+            before = self.now()
+            self.assertEqual(self.turn(**{name: value}), {**before, name: value})
+            self.assertEqual(rospy.get_param("/monitor/" + name), value)
+
+    def test_impossible_settings_are_refused_by_the_old_ones_and_words(self):
+        for request, words in REFUSED.values():
+            before = self.now()
+            self.assertEqual(self.turn(**request), before)
+            self.rosout.wait_for(lambda log: log.level == Log.WARN and all(word in log.msg for word in words), 5.0,
+                                 f"a warning with {words}")
+            self.assertTrue(all(rospy.get_param("/monitor/" + name) == before[name] for name in request))
+
+    def test_ranges_and_defaults_are_those_of_all_options(self):
+        description = rospy.wait_for_message("/monitor/parameter_descriptions", ConfigDescription, 5.0)
+        table = options_by_name()
+
+        def numbers(config):
+            return {number.name: number.value for number in [*config.ints, *config.doubles]}
+
+        smallest, largest, default = map(numbers, (description.min, description.max, description.dflt))
+        self.assertEqual(set(smallest), set(AS_GIVEN))
+        for parameter in description.groups[0].parameters:
+            allowed = f"[{smallest[parameter.name]:.15g}, {largest[parameter.name]:.15g}]"
+            row = " ".join(table[parameter.name])
+            self.assertIn(allowed, row)
+            self.assertIn(f" {default[parameter.name]:.15g} ", f" {row} ".replace("|", " "))
+            self.assertIn(parameter.description.split("] ", 1)[1], row)
+
+    def test_estimates_are_kept(self):
+        self.drive.feed(0, 600, START)
+        before = self.drive.estimates.messages[-1]
+        self.assertTrue(before.valid)
+        self.turn(**{"forgetting_factor": 0.99, "health/damping_warn": 0.1})
+        count = len(self.drive.estimates.messages)
+        self.drive.feed(600, 700, START)
+        for estimate in self.drive.estimates.messages[count:]:
+            self.assertTrue(estimate.valid)
+            self.assertGreaterEqual(estimate.effective_rows, 0.99 * before.effective_rows)
+        first = self.drive.estimates.messages[count]
+        self.assertAlmostEqual(first.damping_to_mass, before.damping_to_mass, delta=0.05)
+        self.drive.assert_estimate_is_good(self)
+        # The memory grows from 1/(1 - 0.98) towards 1/(1 - 0.99) rows, by 0.99^100 of the way in 100 rows.
+        self.assertAlmostEqual(self.drive.estimates.messages[-1].effective_rows, 100.0 - 50.0 * 0.99**100, delta=1.0)
+
+    def test_thresholds_and_confirmation_hold_at_once(self):
+        self.drive.feed(0, 500, START)
+        self.assertEqual(self.level(), SuspensionHealth.WARN)
+        self.turn(**{"health/damping_error": 0.21})
+        self.drive.feed(500, 600, START)
+        self.assertEqual(self.level(), SuspensionHealth.ERROR)
+        self.turn(**{"health/damping_error": 0.9, "health/damping_warn": 0.8})
+        self.drive.feed(600, 700, START)
+        self.assertEqual(self.level(), SuspensionHealth.OK)
+
+    def test_settings_outlive_a_reset(self):
+        before = self.turn(**{"publish_every": 3})
+        self.drive.reset()
+        self.assertEqual(self.now(), before)
+        self.drive.estimates.messages.clear()
+        for pair in (self.drive.pair(index, START) for index in range(90)):
+            for publisher, imu in zip(self.drive.publishers, pair):
+                publisher.publish(imu)
+        wait_until(lambda: len(self.drive.estimates.messages) == 30, 5.0, "every third sample")
+        indices = [round((estimate.header.stamp.to_sec() - START) / PERIOD) for estimate in self.drive.estimates.messages]
+        self.assertEqual(set(b - a for a, b in zip(indices, indices[1:])), {3})
+
+
+if __name__ == "__main__":
+    rospy.init_node("reconfigure_test")
+    rostest.rosrun(PACKAGE, "reconfigure", ReconfigureTest)
