@@ -1,7 +1,10 @@
-"""Sensors as they really come: 200 Hz and 333 Hz, out of step, readings up to 1 ms late, 2 % of them lost."""
+"""Sensors as they really come: 200 Hz and 333 Hz, out of step, readings up to 1 ms late, 2 % of them lost, and the body's
+pitched by 5 degrees."""
 import json
 
 import pytest
+
+import mount_test
 
 DRIVE = ["--rate", "200", "--duration", "60"]
 AS_IT_COMES = ["--set", "unsprung_rate=333", "--set", "unsprung_phase=0.0011", "--set", "sampling_jitter=0.001",
@@ -31,6 +34,17 @@ def test_estimates_are_within_two_percent_of_those_from_ideal_readings(program, 
     assert real["alignment"].startswith("resampled because") and "rates differ" in real["alignment"]
     assert real["bridged"] == pytest.approx(0.02 * 60 * (200 + 333), rel=0.25)
     assert real["gaps"] <= 10 and ideal["gaps"] == 0
+    for estimator in ("ls", "la"):
+        assert real[estimator]["valid"]
+        for parameter in ("damping_to_mass", "stiffness_to_mass"):
+            assert real[estimator][parameter] == pytest.approx(ideal[estimator][parameter], rel=0.02)
+
+
+def test_pitched_sensor_of_the_body_is_turned_back_by_its_static_transform(program, tmp_path, bags):
+    bag = mount_test.write_turned(bags["real"], tmp_path / "pitched.bag", mount_test.PITCH, 0.0)
+    settings = ["--set", "forgetting_factor=0.9995", "--set", "integration_horizon=0.4"]
+    ideal = run(program, tmp_path, "identify", bags["ideal"], *settings)
+    real = run(program, tmp_path, "identify", bag, *settings, "--set", "target_frame=strut")
     for estimator in ("ls", "la"):
         assert real[estimator]["valid"]
         for parameter in ("damping_to_mass", "stiffness_to_mass"):

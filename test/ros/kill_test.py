@@ -17,6 +17,7 @@ from std_srvs.srv import Trigger
 START = 1000.0  # [s]
 KILLS = 6
 SEED = 7
+SANITIZED = "SANITIZE" in os.environ  # by scripts/test --sanitize
 
 
 class Saving(threading.Thread):
@@ -42,7 +43,7 @@ class KillTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "model.yaml")
             saved = sum(self.save_and_kill(path, chance.uniform(0.02, 0.2)) for _ in range(KILLS))
-            self.assertGreater(saved, KILLS, "it was killed while it was writing")
+            self.assertGreater(saved, KILLS if SANITIZED else 10 * KILLS, "it was killed while it was writing")
             self.assertLessEqual(len(os.listdir(folder)), 2, "no heap of unfinished files")
             with start_node("monitor_node", "monitor", {"sample_period": PERIOD, "model_file": path}):
                 self.drive()

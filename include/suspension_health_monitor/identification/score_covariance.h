@@ -25,7 +25,7 @@ struct RowWeight {
 /// change of road or noise acts at once through P and the residuals' scale, though G is a mean over a long time.
 /// Two things that the paper's estimators need beside:
 /// - Innovations are whiter than the noise, since the estimate follows correlated noise. So e_i is the residual against a
-///   slow mean of the estimate.
+///   slow course of the estimate.
 /// - LA moves more slowly than lambda says: a row's step is P phi w epsilon, a bounded function of epsilon, which an error
 ///   of the estimate turns by its mean slope rho / E[w] only. So mu = 1 - (1 - lambda) rho, and the variance is 1/rho times as
 ///   large; in the scores w is that of e_i.
@@ -85,7 +85,8 @@ class ScoreCovariance {
   double slope_ = 1.0;
   double decay_ = 1.0, end_decay_ = 1.0;     // mu, mu^(2 L + 1)
   double slow_gain_ = 0.0;                   // of the means, once they are long enough
-  Eigen::VectorXd slow_theta_;               // slow mean of the estimate
+  Eigen::VectorXd slow_theta_;               // slow course of the estimate
+  Eigen::VectorXd once_, twice_;             // its means, and their means
   Eigen::VectorXd score_, lagged_;           // s_k; sum_{m=1..2L} mu^m s_(k-m)
   std::vector<double> line_;                 // the newest 2 L + 1 scores
   std::size_t mask_;

@@ -34,6 +34,8 @@ ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double
       lags_(correlated_rows),
       forgetting_factor_(forgetting_factor),
       slow_theta_(Eigen::VectorXd::Zero(size_)),
+      once_(slow_theta_),
+      twice_(slow_theta_),
       score_(Eigen::VectorXd::Zero(size_)),
       lagged_(Eigen::VectorXd::Zero(size_)),
       line_(roundUp(static_cast<std::size_t>(lags_) + 1) * static_cast<std::size_t>(size_), 0.0),
@@ -116,14 +118,18 @@ void ScoreCovariance::endStretch() {
   interrupt();
 }
 
-// The slow mean of the estimate, from when this has left its start.
+// The slow course of the estimate by double exponential smoothing (Brown), which does not lag behind a parameter that
+// moves steadily: it would take the lag for correlated noise. From when this has left its start.
 void ScoreCovariance::follow(const Eigen::VectorXd& theta) {
   if (first_rows_ > 0) {
     --first_rows_;
-    slow_theta_ = theta;
+    slow_theta_ = once_ = twice_ = theta;
     return;
   }
-  slow_theta_ += kFewRows * std::max(slow_gain_, kFading / (averaged_ + kFading * kFewRows)) * (theta - slow_theta_);
+  const double gain = kFewRows * std::max(slow_gain_, kFading / (averaged_ + kFading * kFewRows));
+  once_ += gain * (theta - once_);
+  twice_ += gain * (once_ - twice_);
+  slow_theta_ = 2.0 * once_ - twice_;
 }
 
 void ScoreCovariance::average(const double* regressor, double weight, double scale) {
