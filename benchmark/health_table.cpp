@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -150,6 +151,50 @@ void printPayloads() {
       printRow(mass < 1.0 ? "-30 %" : "+30 %", change, judgeAll({"C", 10.0}, change, mass));
 }
 
+struct Spread {
+  double sum = 0.0, least = std::numeric_limits<double>::infinity(), most = -least;
+  void add(double value) {
+    sum += value;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+};
+
+// The paper's ramp: -15 % at 67 s, -30 % at 94 s.
+void printRamps() {
+  constexpr int kRampSeeds = 60;
+  constexpr double kWarnDue = 67.0, kErrorDue = 94.0;
+  std::printf("| scenario | WARN [s]: mean, least, most | ERROR [s]: mean, least, most | early notice at [s] | "
+              "WARN later than 5 s |\n|---|---|---|---|---|\n");
+  for (const char* scenario : {"paper_clean", "paper_outliers"}) {
+    Spread warns, errors, notices;
+    int late = 0;
+    for (int seed = 1; seed <= kRampSeeds; ++seed) {
+      SimulationOptions options;
+      options.scenario = scenario;
+      options.seed = seed;
+      SuspensionMonitor monitor(optionsFor(0.02, 3.0, 13.8));
+      std::optional<double> early, warn, error;
+      for (const CornerSample& sample : simulate(options)) {
+        const MonitorReport* report = monitor.addSample(sample);
+        if (report == nullptr) continue;
+        const double t = toSeconds(report->stamp);
+        if (!early && report->health.early_warning) early = t;
+        if (!warn && report->health.level == HealthLevel::kWarn) warn = t;
+        if (!error && report->health.level == HealthLevel::kError) error = t;
+      }
+      const double never = std::numeric_limits<double>::infinity();
+      warns.add(warn.value_or(never) - kWarnDue);
+      errors.add(error.value_or(never) - kErrorDue);
+      notices.add(early.value_or(never));
+      late += warn.value_or(never) > kWarnDue + 5.0 ? 1 : 0;
+    }
+    std::printf("| %s | %.1f, %.1f, %.1f | %.1f, %.1f, %.1f | %.0f | %d of %d |\n", scenario, warns.sum / kRampSeeds,
+                warns.least, warns.most, errors.sum / kRampSeeds, errors.least, errors.most, notices.sum / kRampSeeds,
+                late, kRampSeeds);
+  }
+}
+
 // The paper's healthy drive, repeated with fresh noise; in every minute a second of zeros and a bump into the stops.
 void printDay(double hours) {
   constexpr double kPeriod = 0.02, kNoise = 0.024;
@@ -189,6 +234,7 @@ void printDay(double hours) {
 
 int main() {
   using namespace suspension_health_monitor;
+  printRamps();
   printDay(24.0);
   printPayloads();
   std::printf("\n");

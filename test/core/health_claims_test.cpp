@@ -25,29 +25,53 @@ HealthReport healthAfter(const std::vector<CornerSample>& drive, const MonitorOp
   return monitor.report().health;
 }
 
-// The damping falls from 3 to 2 1/s between 40 s and 100 s.
+struct FirstTimes {
+  std::optional<double> early, warn, error;  // [s]
+};
+
+FirstTimes firstTimes(const SimulationOptions& drive) {
+  FirstTimes first;
+  SuspensionMonitor monitor(judgedOptions());
+  for (const CornerSample& sample : simulate(drive)) {
+    const MonitorReport* report = monitor.addSample(sample);
+    const double t = toSeconds(sample.stamp);
+    if (!first.early && report->health.early_warning) first.early = t;
+    if (!first.warn && report->health.level == HealthLevel::kWarn) first.warn = t;
+    if (!first.error && report->health.level == HealthLevel::kError) first.error = t;
+  }
+  return first;
+}
+
+// The damping falls from 3 to 2 1/s between 40 s and 100 s: -15 % at 67 s, -30 % at 94 s. An estimate that scatters by
+// 1 % of a parameter that falls by 0.55 % a second moves the time by 2 s: doc/health.md has more drives. Of paper_outliers
+// a second without readings ends a second before the warning is due: 5 s of readings are 6 s there.
 TEST(Health, WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp) {
-  for (const char* scenario : {"paper_clean", "paper_outliers"})
+  for (const auto& [scenario, warn_within] : {std::pair("paper_clean", 5.0), std::pair("paper_outliers", 6.0)})
     for (int seed = 1; seed <= 15; ++seed) {
       SimulationOptions drive;
       drive.scenario = scenario;
       drive.seed = seed;
-      SuspensionMonitor monitor(judgedOptions());
-      std::optional<double> early, warn, error;
-      for (const CornerSample& sample : simulate(drive)) {
-        const MonitorReport* report = monitor.addSample(sample);
-        const double t = toSeconds(sample.stamp);
-        if (!early && report->health.early_warning) early = t;
-        if (!warn && report->health.level == HealthLevel::kWarn) warn = t;
-        if (!error && report->health.level == HealthLevel::kError) error = t;
-      }
-      ASSERT_TRUE(early && warn && error) << scenario << ' ' << seed;
-      EXPECT_NEAR(*warn, 67.0, 5.4) << scenario << ' ' << seed;  // 5 s, and one update of health
-      EXPECT_NEAR(*error, 94.0, 5.4) << scenario << ' ' << seed;
-      if (scenario == std::string("paper_clean")) {
-        EXPECT_LT(*early, *warn) << seed;
-      }
-      EXPECT_GT(*early, 40.0) << scenario << ' ' << seed;
+      const FirstTimes first = firstTimes(drive);
+      ASSERT_TRUE(first.early && first.warn && first.error) << scenario << ' ' << seed;
+      EXPECT_NEAR(*first.warn, 67.0, warn_within) << scenario << ' ' << seed;
+      EXPECT_NEAR(*first.error, 94.0, 5.0) << scenario << ' ' << seed;
+      EXPECT_LT(*first.early, *first.warn) << scenario << ' ' << seed;
+      EXPECT_GT(*first.early, 40.0) << scenario << ' ' << seed;
+    }
+}
+
+// Neither trend may carry a small step on into a large one: the level of a change is that of its size.
+TEST(Health, ASmallStepDoesNotLookLarge) {
+  for (const auto& [left, level] : {std::pair(0.9, HealthLevel::kOk), std::pair(0.8, HealthLevel::kWarn)})
+    for (int seed = 1; seed <= 5; ++seed) {
+      SimulationOptions drive;
+      drive.seed = seed;
+      drive.ramp_start = 60.0;
+      drive.ramp_end = 60.02;
+      drive.damping_end_fraction = left;
+      const FirstTimes first = firstTimes(drive);
+      EXPECT_EQ(first.warn.has_value(), level == HealthLevel::kWarn) << left << ' ' << seed;
+      EXPECT_FALSE(first.error) << left << ' ' << seed;
     }
 }
 

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "suspension_health_monitor/health/baseline.h"
 #include "suspension_health_monitor/health/early_warning.h"
+#include "suspension_health_monitor/health/followed_parameter.h"
 #include "suspension_health_monitor/health/parameter_trend.h"
 #include "suspension_health_monitor/health/strut_change.h"
 
@@ -55,37 +57,99 @@ TEST(SplitChange, NoiseOfOneParameterDoesNotEnterTheOther) {
 
 // A value that lags a ramp by the lag: the trend is the ramp itself, once it has seen it for some memories.
 TEST(ParameterTrend, FollowsARampWithoutLag) {
-  constexpr double kLag = 20.0, kSlope = 0.01;
-  ParameterTrend trend(0.05, kLag);
+  constexpr double kLag = 20.0, kSlope = 0.001;
+  ParameterTrend trend(20.0, kLag);
   EXPECT_FALSE(trend.now());
-  for (int k = 0; k < 400; ++k) trend.follow(3.0 + kSlope * (k - kLag), 1.0);
-  EXPECT_NEAR(*trend.now(), 3.0 + kSlope * 399, 1e-5);
-  for (int k = 400; k < 450; ++k) trend.coast();
-  EXPECT_NEAR(*trend.now(), 3.0 + kSlope * 449, 1e-5);
+  for (int k = 0; k < 400; ++k) trend.follow(3.0 + kSlope * (k - kLag), 1e-8);
+  EXPECT_NEAR(trend.now()->value, 3.0 + kSlope * 399, 1e-4);
+  const double stddev = trend.now()->stddev;
+  for (int k = 400; k < 450; ++k) trend.pass();
+  EXPECT_NEAR(trend.now()->value, 3.0 + kSlope * 449, 1e-4);
+  EXPECT_GT(trend.now()->stddev, 3.0 * stddev);  // carried on for 50 steps, and e^-2.5 of the weight left
 }
 
 TEST(ParameterTrend, DoesNotOvershootAStep) {
-  ParameterTrend trend(0.05, 20.0);
-  for (int k = 0; k < 200; ++k) trend.follow(3.0, 0.01);
+  ParameterTrend trend(20.0, 20.0);
+  for (int k = 0; k < 200; ++k) trend.follow(3.0, 1e-4);
   for (int k = 0; k < 200; ++k) {
-    trend.follow(2.0, 0.01);
-    ASSERT_NEAR(*trend.now(), 2.0, 1e-9);
+    trend.follow(2.0, 1e-4);
+    ASSERT_NEAR(trend.now()->value, 2.0, 1e-9);
   }
 }
 
-// The mean time between false alarms of a healthy strut, over sums that start at 0 after each: about N, and never less
-// than half of it (Siegmund's formula is an approximation; 100 alarms know their mean to 10 %).
-TEST(EarlyWarning, HasTheFalseAlarmRateThatWasAskedFor) {
-  constexpr double kWanted = 300.0;
-  std::mt19937 random(1);
-  std::normal_distribution<double> noise(0.0, 1.0);
-  double values = 0.0;
-  for (int alarm = 0; alarm < 400; ++alarm) {
-    EarlyWarning warning(0.0, kWanted);
-    do values += 1.0;
-    while (!warning.add(noise(random), 1.0));
+TEST(ParameterTrend, PoorValuesHardlyCount) {
+  ParameterTrend trend(20.0, 20.0);
+  for (int k = 0; k < 200; ++k) trend.follow(3.0, 1e-4);
+  for (int k = 0; k < 10; ++k) trend.follow(1.0, 1.0);
+  EXPECT_NEAR(trend.now()->value, 3.0, 0.01);
+  trend.follow(std::nan(""), 1e-4);
+  trend.follow(1.0, std::nan(""));
+  EXPECT_NEAR(trend.now()->value, 3.0, 0.01);
+}
+
+// Errors as those of a forgetting estimator: e <- e exp(-1 / lag) + white noise. The values are one lag old, which a
+// parameter that stays does not show. 4000 lags hold about 1000 independent values, which know a variance to 5 %.
+TEST(ParameterTrend, KnowsItsStandardDeviation) {
+  constexpr double kStddev = 0.03;
+  for (const double lag : {10.0, 40.0}) {
+    const double memory = 2.0 * lag, kept = std::exp(-1.0 / lag);
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0.0, kStddev * std::sqrt(1.0 - kept * kept));
+    ParameterTrend trend(memory, lag);
+    double error = 0.0, squares = 0.0, said = 0.0;
+    const int steps = static_cast<int>(4000 * lag);
+    for (int k = 0; k < steps; ++k) {
+      error = kept * error + noise(random);
+      trend.follow(3.0 + error, kStddev * kStddev);
+      squares += std::pow(trend.now()->value - 3.0, 2) / steps;
+      said += std::pow(trend.now()->stddev, 2) / steps;
+    }
+    EXPECT_NEAR(std::sqrt(squares / said), 1.0, 0.1) << lag;
   }
-  EXPECT_NEAR(values / 400, kWanted, 0.25 * kWanted);
+}
+
+TEST(FollowedParameter, TakesTheEstimatorThatKnowsItBetter) {
+  constexpr UncertainValue kHealthy{3.0, 0.0};
+  FollowedParameter outliers(10.0, 2.0);
+  EXPECT_FALSE(outliers.changeFrom(kHealthy, 4.0));
+  for (int k = 0; k < 200; ++k) outliers.follow(UncertainValue{2.0, 1.0}, {2.7, 0.01});
+  EXPECT_NEAR(outliers.changeFrom(kHealthy, 4.0)->size, std::log(0.9), 0.01);
+  FollowedParameter clean(10.0, 2.0);
+  for (int k = 0; k < 200; ++k) clean.follow(UncertainValue{2.7, 0.01}, {2.7, 0.1});
+  const LogChange change = *clean.changeFrom(kHealthy, 4.0);
+  EXPECT_NEAR(change.size, std::log(0.9), 1e-3);
+  EXPECT_LT(change.stddev, 0.01);
+  EXPECT_GT(clean.changeFrom({3.0, 0.3}, 4.0)->stddev, 0.1);  // of the healthy value
+}
+
+TEST(FollowedParameter, OfTwoCertainChangesTakesTheLarger) {
+  FollowedParameter parameter(10.0, 2.0);
+  for (int k = 0; k < 200; ++k) parameter.follow(UncertainValue{2.97, 0.001}, {2.4, 0.02});
+  EXPECT_NEAR(parameter.changeFrom({3.0, 0.0}, 4.0)->size, std::log(0.8), 0.01);
+}
+
+TEST(FollowedParameter, OfEstimatorsThatNeverForgetIsLa) {
+  FollowedParameter parameter(std::numeric_limits<double>::infinity(), 2.0);
+  for (int k = 0; k < 200; ++k) parameter.follow(UncertainValue{2.0, 0.001}, {3.0 - 0.001 * k, 0.1});
+  EXPECT_DOUBLE_EQ(parameter.changeFrom({3.0, 0.0}, 4.0)->size, std::log(2.801 / 3.0));
+}
+
+// The mean time between false alarms of a healthy strut is at least the one that was asked for (Lorden's bound), whatever
+// the noise against the reference; 400 alarms know their mean to 5 %.
+TEST(EarlyWarning, HasNoMoreFalseAlarmsThanWereAskedFor) {
+  constexpr double kWanted = 100.0;
+  for (const double stddev : {0.02, 0.05, 0.15}) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0.0, stddev);
+    double values = 0.0;
+    for (int alarm = 0; alarm < 400; ++alarm) {
+      EarlyWarning warning(0.03, kWanted);
+      do values += 1.0;
+      while (!warning.add(noise(random), stddev));
+    }
+    EXPECT_GT(values / 400, kWanted) << stddev;
+    EXPECT_LT(values / 400, 100.0 * kWanted) << stddev;
+  }
 }
 
 TEST(EarlyWarning, ProvesASmallChangeOfEitherSignAndEndsWithIt) {
@@ -94,7 +158,7 @@ TEST(EarlyWarning, ProvesASmallChangeOfEitherSignAndEndsWithIt) {
     for (int k = 0; k < 100; ++k) ASSERT_FALSE(warning.add(sign * 0.02, 0.01));
     int needed = 0;
     while (!warning.add(sign * 0.07, 0.01) && needed < 100) ++needed;
-    EXPECT_EQ(needed, static_cast<int>(std::ceil(warning.threshold() / 4.0)) - 1);
+    EXPECT_EQ(needed, static_cast<int>(std::ceil(warning.threshold() / (2.0 * 0.03 * 0.04 / 1e-4))) - 1);
     for (int k = 0; k < 100; ++k) warning.add(0.0, 0.01);
     EXPECT_FALSE(warning.isOn());
   }
@@ -126,8 +190,8 @@ TEST(BaselineLearner, IsTheMeanOfTheStretchWithItsUncertainty) {
   EXPECT_EQ(calls, 400);
   EXPECT_NEAR(*learned->damping_to_mass, 3.0, 1e-9);
   EXPECT_NEAR(*learned->stiffness_to_mass, 13.8, 1e-9);
-  EXPECT_NEAR(learned->damping_to_mass_stddev, 0.02 * std::sqrt(0.1), 1e-9);
-  EXPECT_NEAR(learned->stiffness_to_mass_stddev, 0.1 * std::sqrt(0.1), 1e-9);
+  EXPECT_NEAR(learned->damping_to_mass_stddev, 0.02 * std::sqrt(2.0 * 100.0 / 4000.0), 1e-9);
+  EXPECT_NEAR(learned->stiffness_to_mass_stddev, 0.1 * std::sqrt(2.0 * 100.0 / 4000.0), 1e-9);
   EXPECT_TRUE(learned->learned);
   EXPECT_EQ(learned->from, fromSeconds(5.0));
   EXPECT_EQ(learned->to, fromSeconds(404.0));

@@ -8,7 +8,7 @@
 #include "suspension_health_monitor/health/baseline.h"
 #include "suspension_health_monitor/health/early_warning.h"
 #include "suspension_health_monitor/health/level_confirmation.h"
-#include "suspension_health_monitor/health/parameter_trend.h"
+#include "suspension_health_monitor/health/followed_parameter.h"
 #include "suspension_health_monitor/health/sensor_check.h"
 #include "suspension_health_monitor/health/strut_change.h"
 #include "suspension_health_monitor/strut_estimate.h"
@@ -22,7 +22,7 @@ struct HealthOptions {
   double damping_error = 0.30;                      ///< relative change that is an error [-]
   double stiffness_warn = 0.15;
   double stiffness_error = 0.30;
-  double confirm_time = 1.0;             ///< a new level must last this long before it is reported [s]
+  double confirm_time = 0.5;             ///< a new level must last this long before it is reported [s]
   double hysteresis = 0.02;              ///< a level ends this far below its threshold [-]
   double min_significance = 4.0;         ///< standard deviations that a change must have to be one
   double payload_range = 0.35;           ///< relative change of the body's mass that may be payload; 0: none
@@ -60,10 +60,9 @@ struct HealthReport {
 
 /// Judges damping and stiffness by their change from the healthy strut: nominal values, or a baseline that it learns.
 ///
-/// - What is judged: the trend of LS (ParameterTrend), which has no lag behind a steady change, where LS and LA agree
-///   within kAgreement standard deviations of LA (without outliers LS scatters about twice as much), and that of LS is at
-///   most kTails times that of LA. Where they do not, there are outliers (LA is right) or there was a step (LS is ahead):
-///   the trend goes on as it was, for at most kCoastMemories, and the worse of it and LA counts; then it follows LA.
+/// - What is judged: the trend of LS or of LA, which have no lag behind a steady change (FollowedParameter).
+/// - LS and LA that are more than kAgreement standard deviations of LA apart, or of which LS is more than kTails times as
+///   uncertain, disagree: there are outliers, or was a step. If they do for long, that is reported.
 /// - Payload moves both parameters, damage one (splitChange()).
 /// - A level needs the size and the significance; it ends below the threshold less the hysteresis, and must last for the
 ///   confirm time (LevelConfirmation). A change that the error threshold could not prove is kStale, "cannot tell", as is
@@ -92,12 +91,12 @@ class HealthAssessment {
   const HealthOptions& options() const { return options_; }
 
  private:
-  static constexpr double kAgreement = 6.0, kTails = 4.0, kCoastMemories = 5.0;
+  static constexpr double kAgreement = 3.0, kTails = 2.5;
   static constexpr double kOutlierShare = 0.4, kOutlierMemories = 10.0;
 
   void follow(const StrutEstimate& ls, const StrutEstimate& la);
-  void learn(Stamp stamp, const StrutEstimate& la);
-  StrutChange change(const StrutEstimate& ls, const StrutEstimate& la) const;
+  void learn(Stamp stamp, const StrutEstimate& ls);
+  StrutChange change() const;
   void judge(const StrutChange& change, HealthReport& now);
   void warnEarly(const StrutChange& change);
 
@@ -106,9 +105,8 @@ class HealthAssessment {
   LevelConfirmation confirmation_;
   Baseline baseline_;
   std::optional<BaselineLearner> learner_;
-  ParameterTrend damping_, stiffness_;
+  FollowedParameter damping_, stiffness_;
   bool agree_ = false;
-  double coasted_ = 0.0;  // updates in a row
   double disagreement_ = 0.0;  // share of the updates
   EarlyWarning damping_early_, stiffness_early_;
   double since_early_ = 0.0;  // updates

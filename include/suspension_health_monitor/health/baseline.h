@@ -23,12 +23,12 @@ struct Baseline {
 /// @return the strut as LA estimates it at `stamp`, as healthy: after a service.
 Baseline baselineOf(const StrutEstimate& la, Stamp stamp);
 
-/// Learns the baseline from a stretch of valid estimates of LA: their mean, over halves that must agree.
+/// Learns the baseline from a stretch of estimates of LS that LA agrees with: their mean, over halves that must agree.
 ///
 /// A strut that changes while it is learned is not taken as healthy: if the means of the two halves differ by more than
 /// kDrift standard deviations and 3 %, learning begins anew.
-/// Standard deviation of a mean over n rows: that of one estimate times sqrt(4 m / n), with m the estimator's memory:
-/// exponential forgetting correlates estimates over 2 m rows, LA's weights over about twice that.
+/// Standard deviation of a mean over n rows: that of one estimate times sqrt(2 m / n), with m the estimator's memory:
+/// exponential forgetting correlates estimates over 2 m rows.
 /// Cost per estimate: O(1), no allocation.
 class BaselineLearner {
  public:
@@ -37,7 +37,7 @@ class BaselineLearner {
 
   /// @param rows  that have passed since the last call.
   /// @return the baseline, once it is learned; learning then begins anew.
-  std::optional<Baseline> add(Stamp stamp, const StrutEstimate& la, double rows);
+  std::optional<Baseline> add(Stamp stamp, const StrutEstimate& estimate, double rows);
 
   double progress() const { return (halves_[0].rows + halves_[1].rows) / rows_; }  ///< 0..1
   int restarts() const { return restarts_; }                                       ///< because the strut was changing
@@ -49,7 +49,7 @@ class BaselineLearner {
     double damping_variance = 0.0, stiffness_variance = 0.0;  // means of an estimate's variance
   };
 
-  static constexpr double kDrift = 4.0;
+  static constexpr double kDrift = 3.0;
   static constexpr double kLeastDrift = 0.03;  // of the value: less is what another road does
 
   bool drifts(double first, double second, double variance) const;

@@ -2,12 +2,12 @@
 
 namespace suspension_health_monitor {
 
-/// Page's cumulative sum (E. S. Page, Continuous inspection schemes, Biometrika 1954) over a relative change, both ways:
-///   S+ <- max(0, S+ + (x - r) / sigma),  S- <- max(0, S- + (-x - r) / sigma),  alarm at S >= h,
-/// with reference r = max(reference, sigma / 2). It adds up small changes that no single estimate could prove.
-/// h comes from the wanted mean number of values N between two false alarms, by D. Siegmund (Sequential Analysis, 1985,
-/// (2.57)) for the least reference k = 1/2 in units of sigma:
-///   N = (exp(2 k b) - 2 k b - 1) / (2 k^2),  b = h + 1.166; a sum each way alarms twice as often.
+/// Page's cumulative sum (E. S. Page, Continuous inspection schemes, Biometrika 1954) of the log likelihood ratio of a
+/// relative change of twice the reference r against none, both ways:
+///   S+ <- max(0, S+ + 2 r (x - r) / sigma^2),  S- <- max(0, S- + 2 r (-x - r) / sigma^2),  alarm at S >= h.
+/// It adds up small changes that no single estimate could prove. h = ln(2 N) for at least N values in the mean between two
+/// false alarms, by G. Lorden (Procedures for reacting to a change in distribution, Annals of Mathematical Statistics
+/// 1971): one sum gives at least exp(h), a sum each way alarms twice as often.
 /// Assumes: values that are not correlated, so far apart that the estimator has forgotten.
 /// Cost per value: O(1), no allocation.
 class EarlyWarning {

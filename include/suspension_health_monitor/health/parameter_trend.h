@@ -4,37 +4,48 @@
 
 namespace suspension_health_monitor {
 
+/// A parameter of the strut, as it is known.
+struct UncertainValue {
+  double value;
+  double stddev;
+};
+
 /// Follows one parameter of the strut through the values that a forgetting estimator gives, without its lag.
 ///
-/// Double exponential smoothing (R. G. Brown, Smoothing, Forecasting and Prediction of Discrete Time Series, 1963,
-/// ch. 9): s1 <- s1 + g (x - s1), s2 <- s2 + g (s1 - s2). Level 2 s1 - s2 follows a ramp without delay, its slope is
-/// g / (1 - g) (s1 - s2) per step; the value now is the level carried on by the slope over the lag of x.
-/// A value that is far from the level is a step, not a trend: the trend then begins anew there, and does not overshoot.
+/// A straight line by discounted least squares (R. G. Brown, Smoothing, Forecasting and Prediction of Discrete Time
+/// Series, 1963, ch. 9), each value weighted by its inverse variance, so that poor ones hardly count: least sum of
+/// exp(-age / memory) (x - a + b age)^2 / variance. The value now is a + b lag, since x tells what was `lag` steps ago.
+/// Values in a row share most of their rows: their errors are correlated by exp(-steps / lag). What that makes of the
+/// variance is taken from values that are all as good (shareOfErrors()); it grows while there are none or poor ones. A strut loses no more than a tenth of its parameter
+/// per memory (standard deviation of the slope beforehand). A faster change is a step: a value that is far from the line
+/// begins a new one, and the line is carried on by no more than kMostCarried, so that a small step does not look large.
 /// Cost per step: O(1), no allocation.
 class ParameterTrend {
  public:
-  /// @param gain  g in (0, 1): one over the memory in steps.
-  /// @param lag  of the values behind the parameter, in steps.
-  ParameterTrend(double gain, double lag) : gain_(gain), lag_(lag) {}
+  /// @param memory  in steps, above 1.  @param lag  of the values behind the parameter, in steps, above 0.
+  ParameterTrend(double memory, double lag);
 
   /// The next value x.
-  /// @param stddev  of x; a level more than kStep of them away is left for x. NaN: it is left for every x.
-  void follow(double value, double stddev);
+  /// @param variance  of x, above 0; 0, NaN or infinite: it tells nothing.
+  void follow(double value, double variance);
 
-  /// A step without a value that could be trusted: on along the slope.
-  void coast();
+  /// A step without a value.
+  void pass();
 
   /// @return the parameter now; empty before the first value.
-  std::optional<double> now() const;
+  std::optional<UncertainValue> now() const;
 
  private:
-  static constexpr double kStep = 5.0;
+  static constexpr double kStep = 5.0;          // standard deviations
+  static constexpr double kSlope = 0.1;         // of the value per memory
+  static constexpr double kMostCarried = 0.03;  // of the value
 
-  double level() const { return 2.0 * once_ - twice_; }
+  UncertainValue lineAt(double ahead) const;  // `ahead` of the newest value, in steps
 
-  double gain_, lag_;
-  double once_ = 0.0, twice_ = 0.0;
-  double steps_ = 0.0;  // since the trend began
+  double memory_, lag_;
+  double correlated_;  // steps for which an error counts
+  double weight_ = 0.0, age_ = 0.0, age_squared_ = 0.0;  // sums, weighted
+  double sum_ = 0.0, sum_age_ = 0.0;                     // of x and of x times age, weighted
 };
 
 }  // namespace suspension_health_monitor

@@ -7,27 +7,19 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kTrendMemories = 3.0;  // long enough to be calm, short enough to bend; measured in doc/health.md
-
 void checkThresholds(const char* parameter, double warn, double error) {
   if (!(error >= warn))
     throw std::invalid_argument("health/" + std::string(parameter) + "_error = " + std::to_string(error) +
                                 ", must be at least health/" + parameter + "_warn = " + std::to_string(warn));
 }
 
-// Of the estimates, in updates; one that never forgets has none.
+// Of the estimates, in updates; infinite for one that never forgets.
 double memoryOf(const HealthOptions& options) {
-  return 1.0 / (1.0 - std::min(options.forgetting_factor, 1.0 - 1e-9)) / options.rows_per_update;
+  return 1.0 / (1.0 - options.forgetting_factor) / options.rows_per_update;
 }
 
 double horizonOf(const HealthOptions& options) {
   return static_cast<double>(options.horizon_samples) / options.rows_per_update;
-}
-
-// LS lags a ramp by its memory and by the filter.
-ParameterTrend trendOf(const HealthOptions& options) {
-  const double gain = std::min(0.5, 1.0 / (kTrendMemories * memoryOf(options)));
-  return {gain, memoryOf(options) + horizonOf(options)};
 }
 
 double spacingOfEarly(const HealthOptions& options) { return 2.0 * (memoryOf(options) + horizonOf(options)); }
@@ -43,14 +35,6 @@ bool apart(double ls, double la, double ls_stddev, double la_stddev, double most
 
 // |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.
 double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); }
-
-// std::hypot without its care for huge and tiny numbers, which costs most of it.
-double sumOf(double a_stddev, double b_stddev) { return std::sqrt(a_stddev * a_stddev + b_stddev * b_stddev); }
-
-// The value that tells of the larger change.
-double worse(double a, double b, double healthy) {
-  return std::abs(std::log(a / healthy)) > std::abs(std::log(b / healthy)) ? a : b;
-}
 
 // Level of one parameter. A level that holds already ends only below its threshold less the hysteresis.
 HealthLevel levelOf(double change, double stddev, double warn, double error, HealthLevel before,
@@ -78,8 +62,8 @@ HealthAssessment::HealthAssessment(const HealthOptions& options)
     : options_(options),
       memory_(memoryOf(options)),
       confirmation_(fromSeconds(options.confirm_time)),
-      damping_(trendOf(options)),
-      stiffness_(trendOf(options)),
+      damping_(memory_, horizonOf(options)),
+      stiffness_(damping_),
       damping_early_(earlyWarning(options)),
       stiffness_early_(earlyWarning(options)) {
   options.validate();
@@ -92,6 +76,10 @@ HealthAssessment::HealthAssessment(const HealthOptions& options)
 void HealthAssessment::setOptions(const HealthOptions& options) {
   options.validate();
   options_ = options;
+  if (memoryOf(options) != memory_) {
+    memory_ = memoryOf(options);
+    damping_ = stiffness_ = FollowedParameter(memory_, horizonOf(options));
+  }
   confirmation_.setConfirmTime(fromSeconds(options.confirm_time));
 }
 
@@ -109,8 +97,8 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
   now.sensor = sensor_;
   if (la.valid) {
     follow(ls, la);
-    if (learner_) learn(stamp, la);
-    const StrutChange changed = change(ls, la);
+    if (learner_) learn(stamp, ls);
+    const StrutChange changed = change();
     judge(changed, now);
     warnEarly(changed);
   }
@@ -133,38 +121,26 @@ void HealthAssessment::follow(const StrutEstimate& ls, const StrutEstimate& la) 
            !apart(ls.stiffness_to_mass, la.stiffness_to_mass, ls.stiffness_to_mass_stddev, la.stiffness_to_mass_stddev,
                   kAgreement, kTails);
   disagreement_ += ((agree_ ? 0.0 : 1.0) - disagreement_) / (kOutlierMemories * memory_);
-  coasted_ = agree_ ? 0.0 : coasted_ + 1.0;
-  if (agree_) {
-    damping_.follow(ls.damping_to_mass, ls.damping_to_mass_stddev);
-    stiffness_.follow(ls.stiffness_to_mass, ls.stiffness_to_mass_stddev);
-  } else if (coasted_ <= kCoastMemories * memory_) {
-    damping_.coast();
-    stiffness_.coast();
-  } else {
-    damping_.follow(la.damping_to_mass, la.damping_to_mass_stddev);
-    stiffness_.follow(la.stiffness_to_mass, la.stiffness_to_mass_stddev);
-  }
-}
-
-void HealthAssessment::learn(Stamp stamp, const StrutEstimate& la) {
-  if (!agree_) return;
-  if (const std::optional<Baseline> learned = learner_->add(stamp, la, options_.rows_per_update)) setBaseline(*learned);
-}
-
-StrutChange HealthAssessment::change(const StrutEstimate& ls, const StrutEstimate& la) const {
-  const auto against = [&](const std::optional<double>& healthy, double healthy_stddev, const ParameterTrend& trend,
-                           double la_value, double stddev) -> std::optional<LogChange> {
-    if (!healthy) return std::nullopt;
-    const double by_trend = trend.now().value_or(la_value);
-    const bool usable = options_.forgetting_factor < 1.0 && by_trend > 0.0;
-    const double value = !usable ? la_value : agree_ ? by_trend : worse(by_trend, la_value, *healthy);
-    return LogChange{std::log(value / *healthy), sumOf(stddev / la_value, healthy_stddev / *healthy)};
+  const auto if_valid = [&](double value, double stddev) {
+    return ls.valid ? std::optional<UncertainValue>({value, stddev}) : std::nullopt;
   };
-  const StrutEstimate& of = agree_ ? ls : la;
-  return splitChange(against(baseline_.damping_to_mass, baseline_.damping_to_mass_stddev, damping_, la.damping_to_mass,
-                             of.damping_to_mass_stddev),
-                     against(baseline_.stiffness_to_mass, baseline_.stiffness_to_mass_stddev, stiffness_,
-                             la.stiffness_to_mass, of.stiffness_to_mass_stddev),
+  damping_.follow(if_valid(ls.damping_to_mass, ls.damping_to_mass_stddev),
+                  {la.damping_to_mass, la.damping_to_mass_stddev});
+  stiffness_.follow(if_valid(ls.stiffness_to_mass, ls.stiffness_to_mass_stddev),
+                    {la.stiffness_to_mass, la.stiffness_to_mass_stddev});
+}
+
+void HealthAssessment::learn(Stamp stamp, const StrutEstimate& ls) {
+  if (!agree_) return;
+  if (const std::optional<Baseline> learned = learner_->add(stamp, ls, options_.rows_per_update)) setBaseline(*learned);
+}
+
+StrutChange HealthAssessment::change() const {
+  const auto from = [&](const std::optional<double>& healthy, double stddev, const FollowedParameter& parameter) {
+    return healthy ? parameter.changeFrom({*healthy, stddev}, options_.min_significance) : std::nullopt;
+  };
+  return splitChange(from(baseline_.damping_to_mass, baseline_.damping_to_mass_stddev, damping_),
+                     from(baseline_.stiffness_to_mass, baseline_.stiffness_to_mass_stddev, stiffness_),
                      options_.payload_range);
 }
 
@@ -193,7 +169,7 @@ void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
 
 void HealthAssessment::warnEarly(const StrutChange& change) {
   since_early_ += 1.0;
-  if (!agree_ || since_early_ < spacingOfEarly(options_)) return;
+  if (since_early_ < spacingOfEarly(options_)) return;
   since_early_ = 0.0;
   if (change.damping) damping_early_.add(*change.damping, change.damping_stddev);
   if (change.stiffness) stiffness_early_.add(*change.stiffness, change.stiffness_stddev);

@@ -10,7 +10,7 @@ Baseline baselineOf(const StrutEstimate& la, Stamp stamp) {
           true,               stamp,                stamp};
 }
 
-std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& la, double rows) {
+std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& estimate, double rows) {
   if (progress() == 0.0 || stamp < from_) {
     halves_[0] = halves_[1] = {};
     from_ = stamp;
@@ -19,10 +19,10 @@ std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& l
   half.rows += rows;
   const double gain = rows / half.rows;
   const auto mix = [gain](double& mean, double value) { mean += gain * (value - mean); };
-  mix(half.damping, la.damping_to_mass);
-  mix(half.stiffness, la.stiffness_to_mass);
-  mix(half.damping_variance, std::pow(la.damping_to_mass_stddev, 2));
-  mix(half.stiffness_variance, std::pow(la.stiffness_to_mass_stddev, 2));
+  mix(half.damping, estimate.damping_to_mass);
+  mix(half.stiffness, estimate.stiffness_to_mass);
+  mix(half.damping_variance, std::pow(estimate.damping_to_mass_stddev, 2));
+  mix(half.stiffness_variance, std::pow(estimate.stiffness_to_mass_stddev, 2));
   if (progress() < 1.0) return std::nullopt;
   const auto& [a, b] = halves_;
   std::optional<Baseline> learned;
@@ -37,13 +37,13 @@ std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& l
 
 bool BaselineLearner::drifts(double first, double second, double variance) const {
   const double difference = std::abs(second - first);
-  const double correlated = std::min(1.0, 8.0 * memory_ / rows_);  // of half the rows
+  const double correlated = std::min(1.0, 4.0 * memory_ / rows_);  // of half the rows
   return difference > kLeastDrift * std::abs(first) && difference > kDrift * std::sqrt(variance * correlated);
 }
 
 Baseline BaselineLearner::result(Stamp to) const {
   const auto& [a, b] = halves_;
-  const double correlated = std::min(1.0, 4.0 * memory_ / rows_);
+  const double correlated = std::min(1.0, 2.0 * memory_ / rows_);
   Baseline baseline;
   baseline.damping_to_mass = (a.damping + b.damping) / 2.0;
   baseline.stiffness_to_mass = (a.stiffness + b.stiffness) / 2.0;

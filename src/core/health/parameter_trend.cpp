@@ -4,27 +4,60 @@
 #include <cmath>
 
 namespace suspension_health_monitor {
+namespace {
 
-void ParameterTrend::follow(double value, double stddev) {
-  if (steps_ == 0.0 || !(std::abs(value - level()) <= kStep * stddev)) {
-    once_ = twice_ = value;
-    steps_ = 0.0;
+// Variance of the value now for errors with autocorrelation exp(-t), carried on over a time of 1, against the one that
+// the normal equations give for uncorrelated ones, in continuous time with the memory r: the line has the frequency response
+// (1 + (2 r + 1) s) / (1 + r s)^2, and 1/pi times the integral of its square over 1 + w^2 is [r (2 + r) + (2 r + 1)^2] /
+// [2 r (1 + r)^2].
+double correlatedShare(double r) {
+  const double correlated = (r * (2.0 + r) + (2.0 * r + 1.0) * (2.0 * r + 1.0)) / (2.0 * r * (1.0 + r) * (1.0 + r));
+  const double uncorrelated = (2.0 + (2.0 + 1.0 / r) / r) / r;
+  return correlated / uncorrelated;
+}
+
+}  // namespace
+
+ParameterTrend::ParameterTrend(double memory, double lag)
+    : memory_(memory), lag_(lag), correlated_(lag * correlatedShare(memory / lag)) {}
+
+void ParameterTrend::follow(double value, double variance) {
+  pass();
+  const double weight = 1.0 / variance;
+  if (!(weight > 0.0) || !std::isfinite(weight) || !std::isfinite(value)) return;
+  if (weight_ > 0.0) {
+    const UncertainValue line = lineAt(0.0);
+    if (std::abs(value - line.value) > kStep * std::sqrt(variance + line.stddev * line.stddev))
+      weight_ = age_ = age_squared_ = sum_ = sum_age_ = 0.0;
   }
-  steps_ += 1.0;
-  const double gain = std::max(gain_, 1.0 / steps_);  // a plain mean until there are as many values as the memory
-  once_ += gain * (value - once_);
-  twice_ += gain * (once_ - twice_);
+  weight_ += weight;
+  sum_ += weight * value;
 }
 
-void ParameterTrend::coast() {
-  const double slope = gain_ / (1.0 - gain_) * (once_ - twice_);
-  once_ += slope;
-  twice_ += slope;
+void ParameterTrend::pass() {
+  const double kept = 1.0 - 1.0 / memory_;
+  age_squared_ = kept * (age_squared_ + 2.0 * age_ + weight_);
+  age_ = kept * (age_ + weight_);
+  sum_age_ = kept * (sum_age_ + sum_);
+  weight_ *= kept;
+  sum_ *= kept;
 }
 
-std::optional<double> ParameterTrend::now() const {
-  if (steps_ == 0.0) return std::nullopt;
-  return level() + lag_ * gain_ / (1.0 - gain_) * (once_ - twice_);
+std::optional<UncertainValue> ParameterTrend::now() const {
+  if (!(weight_ > 0.0)) return std::nullopt;
+  return lineAt(lag_);
+}
+
+// Normal equations [weight, -age; -age, age_squared + prior] [a; b] = [sum; -sum_age].
+UncertainValue ParameterTrend::lineAt(double ahead) const {
+  const double slope_stddev = kSlope * std::abs(sum_ / weight_) / memory_;
+  const double of_slope = age_squared_ + correlated_ / (slope_stddev * slope_stddev);
+  const double determinant = weight_ * of_slope - age_ * age_;
+  const double level = (of_slope * sum_ - age_ * sum_age_) / determinant;
+  const double slope = (age_ * sum_ - weight_ * sum_age_) / determinant;
+  const double variance = correlated_ * (of_slope + ahead * (2.0 * age_ + ahead * weight_)) / determinant;
+  const double most = kMostCarried * std::abs(level);
+  return {level + std::clamp(slope * ahead, -most, most), std::sqrt(variance)};
 }
 
 }  // namespace suspension_health_monitor

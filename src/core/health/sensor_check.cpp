@@ -32,6 +32,12 @@ void SensorCheck::Reading::add(double before, double now, double slow, double qu
 
 const SensorReport& SensorCheck::look(const CornerSample& previous, const CornerSample& sample,
                                       const StrutEstimate& la, bool enough_rows) {
+  // What a sensor read while it was dead says nothing of its mean: that is learned anew.
+  const auto revives = [](const Reading& reading, double now) { return reading.still == kStill && now != reading.last; };
+  if (revives(readings_[0], sample.sprung_acceleration) || revives(readings_[1], sample.unsprung_acceleration)) {
+    readings_ = {};
+    looked_ = 0.0;
+  }
   looked_ += 1.0;
   const double slow = 1.0 / std::min(looked_, memory_), quick = std::min(1.0, kQuick / std::min(looked_, memory_));
   readings_[0].add(previous.sprung_acceleration, sample.sprung_acceleration, slow, quick);
