@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "interleaved.h"
 #include "milliseconds.h"
 
 namespace suspension_health_monitor {
@@ -105,13 +106,8 @@ class Interleaving : public testing::Test {
     return messages;
   }
 
-  std::vector<Message> interleaved(const std::vector<Message>& a, const std::vector<Message>& b, double bias) {
-    std::vector<Message> merged;
-    for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
-      const bool take_a = j == b.size() || (i < a.size() && uniform() < bias);
-      merged.push_back(take_a ? a[i++] : b[j++]);
-    }
-    return merged;
+  std::vector<Message> merged(const std::vector<Message>& a, const std::vector<Message>& b, double bias) {
+    return interleaved(a, b, bias, [this] { return uniform(); });
   }
 
   double uniform() { return std::uniform_real_distribution<double>(0.0, 1.0)(engine_); }
@@ -123,11 +119,11 @@ TEST_F(Interleaving, OfTheStreamsDoesNotMatter) {
   for (int drive = 0; drive < 10; ++drive) {
     const std::vector<Message> body = stream(Side::kSprung), wheel = stream(Side::kUnsprung);
     UniformGrid body_first(0.02);
-    const std::vector<CornerSample> expected = pairs(body_first, interleaved(body, wheel, 1.0));
+    const std::vector<CornerSample> expected = pairs(body_first, merged(body, wheel, 1.0));
     EXPECT_GT(expected.size(), 200u);
     for (const double bias : {0.0, 0.03, 0.3, 0.5, 0.5, 0.5, 0.97}) {
       UniformGrid grid(0.02);
-      expectEqual(pairs(grid, interleaved(body, wheel, bias)), expected);
+      expectEqual(pairs(grid, merged(body, wheel, bias)), expected);
       for (const auto reason : {RejectReason::kNotFinite, RejectReason::kRepeatedStamp, RejectReason::kTimeWentBack})
         EXPECT_EQ(grid.rejected().count(reason), body_first.rejected().count(reason));
     }
@@ -137,7 +133,7 @@ TEST_F(Interleaving, OfTheStreamsDoesNotMatter) {
 TEST_F(Interleaving, GivesSamplesInOrderOfTime) {
   UniformGrid grid(0.02);
   const std::vector<CornerSample> samples =
-      pairs(grid, interleaved(stream(Side::kSprung), stream(Side::kUnsprung), 0.5));
+      pairs(grid, merged(stream(Side::kSprung), stream(Side::kUnsprung), 0.5));
   for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_LT(samples[i - 1].stamp, samples[i].stamp);
 }
 
