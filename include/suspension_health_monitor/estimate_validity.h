@@ -17,7 +17,8 @@ inline double explained(const RecursiveEstimator& estimator) {
   return output > 0.0 ? 1.0 - estimator.meanAbsoluteResidual() / output : 0.0;
 }
 
-/// Tells motion by the outputs of rows: without any noise there is none, but a sensor that is stuck or a vehicle at rest.
+/// Tells motion by the outputs of rows: without any noise there is none, but a sensor that is stuck or a vehicle at
+/// rest.
 class MotionJudge {
  public:
   /// @param most_silent_rows  so many outputs of 0 without a break are no motion, >= 1.

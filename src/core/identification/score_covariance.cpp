@@ -39,7 +39,7 @@ ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double
       long_run_(Eigen::MatrixXd::Zero(size_, size_)),
       lag0_(long_run_),
       information_(long_run_),
-      factor_(size_),
+      factor_(Eigen::MatrixXd::Identity(size_, size_)),  // without a matrix it has no state to copy
       unit_(Eigen::VectorXd::Zero(size_)),
       column_(unit_),
       prior_(Eigen::VectorXd::Constant(size_, kWhiteRatio)),
