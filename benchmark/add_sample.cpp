@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../test/core/paper_drive.h"
 #include "suspension_health_monitor/model/effect_catalogue.h"
 #include "suspension_health_monitor/simulation/drive_simulator.h"
 #include "suspension_health_monitor/suspension_monitor.h"
@@ -19,11 +20,7 @@ std::vector<CornerSample> drive() {
   SimulationOptions options;
   options.scenario = "iso_road";
   options.rate = 100.0;
-  DriveSimulator simulator(options);
-  std::vector<CornerSample> samples;
-  while (const auto sample = simulator.next())
-    samples.push_back({sample->stamp, sample->sprung->acceleration, sample->unsprung->acceleration});
-  return samples;
+  return simulate(options);
 }
 
 /// Feeds the drive again and again, the clock going on.

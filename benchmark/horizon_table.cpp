@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "../test/core/paper_drive.h"
 #include "suspension_health_monitor/identification/horizon_selection.h"
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
@@ -41,7 +42,7 @@ constexpr Drive kDrives[] = {
 
 using Samples = std::vector<CornerSample>;
 
-std::vector<Samples> simulate(const Drive& drive) {
+std::vector<Samples> simulateAll(const Drive& drive) {
   std::vector<Samples> drives(kNumSeeds);
   for (int i = 0; i < kNumSeeds; ++i) {
     SimulationOptions options;
@@ -54,10 +55,7 @@ std::vector<Samples> simulate(const Drive& drive) {
     options.noise = drive.noise;
     options.duration = kPeriodsPerDrive * 2.0 * kPi / std::sqrt(drive.b0);
     options.seed = i + 1;
-    DriveSimulator simulator(options);
-    while (const auto sample = simulator.next())
-      drives[static_cast<std::size_t>(i)].push_back(
-          {sample->stamp, sample->sprung->acceleration, sample->unsprung->acceleration});
+    drives[static_cast<std::size_t>(i)] = simulate(options);
   }
   return drives;
 }
@@ -97,7 +95,7 @@ Errors errorsAt(double horizon, const Drive& drive, const std::vector<Samples>& 
 }
 
 void printRow(const Drive& drive) {
-  const std::vector<Samples> drives = simulate(drive);
+  const std::vector<Samples> drives = simulateAll(drive);
   const double proposed = proposeHorizon(drive.b1, drive.b0).horizon;
   const Errors at_proposal = errorsAt(proposed, drive, drives);
   Errors least = at_proposal, best{proposed, proposed};

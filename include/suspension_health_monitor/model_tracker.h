@@ -6,6 +6,7 @@
 
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/discrepancy/running_comparison.h"
+#include "suspension_health_monitor/estimate_validity.h"
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/regressor_noise.h"
@@ -83,7 +84,7 @@ class ModelTracker {
   int valid_min_rows_;
   double min_rows_, min_explained_;
   int spread_phase_ = 0;
-  int silent_rows_ = 0;      // rows of output 0 without a break; counts up to L and stays there
+  MotionJudge motion_;
   double rows_of_model_;     // since the effects were set; infinite for the plain model
   bool has_own_model_ = false;
   std::uint64_t runaways_ = 0;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "suspension_health_monitor/corner_sample.h"
+#include "suspension_health_monitor/estimate_validity.h"
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/tyre_regression.h"
@@ -63,7 +64,7 @@ class TyreTracker {
   IntegralFilterOptions filter_;
   Stamp period_;
   double min_rows_, min_explained_;
-  int silent_rows_ = 0;  // rows of output 0 without a break; counts up to L and stays there
+  MotionJudge motion_;
   TyreRegression regression_;
   RecursiveLeastSquares least_squares_;
   RecursiveLeastAbsolute least_absolute_;

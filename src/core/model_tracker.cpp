@@ -20,8 +20,7 @@ void describeStrut(const Estimator& estimator, StrutEstimate& estimate) {
   for (std::size_t j = 0; j < estimate.num_effects; ++j)
     estimate.coefficients[j] = estimator.parameters()[kNumStrutParameters + static_cast<int>(j)];
   estimate.effective_rows = estimator.effectiveRows();
-  const double output = estimator.meanAbsoluteOutput();
-  estimate.explained = output > 0.0 ? 1.0 - estimator.meanAbsoluteResidual() / output : 0.0;
+  estimate.explained = explained(estimator);
 }
 
 /// What is random, and what the sensors' noise in the regressors shifts.
@@ -44,10 +43,6 @@ RecursiveOptions recursiveOptions(const MonitorOptions& options, const IntegralF
   return recursive;
 }
 
-double fewestRows(int wanted, double forgetting_factor) {
-  return std::min<double>(wanted, 0.9 / (1.0 - std::min(forgetting_factor, 1 - 1e-12)));
-}
-
 std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const std::vector<ActiveEffect>& after) {
   std::vector<ColumnOrigin> columns{{kDampingToMass, 0.0}, {kStiffnessToMass, 0.0}};
   for (const ActiveEffect& active : after) {
@@ -68,6 +63,7 @@ ModelTracker::ModelTracker(const MonitorOptions& options)
       valid_min_rows_(options.valid_min_rows),
       min_rows_(fewestRows(valid_min_rows_, options.forgetting_factor)),
       min_explained_(options.valid_min_explained),
+      motion_(filter_.horizon_samples),
       rows_of_model_(std::numeric_limits<double>::infinity()),
       regression_(filter_),
       noise_(filter_),
@@ -112,8 +108,7 @@ void ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
 
 void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
   rows_of_model_ += 1.0;
-  silent_rows_ = row.output == 0.0 ? std::min(silent_rows_ + 1, filter_.horizon_samples) : 0;
-  const bool moves = silent_rows_ < filter_.horizon_samples;
+  const bool moves = motion_.moves(row.output);
   if (moves) {
     least_squares_.update(row);
     least_absolute_.update(row);

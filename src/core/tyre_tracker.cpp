@@ -1,7 +1,5 @@
 #include "suspension_health_monitor/tyre_tracker.h"
 
-#include <algorithm>
-
 #include "suspension_health_monitor/signal/continuity.h"
 
 namespace suspension_health_monitor {
@@ -18,8 +16,7 @@ void describe(const Estimator& estimator, WheelEstimate& estimate) {
   estimate.stiffness_to_wheel_mass_stddev = stddev(kStiffnessToWheelMass);
   estimate.tyre_to_wheel_mass_stddev = stddev(kTyreToWheelMass);
   estimate.effective_rows = estimator.effectiveRows();
-  const double output = estimator.meanAbsoluteOutput();
-  estimate.explained = output > 0.0 ? 1.0 - estimator.meanAbsoluteResidual() / output : 0.0;
+  estimate.explained = explained(estimator);
 }
 
 bool isWheel(const WheelEstimate& estimate) {
@@ -37,8 +34,9 @@ std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate&
 TyreTracker::TyreTracker(const MonitorOptions& options)
     : filter_(options.tyreFilter(*options.sample_period)),
       period_(fromSeconds(*options.sample_period)),
-      min_rows_(std::min<double>(options.valid_min_rows, 0.9 / (1.0 - std::min(options.forgetting_factor, 1 - 1e-12)))),
+      min_rows_(fewestRows(options.valid_min_rows, options.forgetting_factor)),
       min_explained_(options.valid_min_explained),
+      motion_(filter_.horizon_samples),
       regression_(filter_),
       least_squares_(kNumTyreParameters, options.recursive()),
       least_absolute_(kNumTyreParameters, options.recursive(), options.leastAbsolute()) {}
@@ -60,9 +58,7 @@ bool TyreTracker::continues(Stamp stamp) const {
 
 void TyreTracker::estimate(const RegressionRow& row) {
   report_.has_row = true;
-  // Without any noise there is no motion but a sensor that is stuck or a vehicle at rest, see SuspensionMonitor.
-  silent_rows_ = row.output == 0.0 ? std::min(silent_rows_ + 1, filter_.horizon_samples) : 0;
-  const bool moves = silent_rows_ < filter_.horizon_samples;
+  const bool moves = motion_.moves(row.output);
   if (moves) {
     least_squares_.update(row);
     least_absolute_.update(row);

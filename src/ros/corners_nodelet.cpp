@@ -34,9 +34,8 @@ CornersNodelet::~CornersNodelet() {
 }
 
 void CornersNodelet::onInit() {
-  node_ = getNodeHandle();
-  private_node_ = getPrivateNodeHandle();
-  for (ros::NodeHandle* node : {&node_, &private_node_}) node->setCallbackQueue(&thread_->queue());
+  node_ = thread_->serve(getNodeHandle());
+  private_node_ = thread_->serve(getPrivateNodeHandle());
   startOrRefuse(private_node_, [&] { options_ = CornersOptions::fromValues(readParameters(private_node_)); });
   thread_->run([this] {  // there, so that no callback comes before all is set up
     comparison_ = private_node_.advertise<CornerComparison>("comparison", 10, true);

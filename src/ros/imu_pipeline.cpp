@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "conversions.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -15,17 +13,14 @@ constexpr std::size_t kMostEarly = 2 * UniformGrid::kMostWaiting;
 }  // namespace
 
 ImuPipeline::ImuPipeline(const PipelineOptions& options, Sink sink, const tf2::BufferCore* transforms)
-    : options_(options),
-      mounts_(ImuMount::of(options.shell, transforms)),
-      sink_(std::move(sink)),
-      measurement_(kSpacingsForPeriod) {
+    : options_(options), sensors_(options.shell, transforms), sink_(std::move(sink)), measurement_(kSpacingsForPeriod) {
   if (options.monitor.sample_period) start(*options.monitor.sample_period);
 }
 
 void ImuPipeline::start(double period) {
   options_.monitor.sample_period = period;
   monitor_.emplace(options_.monitor);
-  grid_.emplace(period, options_.grid(period));
+  sensors_.start(options_, period);
   if (options_.shell.tyre) tyre_.emplace(options_.monitor);
   if (!effects_.empty()) monitor_->setEffects(effects_);
   if (baseline_) monitor_->setBaseline(*baseline_);
@@ -70,20 +65,16 @@ std::vector<BodyMotion> ImuPipeline::newestBodyMotion(double span) const {
 }
 
 void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
-  const auto acceleration = mounts_[static_cast<std::size_t>(side)].acceleration(imu);
-  if (const RejectReason* reason = std::get_if<RejectReason>(&acceleration)) {
-    rejected_.add(*reason);
-    return;
-  }
-  const Reading reading{side, toStamp(imu.header.stamp), std::get<double>(acceleration)};
+  const std::optional<StrutSensors::Reading> reading = sensors_.read(side, imu);
+  if (!reading) return;
   if (recent_body_ && side == Side::kSprung)
-    if (const BodyMotion motion = mounts_[0].across(imu); recent_body_->isNewer(motion)) recent_body_->push(motion);
+    if (const BodyMotion motion = sensors_.across(imu); recent_body_->isNewer(motion)) recent_body_->push(motion);
   if (monitor_) {
-    push(reading);
+    push(*reading);
     return;
   }
-  if (!measurement_.add(side, reading.stamp)) {
-    rejected_.add(reading.stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp);
+  if (!measurement_.add(side, reading->stamp)) {
+    rejected_.add(reading->stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp);
     return;
   }
   if (early_.size() == kMostEarly) {  // one IMU is silent
@@ -91,17 +82,17 @@ void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
     early_.clear();
     measurement_ = PeriodMeasurement(kSpacingsForPeriod);
   }
-  early_.push_back(reading);
+  early_.push_back(*reading);
   if (const std::optional<double> period = measurement_.period()) {
     start(*period);
-    for (const Reading& waiting : std::exchange(early_, {})) push(waiting);
+    for (const StrutSensors::Reading& waiting : std::exchange(early_, {})) push(waiting);
   }
 }
 
-void ImuPipeline::push(const Reading& reading) {
-  for (auto sample = grid_->push(reading.side, reading.stamp, reading.acceleration); sample; sample = grid_->next()) {
+void ImuPipeline::push(const StrutSensors::Reading& reading) {
+  for (auto sample = sensors_.push(reading); sample; sample = sensors_.next()) {
     if (recent_) keep(*sample);
-    if (tyre_) tyre_->add(*sample, grid_->roadAcceleration());
+    if (tyre_) tyre_->add(*sample, grid()->roadAcceleration());
     if (const MonitorReport* report = monitor_->addSample(*sample)) sink_(*report);
   }
 }
@@ -114,10 +105,8 @@ void ImuPipeline::keep(const CornerSample& sample) {
 
 RejectCounts ImuPipeline::rejected() const {
   RejectCounts all = rejected_;
-  if (monitor_) {
-    all += grid_->rejected();
-    all += monitor_->rejected();
-  }
+  all += sensors_.rejected();
+  if (monitor_) all += monitor_->rejected();
   return all;
 }
 

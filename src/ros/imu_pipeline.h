@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "imu_mount.h"
 #include "shell_options.h"
+#include "strut_sensors.h"
 #include "suspension_health_monitor/discrepancy/body_motion.h"
 #include "suspension_health_monitor/discrepancy/search_drives.h"
 #include "suspension_health_monitor/signal/period_measurement.h"
@@ -19,7 +19,7 @@
 namespace suspension_health_monitor {
 
 /// From Imu messages to reports, the same for the nodelet and for a bag:
-/// message -> acceleration along the strut -> UniformGrid -> SuspensionMonitor::addSample -> sink.
+/// message -> StrutSensors -> SuspensionMonitor::addSample -> sink.
 /// Without a configured sample_period the first readings wait until their stamps have told it.
 class ImuPipeline {
  public:
@@ -58,31 +58,24 @@ class ImuPipeline {
   /// @return what follows the tyre; nullptr without tyre/enabled and while the sample period is being measured.
   const TyreTracker* tyre() const { return tyre_ ? &*tyre_ : nullptr; }
 
-  const ImuMount& mount(Side side) const { return mounts_[static_cast<std::size_t>(side)]; }
+  const ImuMount& mount(Side side) const { return sensors_.mount(side); }
 
   /// @return what passes readings on to the monitor; nullptr while the sample period is being measured.
-  const UniformGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
+  const UniformGrid* grid() const { return sensors_.grid(); }
 
   /// @return everything that was kept out so far, wherever it was noticed.
   RejectCounts rejected() const;
 
  private:
-  struct Reading {
-    Side side;
-    Stamp stamp;
-    double acceleration;
-  };
-
-  void push(const Reading& reading);
+  void push(const StrutSensors::Reading& reading);
   void keep(const CornerSample& sample);
   void start(double period);
 
   PipelineOptions options_;
-  std::array<ImuMount, kMostStreams> mounts_;
+  StrutSensors sensors_;
   Sink sink_;
   PeriodMeasurement measurement_;
-  std::vector<Reading> early_;  // readings that wait for the sample period
-  std::optional<UniformGrid> grid_;
+  std::vector<StrutSensors::Reading> early_;  // readings that wait for the sample period
   std::optional<SuspensionMonitor> monitor_;
   std::optional<TyreTracker> tyre_;
   std::vector<ActiveEffect> effects_;  // until there is a monitor
@@ -90,7 +83,7 @@ class ImuPipeline {
   std::optional<double> kept_span_;    // [s]
   std::optional<RecentSamples> recent_;
   std::optional<Recent<BodyMotion>> recent_body_;
-  RejectCounts rejected_;
+  RejectCounts rejected_;  // while the sample period is being measured
 };
 
 }  // namespace suspension_health_monitor

@@ -32,9 +32,8 @@ MonitorNodelet::~MonitorNodelet() {
 }
 
 void MonitorNodelet::onInit() {
-  node_ = getNodeHandle();
-  private_node_ = getPrivateNodeHandle();
-  for (ros::NodeHandle* node : {&node_, &private_node_}) node->setCallbackQueue(&thread_->queue());
+  node_ = thread_->serve(getNodeHandle());
+  private_node_ = thread_->serve(getPrivateNodeHandle());
   startOrRefuse(private_node_, [&] {
     options_ = PipelineOptions::fromValues(readParameters(private_node_));
     model_.emplace(options_.shell);

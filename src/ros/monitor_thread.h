@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/callback_queue.h>
+#include <ros/node_handle.h>
 
 #include <atomic>
 #include <functional>
@@ -25,6 +26,12 @@ class MonitorThread {
   MonitorThread& operator=(const MonitorThread&) = delete;
 
   ros::CallbackQueue& queue() { return queue_; }
+
+  /// @return this node handle, with its callbacks coming from this thread.
+  ros::NodeHandle serve(ros::NodeHandle node) {
+    node.setCallbackQueue(&queue_);
+    return node;
+  }
 
   /// Has work done between two callbacks, and waits for its end. Not to be called by a callback.
   /// @throws whatever the work throws.

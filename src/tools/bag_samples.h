@@ -14,8 +14,7 @@ namespace suspension_health_monitor {
 /// @param take_body  if given, called with what the body's IMU measures across the strut, message by message, in the
 /// order of their stamps.
 /// @throws InputError, TooLittleError  as readImuMessages().
-void readSamples(const ImuBags& bags, const PipelineOptions& options,
-                 const std::function<bool(const CornerSample&)>& take,
+void readSamples(const ImuBags& bags, PipelineOptions options, const std::function<bool(const CornerSample&)>& take,
                  const std::function<void(const BodyMotion&)>& take_body = {});
 
 }  // namespace suspension_health_monitor

@@ -16,7 +16,7 @@ OPTIONS = {
     "compare": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--json", "--model",
                 "--effects-file"],
     "horizon": ["--damping-to-mass", "--stiffness-to-mass", "--json"],
-    "options": ["monitor", "simulator"],
+    "options": ["monitor", "simulator", "corners"],
 }
 README = imu_bag.REPOSITORY / "README.md"
 
@@ -42,7 +42,7 @@ def test_help_comes_before_complaints(program):
     assert "usage" in program.succeed("identify", "--start", "-1", "-h")
 
 
-@pytest.mark.parametrize("of", ["monitor", "simulator"])
+@pytest.mark.parametrize("of", ["monitor", "simulator", "corners"])
 def test_readme_has_the_table_of_settings(program, of):
     found = re.search(rf"<!-- options {of} -->\n(.*?)<!-- end -->", README.read_text(), re.DOTALL)
     if found is None:

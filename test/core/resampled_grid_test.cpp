@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "interleaved.h"
 #include "suspension_health_monitor/pi.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
 
@@ -45,12 +46,7 @@ class Messages {
   }
 
   std::vector<Message> merged(const std::vector<Message>& a, const std::vector<Message>& b, double bias) {
-    std::vector<Message> all;
-    for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
-      const bool take_a = j == b.size() || (i < a.size() && uniform() < bias);
-      all.push_back(take_a ? a[i++] : b[j++]);
-    }
-    return all;
+    return interleaved(a, b, bias, [this] { return uniform(); });
   }
 
  private:

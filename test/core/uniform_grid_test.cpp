@@ -8,14 +8,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include "suspension_health_monitor/signal/continuity.h"
+#include "interleaved.h"
+#include "milliseconds.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr Stamp kPeriod = std::chrono::milliseconds(20);
-
-Stamp at(int milliseconds) { return std::chrono::milliseconds(milliseconds); }
 
 struct Message {
   Side side;
@@ -37,16 +36,6 @@ void expectEqual(const std::vector<CornerSample>& actual, const std::vector<Corn
     ASSERT_EQ(actual[i].sprung_acceleration, expected[i].sprung_acceleration) << i;
     ASSERT_EQ(actual[i].unsprung_acceleration, expected[i].unsprung_acceleration) << i;
   }
-}
-
-TEST(Continuity, TellsSpacingsApartAtHalfAndAtThreeHalvesOfThePeriod) {
-  const Stamp ns(1);
-  EXPECT_EQ(continuity(-ns, kPeriod), Continuity::kClockJumped);
-  EXPECT_EQ(continuity(Stamp::zero(), kPeriod), Continuity::kTooSoon);
-  EXPECT_EQ(continuity(at(10), kPeriod), Continuity::kTooSoon);
-  EXPECT_EQ(continuity(at(10) + ns, kPeriod), Continuity::kContinues);
-  EXPECT_EQ(continuity(at(30) - ns, kPeriod), Continuity::kContinues);
-  EXPECT_EQ(continuity(at(30), kPeriod), Continuity::kGap);
 }
 
 TEST(UniformGrid, GivesTheSampleWithTheReadingThatCompletesItStampedByTheBody) {
@@ -117,13 +106,8 @@ class Interleaving : public testing::Test {
     return messages;
   }
 
-  std::vector<Message> interleaved(const std::vector<Message>& a, const std::vector<Message>& b, double bias) {
-    std::vector<Message> merged;
-    for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
-      const bool take_a = j == b.size() || (i < a.size() && uniform() < bias);
-      merged.push_back(take_a ? a[i++] : b[j++]);
-    }
-    return merged;
+  std::vector<Message> merged(const std::vector<Message>& a, const std::vector<Message>& b, double bias) {
+    return interleaved(a, b, bias, [this] { return uniform(); });
   }
 
   double uniform() { return std::uniform_real_distribution<double>(0.0, 1.0)(engine_); }
@@ -135,11 +119,11 @@ TEST_F(Interleaving, OfTheStreamsDoesNotMatter) {
   for (int drive = 0; drive < 10; ++drive) {
     const std::vector<Message> body = stream(Side::kSprung), wheel = stream(Side::kUnsprung);
     UniformGrid body_first(0.02);
-    const std::vector<CornerSample> expected = pairs(body_first, interleaved(body, wheel, 1.0));
+    const std::vector<CornerSample> expected = pairs(body_first, merged(body, wheel, 1.0));
     EXPECT_GT(expected.size(), 200u);
     for (const double bias : {0.0, 0.03, 0.3, 0.5, 0.5, 0.5, 0.97}) {
       UniformGrid grid(0.02);
-      expectEqual(pairs(grid, interleaved(body, wheel, bias)), expected);
+      expectEqual(pairs(grid, merged(body, wheel, bias)), expected);
       for (const auto reason : {RejectReason::kNotFinite, RejectReason::kRepeatedStamp, RejectReason::kTimeWentBack})
         EXPECT_EQ(grid.rejected().count(reason), body_first.rejected().count(reason));
     }
@@ -149,7 +133,7 @@ TEST_F(Interleaving, OfTheStreamsDoesNotMatter) {
 TEST_F(Interleaving, GivesSamplesInOrderOfTime) {
   UniformGrid grid(0.02);
   const std::vector<CornerSample> samples =
-      pairs(grid, interleaved(stream(Side::kSprung), stream(Side::kUnsprung), 0.5));
+      pairs(grid, merged(stream(Side::kSprung), stream(Side::kUnsprung), 0.5));
   for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_LT(samples[i - 1].stamp, samples[i].stamp);
 }
 
@@ -189,61 +173,6 @@ TEST(UniformGrid, SeriesMayStartAtStampZeroButNotStayThere) {
   EXPECT_EQ(grid.rejected().count(RejectReason::kZeroStamp), 10u);
 }
 
-class Streams : public testing::Test {
- protected:
-  // Both sensors in step from `first` on; returns how many samples came.
-  int run(int first, int count) {
-    int samples = 0;
-    for (int k = 0; k < count; ++k) {
-      grid_.push(Side::kSprung, at(first + 20 * k), k);
-      if (grid_.push(Side::kUnsprung, at(first + 20 * k), -k)) ++samples;
-    }
-    return samples;
-  }
-
-  UniformGrid grid_{0.02};
-};
-
-TEST_F(Streams, GoOnAfterABagThatLoops) {
-  for (int pass = 0; pass < 5; ++pass) EXPECT_GE(run(500000, 300), 299);
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kTimeWentBack), 4u);
-}
-
-TEST_F(Streams, GoOnAfterAStampFarInTheFuture) {
-  run(1000, 10);
-  grid_.push(Side::kUnsprung, std::chrono::hours(24 * 365), 7.0);
-  for (int k = 0; k < 10; ++k) grid_.push(Side::kUnsprung, std::chrono::hours(24 * 365), 7.0);  // stuck there
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kRepeatedStamp), 10u);
-  for (int k = 0; k < 100; ++k) EXPECT_FALSE(grid_.push(Side::kSprung, at(1200 + 20 * k), k));
-  EXPECT_GE(run(3200, 50), 49);
-}
-
-TEST_F(Streams, GoOnAfterAStampSomewhatInTheFuture) {
-  run(1000, 10);
-  grid_.push(Side::kUnsprung, at(1200 + 500), 7.0);  // within 50 samples it counts as a message that overtook others
-  EXPECT_GE(run(1200, 100), 100 - 26);
-}
-
-TEST_F(Streams, SilenceOfOneFillsNoMemoryAndIsMadeGood) {
-  run(0, 10);
-  const int many = 3 * static_cast<int>(UniformGrid::kMostWaiting);
-  for (int k = 0; k < many; ++k) EXPECT_FALSE(grid_.push(Side::kSprung, at(200 + 20 * k), k));
-  // All but the capacity is gone already, the rest goes when the other one comes back.
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kMissingPartner), 2 * UniformGrid::kMostWaiting);
-  EXPECT_EQ(run(200 + 20 * many, 100), 100);
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kMissingPartner), 3 * UniformGrid::kMostWaiting);
-}
-
-TEST_F(Streams, OneMayRunAheadByTheCapacity) {
-  const int most = static_cast<int>(UniformGrid::kMostWaiting);
-  for (int k = 0; k < most; ++k) grid_.push(Side::kSprung, at(20 * k), k);
-  for (int k = 0; k < most; ++k) {
-    const auto sample = grid_.push(Side::kUnsprung, at(20 * k), -k);
-    ASSERT_TRUE(sample);
-    ASSERT_EQ(sample->sprung_acceleration, k);
-  }
-}
-
 TEST(UniformGrid, RefusesAPeriodThatIsNone) {
   for (const double period : {0.0, -0.02, 1e-12, std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(UniformGrid{period}, std::invalid_argument) << period;
@@ -265,54 +194,6 @@ TEST(UniformGrid, KeepsAnAbsurdSpikeOutAndTakesANewLevelAfterThree) {
   EXPECT_FALSE(push(205, -1e15));
   EXPECT_TRUE(push(206, 1e15));  // then it is how the sensor reads now
   EXPECT_EQ(grid.rejected().count(RejectReason::kAbsurd), 4u);
-}
-
-class WithRoad : public testing::Test {
- protected:
-  // What the grid gives for a reading: stamps [ms] of the samples, and the road's value at each, NaN without one.
-  void push(Side side, int milliseconds, double acceleration) {
-    for (auto sample = grid_.push(side, at(milliseconds), acceleration); sample; sample = grid_.next()) {
-      stamps_.push_back(static_cast<int>(sample->stamp / at(1)));
-      road_.push_back(grid_.roadAcceleration().value_or(std::nan("")));
-    }
-  }
-  void pushStrut(int milliseconds) {
-    push(Side::kSprung, milliseconds, 1.0);
-    push(Side::kUnsprung, milliseconds, 2.0);
-  }
-
-  UniformGrid grid_{0.02, {Alignment::kPaired, true}};
-  std::vector<int> stamps_;
-  std::vector<double> road_;
-};
-
-TEST_F(WithRoad, ASampleWaitsForTheRoadsReadingAndGivesItsValue) {
-  pushStrut(0);
-  EXPECT_TRUE(stamps_.empty());
-  push(Side::kRoad, -30, 7.0);  // belongs to none
-  push(Side::kRoad, 10, 8.0);
-  EXPECT_EQ(stamps_, std::vector{0});
-  EXPECT_EQ(road_, std::vector{8.0});
-  push(Side::kRoad, 45, 9.0);
-  pushStrut(20);
-  pushStrut(40);
-  EXPECT_EQ(stamps_, (std::vector{0, 20, 40}));
-  EXPECT_TRUE(std::isnan(road_[1]));
-  EXPECT_EQ(road_[2], 9.0);
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kMissingPartner), 1u);
-}
-
-TEST_F(WithRoad, ASilentRoadHoldsTheStrutUpForALimitedTimeOnly) {
-  const int lag = static_cast<int>(UniformGrid::kMostRoadLag);
-  for (int k = 0; k < lag; ++k) pushStrut(20 * k);
-  EXPECT_TRUE(stamps_.empty());
-  pushStrut(20 * lag);
-  EXPECT_EQ(stamps_.size(), lag + 1u);  // all that had waited
-  pushStrut(20 * lag + 20);
-  EXPECT_EQ(stamps_.size(), lag + 2u);  // and no more waiting
-  push(Side::kRoad, 20 * lag + 40, 5.0);
-  pushStrut(20 * lag + 40);
-  EXPECT_EQ(road_.back(), 5.0);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 import csv
 import math
 import os
-import subprocess
 import tempfile
 import unittest
 from decimal import Decimal
@@ -11,7 +10,7 @@ from decimal import Decimal
 import rosbag
 import rospy
 import rostest
-from ros_session import PACKAGE, REPOSITORY, Collector, find_program, is_finite, launch
+from ros_session import PACKAGE, REPOSITORY, Collector, is_finite, launch, run_tool
 from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
 
 SETTINGS = os.path.join(REPOSITORY, "config", "paper.yaml")
@@ -21,13 +20,6 @@ DELAY = 12  # samples that the comparison is late, so the last ones have none
 RATE = 20  # bag seconds per wall second
 TOLERANCE = 1e-9  # relative; both ways run the same code
 NOT_COMPARED = ModelComparison(predicted=math.nan, residual=math.nan)
-
-
-def run_tool(*arguments):
-    result = subprocess.run([find_program(PACKAGE, "suspension_bag"), *arguments], text=True, timeout=20.0,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if result.returncode != 0:
-        raise AssertionError(f"suspension_bag {arguments} ended with {result.returncode}:\n{result.stdout}")
 
 
 def read_csv(path):

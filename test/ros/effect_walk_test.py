@@ -3,14 +3,13 @@
 import json
 import math
 import os
-import subprocess
 import tempfile
 import unittest
 
 import rospy
 import rostest
 import yaml
-from ros_session import PACKAGE, REPOSITORY, Collector, find_program, launch
+from ros_session import PACKAGE, REPOSITORY, Collector, launch, run_tool
 from std_srvs.srv import Trigger
 from suspension_health_monitor.msg import ModelComparison
 from suspension_health_monitor.srv import Diagnose, SetEffects
@@ -24,13 +23,6 @@ SEARCH_AT = 80.0  # [s] of the bag
 # 1 / sqrt(2 * 30 s * 100 Hz) = 1.3 %.
 SETTINGS = {"forgetting_factor": 0.999, "comparison_window": 30.0}
 SETTLED = 100.0  # [s] after the effect is in: three windows, the square of what was before has decayed to 4 %
-
-
-def run_tool(*arguments):
-    result = subprocess.run([find_program(PACKAGE, "suspension_bag"), *arguments], text=True, timeout=60.0,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if result.returncode != 0:
-        raise AssertionError(f"suspension_bag {arguments} ended with {result.returncode}:\n{result.stdout}")
 
 
 def read_json(path):

@@ -2,68 +2,19 @@
 """The missing effect found, added and saved while the drive goes on: ~diagnose, ~set_effects, ~save_model."""
 import os
 import tempfile
-import threading
 import unittest
 
 import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from ros_session import PACKAGE, Collector, load_nodelet, start_node, statuses, values, wait_until
+from live_drive import COEFFICIENT, DRIVE, EFFECT, KEPT, STIFFNESS_TO_MASS, Services, load_monitor, two_searches
+from ros_session import PACKAGE, Collector, load_nodelet, statuses, values, wait_until
 from sensor_msgs.msg import Imu
-from std_srvs.srv import Trigger
 from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
-from suspension_health_monitor.srv import Diagnose, SetEffects
 
-START = 1000.0  # [s] stamp of the first sample
-# The wheel of the vehicle "ugv" on its road, b1 = 4 1/s, b0 = 40 1/s^2, and what the strut hides.
-EFFECT, COEFFICIENT, STIFFNESS_TO_MASS = "quadratic_damping", 1.6, 40.0
-DRIVE = {"scenario": "iso_road", "vehicle": "ugv", "rate": 100.0, "noise": 0.03, "start_time": START,
-         "duration": 3600.0, "real_time_factor": 10.0, "effects": {EFFECT: {"coefficient": COEFFICIENT}}}
-SETTINGS = {"diagnose": {"window": 60.0}}
-KEPT = 60.0  # [s]
 WINDOW = 10.0  # [s] memory of rmse
 SETTLED = 5 * WINDOW  # the square of what was before has decayed to exp(-5)
-
-
-def proxy(monitor, service, service_type):
-    rospy.wait_for_service(f"/{monitor}/{service}", 10.0)
-    return rospy.ServiceProxy(f"/{monitor}/{service}", service_type)
-
-
-class Services:
-    def __init__(self, monitor):
-        self.diagnose = proxy(monitor, "diagnose", Diagnose)
-        self.set_effects = proxy(monitor, "set_effects", SetEffects)
-        self.save_model = proxy(monitor, "save_model", Trigger)
-
-
-def load_monitor(name, **parameters):
-    return load_nodelet("MonitorNodelet", name, {**SETTINGS, **parameters})
-
-
-class Call(threading.Thread):
-    """A service call that goes on beside the test."""
-
-    def __init__(self, service, *arguments):
-        super().__init__(daemon=True)
-        self._call = lambda: service(*arguments)
-        self.response = self.error = None
-        self.start()
-
-    def run(self):
-        try:
-            self.response = self._call()
-        except rospy.ServiceException as error:
-            self.error = error
-
-    def ended(self):
-        return not self.is_alive()
-
-
-def two_searches(monitor):
-    """Two calls at the same time."""
-    return [Call(proxy(monitor, "diagnose", Diagnose), 0.0) for _ in range(2)]
 
 
 class LiveSearchTest(unittest.TestCase):
@@ -215,18 +166,6 @@ class LiveSearchTest(unittest.TestCase):
             estimates.wait_for(lambda message: message.effect_names == [EFFECT], 10.0, "the effect of the file")
         estimates.stop()
 
-    def test_model_is_not_saved_where_no_file_can_be(self):
-        path = os.path.join(self.folder.name, "none", "model.yaml")
-        for name, parameters, words in (("unwritable", {"model_file": path}, path), ("fileless", {}, "model_file")):
-            estimates = Collector(f"/{name}/la", ParameterEstimate)
-            with load_monitor(name, **parameters):
-                estimates.wait_for(lambda message: message.valid, 20.0, "a valid estimate")
-                answer = Services(name).save_model()
-            estimates.stop()
-            self.assertFalse(answer.success)
-            self.assertIn(words, answer.message)
-        self.assertFalse(os.path.exists(os.path.dirname(path)))
-
     def test_wrong_effects_are_refused_and_change_nothing(self):
         for names, shapes, words in (
                 (["bump"], {}, ["effect bump", "bump_stop", "quadratic_damping"]),
@@ -248,83 +187,6 @@ class LiveSearchTest(unittest.TestCase):
             answer = self.services.diagnose(window)
             self.assertFalse(answer.success)
             self.assertIn("must be in [0, 60", answer.message)
-
-    def test_shapes_of_the_drive_are_taken_where_none_are_given(self):
-        estimates = Collector("/shaped/la", ParameterEstimate)
-        with load_monitor("shaped"):
-            first = estimates.wait_for(lambda message: message.valid, 20.0, "a valid estimate").header.stamp
-            estimates.wait_for(lambda message: (message.header.stamp - first).to_sec() > 10.0, 20.0, "motion")
-            services = Services("shaped")
-            for names, shapes in ((["bump_stop"], {}), (["bump_stop", EFFECT], {"bump_stop/g": 0.02}), ([], {})):
-                answer = services.set_effects(names, list(shapes), list(shapes.values()))
-                self.assertTrue(answer.success, answer.message)
-                stamp = estimates.messages[-1].header.stamp
-                newest = estimates.wait_for(
-                    lambda message: message.header.stamp > stamp and message.effect_names == names, 10.0, f"{names}")
-                self.assertEqual(len(newest.effect_coefficients), len(names))
-        estimates.stop()
-
-    def test_law_of_the_user_is_in_the_model_from_the_start(self):
-        path = os.path.join(self.folder.name, "laws.yaml")
-        with open(path, "w", encoding="utf-8") as stream:
-            stream.write('effects: {my_damper: {force: "v * abs(v)", unit: "1/m"}}')
-        estimates = Collector("/own/la", ParameterEstimate)
-        with load_monitor("own", effects_file=path, effects=["my_damper", EFFECT]):
-            estimates.wait_for(lambda message: message.effect_names == ["my_damper", EFFECT], 20.0, "both effects")
-            answer = Services("own").set_effects(["my_damper"], [], [])
-            self.assertTrue(answer.success, answer.message)
-            last = estimates.wait_for(lambda message: message.effect_names == ["my_damper"] and message.valid, 20.0,
-                                      "the one effect")
-            self.assertAlmostEqual(last.effect_coefficients[0], COEFFICIENT, delta=2.0 * COEFFICIENT)
-        estimates.stop()
-        os.remove(path)
-
-    def test_fault_of_the_sensor_is_named_and_cannot_be_added(self):
-        topics = {f"{side}/imu": f"/tilted/{side}" for side in ("sprung", "unsprung")}
-        drive = {**DRIVE, "effects": {}, "hidden": "mount_tilt=0.06,c_y=-0.04", "body_acceleration": 1.0,
-                 "body_rate": 0.1}
-        comparisons = Collector("/tilted/comparison", ModelComparison)
-        with load_nodelet("MonitorNodelet", "tilted", SETTINGS, **topics), \
-                load_nodelet("SimulatorNodelet", "tilted_drive", drive, **topics):
-            end = rospy.Time.from_sec(START + KEPT)
-            comparisons.wait_for(lambda message: message.header.stamp >= end, 60.0, "enough to search in")
-            services = Services("tilted")
-            found = services.diagnose(0.0)
-            answer = services.set_effects(found.selected, [], [])
-        comparisons.stop()
-        self.assertEqual((found.verdict, found.selected), ("effect_found", ["mount_tilt"]))
-        for name, value in zip(found.coefficient_names, found.coefficients):
-            self.assertAlmostEqual(value, {"mount_tilt/c_x": 0.06, "mount_tilt/c_y": -0.04}[name], delta=0.006)
-        self.assertFalse(answer.success)
-        self.assertIn("effect mount_tilt", answer.message)
-
-    def test_end_of_the_node_ends_a_search(self):
-        comparisons = Collector("/node/comparison", ModelComparison)
-        with start_node("monitor_node", "node", SETTINGS) as node:
-            first = comparisons.wait_for(lambda message: True, 20.0, "a comparison")
-            comparisons.wait_for(lambda message: (message.header.stamp - first.header.stamp).to_sec() > 40.0, 30.0,
-                                 "enough to search in")
-            calls = two_searches("node")
-            wait_until(lambda: any(call.ended() for call in calls), 10.0, "a refusal of the second call")
-            node.stop()
-            self.assertEqual(node.wait_for_end(0.0), 0, node.output())
-        comparisons.stop()
-
-    def test_unloading_ends_a_search(self):
-        comparisons = Collector("/short_lived/comparison", ModelComparison)
-        with load_monitor("short_lived") as monitor:
-            first = comparisons.wait_for(lambda message: True, 20.0, "a comparison")
-            comparisons.wait_for(lambda message: (message.header.stamp - first.header.stamp).to_sec() > 40.0, 30.0,
-                                 "enough to search in")
-            calls = two_searches("short_lived")
-            wait_until(lambda: any(call.ended() for call in calls), 10.0, "a refusal of the second call")
-            search = next(call for call in calls if not call.ended())
-            monitor.stop()
-            wait_until(search.ended, 10.0, "an answer of the service")
-        comparisons.stop()
-        self.assertIsNotNone(search.error)
-        stamp = self.now()
-        self.la.wait_for(lambda message: message.header.stamp > stamp, 10.0, "the other nodelets of the manager")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """What rqt_reconfigure does: settings turned while the estimates go on."""
-import json
 import subprocess
 import unittest
 

@@ -6,7 +6,7 @@ import rospy
 import rostest
 from ros_session import PACKAGE, Collector, is_finite, load_nodelet, settings, start_node
 from rosgraph_msgs.msg import Log
-from suspension_health_monitor.msg import ParameterEstimate
+from suspension_health_monitor.msg import CornerComparison, ParameterEstimate
 
 # What is wrong: the parameters, and what the message must hold. Names are those of config/monitor.yaml.
 WRONG = {
@@ -25,6 +25,13 @@ WRONG = {
     "nested, of the search": ({"diagnose": {"window": 0}}, ["diagnose/window = 0", "must be in [0.01, 1000000]"]),
     "contradiction": ({"horizon_samples": 30, "integration_horizon": 0.6}, ["horizon_samples", "integration_horizon"]),
 }
+WRONG_COMPARISON = {
+    "out of range": ({"threshold": 1.5}, ["threshold = 1.5", "must be in [0.001, 0.9]"]),
+    "at the other end": ({"timeout": 0.05}, ["timeout = 0.05", "must be in [0.1, 3600]"]),
+    "unknown": ({"confirm_tme": 1.0}, ["unknown option confirm_tme = 1", "confirm_time"]),
+    "wrong type": ({"significance": "high"}, ['significance = "high"', "must be in [0, 100]"]),
+    "list": ({"timeout": [1.0, 2.0]}, ["timeout", "list", "must be true or false, a number"]),
+}
 WRONG_SIMULATION = {"scenario": "paper_dirty"}
 DRIVE = {"real_time_factor": 20.0, "duration": 30.0}
 
@@ -41,19 +48,32 @@ class RefusedParametersTest(unittest.TestCase):
         self.rosout.wait_for(lambda log: log.level >= Log.ERROR and all(part in log.msg for part in wanted),
                              5.0, f"an error with {wanted}")
 
-    def test_nodelet_is_refused_and_a_good_one_works_beside_it(self):
-        self.rosout.wait_for_publisher()
-        for number, (parameters, parts) in enumerate(WRONG.values()):
-            name = f"wrong_{number}"
-            with load_nodelet("MonitorNodelet", name, parameters) as wrong:
+    def assert_all_refused(self, class_name, cases):
+        for number, (parameters, parts) in enumerate(cases.values()):
+            name = f"wrong_{class_name}_{number}"
+            with load_nodelet(class_name, name, parameters) as wrong:
                 self.assertNotEqual(wrong.wait_for_end(5.0), 0)
                 self.assert_refused_in_rosout(name, parts)
+
+    def test_nodelet_is_refused_and_a_good_one_works_beside_it(self):
+        self.rosout.wait_for_publisher()
+        self.assert_all_refused("MonitorNodelet", WRONG)
         estimates = Collector("/good/la", ParameterEstimate)
         with load_nodelet("MonitorNodelet", "good", settings("paper.yaml")):
             estimates.wait_for_publisher()
             with load_nodelet("SimulatorNodelet", "drive", DRIVE):
                 estimates.wait_for(lambda estimate: estimate.valid and is_finite(estimate), 10.0, "a valid estimate")
         estimates.stop()
+
+    def test_refused_comparison_leaves_no_topic_and_a_good_one_works(self):
+        self.rosout.wait_for_publisher()
+        self.assert_all_refused("CornersNodelet", WRONG_COMPARISON)
+        topics = [topic for topic, _ in rospy.get_published_topics()]
+        self.assertFalse([topic for topic in topics if topic.startswith("/wrong_CornersNodelet")])
+        comparisons = Collector("/good_comparison/comparison", CornerComparison)
+        with load_nodelet("CornersNodelet", "good_comparison", {"threshold": 0.9, "hardware_id": "rover"}):
+            comparisons.wait_for(lambda comparison: comparison.level == CornerComparison.STALE, 10.0, "cannot tell")
+        comparisons.stop()
 
     def test_refused_simulator_leaves_no_topic(self):
         self.rosout.wait_for_publisher()
@@ -65,6 +85,7 @@ class RefusedParametersTest(unittest.TestCase):
     def test_nodes_end_with_an_error_and_say_why(self):
         for program, parameters, parts in (("monitor_node", *WRONG["out of range"]),
                                            ("monitor_node", *WRONG["unknown"]),
+                                           ("corners_node", *WRONG_COMPARISON["out of range"]),
                                            ("simulator_node", WRONG_SIMULATION, ['scenario = "paper_dirty"'])):
             with start_node(program, "wrong_node", parameters) as node:
                 self.assertNotEqual(node.wait_for_end(5.0), 0)

@@ -108,6 +108,14 @@ def find_program(package, name):
     return roslib.packages.find_node(package, name)[0]
 
 
+def run_tool(*arguments):
+    """Runs suspension_bag to its end."""
+    result = subprocess.run([find_program(PACKAGE, "suspension_bag"), *arguments], text=True, timeout=60.0,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if result.returncode != 0:
+        raise AssertionError(f"suspension_bag {arguments} ended with {result.returncode}:\n{result.stdout}")
+
+
 def start_node(program, name, parameters, **remappings):
     """Runs a node of this package under a name, with private parameters."""
     set_private_parameters(name, parameters)

@@ -91,7 +91,7 @@ class ScoreCovariance {
   std::vector<double> line_;                 // the newest 2 L + 1 scores
   std::size_t mask_;
   std::size_t newest_ = 0;
-  int first_rows_ = 0;                       // that are still to come, of the start or a restart
+  int first_rows_;                           // that are still to come, of the start or a restart
   int rest_ = 0;                             // rows that are not looked at
   int in_stretch_ = 0;                       // rows that have been, without a break
   int phase_ = 0;                            // number of the row, modulo what is done only now and then

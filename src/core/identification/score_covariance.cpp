@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/identification/plain_size.h"
+#include "suspension_health_monitor/signal/ring_size.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -21,12 +22,6 @@ constexpr double kSmallestShare = 0.4;   // of what uncorrelated scores would gi
 // Whatever lambda, rounding and outliers that have left the window are forgotten after a thousand windows.
 constexpr double kWindows = 1000.0;
 
-std::size_t roundUp(std::size_t length) {
-  std::size_t size = 1;
-  while (size < length) size *= 2;
-  return size;
-}
-
 }  // namespace
 
 ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double forgetting_factor)
@@ -38,17 +33,17 @@ ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double
       twice_(slow_theta_),
       score_(Eigen::VectorXd::Zero(size_)),
       lagged_(Eigen::VectorXd::Zero(size_)),
-      line_(roundUp(static_cast<std::size_t>(lags_) + 1) * static_cast<std::size_t>(size_), 0.0),
-      mask_(roundUp(static_cast<std::size_t>(lags_) + 1) - 1),
+      line_(ringSize(static_cast<std::size_t>(lags_) + 1) * static_cast<std::size_t>(size_), 0.0),
+      mask_(ringSize(static_cast<std::size_t>(lags_) + 1) - 1),
+      first_rows_(kFirstRows),
       long_run_(Eigen::MatrixXd::Zero(size_, size_)),
       lag0_(long_run_),
       information_(long_run_),
-      factor_(size_),
+      factor_(Eigen::MatrixXd::Identity(size_, size_)),  // without a matrix it has no state to copy
       unit_(Eigen::VectorXd::Zero(size_)),
       column_(unit_),
       prior_(Eigen::VectorXd::Constant(size_, kWhiteRatio)),
       ratio_(prior_) {
-  first_rows_ = kFirstRows;
   setForgettingFactor(forgetting_factor);
 }
 

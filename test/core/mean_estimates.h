@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "suspension_health_monitor/signal/uniform_grid.h"
+#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+
+inline constexpr double kAlignedPeriod = 0.005;  ///< [s] of the grid that the readings are brought onto
+
+/// Means over a drive from 20 s on, when the estimates have settled.
+struct MeanEstimates {
+  double la_damping = 0.0, la_stiffness = 0.0, ls_damping = 0.0, ls_stiffness = 0.0;
+  double valid = 0.0;  ///< share of the samples
+  bool resampled = false;
+};
+
+/// Identifies a strut by the readings of sensors as they come, gravity included.
+inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignment) {
+  constexpr double kSettled = 20.0, kGravity = 9.81;  // [s], [m/s^2]
+  MonitorOptions options;
+  options.sample_period = kAlignedPeriod;
+  options.forgetting_factor = 0.999;
+  SuspensionMonitor monitor(options);
+  UniformGrid grid(kAlignedPeriod, {alignment, false, 2 * monitor.horizonSamples()});
+  DriveSimulator simulator(drive);
+  MeanEstimates mean;
+  double count = 0.0;
+  const auto push = [&](Side side, const std::optional<AccelerometerReading>& reading) {
+    if (!reading) return;
+    const double measured = reading->acceleration + kGravity;
+    for (auto sample = grid.push(side, reading->stamp, measured); sample; sample = grid.next()) {
+      const MonitorReport* report = monitor.addSample(*sample);
+      if (report == nullptr || toSeconds(sample->stamp) < kSettled) continue;
+      mean.la_damping += report->la.damping_to_mass;
+      mean.la_stiffness += report->la.stiffness_to_mass;
+      mean.ls_damping += report->ls.damping_to_mass;
+      mean.ls_stiffness += report->ls.stiffness_to_mass;
+      mean.valid += report->la.valid ? 1.0 : 0.0;
+      count += 1.0;
+    }
+  };
+  while (const std::optional<DriveSample> sample = simulator.next()) {
+    push(Side::kSprung, sample->sprung);
+    push(Side::kUnsprung, sample->unsprung);
+  }
+  for (double* value : {&mean.la_damping, &mean.la_stiffness, &mean.ls_damping, &mean.ls_stiffness, &mean.valid})
+    *value /= count;
+  mean.resampled = grid.resamples();
+  return mean;
+}
+
+}  // namespace suspension_health_monitor
