@@ -28,7 +28,7 @@ MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::N
                                        const std::string& name, const ShellOptions& options,
                                        const std::array<ros::Subscriber, 2>& imu,
                                        const LiveModel& model)
-    : input_(options, imu), model_(model), updater_(node, private_node, name) {
+    : input_timeout_(options.input_timeout), input_(options, imu), model_(model), updater_(node, private_node, name) {
   updater_.setHardwareID(options.hardware_id);
   updater_.add("Input", [this](Status& status) { input_.describe(*pipeline_, status); });
   updater_.add("Health", this, &MonitorDiagnostics::describeHealth);
@@ -56,6 +56,7 @@ void MonitorDiagnostics::describeHealth(Status& status) {
   }
   const MonitorReport& report = monitor->report();
   status.summary(static_cast<unsigned char>(report.health.level), describe(report.health));
+  describeSilence(*monitor, status);
   addEstimate(status, "la", report.la);
   addEstimate(status, "ls", report.ls);
   const Baseline& baseline = monitor->baseline();
@@ -66,6 +67,18 @@ void MonitorDiagnostics::describeHealth(Status& status) {
   status.add("early warning", report.health.early_warning);
   status.add("outliers or saturation", report.health.outliers);
   status.add("sensor fault", describe(report.health.sensor));
+}
+
+// A level is one of the newest readings; once they are old, nobody knows it. A clock that stands still makes nothing old.
+void MonitorDiagnostics::describeSilence(const SuspensionMonitor& monitor, Status& status) {
+  const ros::Time now = ros::Time::now();
+  const std::uint64_t samples = monitor.input().samples;
+  if (samples != accepted_.samples || now < accepted_.at) accepted_ = {samples, now};
+  const double silent = (now - accepted_.at).toSec();
+  if (silent <= input_timeout_) return;
+  const std::string before = status.message;
+  status.summaryf(DiagnosticStatus::STALE, "cannot tell: no reading accepted for %.0f s; before: %s", silent,
+                  before.c_str());
 }
 
 void MonitorDiagnostics::describeModel(Status& status) {

@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -31,10 +32,19 @@ class MonitorDiagnostics {
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
+  /// When a reading was accepted last, as seen from the reports.
+  struct Accepted {
+    std::uint64_t samples = 0;
+    ros::Time at;
+  };
+
   void describeHealth(Status& status);
+  void describeSilence(const SuspensionMonitor& monitor, Status& status);
   void describeModel(Status& status);
   void describeDiagnosis(Status& status) const;
 
+  double input_timeout_;  // [s]
+  Accepted accepted_;
   InputDiagnostics input_;
   const LiveModel& model_;
   std::optional<HealthLevel> level_;

@@ -108,7 +108,20 @@ TEST(CornerComparison, ThreeCornersAreEnoughAndTwoAreNot) {
   corners[kRearLeft].valid = false;
   const CornerComparisonReport two = compareCorners(corners);
   EXPECT_EQ(two.level, HealthLevel::kStale);
-  EXPECT_EQ(two.sentence, "cannot tell: 2 corners have a valid estimate, 3 are needed");
+  EXPECT_EQ(two.sentence, "cannot tell: 2 of 4 corners have a valid estimate, 3 are needed");
+}
+
+// Else a corner that is damaged and goes silent would look repaired.
+TEST(CornerComparison, ThreeThatAreAlikeProveNothingOfTheFourth) {
+  for (const bool with_baselines : {true, false}) {
+    Corners corners = healthyCorners();
+    if (!with_baselines) forgetBaselines(corners);
+    corners[kRearLeft].valid = false;
+    const CornerComparisonReport report = compareCorners(corners);
+    EXPECT_EQ(report.level, HealthLevel::kStale);
+    EXPECT_NE(report.sentence.find("no valid estimate of rear_left"), std::string::npos) << report.sentence;
+    EXPECT_EQ(report.sentence.find("all corners"), std::string::npos) << report.sentence;
+  }
 }
 
 TEST(CornerComparison, WithoutBaselinesTheWheelsOfAnAxleAreCompared) {

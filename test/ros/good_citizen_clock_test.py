@@ -7,7 +7,7 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticStatus
 from measured_drive import PERIOD, MeasuredDrive
-from ros_session import PACKAGE, values, wait_until
+from ros_session import PACKAGE, statuses, values, wait_until
 from rosgraph_msgs.msg import Clock
 
 START = 1000.0  # [s]
@@ -51,6 +51,12 @@ class GoodCitizenClockTest(unittest.TestCase):
             time.sleep(0.05)
         self.drive.input_status(lambda s: s.level == DiagnosticStatus.ERROR and "no message on" in s.message,
                                 after=self.before)
+        health = wait_until(lambda: [s for s in statuses(self.drive.diagnostics, "monitor: Health")
+                                     if "no reading accepted for" in s.message], 5.0, "health that is not known")[-1]
+        self.assertEqual(health.level, DiagnosticStatus.STALE)
+        self.feed(500, 800)  # and is known again
+        wait_until(lambda: statuses(self.drive.diagnostics, "monitor: Health")[-1].level == DiagnosticStatus.OK, 5.0,
+                   "health OK")
 
     def test_clock_that_jumps_back(self):
         self.feed(0, 400)

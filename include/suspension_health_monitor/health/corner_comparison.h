@@ -52,7 +52,8 @@ struct CornerComparisonOptions {
 /// damper or spring did it is told against the other wheel of the axle, which carries the load that it does.
 /// What all dampers do alike (they warm up) accuses none. Without nominal values of all corners the two wheels of each
 /// axle are compared with each other; the weaker one is accused, since dampers and springs fail that way.
-/// Fewer than three valid corners say nothing: of two that differ either may be the one.
+/// Fewer than three valid corners say nothing: of two that differ either may be the one. Three that are alike are no proof of
+/// the fourth: kStale.
 CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>& corners,
                                       const CornerComparisonOptions& options = {});
 

@@ -159,14 +159,18 @@ CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>
                                       const CornerComparisonOptions& options) {
   CornerComparisonReport report;
   Members valid;
+  std::string missing;
   bool from_nominal = true;
   for (std::size_t corner = 0; corner < kNumCorners; ++corner) {
-    if (!isUsableCorner(corners[corner])) continue;
+    if (!isUsableCorner(corners[corner])) {
+      missing = nameOf(corner);
+      continue;
+    }
     valid.push_back(corner);
     from_nominal = from_nominal && hasNominal(corners[corner]);
   }
   if (valid.size() < 3) {
-    report.sentence = "cannot tell: " + std::to_string(valid.size()) + " corners have a valid estimate, 3 are needed";
+    report.sentence = "cannot tell: " + std::to_string(valid.size()) + " of 4 corners have a valid estimate, 3 are needed";
     return report;
   }
   report.level = HealthLevel::kOk;
@@ -189,7 +193,11 @@ CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>
     compareAxles(changes, valid, options, report);
   }
   if (report.sentence.empty())
-    report.sentence = from_nominal ? "all corners alike" : "left and right alike (no baseline)";
+    report.sentence = from_nominal ? (missing.empty() ? "all corners alike" : "the other corners alike")
+                                   : "left and right alike (no baseline)";
+  if (missing.empty()) return report;
+  if (report.level == HealthLevel::kOk) report.level = HealthLevel::kStale;
+  add(report.sentence, "no valid estimate of " + missing);
   return report;
 }
 
