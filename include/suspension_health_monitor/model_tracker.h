@@ -7,6 +7,7 @@
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/discrepancy/running_comparison.h"
 #include "suspension_health_monitor/estimate_validity.h"
+#include "suspension_health_monitor/identification/excitation.h"
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/regressor_noise.h"
@@ -74,8 +75,10 @@ class ModelTracker {
  private:
   void estimate(const RegressionRow& row, ModelReport& report);
   void describe(ModelReport& report) const;
+  [[gnu::noinline]] void judgeEstimates(bool moves, ModelReport& report);
+  [[gnu::noinline]] void judgeExcitation(const RegressionRow& row, ModelReport& report);
   [[gnu::noinline]] void describeSpreads(ModelReport& report) const;
-  bool isValid(const StrutEstimate& estimate) const;
+  EstimateDoubt doubt(const StrutEstimate& estimate) const;
   void takeModel(const StrutEstimate& la);
   void fallBack();
   void compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report);
@@ -88,6 +91,8 @@ class ModelTracker {
   double rows_of_model_;     // since the effects were set; infinite for the plain model
   bool has_own_model_ = false;
   std::uint64_t runaways_ = 0;
+  std::optional<Excitation> excitation_;  // none: everything is forgotten all the time
+  EstimateDoubt excitation_doubt_ = EstimateDoubt::kNone;
   SuspensionRegression regression_;
   RegressorNoise noise_;
   RecursiveLeastSquares least_squares_;

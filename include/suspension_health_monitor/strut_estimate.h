@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "suspension_health_monitor/estimate_doubt.h"
 #include "suspension_health_monitor/model/strut_integrator.h"
 
 namespace suspension_health_monitor {
@@ -22,6 +23,9 @@ struct StrutEstimate {
   double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
   bool valid = false;      ///< enough rows, enough explained, a strut (b1 > 0, b0 > 0); LA: and its free run
                            ///< fits better than a constant does
+  EstimateDoubt doubt = EstimateDoubt::kNoRows;    ///< why it is not valid
+  double damping_excitation = std::nan("");        ///< mean |b1 phi_1| of late over the residual [-]
+  double stiffness_excitation = std::nan("");      ///< mean |b0 phi_0|, without its constant, likewise
 
   /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
   double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }

@@ -10,17 +10,20 @@ namespace {
 
 // Standard deviations change slowly, and are the dear part of a description.
 constexpr int kSpreadEvery = 32;  // rows
-constexpr int kModelEvery = 8;    // rows, between models of the free run: a new one costs as much as a step of it
+// Rows between models of the free run, of which a new one costs as much as a step of it, and between judgements of
+// estimates that are valid.
+constexpr int kModelEvery = 8;
 
+// Every row: inlined, and without a loop for the plain strut.
 template <class Estimator>
-void describeStrut(const Estimator& estimator, StrutEstimate& estimate) {
-  estimate.damping_to_mass = estimator.parameters()[kDampingToMass];
-  estimate.stiffness_to_mass = estimator.parameters()[kStiffnessToMass];
-  estimate.num_effects = static_cast<std::size_t>(estimator.numParameters() - kNumStrutParameters);
-  for (std::size_t j = 0; j < estimate.num_effects; ++j)
-    estimate.coefficients[j] = estimator.parameters()[kNumStrutParameters + static_cast<int>(j)];
+[[gnu::always_inline]] inline void describeStrut(const Estimator& estimator, StrutEstimate& estimate) {
+  const double* const theta = estimator.parameters().data();
+  estimate.damping_to_mass = theta[kDampingToMass];
+  estimate.stiffness_to_mass = theta[kStiffnessToMass];
   estimate.effective_rows = estimator.effectiveRows();
-  estimate.explained = explained(estimator);
+  estimate.num_effects = static_cast<std::size_t>(estimator.numParameters() - kNumStrutParameters);
+  if (estimate.num_effects > 0)
+    std::copy_n(theta + kNumStrutParameters, estimate.num_effects, estimate.coefficients.begin());
 }
 
 /// What is random, and what the sensors' noise in the regressors shifts.
@@ -34,6 +37,11 @@ void describeSpread(const Estimator& estimator, const Eigen::Vector2d& noise_mom
   estimate.stiffness_to_mass_stddev = stddev(kStiffnessToMass);
   for (std::size_t j = 0; j < estimate.num_effects; ++j)
     estimate.coefficient_stddevs[j] = stddev(kNumStrutParameters + static_cast<int>(j));
+}
+
+void doubtBoth(ModelReport& report, EstimateDoubt doubt) {
+  report.ls.valid = report.la.valid = false;
+  report.ls.doubt = report.la.doubt = doubt;
 }
 
 /// Each reading of a sensor is in 2 L + 1 rows.
@@ -70,7 +78,9 @@ ModelTracker::ModelTracker(const MonitorOptions& options)
       least_squares_(kNumStrutParameters, recursiveOptions(options, filter_)),
       least_absolute_(kNumStrutParameters, recursiveOptions(options, filter_), options.leastAbsolute()),
       free_run_(*options.sample_period),
-      comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {}
+      comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
+  if (options.forgetting_rule == "directional") excitation_.emplace(filter_.horizon_samples, options.forgetting_factor);
+}
 
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report) {
   const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
@@ -78,6 +88,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelRep
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
   regression_ = SuspensionRegression(filter_, effects.size());
+  excitation_doubt_ = EstimateDoubt::kNone;  // columns are not held until they are judged anew
   rows_of_model_ = 0.0;
   has_own_model_ = false;
   starts_.clear();
@@ -89,7 +100,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelRep
     describe(report);
     describeSpreads(report);
   }
-  report.ls.valid = report.la.valid = false;
+  doubtBoth(report, EstimateDoubt::kFewRows);
 }
 
 void ModelTracker::add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report) {
@@ -110,14 +121,52 @@ void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
   rows_of_model_ += 1.0;
   const bool moves = motion_.moves(row.output);
   if (moves) {
-    least_squares_.update(row);
-    least_absolute_.update(row);
+    if (excitation_ && spread_phase_ % Excitation::kJudgeEvery == 0) judgeExcitation(row, report);
+    if (excitation_doubt_ == EstimateDoubt::kNotExcited) {
+      least_squares_.observe(row);
+      least_absolute_.observe(row);
+    } else {
+      least_squares_.update(row);
+      least_absolute_.update(row);
+    }
     describe(report);
-    if (spread_phase_ == 0) describeSpreads(report);
+    if (spread_phase_ == 0 && excitation_doubt_ != EstimateDoubt::kNotExcited) describeSpreads(report);
     spread_phase_ = (spread_phase_ + 1) % kSpreadEvery;
   }
-  report.ls.valid = moves && isValid(report.ls);
-  report.la.valid = moves && isValid(report.la);
+  // At once at the start, and when a sensor sticks.
+  if (!moves || spread_phase_ % kModelEvery == 0 || !(report.la.valid && report.ls.valid)) judgeEstimates(moves, report);
+}
+
+void ModelTracker::judgeEstimates(bool moves, ModelReport& report) {
+  report.ls.explained = explained(least_squares_);
+  report.la.explained = explained(least_absolute_);
+  for (StrutEstimate* estimate : {&report.ls, &report.la}) {
+    estimate->doubt = moves ? doubt(*estimate) : EstimateDoubt::kSensorStuck;
+    estimate->valid = estimate->doubt == EstimateDoubt::kNone;
+  }
+  // From the first valid estimate on there is something to hold.
+  if (excitation_ && report.la.valid) excitation_->arm();
+}
+
+void ModelTracker::judgeExcitation(const RegressionRow& row, ModelReport& report) {
+  if (!excitation_->judge(row, least_absolute_.parameters())) return;
+  for (StrutEstimate* estimate : {&report.ls, &report.la}) {
+    estimate->damping_excitation = excitation_->ratio(kDampingToMass);
+    estimate->stiffness_excitation = excitation_->ratio(kStiffnessToMass);
+  }
+  const bool damping = excitation_->excited(kDampingToMass), stiffness = excitation_->excited(kStiffnessToMass);
+  const EstimateDoubt before = excitation_doubt_;
+  excitation_doubt_ = damping && stiffness ? EstimateDoubt::kNone
+                      : damping            ? EstimateDoubt::kStiffnessNotExcited
+                      : stiffness          ? EstimateDoubt::kDampingNotExcited
+                                           : EstimateDoubt::kNotExcited;
+  if (excitation_doubt_ == before) return;
+  for (RecursiveEstimator* estimator : {static_cast<RecursiveEstimator*>(&least_squares_),
+                                        static_cast<RecursiveEstimator*>(&least_absolute_)}) {
+    estimator->interrupt();
+    estimator->hold(kDampingToMass, !damping);
+    estimator->hold(kStiffnessToMass, !stiffness);
+  }
 }
 
 void ModelTracker::describe(ModelReport& report) const {
@@ -140,10 +189,13 @@ void ModelTracker::setForgettingFactor(double forgetting_factor) {
   min_rows_ = fewestRows(valid_min_rows_, forgetting_factor);
 }
 
-bool ModelTracker::isValid(const StrutEstimate& estimate) const {
-  return std::min(estimate.effective_rows, rows_of_model_) >= min_rows_ && estimate.explained >= min_explained_ &&
-         estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0 &&
-         std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev);
+EstimateDoubt ModelTracker::doubt(const StrutEstimate& estimate) const {
+  if (std::min(estimate.effective_rows, rows_of_model_) < min_rows_) return EstimateDoubt::kFewRows;
+  if (excitation_doubt_ != EstimateDoubt::kNone) return excitation_doubt_;
+  if (!(estimate.explained >= min_explained_)) return EstimateDoubt::kNotExplained;
+  if (!(estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0)) return EstimateDoubt::kNotAStrut;
+  if (!std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev)) return EstimateDoubt::kNoSpread;
+  return EstimateDoubt::kNone;
 }
 
 void ModelTracker::takeModel(const StrutEstimate& la) {
@@ -176,7 +228,10 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
   comparison.rmse = comparison.base_rmse = comparison_.rmse();
   comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
   // Parameters whose free run is worse than a constant are not those of this strut, however small the rows' residuals.
-  if (comparison.fit_percent < 0.0 && comparison_.isFull()) report.la.valid = false;
+  if (comparison.fit_percent < 0.0 && comparison_.isFull() && report.la.valid) {
+    report.la.valid = false;
+    report.la.doubt = EstimateDoubt::kFreeRunFails;
+  }
 }
 
 void ModelTracker::startNewSeries(ModelReport& report) {
@@ -184,8 +239,9 @@ void ModelTracker::startNewSeries(ModelReport& report) {
   least_squares_.interrupt();
   least_absolute_.interrupt();
   free_run_.reset();
+  if (excitation_) excitation_->reset();
   report.comparison.predicted.reset();
-  report.ls.valid = report.la.valid = false;
+  doubtBoth(report, EstimateDoubt::kNoRows);
 }
 
 }  // namespace suspension_health_monitor

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kDefaultHorizon = 0.6;  // [s], the paper's
 constexpr int kMostSamples = 1000000;
-constexpr int kUpdatesPerTwoHorizons = 3;  // of health: rows within a horizon share most of their samples
 
 }  // namespace
 
@@ -84,7 +83,7 @@ HealthOptions MonitorOptions::health(double period) const {
   health.forgetting_factor = forgetting_factor;
   health.horizon_samples = horizonSamples(period);
   health.period = period;
-  health.rows_per_update = std::max(1, 2 * health.horizon_samples / kUpdatesPerTwoHorizons);
+  health.rows_per_update = health.horizon_samples;  // rows within a horizon share most of their samples
   return health;
 }
 

@@ -218,7 +218,7 @@ TEST(HealthReport, SaysInOneSentenceWhatChanged) {
   nothing.learn_time = 0.0;
   EXPECT_EQ(describe(judged(estimate(0.0, 0.0), nothing)),
             "estimates valid; no nominal values given to judge them by");
-  EXPECT_EQ(describe(HealthReport{}), "cannot tell: no valid estimate (starting, parked, or poor input)");
+  EXPECT_EQ(describe(HealthReport{}), "cannot tell: the filter is filling after a start or a gap");
 }
 
 // Before "cannot tell" is confirmed, the last judgement stands, with its reasons.

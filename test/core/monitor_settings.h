@@ -18,6 +18,7 @@ inline MonitorOptions paperOptions() {
   options.horizon_samples = 30;
   options.integration_rule = "trapezoid";
   options.forgetting_factor = 0.98;
+  options.forgetting_rule = "exponential";
   options.initial_variance = 1e5;
   options.initial_variance_rule = "absolute";
   options.la_start_rows = 150;

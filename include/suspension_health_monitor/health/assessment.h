@@ -49,6 +49,7 @@ struct HealthReport {
   HealthLevel damping_level = HealthLevel::kOk;
   HealthLevel stiffness_level = HealthLevel::kOk;
   bool estimate_valid = false;  ///< of LA
+  EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not
   bool uncertain = false;       ///< valid, but a change as large as the error threshold would not be significant
   bool early_warning = false;   ///< a small change is certain before it reaches a threshold; raises no level
   bool outliers = false;        ///< LS and LA have disagreed for long: outliers or saturation

@@ -40,7 +40,13 @@ class ParameterTrend {
   static constexpr double kSlope = 0.1;         // of the value per memory
   static constexpr double kMostCarried = 0.03;  // of the value
 
-  UncertainValue lineAt(double ahead) const;  // `ahead` of the newest value, in steps
+  struct Line {
+    double level, slope;    // at the newest value; per step
+    double level_variance;
+    double unit;            // of the covariance's other entries
+  };
+
+  Line fit() const;
 
   double memory_, lag_;
   double correlated_;  // steps for which an error counts

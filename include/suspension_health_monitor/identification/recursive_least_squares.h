@@ -58,6 +58,14 @@ class RecursiveEstimator {
   /// The next row does not follow the one before: residuals of both are not correlated.
   void interrupt() { scores_.interrupt(); }
 
+  /// Holds parameter i from the next row on, or no longer: rows then say nothing of it, and what is known of it is not
+  /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
+  void hold(int i, bool held);
+
+  /// Takes a row into the running means only: neither does the estimate move nor is anything forgotten.
+  /// @return the innovation psi - phi' theta, in the unit of psi.
+  double observe(const RegressionRow& row) { return innovate(row); }
+
   /// @return sum of lambda^(k-i): the number of rows that the estimate rests on.
   double effectiveRows() const { return means_.weight(); }
 
@@ -97,10 +105,14 @@ class RecursiveEstimator {
 
  private:
   void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
+  [[gnu::noinline]] const Eigen::VectorXd& correctPartly(const RegressionRow& row, double weight);
 
   enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kNumMeans };
 
   int num_released_ = 0;
+  std::vector<bool> held_;
+  int num_held_ = 0;
+  Eigen::VectorXd excited_;  // the regressor without what is held
   RunningMeans<kNumMeans> means_;
 };
 

@@ -94,6 +94,7 @@ void HealthAssessment::setBaseline(const Baseline& baseline) {
 const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& ls, const StrutEstimate& la) {
   HealthReport now;
   now.estimate_valid = la.valid;
+  now.doubt = la.doubt;
   now.sensor = sensor_;
   if (la.valid) {
     follow(ls, la);

@@ -36,7 +36,7 @@ std::string describeChanges(const HealthReport& report) {
 std::string describeJudgement(const HealthReport& report) {
   if (report.level == HealthLevel::kStale && report.uncertain)
     return "cannot tell: estimates too uncertain to prove a change (drive on, or on a rougher road)";
-  if (report.level == HealthLevel::kStale) return "cannot tell: no valid estimate (starting, parked, or poor input)";
+  if (report.level == HealthLevel::kStale) return "cannot tell: " + std::string(describe(report.doubt));
   const std::string changes = describeChanges(report);
   if (!changes.empty()) return changes;
   if (!report.learning) return "estimates valid; no nominal values given to judge them by";

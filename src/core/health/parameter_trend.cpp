@@ -26,9 +26,9 @@ void ParameterTrend::follow(double value, double variance) {
   const double weight = 1.0 / variance;
   if (!(weight > 0.0) || !std::isfinite(weight) || !std::isfinite(value)) return;
   if (weight_ > 0.0) {
-    const UncertainValue line = lineAt(0.0);
-    if (std::abs(value - line.value) > kStep * std::sqrt(variance + line.stddev * line.stddev))
-      weight_ = age_ = age_squared_ = sum_ = sum_age_ = 0.0;
+    const Line line = fit();
+    const double error = value - line.level, noise = variance + line.level_variance;
+    if (error * error > kStep * kStep * noise) weight_ = age_ = age_squared_ = sum_ = sum_age_ = 0.0;
   }
   weight_ += weight;
   sum_ += weight * value;
@@ -45,19 +45,20 @@ void ParameterTrend::pass() {
 
 std::optional<UncertainValue> ParameterTrend::now() const {
   if (!(weight_ > 0.0)) return std::nullopt;
-  return lineAt(lag_);
+  const Line line = fit();
+  const double most = kMostCarried * std::abs(line.level);
+  const double variance = line.level_variance + lag_ * (2.0 * age_ + lag_ * weight_) * line.unit;
+  return UncertainValue{line.level + std::clamp(line.slope * lag_, -most, most), std::sqrt(variance)};
 }
 
-// Normal equations [weight, -age; -age, age_squared + prior] [a; b] = [sum; -sum_age].
-UncertainValue ParameterTrend::lineAt(double ahead) const {
-  const double slope_stddev = kSlope * std::abs(sum_ / weight_) / memory_;
-  const double of_slope = age_squared_ + correlated_ / (slope_stddev * slope_stddev);
-  const double determinant = weight_ * of_slope - age_ * age_;
-  const double level = (of_slope * sum_ - age_ * sum_age_) / determinant;
-  const double slope = (age_ * sum_ - weight_ * sum_age_) / determinant;
-  const double variance = correlated_ * (of_slope + ahead * (2.0 * age_ + ahead * weight_)) / determinant;
-  const double most = kMostCarried * std::abs(level);
-  return {level + std::clamp(slope * ahead, -most, most), std::sqrt(variance)};
+// Normal equations [weight, -age; -age, age_squared + prior] [a; b] = [sum; -sum_age]; the prior of the slope is that of
+// kSlope of the mean per memory.
+ParameterTrend::Line ParameterTrend::fit() const {
+  const double per_slope = memory_ * weight_ / (kSlope * sum_);
+  const double of_slope = age_squared_ + correlated_ * per_slope * per_slope;
+  const double inverse = 1.0 / (weight_ * of_slope - age_ * age_);
+  return {(of_slope * sum_ - age_ * sum_age_) * inverse, (age_ * sum_ - weight_ * sum_age_) * inverse,
+          correlated_ * of_slope * inverse, correlated_ * inverse};
 }
 
 }  // namespace suspension_health_monitor

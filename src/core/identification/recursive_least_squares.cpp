@@ -23,6 +23,8 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
       scores_(num_parameters, std::max(0, options.correlated_rows), options.forgetting_factor),
+      held_(static_cast<std::size_t>(num_parameters), false),
+      excited_(theta_),
       means_(options.forgetting_factor) {
   options.validate();
 }
@@ -48,13 +50,28 @@ void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
 }
 
 void RecursiveEstimator::correct(const RegressionRow& row, double innovation, const RowWeight& weight, double scale) {
-  scores_.add(row, theta_, weight, scale);
-  const double* const gain =
-      covariance_.update(row.regressor, options_.forgetting_factor / weight.weight, options_.forgetting_factor).data();
+  const double lambda = options_.forgetting_factor;
+  // Rows that are held in part say nothing of how residuals of whole ones are correlated.
+  if (num_held_ == 0) scores_.add(row, theta_, weight, scale);
+  const Eigen::VectorXd& gains = num_held_ == 0 ? covariance_.update(row.regressor, lambda / weight.weight, lambda)
+                                                : correctPartly(row, weight.weight);
+  const double* const gain = gains.data();
   double* const theta = theta_.data();
   withPlainSize(theta_.size(), [&](auto p) {
     for (Eigen::Index i = 0; i < p; ++i) theta[i] += gain[i] * innovation;
   });
+}
+
+// @return the gain for a row of which only the part that is not held counts.
+const Eigen::VectorXd& RecursiveEstimator::correctPartly(const RegressionRow& row, double weight) {
+  for (int i = 0; i < numParameters(); ++i) excited_[i] = held_[static_cast<std::size_t>(i)] ? 0.0 : row.regressor[i];
+  covariance_.forgetAlong(excited_, options_.forgetting_factor);
+  return covariance_.update(excited_, 1.0 / weight, 1.0);
+}
+
+void RecursiveEstimator::hold(int i, bool held) {
+  held_[static_cast<std::size_t>(i)] = held;
+  num_held_ = static_cast<int>(std::count(held_.begin(), held_.end(), true));
 }
 
 void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residual_variance, double unit) {
@@ -78,6 +95,9 @@ void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns)
     sources.push_back(column.before);
   }
   covariance_ = UdCovariance(covariance_, sources);
+  held_.assign(columns.size(), false);  // the plain strut's own are held anew when its excitation is judged
+  num_held_ = 0;
+  excited_ = theta_;
   scores_ = ScoreCovariance(scores_, sources);
   num_released_ = 0;
   for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;

@@ -66,6 +66,37 @@ const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, do
   return gain_;
 }
 
+void UdCovariance::forgetAlong(const Eigen::VectorXd& regressor, double forgetting_factor) {
+  const double* const phi = regressor.data();
+  const double* const ceiling = ceiling_.data();
+  double* const diagonal = diagonal_.data();
+  double* const rest = gain_.data();
+  double* const upper = upper_.data();
+  withPlainSize(diagonal_.size(), [&](auto p) {
+    double information = 0.0;  // phi' P^-1 phi by U^-1 phi
+    for (Eigen::Index i = 0; i < p; ++i) rest[i] = phi[i];
+    for (Eigen::Index j = p - 1; j >= 0; --j) {
+      if (rest[j] == 0.0 || diagonal[j] == 0.0) continue;
+      information += rest[j] * rest[j] / diagonal[j];
+      for (Eigen::Index i = 0; i < j; ++i) rest[i] -= rest[j] * upper[j * p + i];
+    }
+    if (!(information > 0.0)) return;
+    double weight = (1.0 - forgetting_factor) / (forgetting_factor * information);
+    for (Eigen::Index i = 0; i < p; ++i) rest[i] = phi[i];
+    for (Eigen::Index j = p - 1; j >= 0; --j) {
+      const double before = diagonal[j], entry = rest[j];
+      if (entry == 0.0 || before == 0.0) continue;
+      const double after = before + weight * entry * entry;
+      for (Eigen::Index i = 0; i < j; ++i) {
+        rest[i] -= entry * upper[j * p + i];
+        upper[j * p + i] += weight * entry * rest[i] / after;
+      }
+      diagonal[j] = std::min(after, ceiling[j]);
+      weight *= before / after;
+    }
+  });
+}
+
 void UdCovariance::scale(double factor) {
   diagonal_ *= factor;
   ceiling_ *= factor;

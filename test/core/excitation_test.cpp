@@ -1,0 +1,257 @@
+// Forgetting only where there is information: parked for a day, driven on; slow heave that excites the stiffness only.
+#include "suspension_health_monitor/identification/excitation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "monitor_settings.h"
+#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kPeriod = 0.02;  // [s]
+constexpr double kB1 = 3.0, kB0 = 13.8;
+constexpr int kDay = 24 * 3600;   // rows, at one a second instead of 50: the law counts rows
+
+// A strut over a wheel whose height is given, and sensors with noise.
+class Strut {
+ public:
+  explicit Strut(const MonitorOptions& options) : monitor_(options) {}
+
+  double b1 = kB1, b0 = kB0, noise = 0.024;
+
+  /// @param height  w(t) [m].
+  /// @return rows at which LA was held, wholly or in part.
+  int drive(int samples, const std::function<double(double)>& height) {
+    constexpr int kSteps = 10;
+    constexpr double h = kPeriod / kSteps;
+    int held = 0;
+    for (int k = 0; k < samples; ++k) {
+      double wheel = 0.0, body = 0.0;
+      for (int step = 0; step < kSteps; ++step) {
+        const double before = height(t_ - h), now = height(t_), after = height(t_ + h);
+        wheel = (after - 2.0 * now + before) / (h * h);
+        body = b1 * ((after - before) / (2.0 * h) - v_) + b0 * (now - z_);
+        if (step + 1 == kSteps) break;
+        advance(body, h);
+      }
+      held += add(body, wheel) ? 1 : 0;
+      advance(body, h);
+    }
+    return held;
+  }
+
+  /// At rest: nothing but noise.
+  int park(int samples) {
+    int held = 0;
+    for (int k = 0; k < samples; ++k) held += add(0.0, 0.0) ? 1 : 0;
+    return held;
+  }
+
+  const StrutEstimate& la() const { return monitor_.report().la; }
+  const StrutEstimate& ls() const { return monitor_.report().ls; }
+  double time() const { return t_; }
+
+ private:
+  void advance(double body, double h) {
+    v_ += h * body;
+    z_ += h * v_;
+    t_ += h;
+  }
+
+  bool add(double body, double wheel) {
+    stamp_ += std::chrono::milliseconds(20);
+    monitor_.addSample({stamp_, 9.81 + body + noise * normal_(engine_), 9.81 + wheel + noise * normal_(engine_)});
+    const EstimateDoubt doubt = monitor_.report().la.doubt;
+    return doubt == EstimateDoubt::kNotExcited || doubt == EstimateDoubt::kDampingNotExcited ||
+           doubt == EstimateDoubt::kStiffnessNotExcited;
+  }
+
+  SuspensionMonitor monitor_;
+  double z_ = 0.0, v_ = 0.0, t_ = 0.0;
+  Stamp stamp_{};
+  std::mt19937_64 engine_{11};
+  std::normal_distribution<double> normal_;
+};
+
+// A rough road that begins and ends gently.
+std::function<double(double)> roadBetween(double begin, double end) {
+  return [=](double t) {
+    if (t <= begin || t >= end) return 0.0;
+    const double gentle = std::pow(std::sin(0.5 * kPi * std::min({1.0, (t - begin) / 3.0, (end - t) / 3.0})), 2);
+    return gentle * (0.02 * std::sin(2.0 * kPi * 0.55 * t) + 0.01 * std::sin(2.0 * kPi * 1.3 * t + 1.0) +
+                     0.006 * std::sin(2.0 * kPi * 2.7 * t + 2.0));
+  };
+}
+
+void expectTrue(const StrutEstimate& estimate) {
+  EXPECT_NEAR(estimate.damping_to_mass, kB1, 0.2);
+  EXPECT_NEAR(estimate.stiffness_to_mass, kB0, 0.6);
+}
+
+TEST(Excitation, OfAParkedVehicleIsNoneSoThatADayChangesNothingAndTheNextDriveIsRightAtOnce) {
+  Strut strut(liveOptions());
+  strut.drive(2000, roadBetween(0.0, 1e9));
+  ASSERT_TRUE(strut.la().valid);
+  strut.drive(500, roadBetween(-1e9, strut.time() + 3.0));  // it stops within 3 s and rests
+  const StrutEstimate ls = strut.ls(), la = strut.la();
+  EXPECT_EQ(la.doubt, EstimateDoubt::kNotExcited);
+  EXPECT_LT(la.damping_excitation, 1.5);
+  expectTrue(ls);
+  expectTrue(la);
+  EXPECT_GE(strut.park(kDay), kDay * 0.999);
+  EXPECT_NEAR(strut.la().damping_to_mass, la.damping_to_mass, la.damping_to_mass_stddev);
+  EXPECT_NEAR(strut.la().stiffness_to_mass, la.stiffness_to_mass, la.stiffness_to_mass_stddev);
+  EXPECT_NEAR(strut.ls().damping_to_mass, ls.damping_to_mass, ls.damping_to_mass_stddev);
+  EXPECT_NEAR(strut.ls().stiffness_to_mass, ls.stiffness_to_mass, ls.stiffness_to_mass_stddev);
+  EXPECT_LT(strut.la().damping_to_mass_stddev, 2.0 * la.damping_to_mass_stddev);
+  EXPECT_FALSE(strut.la().valid);
+  const auto road = roadBetween(strut.time(), 1e9);
+  for (int k = 0; k < 40; ++k) {  // 20 s
+    strut.drive(25, road);
+    expectTrue(strut.la());
+  }
+  EXPECT_TRUE(strut.la().valid);
+  EXPECT_EQ(strut.la().doubt, EstimateDoubt::kNone);
+}
+
+TEST(Excitation, ExponentialForgettingLosesTheParkedStrut) {
+  MonitorOptions options = liveOptions();
+  options.forgetting_rule = "exponential";
+  Strut strut(options);
+  strut.drive(2000, roadBetween(0.0, 1e9));
+  strut.drive(500, roadBetween(-1e9, strut.time() + 3.0));
+  strut.park(10000);
+  EXPECT_GT(std::abs(strut.la().stiffness_to_mass - kB0), 3.0);
+}
+
+// At 0.6 rad/s the stiffness' regressor stands 2.9 / 0.6 = 5 times further out of the noise than the damping's.
+TEST(Excitation, OfSlowHeaveReachesTheStiffnessOnlyAndLeavesTheDampingWhatItWas) {
+  Strut strut(liveOptions());
+  strut.drive(2000, roadBetween(0.0, 1e9));
+  strut.drive(500, roadBetween(-1e9, strut.time() + 3.0));
+  const double damping = strut.la().damping_to_mass;
+  strut.noise = 0.006;
+  const double start = strut.time();
+  strut.b0 = 0.8 * kB0;
+  const int rows = 15000;
+  const int held = strut.drive(rows, [=](double t) {
+    return 1.3 * std::min(1.0, (t - start) / 30.0) * std::sin(0.6 * (t - start));
+  });
+  EXPECT_GT(held, rows * 0.9);
+  EXPECT_NEAR(strut.la().stiffness_to_mass, 0.8 * kB0, 0.1 * kB0);
+  EXPECT_NEAR(strut.la().damping_to_mass, damping, 0.1 * damping);
+}
+
+// Rows of white noise with given standard deviations of the regressors and of what the model leaves.
+class NoiseRows {
+ public:
+  explicit NoiseRows(double unit = 1.0) : unit_(unit) {}
+
+  /// @return the row psi = phi' theta + error.
+  RegressionRow next(double damping, double stiffness, double error) {
+    RegressionRow row;
+    row.regressor = Eigen::Vector2d(unit_ * damping * normal_(engine_), unit_ * stiffness * normal_(engine_));
+    row.output = row.regressor.dot(theta) + unit_ * error * normal_(engine_);
+    return row;
+  }
+
+  const Eigen::VectorXd theta = Eigen::Vector2d(kB1, kB0);
+
+ private:
+  double unit_;
+  std::mt19937_64 engine_{3};
+  std::normal_distribution<double> normal_;
+};
+
+constexpr int kLooksOfTenBlocks = 80;  // of 64 rows
+
+void look(Excitation& excitation, NoiseRows& rows, double damping, double stiffness, double error) {
+  for (int k = 0; k < kLooksOfTenBlocks; ++k) excitation.judge(rows.next(damping, stiffness, error), rows.theta);
+}
+
+std::pair<bool, bool> excited(const Excitation& excitation) {
+  return {excitation.excited(kDampingToMass), excitation.excited(kStiffnessToMass)};
+}
+
+// Drive, then a tenth of a thousandth of its information, with parts of 0.06 and 0.28 times the error.
+TEST(Excitation, OfEachParameterIsJudgedByItsOwnRegressor) {
+  const std::pair both(true, true);
+  for (const double unit : {1.0, 1e-6, 1e6}) {
+    Excitation excitation(30, 0.99);
+    NoiseRows rows(unit);
+    excitation.arm();
+    look(excitation, rows, 1.0, 1.0, 0.5);
+    EXPECT_EQ(excited(excitation), both) << unit;
+    look(excitation, rows, 0.01, 1.0, 0.5);
+    EXPECT_EQ(excited(excitation), std::pair(false, true)) << unit;
+    look(excitation, rows, 1.0, 0.01, 0.5);
+    EXPECT_EQ(excited(excitation), std::pair(true, false)) << unit;
+    look(excitation, rows, 0.01, 0.01, 0.5);
+    EXPECT_EQ(excited(excitation), std::pair(false, false)) << unit;
+    EXPECT_NEAR(excitation.ratio(kDampingToMass), 0.01 * kB1 / 0.5, 0.03);
+    EXPECT_NEAR(excitation.ratio(kStiffnessToMass), 0.01 * kB0 / 0.5, 0.12);
+    look(excitation, rows, 1.0, 1.0, 0.5);
+    EXPECT_EQ(excited(excitation), both) << unit;
+  }
+}
+
+TEST(Excitation, ASmootherRoadThatIsClearOfTheNoiseGoesOnCounting) {
+  Excitation excitation(30, 0.99);
+  NoiseRows rows;
+  excitation.arm();
+  look(excitation, rows, 1.0, 1.0, 0.5);
+  look(excitation, rows, 0.01, 0.01, 0.003);
+  EXPECT_EQ(excited(excitation), std::pair(true, true));
+}
+
+TEST(Excitation, ARoughRoadThatTheModelDoesNotExplainGoesOnCounting) {
+  Excitation excitation(30, 0.99);
+  NoiseRows rows;
+  excitation.arm();
+  look(excitation, rows, 1.0, 1.0, 0.5);
+  look(excitation, rows, 1.0, 1.0, 1000.0);
+  EXPECT_EQ(excited(excitation), std::pair(true, true));
+}
+
+// A spike is no road: what comes after it is measured by what was before.
+TEST(Excitation, AnOutlierDoesNotMakeTheDriveLookParked) {
+  Excitation excitation(30, 0.99);
+  NoiseRows rows;
+  excitation.arm();
+  look(excitation, rows, 1.0, 1.0, 0.5);
+  excitation.judge(rows.next(1e9, 1e9, 0.5), rows.theta);
+  look(excitation, rows, 1.0, 1.0, 100.0);  // thrown off
+  EXPECT_EQ(excited(excitation), std::pair(true, true));
+}
+
+TEST(Excitation, BeforeThereIsAnythingToHoldEverythingCounts) {
+  Excitation excitation(30, 0.99);
+  NoiseRows rows;
+  look(excitation, rows, 1.0, 1.0, 0.5);
+  look(excitation, rows, 1e-6, 1e-6, 0.5);
+  EXPECT_EQ(excited(excitation), std::pair(true, true));
+}
+
+// The constant is what two sensors of different offset leave in the twice integrated difference.
+TEST(Excitation, AConstantOfTheStiffnessRegressorIsNone) {
+  Excitation excitation(30, 0.99);
+  NoiseRows rows;
+  excitation.arm();
+  look(excitation, rows, 1.0, 1.0, 0.5);
+  for (int k = 0; k < 5 * kLooksOfTenBlocks; ++k) {
+    RegressionRow row = rows.next(0.001, 0.001, 0.5);
+    row.regressor[kStiffnessToMass] += 5.0;
+    excitation.judge(row, rows.theta);
+  }
+  EXPECT_EQ(excited(excitation), std::pair(false, false));
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
