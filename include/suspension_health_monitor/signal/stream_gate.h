@@ -5,6 +5,7 @@
 
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/identification/running_mean.h"
+#include "suspension_health_monitor/signal/range_end.h"
 #include "suspension_health_monitor/signal/reject_reason.h"
 #include "suspension_health_monitor/signal/stream_timing.h"
 
@@ -12,9 +13,9 @@ namespace suspension_health_monitor {
 
 /// Lets the readings of one sensor pass that can be true, by their stamps and values, and counts the others by reason.
 ///
-/// Clipping is recognised without knowing the sensor's range: a flat top (kFlatTop equal readings in a row) at the very
-/// highest or lowest value that the sensor has ever read, well away from its usual ones, of a sensor that resolves far
-/// finer. From then on every reading at that value is kept out, until a reading beyond it shows that it was no limit.
+/// Clipping is recognised without knowing the sensor's range: flat tops at the very highest or lowest value that the
+/// sensor has ever read, of a sensor that resolves far finer (RangeEnd). From then on every reading at that value is
+/// kept out, until a reading beyond it shows that it was no limit.
 /// Cost per reading: O(1), no allocation.
 class StreamGate {
  public:
@@ -38,12 +39,17 @@ class StreamGate {
   /// sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
   bool isStill() const { return equal_in_a_row_ == kStill; }
 
+  /// @return the mean distance of the newest thousand readings from their mean [m/s^2].
+  double deviation() const { return deviation_.mean(); }
+
+  /// @return how far from that mean any reading has been [m/s^2], those that were kept out as absurd left out.
+  double farthest() const;
+
   const RejectCounts& rejected() const { return rejected_; }
   const StreamTiming& timing() const { return timing_; }
 
  private:
   static constexpr int kStill = 20;              // equal readings in a row; fewer occur where the resolution is coarse
-  static constexpr int kFlatTop = 3;             // equal readings in a row
   static constexpr double kUsualMemory = 0.999;  // forgetting factor
 
   std::optional<RejectReason> faultOfStamp(Stamp stamp) const;
@@ -57,8 +63,9 @@ class StreamGate {
   std::optional<double> value_;  // of the last reading
   int equal_in_a_row_ = 0;
   int absurd_in_a_row_ = 0;
-  double highest_ = 0.0, lowest_ = 0.0, finest_step_ = 0.0;  // of all readings that passed; steps other than 0
-  std::optional<double> upper_limit_, lower_limit_;          // where it clips
+  double finest_step_ = 0.0;             // other than 0
+  RangeEnd upper_{1.0}, lower_{-1.0};    // of all readings that passed, the clipped ones included
+  RunningMean repeated_{kUsualMemory};   // 1 for a reading that equals the one before, both extremes left out
   RunningMean size_{kUsualMemory};                           // |acceleration|
   RunningMean mean_{kUsualMemory}, deviation_{kUsualMemory};  // of the acceleration; |acceleration - mean|
   RejectCounts rejected_;

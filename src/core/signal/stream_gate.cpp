@@ -12,8 +12,6 @@ constexpr int kMostAbsurd = 3;  // in a row; after that it is how the sensor rea
 constexpr double kFewestForAbsurd = 10.0;  // soon: a spike among the first rows would be remembered longest
 
 constexpr double kFewestForUsual = 100.0;
-constexpr double kFarOut = 1.5;           // mean deviations from the mean: as far as a sine's peak
-constexpr double kFineResolution = 0.02;  // step over span of a sensor whose repeated values mean something
 
 }  // namespace
 
@@ -60,24 +58,25 @@ void StreamGate::noteValue(double acceleration) {
   const double step = value_ ? std::abs(acceleration - *value_) : 0.0;
   equal_in_a_row_ = value_ && step == 0.0 ? std::min(equal_in_a_row_ + 1, kStill) : 1;
   if (step > 0.0) finest_step_ = finest_step_ > 0.0 ? std::min(finest_step_, step) : step;
-  if (!value_) highest_ = lowest_ = acceleration;
-  highest_ = std::max(highest_, acceleration);
-  lowest_ = std::min(lowest_, acceleration);
   value_ = acceleration;
   mean_.add(acceleration);
   deviation_.add(std::abs(acceleration - mean_.mean()));
+  const bool inside = acceleration != upper_.extreme() && acceleration != lower_.extreme();
+  if (inside) repeated_.add(step == 0.0 ? 1.0 : 0.0);
 }
 
 bool StreamGate::isClipped(double acceleration) {
-  if (upper_limit_ && highest_ > *upper_limit_) upper_limit_.reset();
-  if (lower_limit_ && lowest_ < *lower_limit_) lower_limit_.reset();
-  const bool flat_top = equal_in_a_row_ >= kFlatTop && mean_.weight() >= kFewestForUsual &&
-                        std::abs(acceleration - mean_.mean()) > kFarOut * deviation_.mean() &&
-                        finest_step_ < kFineResolution * (highest_ - lowest_);
-  // A sensor that reads 0 is dead: no range ends there.
-  if (flat_top && acceleration != 0.0 && acceleration == highest_) upper_limit_ = acceleration;
-  if (flat_top && acceleration != 0.0 && acceleration == lowest_) lower_limit_ = acceleration;
-  return acceleration == upper_limit_ || acceleration == lower_limit_;
+  const double span = upper_.extreme() ? *upper_.extreme() - *lower_.extreme() : 0.0;
+  const bool known = std::min(mean_.weight(), repeated_.weight()) >= kFewestForUsual;
+  const UsualReadings usual{mean_.mean(), deviation_.mean(), finest_step_, span, repeated_.mean(), known};
+  upper_.add(acceleration, equal_in_a_row_, usual);
+  lower_.add(acceleration, equal_in_a_row_, usual);
+  return acceleration == upper_.limit() || acceleration == lower_.limit();
+}
+
+double StreamGate::farthest() const {
+  if (!upper_.extreme()) return 0.0;
+  return std::max(*upper_.extreme() - mean_.mean(), mean_.mean() - *lower_.extreme());
 }
 
 StreamGate::Verdict StreamGate::reject(RejectReason reason) {
