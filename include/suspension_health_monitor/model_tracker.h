@@ -67,6 +67,9 @@ class ModelTracker {
 
   void startNewSeries(ModelReport& report);
 
+  /// @param fits  false: no estimate is valid from now on, because samples do not come at the sample period.
+  void setPeriodFits(bool fits, ModelReport& report);
+
   /// From the next row on; the estimates stay.
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
   void setForgettingFactor(double forgetting_factor);
@@ -76,13 +79,17 @@ class ModelTracker {
   void describe(ModelReport& report) const;
   [[gnu::noinline]] void describeSpreads(ModelReport& report) const;
   bool isValid(const StrutEstimate& estimate) const;
+  void countFewestRows();
   void takeModel(const StrutEstimate& la);
   void fallBack();
   void compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report);
 
   IntegralFilterOptions filter_;
   int valid_min_rows_;
-  double min_rows_, min_explained_;
+  double forgetting_factor_;
+  bool period_fits_ = true;
+  double min_rows_;       // before an estimate may be valid; infinite while the period does not fit
+  double min_explained_;
   int spread_phase_ = 0;
   MotionJudge motion_;
   double rows_of_model_;     // since the effects were set; infinite for the plain model

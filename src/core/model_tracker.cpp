@@ -61,7 +61,8 @@ std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const
 ModelTracker::ModelTracker(const MonitorOptions& options)
     : filter_(options.filter(*options.sample_period)),
       valid_min_rows_(options.valid_min_rows),
-      min_rows_(fewestRows(valid_min_rows_, options.forgetting_factor)),
+      forgetting_factor_(options.forgetting_factor),
+      min_rows_(fewestRows(valid_min_rows_, forgetting_factor_)),
       min_explained_(options.valid_min_explained),
       motion_(filter_.horizon_samples),
       rows_of_model_(std::numeric_limits<double>::infinity()),
@@ -137,7 +138,18 @@ void ModelTracker::describeSpreads(ModelReport& report) const {
 void ModelTracker::setForgettingFactor(double forgetting_factor) {
   least_squares_.setForgettingFactor(forgetting_factor);
   least_absolute_.setForgettingFactor(forgetting_factor);
-  min_rows_ = fewestRows(valid_min_rows_, forgetting_factor);
+  forgetting_factor_ = forgetting_factor;
+  countFewestRows();
+}
+
+void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {
+  period_fits_ = fits;
+  countFewestRows();
+  if (!fits) report.ls.valid = report.la.valid = false;
+}
+
+void ModelTracker::countFewestRows() {
+  min_rows_ = period_fits_ ? fewestRows(valid_min_rows_, forgetting_factor_) : std::numeric_limits<double>::infinity();
 }
 
 bool ModelTracker::isValid(const StrutEstimate& estimate) const {

@@ -50,6 +50,7 @@ BagOptions readBagOptions(const po::variables_map& values) {
   MonitorOptions& monitor = options.pipeline.monitor;
   options.period_measured = !monitor.sample_period;
   options.horizon_measured = !monitor.integration_horizon && !monitor.horizon_samples;
+  if (!options.period_measured) requireFittingPeriod(bags, *monitor.sample_period);
   if (options.period_measured || options.horizon_measured) measureOpenSettings(bags, options.pipeline);
   return options;
 }
