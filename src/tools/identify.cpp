@@ -11,6 +11,7 @@
 #include "command.h"
 #include "errors.h"
 #include "identify_verdict.h"
+#include "interruption.h"
 #include "separate_files.h"
 
 namespace suspension_health_monitor {
@@ -214,6 +215,7 @@ void identify(const Arguments& arguments) {
   const BagOptions options = readBagOptions(*values);
 
   const LiveModel model(options.pipeline.shell);
+  const Interruption interruption;
   std::optional<TextFile> csv, json;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
   if (values->count("csv") != 0) csv.emplace((*values)["csv"].as<std::string>());
@@ -229,6 +231,7 @@ void identify(const Arguments& arguments) {
   pipeline.setEffects(model.effects());
   readImuMessages(options.bags, [&](Side side, const sensor_msgs::Imu& imu) {
     pipeline.push(side, imu);
+    Interruption::check();
     return true;
   });
   checkEnough(pipeline);
