@@ -231,7 +231,6 @@ void identify(const Arguments& arguments) {
   pipeline.setEffects(model.effects());
   readImuMessages(options.bags, [&](Side side, const sensor_msgs::Imu& imu) {
     pipeline.push(side, imu);
-    Interruption::check();
     return true;
   });
   checkEnough(pipeline);
