@@ -9,6 +9,7 @@ enum class EstimateDoubt {
   kNone,                 ///< it is valid
   kNoRows,               ///< the integral filter fills, at the start and after a gap
   kSensorStuck,          ///< the body's acceleration has not changed for a whole horizon
+  kWrongPeriod,          ///< samples do not come at the sample period
   kFewRows,              ///< fewer rows than valid/min_rows
   kNotExcited,           ///< parked: the rows are the sensors' noise; the estimate is held
   kDampingNotExcited,    ///< the same of the damping alone; the stiffness goes on

@@ -68,6 +68,9 @@ class ModelTracker {
 
   void startNewSeries(ModelReport& report);
 
+  /// @param fits  false: no estimate is valid from now on, because samples do not come at the sample period.
+  void setPeriodFits(bool fits, ModelReport& report);
+
   /// From the next row on; the estimates stay.
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
   void setForgettingFactor(double forgetting_factor);
@@ -85,6 +88,7 @@ class ModelTracker {
 
   IntegralFilterOptions filter_;
   int valid_min_rows_;
+  bool period_fits_ = true;
   double min_rows_, min_explained_;
   int spread_phase_ = 0;
   MotionJudge motion_;

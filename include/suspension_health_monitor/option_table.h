@@ -92,7 +92,7 @@ void takeOptions(OptionMap& values, const std::array<OptionField<Options>, N>& f
   options = changed;
 }
 
-/// @param known  descriptions of all options that the caller understands, to propose the nearest name.
+/// @param known  descriptions of all options that the caller understands, to propose the nearest name if one is near.
 /// @throws std::invalid_argument  naming the first key that is left in `values`: a misspelt option must not pass.
 void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>& known);
 

@@ -28,12 +28,16 @@ struct InputStatus {
   std::uint64_t gaps = 0;      ///< interruptions of at least one sample, after which the filter filled anew
   std::uint64_t restarts = 0;  ///< times that the clock went back and the series began anew
   double mean_period = 0.0;    ///< running mean of the spacing of uninterrupted samples [s]; 0 before the second
+  bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
+
+  static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
 };
 
 /// Identifies one strut from a series of samples: the facade that the nodelet, the command line and the tests share.
 ///
 /// Per sample, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then
 /// the free run with LA's parameters against the measurement. Health is judged three times per two horizons.
+/// While samples come at another period than that of the options no estimate is valid (InputStatus::period_fits).
 /// With effects in the model (ModelTracker) the plain one runs along, with LS and LA of its own, to be compared with.
 /// Cost per sample: O(1) whatever the horizon; no allocation, no lock.
 class SuspensionMonitor {
@@ -81,6 +85,7 @@ class SuspensionMonitor {
   const CornerSample* remember(const CornerSample& sample);
   const CornerSample* track(const CornerSample& sample);
   void judgeHealth(const CornerSample& sample);
+  void judgePeriod();
   const ModelTracker& tracker() const { return extended_ ? *extended_ : plain_; }
 
   MonitorOptions options_;

@@ -53,6 +53,9 @@ class TyreTracker {
   /// @param road_acceleration  mu'' at this sample [m/s^2]; none: the road's sensor is silent.
   const TyreReport& add(const CornerSample& sample, const std::optional<double>& road_acceleration);
 
+  /// @param fits  false: no estimate is valid from the next sample on, as samples do not come at the sample period.
+  void setPeriodFits(bool fits) { period_fits_ = fits; }
+
   const TyreReport& report() const { return report_; }
   int horizonSamples() const { return filter_.horizon_samples; }
 
@@ -64,6 +67,7 @@ class TyreTracker {
   IntegralFilterOptions filter_;
   Stamp period_;
   double min_rows_, min_explained_;
+  bool period_fits_ = true;
   MotionJudge motion_;
   TyreRegression regression_;
   RecursiveLeastSquares least_squares_;

@@ -10,6 +10,8 @@ std::string_view describe(EstimateDoubt doubt) {
       return "the filter is filling after a start or a gap";
     case EstimateDoubt::kSensorStuck:
       return "the body's acceleration does not change: sensor stuck, or nothing moves";
+    case EstimateDoubt::kWrongPeriod:
+      return "stamps do not fit sample_period";
     case EstimateDoubt::kFewRows:
       return "too few samples yet";
     case EstimateDoubt::kNotExcited:

@@ -189,7 +189,13 @@ void ModelTracker::setForgettingFactor(double forgetting_factor) {
   min_rows_ = fewestRows(valid_min_rows_, forgetting_factor);
 }
 
+void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {
+  period_fits_ = fits;
+  if (!fits) doubtBoth(report, EstimateDoubt::kWrongPeriod);
+}
+
 EstimateDoubt ModelTracker::doubt(const StrutEstimate& estimate) const {
+  if (!period_fits_) return EstimateDoubt::kWrongPeriod;
   if (std::min(estimate.effective_rows, rows_of_model_) < min_rows_) return EstimateDoubt::kFewRows;
   if (excitation_doubt_ != EstimateDoubt::kNone) return excitation_doubt_;
   if (!(estimate.explained >= min_explained_)) return EstimateDoubt::kNotExplained;

@@ -8,7 +8,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kDefaultHorizon = 0.6;  // [s], the paper's
-constexpr int kMostSamples = 1000000;
+constexpr int kMostSamples = 100000;  // as of horizon_samples
 
 }  // namespace
 

@@ -167,7 +167,10 @@ void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
     return editDistance(name, a.name) < editDistance(name, b.name);
   });
-  if (nearest != known.end()) message += "; the nearest known name is " + nearest->name;
+  const auto isNear = [&](const std::string& other) {  // at least half of the letters are the same
+    return 2 * editDistance(name, other) <= std::max(name.size(), other.size());
+  };
+  if (nearest != known.end() && isNear(nearest->name)) message += "; the nearest known name is " + nearest->name;
   throw std::invalid_argument(message);
 }
 

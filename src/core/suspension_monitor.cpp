@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/suspension_monitor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -9,6 +10,9 @@
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr double kSpacingMemory = 0.998;
+constexpr double kSpacings = 50.0;  // before their mean counts: jitter of half a period shifts it by a hundredth
 
 const MonitorOptions& checked(const MonitorOptions& options) {
   if (!options.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
@@ -27,7 +31,7 @@ SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
       sensors_(options.gravity_tolerance, options.comparison_window / *options.sample_period /
                                               health_.options().rows_per_update),
       until_judged_(health_.options().rows_per_update),
-      spacing_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {}
+      spacing_(kSpacingMemory) {}
 
 void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
   if (effects.empty()) {
@@ -75,8 +79,18 @@ void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   const CornerSample& previous = in_series_ > 1 ? recent_[(in_series_ - 2) % recent_.size()] : sample;
   const double memory = 1.0 / (1.0 - std::min(options_.forgetting_factor, 1.0 - 1e-6));
   const bool enough_rows = report_.la.effective_rows >= std::min(0.9 * memory, 10.0 * options_.valid_min_rows);
-  health_.setSensors(sensors_.look(previous, sample, report_.la, enough_rows));
+  judgePeriod();
+  SensorReport sensors = sensors_.look(previous, sample, report_.la, enough_rows);
+  if (!input_.period_fits) sensors.fault = SensorFault::kWrongPeriod;
+  health_.setSensors(sensors);
   report_.health = health_.update(report_.stamp, report_.ls, report_.la);
+}
+
+void SuspensionMonitor::judgePeriod() {
+  if (spacing_.weight() < kSpacings) return;
+  input_.period_fits = std::abs(input_.mean_period / period() - 1.0) <= InputStatus::kPeriodTolerance;
+  plain_.setPeriodFits(input_.period_fits, extended_ ? base_ : report_);
+  if (extended_) extended_->setPeriodFits(input_.period_fits, report_);
 }
 
 // Leads the sample through the models.

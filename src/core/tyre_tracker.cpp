@@ -66,8 +66,8 @@ void TyreTracker::estimate(const RegressionRow& row) {
     describe(least_absolute_, report_.la);
   }
   for (WheelEstimate* estimate : {&report_.ls, &report_.la})
-    estimate->valid = moves && estimate->effective_rows >= min_rows_ && estimate->explained >= min_explained_ &&
-                      isWheel(*estimate);
+    estimate->valid = moves && period_fits_ && estimate->effective_rows >= min_rows_ &&
+                      estimate->explained >= min_explained_ && isWheel(*estimate);
 }
 
 void TyreTracker::startNewSeries() {

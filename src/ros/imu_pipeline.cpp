@@ -92,7 +92,10 @@ void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
 void ImuPipeline::push(const StrutSensors::Reading& reading) {
   for (auto sample = sensors_.push(reading); sample; sample = sensors_.next()) {
     if (recent_) keep(*sample);
-    if (tyre_) tyre_->add(*sample, grid()->roadAcceleration());
+    if (tyre_) {
+      tyre_->setPeriodFits(monitor_->input().period_fits);
+      tyre_->add(*sample, grid()->roadAcceleration());
+    }
     if (const MonitorReport* report = monitor_->addSample(*sample)) sink_(*report);
   }
 }

@@ -7,7 +7,6 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr double kPeriodTolerance = 0.02;  // of the mean spacing against sample_period
 constexpr std::array<const char*, 2> kSideNames{"sprung", "unsprung"};
 
 }  // namespace
@@ -50,7 +49,7 @@ void InputDiagnostics::describeSeries(const SuspensionMonitor& monitor, Status& 
   const InputStatus& input = monitor.input();
   if (input.gaps + input.restarts > gaps_before_) status.mergeSummary(DiagnosticStatus::WARN, "gap in the input");
   gaps_before_ = input.gaps + input.restarts;
-  if (input.mean_period > 0.0 && std::abs(input.mean_period / monitor.period() - 1.0) > kPeriodTolerance)
+  if (!input.period_fits)
     status.mergeSummary(DiagnosticStatus::WARN, "stamps do not fit sample_period");
   status.addf("rate [Hz]", "%.4g", input.mean_period > 0.0 ? 1.0 / input.mean_period : 0.0);
   status.addf("sample_period [s]", "%.9g", monitor.period());

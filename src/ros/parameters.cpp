@@ -3,18 +3,25 @@
 #include <XmlRpcValue.h>
 #include <ros/console.h>
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 namespace suspension_health_monitor {
 namespace {
 
+[[noreturn]] void refuseList(const std::string& name, const XmlRpc::XmlRpcValue& list, int item) {
+  std::ostringstream text;
+  text << name << " = " << list << " is a list whose item " << item + 1
+       << " is no text, must be true or false, a number, a text or a list of texts";
+  throw std::invalid_argument(text.str());
+}
+
 /// A list of texts as one text with commas, such as the names of effects.
 std::string joined(const std::string& name, XmlRpc::XmlRpcValue& list) {
   std::string text;
   for (int i = 0; i < list.size(); ++i) {
-    if (list[i].getType() != XmlRpc::XmlRpcValue::TypeString)
-      throw std::invalid_argument(name + " is a list, must be true or false, a number, a text or a list of texts");
+    if (list[i].getType() != XmlRpc::XmlRpcValue::TypeString) refuseList(name, list, i);
     text += (i == 0 ? "" : ", ") + static_cast<std::string>(list[i]);
   }
   return text;

@@ -3,6 +3,7 @@
 #include <rosgraph_msgs/Clock.h>
 
 #include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
 
 #include "conversions.h"
 #include "parameters.h"
@@ -42,6 +43,19 @@ void SimulatorNodelet::onInit() {
 
 void SimulatorNodelet::drive(SimulatorOptions options) {
   waitForStart(options.publishing);
+  try {
+    publishDrive(options);
+    if (!running_ || !ros::ok()) return;
+    NODELET_INFO("drive of %g s finished", options.drive.duration);
+  } catch (const std::invalid_argument& error) {  // a strut that cannot be simulated
+    NODELET_ERROR("%s", error.what());
+  }
+  if (!options.publishing.shutdown_at_end) return;
+  std::this_thread::sleep_for(kLongestWaitForPace);  // the last messages are still on their way
+  ros::requestShutdown();
+}
+
+void SimulatorNodelet::publishDrive(const SimulatorOptions& options) {
   const bool from_now = !options.publishing.publish_clock && options.publishing.start_time == 0.0;
   const Stamp start = from_now ? toStamp(ros::Time::now()) : fromSeconds(options.publishing.start_time);
   const Clock::time_point wall_start = Clock::now();
@@ -52,11 +66,6 @@ void SimulatorNodelet::drive(SimulatorOptions options) {
     waitForTurn(options, toRosTime(start), messages->time, wall_start);
     publish(*messages, options.publishing.publish_clock);
   }
-  if (!running_ || !ros::ok()) return;
-  NODELET_INFO("drive of %g s finished", options.drive.duration);
-  if (!options.publishing.shutdown_at_end) return;
-  std::this_thread::sleep_for(kLongestWaitForPace);  // the last messages are still on their way
-  ros::requestShutdown();
 }
 
 void SimulatorNodelet::waitForStart(const PublishingOptions& options) const {

@@ -24,6 +24,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   void onInit() override;
 
   void drive(SimulatorOptions options);
+  void publishDrive(const SimulatorOptions& options);
   void waitForStart(const PublishingOptions& options) const;
   void waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now, Clock::time_point wall_start);
   void publishClock(ros::Time now) const;

@@ -61,7 +61,7 @@ struct SimulatorOptions {
     takeOptions(values, kPublishingFields, options.publishing);
     const EffectLibrary library = readEffectsFile(options.publishing.effects_file);
     setEffects(values, options.publishing.hidden, library.readings);
-    options.drive.hidden = takeEffects(values, library.forces);
+    options.drive.hidden = takeEffects(values, library.forces, library.readings);
     options.drive.hidden_faults = takeReadings(values, library.readings);
     takeOptions(values, kSimulationFields, options.drive);
     refuseUnknown(values, describe());

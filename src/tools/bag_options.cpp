@@ -1,5 +1,6 @@
 #include "bag_options.h"
 
+#include <array>
 #include <stdexcept>
 
 #include "../ros/model_file.h"
@@ -33,6 +34,9 @@ BagOptions readBagOptions(const po::variables_map& values) {
   bags.paths = values["bag"].as<std::vector<std::string>>();
   bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
   if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
+  static constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
+  for (std::size_t i = 0; i < bags.topics.size(); ++i)
+    if (bags.topics[i].empty()) throw std::invalid_argument(std::string(kTopicOptions[i]) + " is empty, must be a topic");
   if (bags.topics[0] == bags.topics[1])
     throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + bags.topics[0] + ", must differ");
   if (bags.topics.size() > 2 && (bags.topics[2] == bags.topics[0] || bags.topics[2] == bags.topics[1]))
@@ -50,6 +54,7 @@ BagOptions readBagOptions(const po::variables_map& values) {
   MonitorOptions& monitor = options.pipeline.monitor;
   options.period_measured = !monitor.sample_period;
   options.horizon_measured = !monitor.integration_horizon && !monitor.horizon_samples;
+  if (!options.period_measured) requireFittingPeriod(bags, *monitor.sample_period);
   if (options.period_measured || options.horizon_measured) measureOpenSettings(bags, options.pipeline);
   return options;
 }

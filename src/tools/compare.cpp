@@ -6,6 +6,7 @@
 #include "comparison_report.h"
 #include "drives.h"
 #include "errors.h"
+#include "interruption.h"
 #include "progress.h"
 #include "separate_files.h"
 
@@ -20,6 +21,7 @@ void compare(const Arguments& arguments) {
   requireSeparateFiles(*values, {"bag", "config", kEffectsFile, kModel}, {"json"});
   const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values);
+  const Interruption interruption;
   std::optional<TextFile> json;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
 
@@ -31,8 +33,10 @@ void compare(const Arguments& arguments) {
   std::optional<Comparison> comparison;
   {
     Progress progress("comparing", 1.0);
-    comparison = compareModel(pointersTo(drives.records), drives.start, comparing,
-                              [&](double share) { progress.update(share); });
+    comparison = compareModel(pointersTo(drives.records), drives.start, comparing, [&](double share) {
+      Interruption::check();
+      progress.update(share);
+    });
   }
   if (!comparison)
     throw TooLittleError(

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "drives.h"
 #include "errors.h"
+#include "interruption.h"
 #include "progress.h"
 #include "report_page.h"
 #include "search_report.h"
@@ -58,6 +59,7 @@ void diagnose(const Arguments& arguments) {
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
   ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values);
+  const Interruption interruption;
   std::optional<TextFile> json, model;
   std::optional<ReportPage> page;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
@@ -71,7 +73,10 @@ void diagnose(const Arguments& arguments) {
   search.threads = threads;
   Progress progress("fitting", 1.0);
   const std::optional<SearchResult> result =
-      EffectSearch(models.library, search).run(records, drives.start, [&](double share) { progress.update(share); });
+      EffectSearch(models.library, search).run(records, drives.start, [&](double share) {
+        Interruption::check();
+        progress.update(share);
+      });
   if (!result)
     throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");
 

@@ -10,6 +10,8 @@
 #include "bag_options.h"
 #include "command.h"
 #include "errors.h"
+#include "identify_verdict.h"
+#include "interruption.h"
 #include "separate_files.h"
 
 namespace suspension_health_monitor {
@@ -126,9 +128,12 @@ void writeJson(std::FILE* out, const ImuPipeline& pipeline) {
                               {"bridged", pipeline.grid()->bridged()},
                               {"rejected", rejected},
                               {"sample_period", monitor.period()},
+                              {"mean_period", monitor.input().mean_period},
+                              {"warnings", nlohmann::json::array()},
                               {"horizon_samples", monitor.horizonSamples()},
                               {"ls", toJson(monitor.report().ls)},
                               {"la", toJson(monitor.report().la)}};
+  if (const auto warning = periodWarning(monitor)) result["warnings"].push_back(*warning);
   if (const TyreTracker* tyre = pipeline.tyre())
     result["tyre"] = {{"ls", toJson(tyre->report().ls, monitor.report().ls)},
                       {"la", toJson(tyre->report().la, monitor.report().la)}};
@@ -210,6 +215,7 @@ void identify(const Arguments& arguments) {
   const BagOptions options = readBagOptions(*values);
 
   const LiveModel model(options.pipeline.shell);
+  const Interruption interruption;
   std::optional<TextFile> csv, json;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
   if (values->count("csv") != 0) csv.emplace((*values)["csv"].as<std::string>());
@@ -242,8 +248,7 @@ void identify(const Arguments& arguments) {
     printTyre("LS", tyre->report().ls, pipeline.monitor()->report().ls);
     printTyre("LA", tyre->report().la, pipeline.monitor()->report().la);
   }
-  if (!ever_valid)
-    throw TooLittleError("no estimate was ever valid: too short, too little motion, or not the two sides of one strut");
+  if (const auto reason = whyNotValid(*pipeline.monitor(), ever_valid)) throw TooLittleError(*reason);
 }
 
 }  // namespace suspension_health_monitor

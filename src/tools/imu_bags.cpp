@@ -11,6 +11,7 @@
 
 #include "bag_file.h"
 #include "errors.h"
+#include "interruption.h"
 #include "progress.h"
 
 namespace suspension_health_monitor {
@@ -110,6 +111,7 @@ class Delivery {
 
  private:
   bool deliver(const BagMessage& message) {
+    Interruption::check();
     const auto side = sides_.find(message.connection);
     if (side == sides_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
     if (!side->second || message.time < range_.first || message.time > range_.last) return true;

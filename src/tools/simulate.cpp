@@ -7,6 +7,7 @@
 #include "../ros/drive_messages.h"
 #include "../ros/whole_file.h"
 #include "command.h"
+#include "interruption.h"
 #include "option_sources.h"
 #include "progress.h"
 #include "separate_files.h"
@@ -30,11 +31,13 @@ void writeDrive(const SimulatorOptions& options, rosbag::Bag& bag) {
     if (messages->road) bag.write("/road/imu", recorded, *messages->road);
     bag.write("/simulator/truth", recorded, messages->truth);
     progress.update(messages->time.toSec() - options.publishing.start_time);
+    Interruption::check();
   }
   bag.close();
 }
 
 void writeBag(const SimulatorOptions& options, const std::string& path) {
+  const Interruption interruption;
   WholeFile file(path);
   auto bag = std::make_unique<rosbag::Bag>();
   try {
@@ -46,6 +49,16 @@ void writeBag(const SimulatorOptions& options, const std::string& path) {
     throw std::runtime_error(path + ": cannot be written: " + error.what());
   }
   file.commit();
+}
+
+std::string describeRates(const SimulationOptions& drive) {
+  const double sprung = drive.sprung_rate.value_or(drive.rate), unsprung = drive.unsprung_rate.value_or(drive.rate);
+  char text[80];
+  if (sprung == unsprung)
+    std::snprintf(text, sizeof text, "%g Hz", sprung);
+  else
+    std::snprintf(text, sizeof text, "%g Hz (sprung) and %g Hz (unsprung)", sprung, unsprung);
+  return text;
 }
 
 }  // namespace
@@ -79,8 +92,8 @@ void simulate(const Arguments& arguments) {
 
   const auto path = (*values)["output"].as<std::string>();
   writeBag(options, path);
-  std::printf("%s: %s, %g s at %g Hz, seed %d\n", path.c_str(), options.drive.scenario.c_str(), options.drive.duration,
-              options.drive.rate, options.drive.seed);
+  std::printf("%s: %s, %g s at %s, seed %d\n", path.c_str(), options.drive.scenario.c_str(), options.drive.duration,
+              describeRates(options.drive).c_str(), options.drive.seed);
 }
 
 }  // namespace suspension_health_monitor

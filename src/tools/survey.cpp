@@ -1,8 +1,10 @@
 #include "survey.h"
 
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "../ros/conversions.h"
 #include "bag_samples.h"
@@ -17,6 +19,8 @@ namespace {
 // Long enough to meet some road, short enough to cost little beside the reading itself.
 constexpr std::size_t kSurveyedMessages = 100000;
 constexpr std::size_t kFewestSpacings = 10;
+constexpr std::size_t kCheckedMessages = 2000;
+constexpr double kMostFilled = 10.0;  // samples made of one reading
 
 // The horizon is surveyed in blocks: the first ones all, later ones now and then, so that a drive that begins parked is
 // surveyed on the road, too. What stands still weighs little beside what moves.
@@ -25,14 +29,20 @@ constexpr std::size_t kFirstBlocks = 8;
 constexpr std::size_t kEveryBlock = 8;
 constexpr int kLongestHorizon = 4096;  // [samples]
 
-double measurePeriod(const ImuBags& bags) {
+// @param count  messages to look at; becomes those that there were.
+std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
   PeriodMeasurement measurement(kFewestSpacings);
-  std::size_t count = 0;
+  const std::size_t most = std::exchange(count, 0);
   readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
     measurement.add(side, toStamp(imu.header.stamp));
-    return ++count < kSurveyedMessages;
+    return ++count < most;
   });
-  const std::optional<double> period = measurement.period();
+  return measurement.period();
+}
+
+double measurePeriod(const ImuBags& bags) {
+  std::size_t count = kSurveyedMessages;
+  const std::optional<double> period = stampSpacing(bags, count);
   if (!period)
     throw TooLittleError("the sample period cannot be measured: fewer than " + std::to_string(kFewestSpacings) +
                          " increasing stamps on one of the topics (of " + std::to_string(count) + " messages)");
@@ -76,6 +86,16 @@ void measureOpenSettings(const ImuBags& bags, PipelineOptions& options) {
   if (!monitor.sample_period) monitor.sample_period = measurePeriod(bags);
   if (!monitor.integration_horizon && !monitor.horizon_samples)
     monitor.horizon_samples = proposeHorizonSamples(bags, options);
+}
+
+void requireFittingPeriod(const ImuBags& bags, double sample_period) {
+  std::size_t count = kCheckedMessages;
+  const std::optional<double> spacing = stampSpacing(bags, count);
+  if (!spacing || *spacing <= kMostFilled * sample_period) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "sample_period = %.9g [s], must be at least %.6g: the stamps come every %.6g s",
+                sample_period, *spacing / kMostFilled, *spacing);
+  throw std::invalid_argument(text);
 }
 
 }  // namespace suspension_health_monitor

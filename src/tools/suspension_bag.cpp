@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "errors.h"
+#include "interruption.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -41,6 +42,8 @@ int run(const Command& command, const Arguments& arguments) {
     command.run(arguments);
     if (std::fflush(stdout) != 0) throw std::runtime_error("standard output: cannot be written");
     return kDone;
+  } catch (const Interrupted& interrupted) {
+    return interrupted.endProgram();
   } catch (const InputError& error) {
     return fail(command.name, error, kWrongInput);
   } catch (const TooLittleError& error) {

@@ -13,6 +13,7 @@ USAGE = {
     "start is no number": (["{bag}", "--start", "soon"], ["--start", "soon", "must be a number"]),
     "start is NaN": (["{bag}", "--start", "nan"], ["--start nan"]),
     "end before start": (["{bag}", "--start", "5", "--end", "4"], ["--end 4", "start < end"]),
+    "no topic": (["{bag}", "--sprung-topic", ""], ["--sprung-topic is empty", "must be a topic"]),
     "same topic twice": (["{bag}", "--sprung-topic", "/unsprung/imu"], ["--sprung-topic", "/unsprung/imu", "differ"]),
 }
 

@@ -162,6 +162,8 @@ TEST(OptionTable, ProposesTheNearestNameForAMisspeltKey) {
   EXPECT_NE(proposal("la/smal_divisor").find("is la/small_divisor"), std::string::npos);
   EXPECT_NE(proposal("sample_perido").find("is sample_period"), std::string::npos);
   EXPECT_NE(proposal("sprungmass").find("is sprung_mass"), std::string::npos);
+  for (const char* far_from_all : {"foo", "x", "health", "zzzzzzzzzzzz"})
+    EXPECT_EQ(proposal(far_from_all), std::string("unknown option ") + far_from_all + " = 0.75");
   EXPECT_NO_THROW(refuseUnknown({}, describeOptions(kMonitorFields)));
   EXPECT_THROW(refuseUnknown({{"x", 1}}, {}), std::invalid_argument);
 }

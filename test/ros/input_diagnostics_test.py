@@ -6,7 +6,7 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticStatus
 from measured_drive import PERIOD, MeasuredDrive
-from ros_session import PACKAGE, load_nodelet, values, wait_until
+from ros_session import PACKAGE, load_nodelet, statuses, values, wait_until
 
 START = 1000.0  # [s]
 SHORT_TIMEOUT = {"sample_period": PERIOD, "input_timeout": 0.3}
@@ -72,6 +72,19 @@ class InputDiagnosticsTest(unittest.TestCase):
             self.assertEqual(status.level, DiagnosticStatus.ERROR)
             self.assertIn("no message on /half/unsprung for", status.message)
             self.assertNotIn("/half/sprung", status.message)
+            drive.stop()
+
+    def test_stamps_that_do_not_fit_the_sample_period_leave_health_stale(self):
+        with load_monitor("mistimed", {"sample_period": 1.1 * PERIOD}):
+            drive = drive_for("mistimed")
+            drive.feed(0, 400, START)
+            before = len(drive.diagnostics.messages)
+            status = drive.input_status(lambda s: "stamps do not fit sample_period" in s.message, after=before)
+            self.assertEqual(status.level, DiagnosticStatus.WARN)
+            health = statuses(drive.diagnostics, "mistimed: Health")[-1]
+            self.assertEqual(health.level, DiagnosticStatus.STALE)
+            self.assertIn("stamps do not fit sample_period", health.message)
+            self.assertFalse(any(estimate.valid for estimate in drive.estimates.messages))
             drive.stop()
 
     def test_horizon_too_short_for_the_measured_period_is_an_error_until_reset(self):

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """A wrong parameter is refused at start, by name, value and what is allowed, and harms nobody else."""
+import math
+import time
 import unittest
 
 import rospy
 import rostest
 from ros_session import PACKAGE, Collector, is_finite, load_nodelet, settings, start_node
 from rosgraph_msgs.msg import Log
-from suspension_health_monitor.msg import CornerComparison, ParameterEstimate
+from suspension_health_monitor.msg import CornerComparison, ParameterEstimate, SimulationTruth
 
 # What is wrong: the parameters, and what the message must hold. Names are those of config/monitor.yaml.
 WRONG = {
@@ -15,7 +17,10 @@ WRONG = {
     "unknown": ({"forgeting_factor": 0.98}, ["unknown option forgeting_factor = 0.98", "forgetting_factor"]),
     "wrong type": ({"forgetting_factor": "high"}, ['forgetting_factor = "high"', "must be in [0.9, 1]"]),
     "not whole": ({"horizon_samples": 30.5}, ["horizon_samples = 30.5", "a whole number in [1, 100000]"]),
-    "list": ({"forgetting_factor": [0.98, 0.99]}, ["forgetting_factor", "list", "must be true or false, a number"]),
+    "list": ({"forgetting_factor": [0.98, 0.99]},
+             ["forgetting_factor = {0.98,0.99}", "list", "must be true or false, a number"]),
+    "list of this and that": ({"effects": ["quadratic_damping", 3]},
+                              ["effects = {quadratic_damping,3}", "item 2 is no text", "a list of texts"]),
     "not one of the words": ({"integration_rule": "euler"}, ['integration_rule = "euler"', "trapezoid", "cubic"]),
     "unknown effect": ({"effects": ["quadratic_damping", "bump"]},
                        ['effects = "quadratic_damping, bump"', "effect bump, must be one of", "bump_stop"]),
@@ -64,6 +69,24 @@ class RefusedParametersTest(unittest.TestCase):
             with load_nodelet("SimulatorNodelet", "drive", DRIVE):
                 estimates.wait_for(lambda estimate: estimate.valid and is_finite(estimate), 10.0, "a valid estimate")
         estimates.stop()
+
+    def test_drive_of_a_strut_that_runs_away_ends_in_words(self):
+        self.rosout.wait_for_publisher()
+        truth = Collector("/runaway/truth", SimulationTruth)
+        unstable = {"scenario": "iso_road", "hidden": "quadratic_damping=-5", "real_time_factor": 20.0,
+                    "wait_for_subscribers": False, "start_delay": 1.0}
+        with load_nodelet("SimulatorNodelet", "runaway", unstable) as nodelet:
+            truth.wait_for_publisher()
+            self.rosout.wait_for(lambda log: log.level >= Log.ERROR and "quadratic_damping = -5 is unstable" in log.msg,
+                                 20.0, "an error that names the effect")
+            time.sleep(0.2)  # the last messages
+            count = len(truth.messages)
+            time.sleep(0.5)  # 10 s of the drive
+            self.assertEqual(len(truth.messages), count)
+            self.assertGreater(count, 0)
+            self.assertTrue(all(math.isfinite(each.sprung_acceleration) for each in truth.messages))
+            self.assertTrue(nodelet.running(), "and harms nobody else")
+        truth.stop()
 
     def test_refused_comparison_leaves_no_topic_and_a_good_one_works(self):
         self.rosout.wait_for_publisher()

@@ -8,7 +8,7 @@
 
 namespace suspension_health_monitor {
 
-/// What is wrong with the sensors rather than with the strut.
+/// What is wrong with the sensors, or how they are read, rather than with the strut.
 enum class SensorFault : unsigned char {
   kNone,
   kSprungStuck,       ///< the body's IMU reads one value while the other moves
@@ -17,6 +17,7 @@ enum class SensorFault : unsigned char {
   kUnsprungGravity,   ///< the wheel carrier's IMU, likewise
   kGravityOnOneSide,  ///< one reads gravity, the other does not
   kUnrelated,         ///< both move, but the one is not what a strut makes of the other
+  kWrongPeriod,       ///< samples do not come at sample_period: whatever is computed with it is wrong
 };
 
 /// What was found, with the mean readings [m/s^2] that say so.

@@ -11,8 +11,10 @@ namespace suspension_health_monitor {
 /// Effects with their values as settings: `effects/NAME/coefficient` and `effects/NAME/SHAPE` for every shape of the
 /// effect, in SI. The simulator hides such effects; a model file holds them.
 /// Takes them out of `values`.
+/// @param faults  that the caller takes by takeReadings(): a complaint of an unknown name lists them, too.
 /// @throws std::invalid_argument  naming an unknown effect or shape (and the known ones), or one that is missing.
-std::vector<ActiveEffect> takeEffects(OptionMap& values, const std::vector<ForceEffect>& catalogue);
+std::vector<ActiveEffect> takeEffects(OptionMap& values, const std::vector<ForceEffect>& catalogue,
+                                      const std::vector<MeasurementEffect>& faults = {});
 
 /// Faults of the measurement in the same way: `readings/NAME/COEFFICIENT`, which is called `coefficient`
 /// where there is only one.

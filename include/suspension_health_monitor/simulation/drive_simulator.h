@@ -6,6 +6,7 @@
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/simulation/accelerometer.h"
 #include "suspension_health_monitor/simulation/body_sway.h"
+#include "suspension_health_monitor/simulation/integration_guard.h"
 #include "suspension_health_monitor/simulation/scenario.h"
 #include "suspension_health_monitor/simulation/sensor_faults.h"
 #include "suspension_health_monitor/simulation/sensor_schedule.h"
@@ -48,6 +49,7 @@ class DriveSimulator {
 
   /// @return the next instant at which a sensor reads, both at k / rate, k = 0 .. duration * rate, unless the options
   /// set them apart; none after the end of the drive.
+  /// @throws std::invalid_argument  naming the hidden effects, if the strut runs away or is too stiff to be integrated.
   std::optional<DriveSample> next();
 
  private:
@@ -76,6 +78,7 @@ class DriveSimulator {
   State delayed_state_{};  // as the body's IMU sees it, faults_.delay ago
   double delayed_time_ = 0.0;
   double max_step_;  // [s]
+  IntegrationGuard guard_;
   double time_ = 0.0;  // of state_ [s]
 };
 

@@ -99,6 +99,8 @@ std::string describe(const SensorReport& report) {
       return text;
     case SensorFault::kUnrelated:
       return "both IMUs move, but no strut makes the one of the other: sensor fault, wrong axis or wrong topic";
+    case SensorFault::kWrongPeriod:
+      return "stamps do not fit sample_period";
   }
   return {};
 }

@@ -3,6 +3,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "find_by_name.h"
 #include "setting_groups.h"
 #include "suspension_health_monitor/model/effect_catalogue.h"
 
@@ -13,12 +14,19 @@ constexpr const char* kEffects = "effects";
 constexpr const char* kReadings = "readings";
 constexpr const char* kCoefficient = "coefficient";
 
+std::string orFaults(const std::vector<MeasurementEffect>& faults) {
+  std::vector<std::string> names;
+  for (const MeasurementEffect& fault : faults) names.push_back(fault.name);
+  return names.empty() ? "" : "; or a fault of the reading (" + std::string(kReadings) + "/NAME/...): " + join(names);
+}
+
 }  // namespace
 
-std::vector<ActiveEffect> takeEffects(OptionMap& values, const std::vector<ForceEffect>& catalogue) {
+std::vector<ActiveEffect> takeEffects(OptionMap& values, const std::vector<ForceEffect>& catalogue,
+                                      const std::vector<MeasurementEffect>& faults) {
   std::vector<ActiveEffect> result;
   for (const auto& [name, settings] : takeGroups(values, kEffects)) {
-    ActiveEffect active{findEffect(catalogue, name), 0.0, {}};
+    ActiveEffect active{findByName(catalogue, name, orFaults(faults)), 0.0, {}};
     const std::string group = std::string(kEffects) + '/' + name;
     std::vector<std::string> wanted{kCoefficient};
     for (const ShapeParameter& shape : active.effect.shapes) wanted.push_back(shape.name);

@@ -8,14 +8,15 @@
 
 namespace suspension_health_monitor {
 
+/// @param besides  what else the message has to say.
 /// @return the record of that name.  @throws std::invalid_argument  naming the unknown name and the known ones.
 template <class Record>
-const Record& findByName(const std::vector<Record>& records, std::string_view name) {
+const Record& findByName(const std::vector<Record>& records, std::string_view name, const std::string& besides = {}) {
   const auto found = std::find_if(records.begin(), records.end(), [&](const Record& r) { return r.name == name; });
   if (found != records.end()) return *found;
   std::string known;
   for (const Record& record : records) known += (known.empty() ? "" : ", ") + record.name;
-  throw std::invalid_argument("effect " + std::string(name) + ", must be one of " + known);
+  throw std::invalid_argument("effect " + std::string(name) + ", must be one of " + known + besides);
 }
 
 }  // namespace suspension_health_monitor

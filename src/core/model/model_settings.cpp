@@ -50,7 +50,7 @@ StrutModel takeModel(OptionMap& values, const EffectLibrary& library) {
   // What a fit leaves to the linear damping may be less than nothing where an effect damps.
   model.damping_to_mass = takeParameter(values, "damping_to_mass", -1e15);
   model.stiffness_to_mass = takeParameter(values, "stiffness_to_mass", 1e-15);
-  model.effects = takeEffects(values, library.forces);
+  model.effects = takeEffects(values, library.forces, library.readings);
   model.reading = takeReadings(values, library.readings);
   if (model.effects.size() > StrutState::kMostEffects)
     throw std::invalid_argument("effects: " + std::to_string(model.effects.size()) + " of them, must be at most " +

@@ -37,7 +37,8 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       sway_(options),
       faults_(SensorFaults::from(options.hidden_faults)),
       sway_noise_(options.seed, RandomPurpose::kSwayNoise),
-      max_step_(longestStep(scenario_)) {
+      max_step_(longestStep(scenario_)),
+      guard_(options.hidden, std::min(max_step_, 1.0 / fasterRate(options))) {
   const RoadPoint start = scenario_.road(0.0);
   state_ = {start.height, start.rate, start.height, start.rate};
   delayed_state_ = state_;
@@ -129,8 +130,15 @@ void DriveSimulator::integrate(State& state, double from, double to) {
   const double first_step = std::min(max_step_, to - from);
   const auto stepper =
       odeint::make_controlled(kAbsoluteTolerance, kRelativeTolerance, max_step_, odeint::runge_kutta_dopri5<State>());
-  const auto system = [this](const State& x, State& derivative, double t) { derivative = motionAt(x, t).derivative; };
-  odeint::integrate_adaptive(stepper, system, state, from, to, first_step);
+  const auto system = [this](const State& x, State& derivative, double t) {
+    guard_.countEvaluation(t);
+    derivative = motionAt(x, t).derivative;
+  };
+  const auto check = [this](const State& x, double t) {
+    guard_.checkMotion(x[0], x[1], t);
+    guard_.checkMotion(x[2], x[3], t);
+  };
+  odeint::integrate_adaptive(stepper, system, state, from, to, first_step, check);
 }
 
 }  // namespace suspension_health_monitor

@@ -1,0 +1,24 @@
+#include "identify_verdict.h"
+
+#include <cstdio>
+
+namespace suspension_health_monitor {
+
+std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
+  if (monitor.input().period_fits) return std::nullopt;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "stamps come every %.6g s, but sample_period = %.6g [s]: no estimate is valid; leave sample_period out to "
+                "have it measured",
+                monitor.input().mean_period, monitor.period());
+  return text;
+}
+
+std::optional<std::string> whyNotValid(const SuspensionMonitor& monitor, bool was_valid) {
+  if (monitor.report().ls.valid || monitor.report().la.valid) return std::nullopt;
+  if (auto warning = periodWarning(monitor)) return warning;
+  if (!was_valid) return "no estimate was ever valid: too short, too little motion, or not the two sides of one strut";
+  return "no estimate is valid at the end of the drive, where it was parked, or the input too poor (column \"valid\")";
+}
+
+}  // namespace suspension_health_monitor

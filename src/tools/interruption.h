@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <csignal>
+
+namespace suspension_health_monitor {
+
+/// SIGINT, SIGTERM or SIGHUP came. No std::exception: nobody on the way takes it for an error of his own.
+struct Interrupted {
+  int signal;
+
+  /// Ends the program by this signal, as whoever sent it expects.
+  /// @return what the shell would report, should the signal be blocked.
+  int endProgram() const;
+};
+
+/// Made before a file is begun. While it lives, a signal that asks the program to end is only noted, and check() throws it out of the loop that does
+/// the work, so that unfinished files are removed on the way. A second one ends the program at once.
+/// What the parent has ignored (nohup) stays ignored. One at a time.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  /// @throws Interrupted  if a signal has come.
+  static void check();
+
+ private:
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+
+  std::array<struct sigaction, kSignals.size()> before_{};
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,68 @@
+"""A signal that asks a command to end: nothing is left of the files that it was writing."""
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+
+LONG = ["simulate", "--duration", "100000", "-o", "out.bag"]
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+
+
+@pytest.fixture(scope="module")
+def long_bag(program, tmp_path_factory):
+    path = tmp_path_factory.mktemp("signals") / "drive.bag"
+    program.succeed("simulate", "--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100", "--duration", "3000",
+                    "-o", path)
+    return path
+
+
+def wait_for_growth(folder):
+    """Until the unfinished bag is being written."""
+    deadline = time.monotonic() + 20.0
+    while not any(path.stat().st_size > 100_000 for path in folder.iterdir() if ".part" in path.name):
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_signal_leaves_no_part_of_the_bag(program, tmp_path, number):
+    (tmp_path / "out.bag").write_bytes(b"here first")
+    process = subprocess.Popen([program.path, *LONG], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    wait_for_growth(tmp_path)
+    process.send_signal(number)
+    assert process.communicate(timeout=20) == (b"", b"")
+    assert process.returncode == -number, "whoever waits for it sees what ended it"
+    assert [path.name for path in tmp_path.iterdir()] == ["out.bag"]
+    assert (tmp_path / "out.bag").read_bytes() == b"here first"
+
+
+def test_a_signal_that_the_parent_ignores_stays_ignored(program, tmp_path):
+    process = subprocess.Popen([program.path, *LONG], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    wait_for_growth(tmp_path)
+    process.send_signal(signal.SIGHUP)
+    time.sleep(0.3)
+    assert process.poll() is None
+    process.terminate()
+    assert process.wait(timeout=20) == -signal.SIGTERM
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("command, files, after", [  # [s]: while it reads the bag, and while it computes
+    ("identify", ["--csv", "rows.csv", "--json", "result.json"], 0.0),
+    ("compare", ["--json", "result.json"], 0.0), ("compare", ["--json", "result.json"], 0.5),
+    ("diagnose", ["--json", "result.json", "-o", "model.yaml"], 0.5)])
+def test_a_signal_leaves_no_part_of_the_results(program, long_bag, tmp_path, command, files, after):
+    process = subprocess.Popen([program.path, command, long_bag, *files], cwd=tmp_path, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+    deadline = time.monotonic() + 20.0
+    while not os.listdir(tmp_path):
+        assert time.monotonic() < deadline
+        time.sleep(0.002)
+    time.sleep(after)
+    process.terminate()
+    assert process.communicate(timeout=20) == (b"", b"")
+    assert process.returncode == -signal.SIGTERM
+    assert os.listdir(tmp_path) == []
