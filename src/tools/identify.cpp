@@ -8,6 +8,7 @@
 #include "../ros/live_model.h"
 #include "../ros/whole_file.h"
 #include "bag_options.h"
+#include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
 #include "separate_files.h"
@@ -191,11 +192,15 @@ void checkEnough(const ImuPipeline& pipeline) {
     message += " (" + std::to_string(2 * monitor->horizonSamples() + 1) +
                " samples; usable samples in all: " + std::to_string(monitor->input().samples) +
                ", gaps: " + std::to_string(monitor->input().gaps) + ")";
-  const RejectCounts rejected = pipeline.rejected();
-  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
-    if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
-      message += "; rejected " + std::string(kRejectReasonNames[i]) + ": " + std::to_string(count);
-  throw TooLittleError(message);
+  throw TooLittleError(message + describeRejected(pipeline.rejected()));
+}
+
+std::string suspicions(const ImuPipeline& pipeline) {
+  const SensorReport& sensor = pipeline.monitor()->report().health.sensor;
+  if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated) return "; " + describe(sensor);
+  const StrutEstimate& la = pipeline.monitor()->report().la;
+  constexpr double kCertain = 5.0;  // standard deviations
+  return describeSuspicions(*pipeline.grid(), la.damping_to_mass < -kCertain * la.damping_to_mass_stddev);
 }
 
 }  // namespace
@@ -243,7 +248,8 @@ void identify(const Arguments& arguments) {
     printTyre("LA", tyre->report().la, pipeline.monitor()->report().la);
   }
   if (!ever_valid)
-    throw TooLittleError("no estimate was ever valid: too short, too little motion, or not the two sides of one strut");
+    throw TooLittleError("no estimate was ever valid: too short, too little motion, or not the two sides of one strut" +
+                         suspicions(pipeline) + describeRejected(pipeline.rejected()));
 }
 
 }  // namespace suspension_health_monitor
