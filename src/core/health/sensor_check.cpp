@@ -125,7 +125,8 @@ std::string describe(const SensorReport& report) {
                     report.mean[0], report.mean[1]);
       return text;
     case SensorFault::kGravityOpposed:
-      return "one IMU reads gravity upward, the other downward: one is mounted upside down, or its axis has the wrong sign";
+      return "one IMU reads gravity upward, the other downward: "
+             "one is mounted upside down, or its axis has the wrong sign";
     case SensorFault::kSprungInG:
       return "the sprung IMU reads about 1 where the other reads gravity: it is in g, must be in m/s^2";
     case SensorFault::kUnsprungInG:
@@ -133,7 +134,8 @@ std::string describe(const SensorReport& report) {
     case SensorFault::kNegativeDamping:
       return "damping is negative: are the IMUs swapped, or is an axis the wrong way up?";
     case SensorFault::kUnrelated:
-      return "both IMUs move, but no strut makes the one of the other: sensor fault, wrong axis, wrong topic, or the two swapped";
+      return "both IMUs move, but no strut makes the one of the other: "
+             "sensor fault, wrong axis, wrong topic, or the two swapped";
   }
   return {};
 }
