@@ -73,8 +73,13 @@ void ImuPipeline::push(Side side, const sensor_msgs::Imu& imu) {
     push(*reading);
     return;
   }
+  const bool goes_back = measurement_.goesBack(side, reading->stamp);
   if (!measurement_.add(side, reading->stamp)) {
     rejected_.add(reading->stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp);
+    return;
+  }
+  if (goes_back) {
+    rejected_.add(RejectReason::kTimeWentBack);
     return;
   }
   if (early_.size() == kMostEarly) {  // one IMU is silent

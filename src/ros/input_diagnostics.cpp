@@ -1,5 +1,6 @@
 #include "input_diagnostics.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace suspension_health_monitor {
@@ -29,7 +30,7 @@ void InputDiagnostics::restart() {
 }
 
 void InputDiagnostics::describe(const ImuPipeline& pipeline, Status& status) {
-  status.summary(DiagnosticStatus::OK, "both IMUs arrive as expected");
+  summarize(pipeline, status);
   if (pipeline.monitor() != nullptr) describeSeries(*pipeline.monitor(), status);
   if (pipeline.grid() != nullptr) {
     status.add("alignment", pipeline.grid()->describeAlignment());
@@ -43,6 +44,24 @@ void InputDiagnostics::describe(const ImuPipeline& pipeline, Status& status) {
   else
     status.mergeSummary(DiagnosticStatus::ERROR, "stopped listening until reset: " + refusal_);
   describeClock(status);
+}
+
+void InputDiagnostics::summarize(const ImuPipeline& pipeline, Status& status) const {
+  const bool any_usable = pipeline.monitor() != nullptr && pipeline.monitor()->input().samples > 0;
+  if (!any_usable && pipeline.rejected().total() > 0)
+    status.summary(DiagnosticStatus::WARN, "no usable pair of readings yet");
+  else if (pipeline.monitor() == nullptr)
+    status.summary(DiagnosticStatus::OK, "measuring the sample period");
+  else if (ros::Time::isSimTime() && clock_before_ == ros::Time::now() && isSilentByWall())
+    status.summary(DiagnosticStatus::OK, "nothing arrives at present");
+  else
+    status.summary(DiagnosticStatus::OK, "both IMUs arrive as expected");
+}
+
+bool InputDiagnostics::isSilentByWall() const {
+  return std::all_of(arrivals_.begin(), arrivals_.end(), [this](const std::optional<Arrivals>& arrivals) {
+    return arrivals && (ros::WallTime::now() - arrivals->last_by_wall).toSec() > options_.input_timeout;
+  });
 }
 
 void InputDiagnostics::describeSeries(const SuspensionMonitor& monitor, Status& status) {

@@ -39,6 +39,8 @@ class InputDiagnostics {
     RunningMean lag{0.99};  // time of arrival - stamp [s]
   };
 
+  void summarize(const ImuPipeline& pipeline, Status& status) const;
+  bool isSilentByWall() const;
   void describeSeries(const SuspensionMonitor& monitor, Status& status);
   void describeStream(Side side, const ImuPipeline& pipeline, Status& status) const;
   void describeRejected(const RejectCounts& rejected, Status& status);

@@ -1,13 +1,48 @@
 #include "bag_samples.h"
 
+#include <cstdio>
 #include <optional>
-
-#include "../ros/strut_sensors.h"
 
 namespace suspension_health_monitor {
 
-void readSamples(const ImuBags& bags, PipelineOptions options, const std::function<bool(const CornerSample&)>& take,
-                 const std::function<void(const BodyMotion&)>& take_body) {
+namespace {
+
+constexpr double kMuchLarger = 3.0;  // mean deviation of the body over that of the wheel
+constexpr double kSpike = 50.0;      // mean deviations
+
+std::string describeSpike(const char* side, const StreamGate& gate) {
+  if (!(gate.farthest() > kSpike * gate.deviation() && gate.deviation() > 0.0)) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "; a %s reading is %.3g m/s^2 off the mean, %.0f times as far as usual: a spike? %s_range keeps out "
+                "what lies beyond it",
+                side, gate.farthest(), gate.farthest() / gate.deviation(), side);
+  return text;
+}
+
+}  // namespace
+
+std::string describeRejected(const RejectCounts& rejected) {
+  std::string text;
+  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
+    if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
+      text += "; rejected " + std::string(kRejectReasonNames[i]) + ": " + std::to_string(count);
+  return text;
+}
+
+std::string describeSuspicions(const UniformGrid& grid, bool negative_damping) {
+  const StreamGate &body = grid.gate(Side::kSprung), &wheel = grid.gate(Side::kUnsprung);
+  std::string text = describeSpike("sprung", body) + describeSpike("unsprung", wheel);
+  if (body.deviation() > kMuchLarger * wheel.deviation() && wheel.deviation() > 0.0)
+    text += "; the sprung IMU shakes far more than the unsprung one: swapped, or not in m/s^2?";
+  else if (negative_damping)
+    text += "; damping comes out negative: the IMUs swapped, or an axis the wrong way up?";
+  return text;
+}
+
+StrutSensors readSamples(const ImuBags& bags, PipelineOptions options,
+                         const std::function<bool(const CornerSample&)>& take,
+                         const std::function<void(const BodyMotion&)>& take_body) {
   options.shell.tyre = false;  // a sample has no part of the road
   StrutSensors sensors(options.shell, bags.transforms.get());
   sensors.start(options, *options.monitor.sample_period);
@@ -24,6 +59,7 @@ void readSamples(const ImuBags& bags, PipelineOptions options, const std::functi
       if (!take(*sample)) return false;
     return true;
   });
+  return sensors;
 }
 
 }  // namespace suspension_health_monitor

@@ -8,6 +8,7 @@
 #include "../ros/live_model.h"
 #include "../ros/whole_file.h"
 #include "bag_options.h"
+#include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
 #include "identify_verdict.h"
@@ -169,10 +170,11 @@ void printTable(const std::vector<MonitorReport>& reports) {
 }
 
 void printResult(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
+  const std::string doubt = estimate.valid ? "" : "  NOT VALID: " + std::string(describe(estimate.doubt));
   std::printf("%s: damping/mass %.4f +- %.4f 1/s, stiffness/mass %.4f +- %.4f 1/s^2, %.3f Hz, damping ratio %.3f%s\n",
               name, estimate.damping_to_mass, estimate.damping_to_mass_stddev, estimate.stiffness_to_mass,
               estimate.stiffness_to_mass_stddev, estimate.naturalFrequency(), estimate.dampingRatio(),
-              estimate.valid ? "" : "  NOT VALID: too little or too poor excitation");
+              doubt.c_str());
   if (mass)
     std::printf("    damping %.4g N s/m, stiffness %.5g N/m\n", *mass * estimate.damping_to_mass,
                 *mass * estimate.stiffness_to_mass);
@@ -196,11 +198,15 @@ void checkEnough(const ImuPipeline& pipeline) {
     message += " (" + std::to_string(2 * monitor->horizonSamples() + 1) +
                " samples; usable samples in all: " + std::to_string(monitor->input().samples) +
                ", gaps: " + std::to_string(monitor->input().gaps) + ")";
-  const RejectCounts rejected = pipeline.rejected();
-  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
-    if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
-      message += "; rejected " + std::string(kRejectReasonNames[i]) + ": " + std::to_string(count);
-  throw TooLittleError(message);
+  throw TooLittleError(message + describeRejected(pipeline.rejected()));
+}
+
+std::string suspicions(const ImuPipeline& pipeline) {
+  const SensorReport& sensor = pipeline.monitor()->report().health.sensor;
+  if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated) return "; " + describe(sensor);
+  const StrutEstimate& la = pipeline.monitor()->report().la;
+  constexpr double kCertain = 5.0;  // standard deviations
+  return describeSuspicions(*pipeline.grid(), la.damping_to_mass < -kCertain * la.damping_to_mass_stddev);
 }
 
 }  // namespace
@@ -248,7 +254,8 @@ void identify(const Arguments& arguments) {
     printTyre("LS", tyre->report().ls, pipeline.monitor()->report().ls);
     printTyre("LA", tyre->report().la, pipeline.monitor()->report().la);
   }
-  if (const auto reason = whyNotValid(*pipeline.monitor(), ever_valid)) throw TooLittleError(*reason);
+  if (const auto reason = whyNotValid(*pipeline.monitor(), ever_valid))
+    throw TooLittleError(*reason + (ever_valid ? "" : suspicions(pipeline) + describeRejected(pipeline.rejected())));
 }
 
 }  // namespace suspension_health_monitor

@@ -60,22 +60,31 @@ int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
   const double period = *options.monitor.sample_period;
   HorizonSurvey survey(period, integrationRule(options.monitor.integration_rule), kLongestHorizon);
   std::optional<Stamp> last;
-  std::size_t count = 0;
-  readSamples(bags, options, [&](const CornerSample& sample) {
+  std::size_t count = 0, gaps = 0;
+  RejectCounts too_soon;
+  const StrutSensors sensors = readSamples(bags, options, [&](const CornerSample& sample) {
     const Continuity follows = last ? continuity(sample.stamp - *last, fromSeconds(period)) : Continuity::kGap;
     const std::size_t block = count++ / kBlock;
     const bool surveyed = block < kFirstBlocks || block % kEveryBlock == 0;
     const bool continues = follows == Continuity::kContinues || follows == Continuity::kTooSoon;
+    if (!continues && last) ++gaps;
+    if (follows == Continuity::kTooSoon) too_soon.add(RejectReason::kTooSoon);
     if (!continues || !surveyed) survey.interrupt();
     if (follows != Continuity::kTooSoon && surveyed) survey.push(sample);
     last = sample.stamp;
     return true;
   });
   const std::optional<int> samples = survey.horizonSamples();
-  if (!samples)
+  if (!samples) {
+    RejectCounts rejected = sensors.rejected();
+    rejected += too_soon;
     throw TooLittleError(
-        "no horizon can be proposed: the data show no damped spring; give integration_horizon "
-        "(--set integration_horizon=0.6) to look at them all the same");
+        "no horizon can be proposed: " +
+        std::string(count == 0 ? "no pair of readings can be used" : "the data show no damped spring") + " (samples " +
+        std::to_string(count) + ", gaps " + std::to_string(gaps) + describeRejected(rejected) + ")" +
+        describeSuspicions(*sensors.grid(), survey.dampingIsNegative()) +
+        "; give integration_horizon (--set integration_horizon=0.6) to look at them all the same");
+  }
   return *samples;
 }
 

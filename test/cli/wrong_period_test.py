@@ -1,5 +1,6 @@
 """sample_period that is not the stamps': said, in the result as well, and refused where it makes no sense at all."""
 import json
+import math
 
 import pytest
 
@@ -38,3 +39,17 @@ def test_an_end_without_a_valid_estimate_is_too_little(program, tmp_path):
     assert "no estimate is valid at the end" in result.stderr
     assert not json.loads((tmp_path / "result.json").read_text())["la"]["valid"]
     assert program("identify", bag, "--set", "integration_horizon=0.6", "--end", "20").returncode == 0
+
+
+def test_a_drive_that_ends_parked_keeps_what_it_has_learned(program, tmp_path):
+    times, sprung, unsprung = imu_bag.paper_drive()
+    noise = [0.024 * math.sin(1e4 * k * k) for k in range(2 * len(times))]
+    for k in range(1200, len(times)):
+        sprung[k], unsprung[k] = noise[k], noise[k + len(times)]
+    bag = imu_bag.write_bag(tmp_path / "drive.bag", (times, sprung, unsprung))
+    result = program("identify", bag, "--set", "integration_horizon=0.6", "--json", tmp_path / "result.json")
+    assert result.returncode == 0, result.stderr
+    assert "parked: no excitation" in result.stdout
+    la = json.loads((tmp_path / "result.json").read_text())["la"]
+    assert not la["valid"]
+    assert la["damping_to_mass"] == pytest.approx(3.0, rel=0.1)

@@ -44,6 +44,12 @@ class GoodCitizenClockTest(unittest.TestCase):
         self.drive.assert_estimate_is_good(self)
         self.assertEqual(values(self.drive.input_status(lambda s: values(s)["samples"] == "700", after=self.before))["gaps"], "0")
 
+    def test_a_paused_clock_does_not_make_silent_sensors_arrive(self):
+        self.feed(0, 400)
+        status = self.drive.input_status(lambda s: "nothing arrives at present; the clock stands still" in s.message,
+                                         timeout=10.0, after=len(self.drive.diagnostics.messages))
+        self.assertEqual(status.level, DiagnosticStatus.OK, status.message)
+
     def test_silence_is_measured_by_the_clock(self):
         self.feed(0, 300)
         for k in range(40):  # the clock runs, the sensors do not

@@ -22,6 +22,14 @@ def drive_for(name):
     return MeasuredDrive(name, f"/{name}/sprung", f"/{name}/unsprung")
 
 
+def publish(drive, samples, change):
+    """Readings that no estimate follows, change(index, imu) made to each."""
+    for index in range(samples):
+        for publisher, imu in zip(drive.publishers, drive.pair(index, START)):
+            change(index, imu)
+            publisher.publish(imu)
+
+
 class InputDiagnosticsTest(unittest.TestCase):
     def test_diagnostics_come_once_a_second_whatever_the_sensor_rate(self):
         drive = MeasuredDrive()
@@ -87,12 +95,29 @@ class InputDiagnosticsTest(unittest.TestCase):
             self.assertFalse(any(estimate.valid for estimate in drive.estimates.messages))
             drive.stop()
 
+    def test_stamps_that_run_backwards_are_named(self):
+        with load_monitor("backward", {}):  # it has to measure the sample period
+            drive = drive_for("backward")
+            publish(drive, 200, lambda index, imu: setattr(imu.header, "stamp", rospy.Time(START - index * PERIOD)))
+            counted = {"rejected time_went_back": str(2 * 199)}
+            status = drive.input_status(lambda s: counted.items() <= values(s).items())
+            self.assertEqual(status.level, DiagnosticStatus.WARN, status.message)
+            drive.stop()
+
+    def test_readings_that_were_never_usable_do_not_become_good_when_they_end(self):
+        with load_monitor("useless", {"sample_period": PERIOD, "input_timeout": 3600.0}):
+            drive = drive_for("useless")
+            publish(drive, 200, lambda _, imu: setattr(imu.linear_acceleration, "z", float("nan")))
+            drive.input_status(lambda s: values(s).get("rejected not_finite") == "400")
+            after = len(drive.diagnostics.messages)
+            status = drive.input_status(lambda s: "readings rejected" not in s.message, after=after)
+            self.assertEqual((status.level, status.message), (DiagnosticStatus.WARN, "no usable pair of readings yet"))
+            drive.stop()
+
     def test_horizon_too_short_for_the_measured_period_is_an_error_until_reset(self):
         with load_monitor("coarse", {"integration_horizon": 0.06}):  # 3 samples; the cubic rule needs 5
             drive = drive_for("coarse")
-            for index in range(100):
-                for publisher, imu in zip(drive.publishers, drive.pair(index, START)):
-                    publisher.publish(imu)
+            publish(drive, 100, lambda index, imu: None)
             status = drive.input_status(lambda s: "must be at least 5" in s.message)
             self.assertEqual(status.level, DiagnosticStatus.ERROR)
             self.assertIn("stopped listening until reset", status.message)

@@ -16,6 +16,10 @@ enum class SensorFault : unsigned char {
   kSprungGravity,     ///< the body's IMU reads on average neither gravity nor 0: gain, offset or mount
   kUnsprungGravity,   ///< the wheel carrier's IMU, likewise
   kGravityOnOneSide,  ///< one reads gravity, the other does not
+  kGravityOpposed,    ///< one reads gravity upward, the other downward
+  kSprungInG,         ///< the body's IMU reads 1 where the other reads gravity
+  kUnsprungInG,       ///< the wheel carrier's IMU, likewise
+  kNegativeDamping,   ///< damping is certainly negative
   kUnrelated,         ///< both move, but the one is not what a strut makes of the other
   kWrongPeriod,       ///< samples do not come at sample_period: whatever is computed with it is wrong
 };
@@ -30,6 +34,8 @@ struct SensorReport {
 /// - a vehicle does not climb for good, so a mean reading is gravity (REP 145: +9.81 at rest on the up axis) or 0 (taken
 ///   out before). A gain error shows there as well as in the parameters, a worn damper does not; so do an offset and a
 ///   mount that has turned;
+/// - a strut takes energy: damping that is certainly negative is that of readings of which one has the wrong sign, and
+///   a body that shakes three times as much as the wheel may be the wheel;
 /// - a spring lets no wheel move without the body;
 /// - a model that explains less than half of a signal that is motion, not noise (its steps from sample to sample are
 ///   smaller than white noise would have them), was given readings that do not belong together.
@@ -64,6 +70,8 @@ class SensorCheck {
 
   SensorFault judge(const StrutEstimate& la, bool enough_rows);
   SensorFault judgeMeans() const;
+  SensorFault judgeGravity() const;
+  SensorFault judgeMotion(const StrutEstimate& la) const;
   bool isOff(const Reading& reading) const;
 
   double tolerance_, memory_;

@@ -27,6 +27,9 @@ class HorizonSurvey {
   /// @return L; nothing if no horizon has given parameters of a strut yet.
   std::optional<int> horizonSamples() const;
 
+  /// @return true if every horizon that has enough rows gives negative damping.
+  bool dampingIsNegative() const;
+
  private:
   struct Candidate {
     int horizon_samples;

@@ -22,6 +22,12 @@ class PeriodMeasurement {
   /// @return false if the stamp is the same as the one before: it tells nothing.
   bool add(Side side, Stamp stamp);
 
+  /// @return true if the stamp is older than the one before of its stream.
+  bool goesBack(Side side, Stamp stamp) const {
+    const std::optional<Stamp>& last = last_[static_cast<std::size_t>(side)];
+    return last && stamp < *last;
+  }
+
   /// @return the sampling time [s], nothing until both streams have shown enough spacings.
   std::optional<double> period() const;
 

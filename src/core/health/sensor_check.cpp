@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kGravity = 9.80665;      // [m/s^2]
 constexpr double kExplained = 0.5;        // less is not this strut
+constexpr double kCertain = 5.0;          // standard deviations
+constexpr double kMuchLarger = 9.0;       // variance over variance
+constexpr double kInG = 0.15;             // so near 1 is what a sensor of gravity reads that has g for its unit
 
 bool hasGravity(double mean) { return std::abs(mean) > kGravity / 2.0; }
 
@@ -59,18 +62,42 @@ SensorFault SensorCheck::judge(const StrutEstimate& la, bool enough_rows) {
   if (unsprung_still) return SensorFault::kUnsprungStuck;
   if (looked_ < memory_) return SensorFault::kNone;
   if (const SensorFault fault = judgeMeans(); fault != SensorFault::kNone) return fault;
-  const bool moves = readings_[0].isMotion() && readings_[1].isMotion();
+  return enough_rows ? judgeMotion(la) : SensorFault::kNone;
+}
+
+SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
   const bool is_strut = la.explained >= kExplained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
-  return enough_rows && moves && !is_strut ? SensorFault::kUnrelated : SensorFault::kNone;
+  if (is_strut) return SensorFault::kNone;
+  const bool body_moves = readings_[0].isMotion(), wheel_moves = readings_[1].isMotion();
+  if (body_moves && la.damping_to_mass < -kCertain * la.damping_to_mass_stddev) return SensorFault::kNegativeDamping;
+  const bool may_be_swapped = readings_[0].variance > kMuchLarger * readings_[1].variance;
+  return wheel_moves && (body_moves || may_be_swapped) ? SensorFault::kUnrelated : SensorFault::kNone;
 }
 
 SensorFault SensorCheck::judgeMeans() const {
   if (tolerance_ == 0.0) return SensorFault::kNone;
+  if (const SensorFault fault = judgeGravity(); fault != SensorFault::kNone) return fault;
   if (isOff(readings_[0])) return SensorFault::kSprungGravity;
   if (isOff(readings_[1])) return SensorFault::kUnsprungGravity;
   const auto clear = [](const Reading& reading) { return kMeanNoise * std::sqrt(reading.variance) < kGravity / 4.0; };
   if (clear(readings_[0]) && clear(readings_[1]) && hasGravity(readings_[0].mean) != hasGravity(readings_[1].mean))
     return SensorFault::kGravityOnOneSide;
+  return SensorFault::kNone;
+}
+
+// What two means tell that each of them does not.
+SensorFault SensorCheck::judgeGravity() const {
+  const auto noise = [](const Reading& reading) { return kMeanNoise * std::sqrt(reading.variance); };
+  const auto reads_gravity = [&](const Reading& reading) {
+    return hasGravity(reading.mean) && noise(reading) < kGravity / 2.0;
+  };
+  const auto in_g = [&](const Reading& reading) {
+    return std::abs(std::abs(reading.mean) - 1.0) < kInG + noise(reading) && noise(reading) < 2.0 * kInG;
+  };
+  const bool sprung = reads_gravity(readings_[0]), unsprung = reads_gravity(readings_[1]);
+  if (sprung && unsprung && readings_[0].mean * readings_[1].mean < 0.0) return SensorFault::kGravityOpposed;
+  if (unsprung && in_g(readings_[0])) return SensorFault::kSprungInG;
+  if (sprung && in_g(readings_[1])) return SensorFault::kUnsprungInG;
   return SensorFault::kNone;
 }
 
@@ -97,8 +124,18 @@ std::string describe(const SensorReport& report) {
                     "mean readings %.2f (sprung) and %.2f m/s^2 (unsprung): only one of the IMUs reads gravity",
                     report.mean[0], report.mean[1]);
       return text;
+    case SensorFault::kGravityOpposed:
+      return "one IMU reads gravity upward, the other downward: "
+             "one is mounted upside down, or its axis has the wrong sign";
+    case SensorFault::kSprungInG:
+      return "the sprung IMU reads about 1 where the other reads gravity: it is in g, must be in m/s^2";
+    case SensorFault::kUnsprungInG:
+      return "the unsprung IMU reads about 1 where the other reads gravity: it is in g, must be in m/s^2";
+    case SensorFault::kNegativeDamping:
+      return "damping is negative: are the IMUs swapped, or is an axis the wrong way up?";
     case SensorFault::kUnrelated:
-      return "both IMUs move, but no strut makes the one of the other: sensor fault, wrong axis or wrong topic";
+      return "both IMUs move, but no strut makes the one of the other: "
+             "sensor fault, wrong axis, wrong topic, or the two swapped";
     case SensorFault::kWrongPeriod:
       return "stamps do not fit sample_period";
   }

@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/identification/horizon_survey.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -48,6 +49,16 @@ std::optional<int> HorizonSurvey::horizonSamples() const {
     best = suspension_health_monitor::horizonSamples(proposed, period_, rule_);
   }
   return best;
+}
+
+bool HorizonSurvey::dampingIsNegative() const {
+  bool any = false;
+  const bool all = std::all_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
+    if (candidate.least_squares.effectiveRows() < kFewestRows) return true;
+    any = true;
+    return candidate.least_squares.parameters()[kDampingToMass] < 0.0;
+  });
+  return any && all;
 }
 
 }  // namespace suspension_health_monitor

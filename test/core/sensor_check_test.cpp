@@ -1,0 +1,73 @@
+#include "suspension_health_monitor/health/sensor_check.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "simulated_drive.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using Change = std::function<void(double& sprung, double& unsprung)>;
+
+/// @return what is said of the sensors after a drive of 60 s whose readings are changed.
+/// @param gravity  that both of them read [m/s^2].
+SensorFault faultOf(SimulationOptions options, double gravity, const Change& change) {
+  options.duration = 60.0;
+  options.rate = 100.0;
+  MonitorOptions settings;
+  settings.sample_period = 0.01;
+  settings.integration_horizon = 0.6;
+  SuspensionMonitor monitor(settings);
+  for (const DriveSample& sample : drive(options)) {
+    double sprung = gravity + sample.sprung->acceleration, unsprung = gravity + sample.unsprung->acceleration;
+    change(sprung, unsprung);
+    monitor.addSample({sample.stamp, sprung, unsprung});
+  }
+  return monitor.report().health.sensor.fault;
+}
+
+SimulationOptions road(const std::string& vehicle) {
+  SimulationOptions options = scenario("iso_road");
+  options.vehicle = vehicle;
+  return options;
+}
+
+const Change kSwap = [](double& sprung, double& unsprung) { std::swap(sprung, unsprung); };
+const Change kTurnBody = [](double& sprung, double&) { sprung = -sprung; };
+const Change kTurnWheel = [](double&, double& unsprung) { unsprung = -unsprung; };
+
+TEST(SensorCheck, SuspectsSensorsThatAreSwapped) {
+  for (const double gravity : {0.0, 9.81})
+    EXPECT_EQ(faultOf(road("ugv"), gravity, kSwap), SensorFault::kUnrelated) << gravity;
+}
+
+TEST(SensorCheck, NamesASensorThatIsUpsideDown) {
+  for (const Change& turn : {kTurnBody, kTurnWheel}) {
+    EXPECT_EQ(faultOf(road("ugv"), 9.81, turn), SensorFault::kGravityOpposed);
+    EXPECT_EQ(faultOf(road("ugv"), 0.0, turn), SensorFault::kNegativeDamping);
+  }
+}
+
+TEST(SensorCheck, NamesASensorThatReadsInG) {
+  EXPECT_EQ(faultOf(road("ugv"), 9.81, [](double& sprung, double&) { sprung /= 9.81; }), SensorFault::kSprungInG);
+  EXPECT_EQ(faultOf(road("ugv"), 9.81, [](double&, double& unsprung) { unsprung /= 9.81; }), SensorFault::kUnsprungInG);
+}
+
+TEST(SensorCheck, SuspectsNothingInHealthyDrives) {
+  const Change none = [](double&, double&) {};
+  for (const double gravity : {0.0, 9.81, -9.81}) {
+    for (const char* vehicle : {"golden_car", "rover", "ugv"})
+      EXPECT_EQ(faultOf(road(vehicle), gravity, none), SensorFault::kNone) << vehicle << " " << gravity;
+    for (const char* name : {"paper_clean", "paper_outliers", "paper_saturation"})
+      EXPECT_EQ(faultOf(scenario(name), gravity, none), SensorFault::kNone) << name << " " << gravity;
+  }
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
