@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kDefaultHorizon = 0.6;  // [s], the paper's
 constexpr int kMostSamples = 100000;  // as of horizon_samples
+constexpr int kUpdatesPerTwoHorizons = 3;  // of health: rows within a horizon share most of their samples
 
 }  // namespace
 
@@ -83,7 +84,7 @@ HealthOptions MonitorOptions::health(double period) const {
   health.forgetting_factor = forgetting_factor;
   health.horizon_samples = horizonSamples(period);
   health.period = period;
-  health.rows_per_update = health.horizon_samples;  // rows within a horizon share most of their samples
+  health.rows_per_update = std::max(1, 2 * health.horizon_samples / kUpdatesPerTwoHorizons);
   return health;
 }
 
