@@ -2,13 +2,16 @@
 // how much they scatter, and what faults do to them, against the forgetting factor; and that of LA whose forgetting
 // factor falls while its residuals are correlated with the regressors.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "../test/core/estimation_error.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
+#include "suspension_health_monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -185,7 +188,44 @@ void printTable() {
   }
 }
 
+// The paper's road, then 24 h of nothing but the sensors' noise.
+void printParked() {
+  constexpr long kDay = 24L * 3600 * 50;
+  std::printf("\n| rule | b1 before, after [1/s] | b0 before, after [1/s^2] | stddev of b1 before, after | b1, b0 one second into "
+              "the next drive |\n|---|---|---|---|---|\n");
+  SimulationOptions road;
+  road.scenario = "paper_clean";
+  road.damping_ramp = false;
+  road.duration = 60.0;
+  const std::vector<DriveSample> drive = driven(road, 7);
+  for (const char* rule : {"exponential", "directional"}) {
+    MonitorOptions options;
+    options.sample_period = 0.02;
+    options.forgetting_rule = rule;
+    SuspensionMonitor monitor(options);
+    Stamp stamp{};
+    const auto add = [&](double sprung, double unsprung) {
+      stamp += std::chrono::milliseconds(20);
+      monitor.addSample({stamp, sprung, unsprung});
+    };
+    for (const DriveSample& sample : drive) add(sample.sprung->acceleration, sample.unsprung->acceleration);
+    const StrutEstimate before = monitor.report().la;
+    std::mt19937_64 engine(7);
+    std::normal_distribution<double> noise(0.0, 0.024);
+    for (long k = 0; k < kDay; ++k) add(noise(engine), noise(engine));
+    const StrutEstimate after = monitor.report().la;
+    for (std::size_t k = 500; k < 550; ++k) add(drive[k].sprung->acceleration, drive[k].unsprung->acceleration);
+    const StrutEstimate next = monitor.report().la;
+    std::printf("| %s | %.2f, %.2f | %.1f, %.1f | %.3f, %.3f | %.2f, %.1f |\n", rule, before.damping_to_mass,
+                after.damping_to_mass, before.stiffness_to_mass, after.stiffness_to_mass, before.damping_to_mass_stddev,
+                after.damping_to_mass_stddev, next.damping_to_mass, next.stiffness_to_mass);
+  }
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor
 
-int main() { suspension_health_monitor::printTable(); }
+int main() {
+  suspension_health_monitor::printTable();
+  suspension_health_monitor::printParked();
+}
