@@ -36,7 +36,8 @@ BagOptions readBagOptions(const po::variables_map& values) {
   if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
   static constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
   for (std::size_t i = 0; i < bags.topics.size(); ++i)
-    if (bags.topics[i].empty()) throw std::invalid_argument(std::string(kTopicOptions[i]) + " is empty, must be a topic");
+    if (bags.topics[i].empty())
+      throw std::invalid_argument(std::string(kTopicOptions[i]) + " is empty, must be a topic");
   if (bags.topics[0] == bags.topics[1])
     throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + bags.topics[0] + ", must differ");
   if (bags.topics.size() > 2 && (bags.topics[2] == bags.topics[0] || bags.topics[2] == bags.topics[1]))

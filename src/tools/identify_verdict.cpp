@@ -18,8 +18,8 @@ std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
   if (monitor.input().period_fits) return std::nullopt;
   char text[200];
   std::snprintf(text, sizeof text,
-                "stamps come every %.6g s, but sample_period = %.6g [s]: no estimate is valid; leave sample_period out to "
-                "have it measured",
+                "stamps come every %.6g s, but sample_period = %.6g [s]: no estimate is valid; leave sample_period out "
+                "to have it measured",
                 monitor.input().mean_period, monitor.period());
   return text;
 }

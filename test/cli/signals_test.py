@@ -18,6 +18,15 @@ def long_bag(program, tmp_path_factory):
     return path
 
 
+def start(program, folder, arguments, **handling):
+    """handling: of signals, by name; those not named as at a terminal, even where this test runs in the background."""
+    def set_up():
+        for number in SIGNALS:
+            signal.signal(number, handling.get(number.name, signal.SIG_DFL))
+    return subprocess.Popen([program.path, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                            preexec_fn=set_up)
+
+
 def wait_for_growth(folder):
     """Until the unfinished bag is being written."""
     deadline = time.monotonic() + 20.0
@@ -29,7 +38,7 @@ def wait_for_growth(folder):
 @pytest.mark.parametrize("number", SIGNALS)
 def test_a_signal_leaves_no_part_of_the_bag(program, tmp_path, number):
     (tmp_path / "out.bag").write_bytes(b"here first")
-    process = subprocess.Popen([program.path, *LONG], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process = start(program, tmp_path, LONG)
     wait_for_growth(tmp_path)
     process.send_signal(number)
     assert process.communicate(timeout=20) == (b"", b"")
@@ -39,8 +48,7 @@ def test_a_signal_leaves_no_part_of_the_bag(program, tmp_path, number):
 
 
 def test_a_signal_that_the_parent_ignores_stays_ignored(program, tmp_path):
-    process = subprocess.Popen([program.path, *LONG], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    process = start(program, tmp_path, LONG, SIGHUP=signal.SIG_IGN)
     wait_for_growth(tmp_path)
     process.send_signal(signal.SIGHUP)
     time.sleep(0.3)
@@ -55,8 +63,7 @@ def test_a_signal_that_the_parent_ignores_stays_ignored(program, tmp_path):
     ("compare", ["--json", "result.json"], 0.0), ("compare", ["--json", "result.json"], 0.5),
     ("diagnose", ["--json", "result.json", "-o", "model.yaml"], 0.5)])
 def test_a_signal_leaves_no_part_of_the_results(program, long_bag, tmp_path, command, files, after):
-    process = subprocess.Popen([program.path, command, long_bag, *files], cwd=tmp_path, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE)
+    process = start(program, tmp_path, [command, long_bag, *files])
     deadline = time.monotonic() + 20.0
     while not os.listdir(tmp_path):
         assert time.monotonic() < deadline

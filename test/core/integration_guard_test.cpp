@@ -34,8 +34,9 @@ std::string complaint(const SimulationOptions& options) {
 
 TEST(IntegrationGuard, EndsADriveThatRunsAway) {
   EXPECT_EQ(complaint(hiding("quadratic_damping", 5.0, {})), "");
-  for (const auto& [name, coefficient] : {std::pair("quadratic_damping", -50.0), std::pair("asymmetric_damping", -400.0),
-                                          std::pair("position_dependent_damping", -1e6)}) {
+  for (const auto& [name, coefficient] :
+       {std::pair("quadratic_damping", -50.0), std::pair("asymmetric_damping", -400.0),
+        std::pair("position_dependent_damping", -1e6)}) {
     const std::string words = complaint(hiding(name, coefficient, {}));
     EXPECT_NE(words.find("unstable"), std::string::npos) << name << words;
     EXPECT_NE(words.find(name), std::string::npos) << words;

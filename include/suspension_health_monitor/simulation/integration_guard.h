@@ -17,7 +17,7 @@ class IntegrationGuard {
   IntegrationGuard(const std::vector<ActiveEffect>& hidden, double step);
 
   /// Counts one evaluation of the equations of motion at time t [s].
-  /// @throws std::invalid_argument  if there are more than kMostPerStep for each of the longest steps of the drive so far.
+  /// @throws std::invalid_argument  if there are more than kMostPerStep for each longest step that fits into 0 .. t.
   void countEvaluation(double t) {
     if (static_cast<double>(++evaluations_) > kGrace + kMostPerStep * t / step_) refuseStiffness(t);
   }

@@ -28,8 +28,8 @@ IntegrationGuard::IntegrationGuard(const std::vector<ActiveEffect>& hidden, doub
     : hidden_(describe(hidden)), step_(step) {}
 
 void IntegrationGuard::refuseStiffness(double t) const {
-  throw std::invalid_argument("the strut" + hidden_ + " is too stiff to be simulated: its force changes so abruptly that " +
-                              "the integration would hardly get on" + at(t));
+  throw std::invalid_argument("the strut" + hidden_ + " is too stiff to be simulated: its force changes so abruptly " +
+                              "that the integration would hardly get on" + at(t));
 }
 
 void IntegrationGuard::refuseMotion(double t) const {
