@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../test/core/estimation_error.h"
+#include "../test/core/simulated_drive.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
 #include "suspension_health_monitor/pi.h"
 #include "suspension_health_monitor/suspension_monitor.h"
@@ -84,10 +85,7 @@ std::vector<Point> follow(const std::vector<DriveSample>& drive, const Setting& 
 
 std::vector<DriveSample> driven(SimulationOptions options, int seed) {
   options.seed = seed;
-  DriveSimulator simulator(options);
-  std::vector<DriveSample> drive;
-  while (const auto sample = simulator.next()) drive.push_back(*sample);
-  return drive;
+  return drive(options);
 }
 
 SimulationOptions stepDrive() {

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/simulation/drive_simulator.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "../test/core/first_alarms.h"
+#include "../test/core/paper_drive.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -40,14 +39,6 @@ struct Delays {
   int false_early = 0, false_warn = 0, false_error = 0;
   double hours_before = 0.0, stale = 0.0, samples = 0.0;
 };
-
-std::vector<CornerSample> simulate(const SimulationOptions& options) {
-  DriveSimulator simulator(options);
-  std::vector<CornerSample> samples;
-  while (const auto sample = simulator.next())
-    samples.push_back({sample->stamp, sample->sprung->acceleration, sample->unsprung->acceleration});
-  return samples;
-}
 
 MonitorOptions optionsFor(double period, double b1, double b0) {
   MonitorOptions options;
@@ -173,21 +164,12 @@ void printRamps() {
       SimulationOptions options;
       options.scenario = scenario;
       options.seed = seed;
-      SuspensionMonitor monitor(optionsFor(0.02, 3.0, 13.8));
-      std::optional<double> early, warn, error;
-      for (const CornerSample& sample : simulate(options)) {
-        const MonitorReport* report = monitor.addSample(sample);
-        if (report == nullptr) continue;
-        const double t = toSeconds(report->stamp);
-        if (!early && report->health.early_warning) early = t;
-        if (!warn && report->health.level == HealthLevel::kWarn) warn = t;
-        if (!error && report->health.level == HealthLevel::kError) error = t;
-      }
+      const FirstAlarms first = firstAlarms(simulate(options), optionsFor(0.02, kPaperB1, kPaperB0));
       const double never = std::numeric_limits<double>::infinity();
-      warns.add(warn.value_or(never) - kWarnDue);
-      errors.add(error.value_or(never) - kErrorDue);
-      notices.add(early.value_or(never));
-      late += warn.value_or(never) > kWarnDue + 5.0 ? 1 : 0;
+      warns.add(first.warn.value_or(never) - kWarnDue);
+      errors.add(first.error.value_or(never) - kErrorDue);
+      notices.add(first.early.value_or(never));
+      late += first.warn.value_or(never) > kWarnDue + 5.0 ? 1 : 0;
     }
     std::printf("| %s | %.1f, %.1f, %.1f | %.1f, %.1f, %.1f | %.0f | %d of %d |\n", scenario, warns.sum / kRampSeeds,
                 warns.least, warns.most, errors.sum / kRampSeeds, errors.least, errors.most, notices.sum / kRampSeeds,
@@ -206,7 +188,7 @@ void printDay(double hours) {
   const std::vector<CornerSample> clean = simulate(options);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> noise(-kNoise * std::sqrt(3.0), kNoise * std::sqrt(3.0));
-  SuspensionMonitor monitor(optionsFor(kPeriod, 3.0, 13.8));
+  SuspensionMonitor monitor(optionsFor(kPeriod, kPaperB1, kPaperB0));
   long warn = 0, error = 0, stale = 0, early = 0, samples = 0;
   HealthReport before;
   for (Stamp stamp{}; toSeconds(stamp) < 3600.0 * hours;)

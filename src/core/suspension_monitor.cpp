@@ -77,12 +77,10 @@ void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
 [[gnu::noinline]] void SuspensionMonitor::judgeHealth(const CornerSample& sample) {
   until_judged_ = health_.options().rows_per_update;
   const CornerSample& previous = in_series_ > 1 ? recent_[(in_series_ - 2) % recent_.size()] : sample;
-  const double memory = 1.0 / (1.0 - std::min(options_.forgetting_factor, 1.0 - 1e-6));
-  const bool enough_rows = report_.la.effective_rows >= std::min(0.9 * memory, 10.0 * options_.valid_min_rows);
+  const bool enough_rows =
+      report_.la.effective_rows >= fewestRows(10 * options_.valid_min_rows, options_.forgetting_factor);
   judgePeriod();
-  SensorReport sensors = sensors_.look(previous, sample, report_.la, enough_rows);
-  if (!input_.period_fits) sensors.fault = SensorFault::kWrongPeriod;
-  health_.setSensors(sensors);
+  health_.setSensors(sensors_.look(previous, sample, report_.la, enough_rows));
   report_.health = health_.update(report_.stamp, report_.ls, report_.la);
 }
 

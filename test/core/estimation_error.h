@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "monitor_settings.h"
-#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "simulated_drive.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
@@ -16,10 +16,7 @@ inline std::vector<DriveSample> paperExperiment(const std::string& scenario, int
   SimulationOptions options;
   options.scenario = scenario;
   options.seed = seed;
-  DriveSimulator simulator(options);
-  std::vector<DriveSample> drive;
-  while (const auto sample = simulator.next()) drive.push_back(*sample);
-  return drive;
+  return drive(options);
 }
 
 struct ParameterError {

@@ -172,85 +172,81 @@ class NoiseRows {
 
 constexpr int kLooksOfTenBlocks = 80;  // of 64 rows
 
-void look(Excitation& excitation, NoiseRows& rows, double damping, double stiffness, double error) {
-  for (int k = 0; k < kLooksOfTenBlocks; ++k) excitation.judge(rows.next(damping, stiffness, error), rows.theta);
-}
+/// What is judged of noise rows, from a drive on that is worth being held.
+struct Judged {
+  explicit Judged(bool armed = true, double unit = 1.0) : rows(unit) {
+    if (armed) excitation.arm();
+    look(1.0, 1.0, 0.5);
+  }
 
-std::pair<bool, bool> excited(const Excitation& excitation) {
-  return {excitation.excited(kDampingToMass), excitation.excited(kStiffnessToMass)};
-}
+  void judge(const RegressionRow& row) { excitation.judge(row, rows.theta); }
+
+  void look(double damping, double stiffness, double error) {
+    for (int k = 0; k < kLooksOfTenBlocks; ++k) judge(rows.next(damping, stiffness, error));
+  }
+
+  std::pair<bool, bool> excited() const {
+    return {excitation.excited(kDampingToMass), excitation.excited(kStiffnessToMass)};
+  }
+
+  NoiseRows rows;
+  Excitation excitation{30, 0.99};
+};
 
 // Drive, then a tenth of a thousandth of its information, with parts of 0.06 and 0.28 times the error.
 TEST(Excitation, OfEachParameterIsJudgedByItsOwnRegressor) {
   const std::pair both(true, true);
   for (const double unit : {1.0, 1e-6, 1e6}) {
-    Excitation excitation(30, 0.99);
-    NoiseRows rows(unit);
-    excitation.arm();
-    look(excitation, rows, 1.0, 1.0, 0.5);
-    EXPECT_EQ(excited(excitation), both) << unit;
-    look(excitation, rows, 0.01, 1.0, 0.5);
-    EXPECT_EQ(excited(excitation), std::pair(false, true)) << unit;
-    look(excitation, rows, 1.0, 0.01, 0.5);
-    EXPECT_EQ(excited(excitation), std::pair(true, false)) << unit;
-    look(excitation, rows, 0.01, 0.01, 0.5);
-    EXPECT_EQ(excited(excitation), std::pair(false, false)) << unit;
-    EXPECT_NEAR(excitation.ratio(kDampingToMass), 0.01 * kB1 / 0.5, 0.03);
-    EXPECT_NEAR(excitation.ratio(kStiffnessToMass), 0.01 * kB0 / 0.5, 0.12);
-    look(excitation, rows, 1.0, 1.0, 0.5);
-    EXPECT_EQ(excited(excitation), both) << unit;
+    Judged judged(true, unit);
+    EXPECT_EQ(judged.excited(), both) << unit;
+    judged.look(0.01, 1.0, 0.5);
+    EXPECT_EQ(judged.excited(), std::pair(false, true)) << unit;
+    judged.look(1.0, 0.01, 0.5);
+    EXPECT_EQ(judged.excited(), std::pair(true, false)) << unit;
+    judged.look(0.01, 0.01, 0.5);
+    EXPECT_EQ(judged.excited(), std::pair(false, false)) << unit;
+    EXPECT_NEAR(judged.excitation.ratio(kDampingToMass), 0.01 * kB1 / 0.5, 0.03);
+    EXPECT_NEAR(judged.excitation.ratio(kStiffnessToMass), 0.01 * kB0 / 0.5, 0.12);
+    judged.look(1.0, 1.0, 0.5);
+    EXPECT_EQ(judged.excited(), both) << unit;
   }
 }
 
 TEST(Excitation, ASmootherRoadThatIsClearOfTheNoiseGoesOnCounting) {
-  Excitation excitation(30, 0.99);
-  NoiseRows rows;
-  excitation.arm();
-  look(excitation, rows, 1.0, 1.0, 0.5);
-  look(excitation, rows, 0.01, 0.01, 0.003);
-  EXPECT_EQ(excited(excitation), std::pair(true, true));
+  Judged judged;
+  judged.look(0.01, 0.01, 0.003);
+  EXPECT_EQ(judged.excited(), std::pair(true, true));
 }
 
 TEST(Excitation, ARoughRoadThatTheModelDoesNotExplainGoesOnCounting) {
-  Excitation excitation(30, 0.99);
-  NoiseRows rows;
-  excitation.arm();
-  look(excitation, rows, 1.0, 1.0, 0.5);
-  look(excitation, rows, 1.0, 1.0, 1000.0);
-  EXPECT_EQ(excited(excitation), std::pair(true, true));
+  Judged judged;
+  judged.look(1.0, 1.0, 1000.0);
+  EXPECT_EQ(judged.excited(), std::pair(true, true));
 }
 
 // A spike is no road: what comes after it is measured by what was before.
 TEST(Excitation, AnOutlierDoesNotMakeTheDriveLookParked) {
-  Excitation excitation(30, 0.99);
-  NoiseRows rows;
-  excitation.arm();
-  look(excitation, rows, 1.0, 1.0, 0.5);
-  excitation.judge(rows.next(1e9, 1e9, 0.5), rows.theta);
-  look(excitation, rows, 1.0, 1.0, 100.0);  // thrown off
-  EXPECT_EQ(excited(excitation), std::pair(true, true));
+  Judged judged;
+  judged.judge(judged.rows.next(1e9, 1e9, 0.5));
+  judged.look(1.0, 1.0, 100.0);  // thrown off
+  EXPECT_EQ(judged.excited(), std::pair(true, true));
 }
 
 TEST(Excitation, BeforeThereIsAnythingToHoldEverythingCounts) {
-  Excitation excitation(30, 0.99);
-  NoiseRows rows;
-  look(excitation, rows, 1.0, 1.0, 0.5);
-  look(excitation, rows, 1e-6, 1e-6, 0.5);
-  EXPECT_EQ(excited(excitation), std::pair(true, true));
+  Judged judged(false);
+  judged.look(1e-6, 1e-6, 0.5);
+  EXPECT_EQ(judged.excited(), std::pair(true, true));
 }
 
 // The constant is what two sensors of different offset leave in the twice integrated difference.
 TEST(Excitation, AConstantOfTheStiffnessRegressorIsNone) {
-  Excitation excitation(30, 0.99);
-  NoiseRows rows;
-  excitation.arm();
-  look(excitation, rows, 1.0, 1.0, 0.5);
+  Judged judged;
   for (int k = 0; k < 5 * kLooksOfTenBlocks; ++k) {
-    RegressionRow row = rows.next(0.001, 0.001, 0.5);
+    RegressionRow row = judged.rows.next(0.001, 0.001, 0.5);
     row.regressor[kStiffnessToMass] += 5.0;
-    excitation.judge(row, rows.theta);
+    judged.judge(row);
   }
-  EXPECT_EQ(excited(excitation), std::pair(false, false));
+  EXPECT_EQ(judged.excited(), std::pair(false, false));
 }
 
 }  // namespace

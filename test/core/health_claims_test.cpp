@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "first_alarms.h"
 #include "monitor_settings.h"
 #include "paper_drive.h"
 #include "suspension_health_monitor/suspension_monitor.h"
@@ -25,23 +26,6 @@ HealthReport healthAfter(const std::vector<CornerSample>& drive, const MonitorOp
   return monitor.report().health;
 }
 
-struct FirstTimes {
-  std::optional<double> early, warn, error;  // [s]
-};
-
-FirstTimes firstTimes(const SimulationOptions& drive) {
-  FirstTimes first;
-  SuspensionMonitor monitor(judgedOptions());
-  for (const CornerSample& sample : simulate(drive)) {
-    const MonitorReport* report = monitor.addSample(sample);
-    const double t = toSeconds(sample.stamp);
-    if (!first.early && report->health.early_warning) first.early = t;
-    if (!first.warn && report->health.level == HealthLevel::kWarn) first.warn = t;
-    if (!first.error && report->health.level == HealthLevel::kError) first.error = t;
-  }
-  return first;
-}
-
 // The damping falls from 3 to 2 1/s between 40 s and 100 s: -15 % at 67 s, -30 % at 94 s. An estimate that scatters by
 // 1 % of a parameter that falls by 0.55 % a second moves the time by 2 s: doc/health.md has more drives. Of paper_outliers
 // a second without readings ends a second before the warning is due: 5 s of readings are 6 s there.
@@ -51,7 +35,7 @@ TEST(Health, WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp) {
       SimulationOptions drive;
       drive.scenario = scenario;
       drive.seed = seed;
-      const FirstTimes first = firstTimes(drive);
+      const FirstAlarms first = firstAlarms(simulate(drive), judgedOptions());
       ASSERT_TRUE(first.early && first.warn && first.error) << scenario << ' ' << seed;
       EXPECT_NEAR(*first.warn, 67.0, warn_within) << scenario << ' ' << seed;
       EXPECT_NEAR(*first.error, 94.0, 5.0) << scenario << ' ' << seed;
@@ -69,7 +53,7 @@ TEST(Health, ASmallStepDoesNotLookLarge) {
       drive.ramp_start = 60.0;
       drive.ramp_end = 60.02;
       drive.damping_end_fraction = left;
-      const FirstTimes first = firstTimes(drive);
+      const FirstAlarms first = firstAlarms(simulate(drive), judgedOptions());
       EXPECT_EQ(first.warn.has_value(), level == HealthLevel::kWarn) << left << ' ' << seed;
       EXPECT_FALSE(first.error) << left << ' ' << seed;
     }

@@ -16,7 +16,6 @@ struct Baseline {
   bool learned = false;                     ///< from a drive; false: nominal values
   Stamp from{}, to{};                       ///< the drive that it was learned from
 
-  bool isComplete() const { return damping_to_mass && stiffness_to_mass; }
   bool isEmpty() const { return !damping_to_mass && !stiffness_to_mass; }
 };
 

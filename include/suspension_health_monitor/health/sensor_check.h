@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "suspension_health_monitor/corner_sample.h"
@@ -21,7 +22,6 @@ enum class SensorFault : unsigned char {
   kUnsprungInG,       ///< the wheel carrier's IMU, likewise
   kNegativeDamping,   ///< damping is certainly negative
   kUnrelated,         ///< both move, but the one is not what a strut makes of the other
-  kWrongPeriod,       ///< samples do not come at sample_period: whatever is computed with it is wrong
 };
 
 /// What was found, with the mean readings [m/s^2] that say so.
@@ -60,6 +60,7 @@ class SensorCheck {
     double last = 0.0, mean = 0.0, variance = 0.0, step = 0.0;  // step: mean square from sample to sample
     int still = 0;                                              // samples looked at without any change
     void add(double before, double now, double slow, double quick);
+    double meanNoise() const { return kMeanNoise * std::sqrt(variance); }
     bool isMotion() const { return step < kWhiteShare * 2.0 * variance; }
   };
 

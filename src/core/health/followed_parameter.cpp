@@ -7,7 +7,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kTrendMemories = 2.25;  // long enough to be calm, short enough to bend; measured in doc/health.md
-constexpr double kLagOfLa = 3.0;        // memories
+constexpr double kLagOfLa = 3.0;         // memories
 
 std::optional<LogChange> changeOf(const std::optional<UncertainValue>& now, const UncertainValue& healthy) {
   if (!now || !(now->value > 0.0)) return std::nullopt;

@@ -79,7 +79,7 @@ SensorFault SensorCheck::judgeMeans() const {
   if (const SensorFault fault = judgeGravity(); fault != SensorFault::kNone) return fault;
   if (isOff(readings_[0])) return SensorFault::kSprungGravity;
   if (isOff(readings_[1])) return SensorFault::kUnsprungGravity;
-  const auto clear = [](const Reading& reading) { return kMeanNoise * std::sqrt(reading.variance) < kGravity / 4.0; };
+  const auto clear = [](const Reading& reading) { return reading.meanNoise() < kGravity / 4.0; };
   if (clear(readings_[0]) && clear(readings_[1]) && hasGravity(readings_[0].mean) != hasGravity(readings_[1].mean))
     return SensorFault::kGravityOnOneSide;
   return SensorFault::kNone;
@@ -87,12 +87,12 @@ SensorFault SensorCheck::judgeMeans() const {
 
 // What two means tell that each of them does not.
 SensorFault SensorCheck::judgeGravity() const {
-  const auto noise = [](const Reading& reading) { return kMeanNoise * std::sqrt(reading.variance); };
-  const auto reads_gravity = [&](const Reading& reading) {
-    return hasGravity(reading.mean) && noise(reading) < kGravity / 2.0;
+  const auto reads_gravity = [](const Reading& reading) {
+    return hasGravity(reading.mean) && reading.meanNoise() < kGravity / 2.0;
   };
-  const auto in_g = [&](const Reading& reading) {
-    return std::abs(std::abs(reading.mean) - 1.0) < kInG + noise(reading) && noise(reading) < 2.0 * kInG;
+  const auto in_g = [](const Reading& reading) {
+    const double noise = reading.meanNoise();
+    return std::abs(std::abs(reading.mean) - 1.0) < kInG + noise && noise < 2.0 * kInG;
   };
   const bool sprung = reads_gravity(readings_[0]), unsprung = reads_gravity(readings_[1]);
   if (sprung && unsprung && readings_[0].mean * readings_[1].mean < 0.0) return SensorFault::kGravityOpposed;
@@ -103,7 +103,7 @@ SensorFault SensorCheck::judgeGravity() const {
 
 bool SensorCheck::isOff(const Reading& reading) const {
   const double off = std::min(std::abs(reading.mean), std::abs(std::abs(reading.mean) - kGravity));
-  return off > tolerance_ * kGravity + kMeanNoise * std::sqrt(reading.variance);
+  return off > tolerance_ * kGravity + reading.meanNoise();
 }
 
 std::string describe(const SensorReport& report) {
@@ -136,8 +136,6 @@ std::string describe(const SensorReport& report) {
     case SensorFault::kUnrelated:
       return "both IMUs move, but no strut makes the one of the other: "
              "sensor fault, wrong axis, wrong topic, or the two swapped";
-    case SensorFault::kWrongPeriod:
-      return "stamps do not fit sample_period";
   }
   return {};
 }
