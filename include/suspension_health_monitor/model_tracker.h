@@ -90,7 +90,7 @@ class ModelTracker {
   int valid_min_rows_;
   bool period_fits_ = true;
   double min_rows_, min_explained_;
-  int spread_phase_ = 0;
+  unsigned spread_phase_ = 0;
   MotionJudge motion_;
   double rows_of_model_;     // since the effects were set; infinite for the plain model
   bool has_own_model_ = false;

@@ -7,9 +7,9 @@
 
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/health/assessment.h"
-#include "suspension_health_monitor/identification/running_mean.h"
 #include "suspension_health_monitor/model_tracker.h"
 #include "suspension_health_monitor/monitor_options.h"
+#include "suspension_health_monitor/signal/mean_spacing.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
@@ -27,7 +27,7 @@ struct InputStatus {
   std::uint64_t rows = 0;      ///< regression rows that they gave
   std::uint64_t gaps = 0;      ///< interruptions of at least one sample, after which the filter filled anew
   std::uint64_t restarts = 0;  ///< times that the clock went back and the series began anew
-  double mean_period = 0.0;    ///< running mean of the spacing of uninterrupted samples [s]; 0 before the second
+  double mean_period = 0.0;    ///< mean spacing of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
   bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
 
   static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
@@ -81,11 +81,11 @@ class SuspensionMonitor {
 
  private:
   bool continues(Stamp stamp);
-  void startNewSeries();
+  void startNewSeries(Stamp stamp);
   const CornerSample* remember(const CornerSample& sample);
   const CornerSample* track(const CornerSample& sample);
   void judgeHealth(const CornerSample& sample);
-  void judgePeriod();
+  void judgePeriod(Stamp stamp);
   const ModelTracker& tracker() const { return extended_ ? *extended_ : plain_; }
 
   MonitorOptions options_;
@@ -99,7 +99,7 @@ class SuspensionMonitor {
   HealthAssessment health_;
   SensorCheck sensors_;
   int until_judged_;  // samples
-  RunningMean spacing_;
+  MeanSpacing spacing_;
   std::optional<Stamp> first_stamp_, last_stamp_;
   std::optional<Stamp> reported_until_;  // by the model before the effects were set
   InputStatus input_;

@@ -9,10 +9,10 @@ namespace suspension_health_monitor {
 namespace {
 
 // Standard deviations change slowly, and are the dear part of a description.
-constexpr int kSpreadEvery = 32;  // rows
+constexpr unsigned kSpreadEvery = 32;  // rows
 // Rows between models of the free run, of which a new one costs as much as a step of it, and between judgements of
 // estimates that are valid.
-constexpr int kModelEvery = 8;
+constexpr unsigned kModelEvery = 8;
 
 // Every row: inlined, and without a loop for the plain strut.
 template <class Estimator>

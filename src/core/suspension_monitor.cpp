@@ -11,7 +11,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kSpacingMemory = 0.998;
 constexpr double kSpacings = 50.0;  // before their mean counts: jitter of half a period shifts it by a hundredth
 
 const MonitorOptions& checked(const MonitorOptions& options) {
@@ -30,8 +29,7 @@ SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
       health_(options.health(*options.sample_period)),
       sensors_(options.gravity_tolerance, options.comparison_window / *options.sample_period /
                                               health_.options().rows_per_update),
-      until_judged_(health_.options().rows_per_update),
-      spacing_(kSpacingMemory) {}
+      until_judged_(health_.options().rows_per_update) {}
 
 void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
   if (effects.empty()) {
@@ -79,12 +77,14 @@ void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   const CornerSample& previous = in_series_ > 1 ? recent_[(in_series_ - 2) % recent_.size()] : sample;
   const bool enough_rows =
       report_.la.effective_rows >= fewestRows(10 * options_.valid_min_rows, options_.forgetting_factor);
-  judgePeriod();
+  judgePeriod(sample.stamp);
   health_.setSensors(sensors_.look(previous, sample, report_.la, enough_rows));
   report_.health = health_.update(report_.stamp, report_.ls, report_.la);
 }
 
-void SuspensionMonitor::judgePeriod() {
+void SuspensionMonitor::judgePeriod(Stamp stamp) {
+  spacing_.countUntil(stamp, in_series_);
+  input_.mean_period = spacing_.mean();
   if (spacing_.weight() < kSpacings) return;
   input_.period_fits = std::abs(input_.mean_period / period() - 1.0) <= InputStatus::kPeriodTolerance;
   plain_.setPeriodFits(input_.period_fits, extended_ ? base_ : report_);
@@ -120,30 +120,34 @@ const CornerSample* SuspensionMonitor::remember(const CornerSample& sample) {
 }
 
 bool SuspensionMonitor::continues(Stamp stamp) {
-  if (!last_stamp_) return true;
+  if (!last_stamp_) {
+    spacing_.begin(stamp);
+    return true;
+  }
   const Stamp spacing = stamp - *last_stamp_;
   switch (continuity(spacing, period_)) {
     case Continuity::kTooSoon:
       rejected_.add(RejectReason::kTooSoon);
       return false;
     case Continuity::kContinues:
-      spacing_.add(toSeconds(spacing));
-      input_.mean_period = spacing_.mean();
       break;
     case Continuity::kGap:
       ++input_.gaps;
-      startNewSeries();
+      startNewSeries(stamp);
       break;
     case Continuity::kClockJumped:
       ++input_.restarts;
       first_stamp_.reset();
-      startNewSeries();
+      startNewSeries(stamp);
       break;
   }
   return true;
 }
 
-void SuspensionMonitor::startNewSeries() {
+void SuspensionMonitor::startNewSeries(Stamp stamp) {
+  spacing_.countUntil(*last_stamp_, in_series_);
+  input_.mean_period = spacing_.mean();
+  spacing_.begin(stamp);
   in_series_ = 0;
   reported_until_.reset();
   plain_.startNewSeries(extended_ ? base_ : report_);

@@ -41,17 +41,24 @@ class ParameterTrend {
   static constexpr double kMostCarried = 0.03;  // of the value
 
   struct Line {
-    double level, slope;    // at the newest value; per step
+    double level, slope;    // at the newest step; per step
     double level_variance;
     double unit;            // of the covariance's other entries
   };
 
-  Line fit() const;
+  void forget();
+  void fit();
+
+  /// @return variance of the line so many steps after the newest one.
+  double varianceAhead(double steps) const {
+    return line_.level_variance + steps * (2.0 * age_ + steps * weight_) * line_.unit;
+  }
 
   double memory_, lag_;
   double correlated_;  // steps for which an error counts
   double weight_ = 0.0, age_ = 0.0, age_squared_ = 0.0;  // sums, weighted
   double sum_ = 0.0, sum_age_ = 0.0;                     // of x and of x times age, weighted
+  Line line_{};                                          // through them
 };
 
 }  // namespace suspension_health_monitor

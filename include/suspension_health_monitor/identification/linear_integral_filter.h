@@ -31,7 +31,7 @@ class LinearIntegralFilter {
   void push(double sample);
 
   /// @return true once n L + 1 samples have been pushed: initial conditions no longer reach the output.
-  bool full() const { return pushed_ > order_ * horizon_; }
+  bool full() const { return missing_ == 0; }
 
   /// @param derivative  r, lowest_derivative <= r <= n.
   /// @return I_r^n x at the newest sample [unit of x times s^(n-r)].
@@ -42,7 +42,7 @@ class LinearIntegralFilter {
  private:
   int order_;
   int horizon_;
-  int pushed_ = 0;  // counts up to n L + 1 and stays there
+  int missing_;  // samples until it is full
   std::vector<HorizonIntegral> integrals_;
   std::vector<DelayLine> lines_;            // lines_[i] holds J^i x
   std::vector<std::vector<double>> binomials_;  // binomials_[r][j]: coefficient of q^(-jL) in (1 - q^-L)^r

@@ -94,7 +94,7 @@ class ScoreCovariance {
   int first_rows_;                           // that are still to come, of the start or a restart
   int rest_ = 0;                             // rows that are not looked at
   int in_stretch_ = 0;                       // rows that have been, without a break
-  int phase_ = 0;                            // number of the row, modulo what is done only now and then
+  unsigned phase_ = 0;                       // number of the row, modulo what is done only now and then
   double averaged_ = 0.0;                    // rows in the means below
   Eigen::MatrixXd long_run_, lag0_, information_;  // means of s s' + s c' + c s', s s', w phi phi'
   double scale_ = 0.0;

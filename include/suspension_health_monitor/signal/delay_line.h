@@ -3,33 +3,33 @@
 #include <cstddef>
 #include <vector>
 
-#include "suspension_health_monitor/signal/ring_size.h"
-
 namespace suspension_health_monitor {
 
 /// The newest samples of one signal, read by their age. Samples before the first push are 0.
+/// A ring that is kept twice, one copy behind the other, so that the newest samples are in a row wherever it begins and
+/// reading them takes no wrapping.
 /// Cost per push: O(1), no allocation.
 class DelayLine {
  public:
   /// @param length  number of samples kept at least, >= 1.
   explicit DelayLine(int length)
-      : samples_(ringSize(static_cast<std::size_t>(length)), 0.0), mask_(samples_.size() - 1) {}
+      : size_(static_cast<std::size_t>(length)), samples_(2 * size_, 0.0), newest_(size_) {}
 
   void push(double sample) {
-    newest_ = (newest_ + 1) & mask_;
-    samples_[newest_] = sample;
+    newest_ = newest_ + 1 == 2 * size_ ? size_ : newest_ + 1;
+    samples_[newest_] = samples_[newest_ - size_] = sample;
   }
 
   /// @param lag  age in samples, 0 (the newest) <= lag < length.
   /// @return q^-lag x.
-  double at(int lag) const { return samples_[(newest_ - static_cast<std::size_t>(lag)) & mask_]; }
+  double at(int lag) const { return samples_[newest_ - static_cast<std::size_t>(lag)]; }
 
   void reset() { samples_.assign(samples_.size(), 0.0); }
 
  private:
+  std::size_t size_;
   std::vector<double> samples_;
-  std::size_t mask_;
-  std::size_t newest_ = 0;
+  std::size_t newest_;  // in the copy behind
 };
 
 }  // namespace suspension_health_monitor

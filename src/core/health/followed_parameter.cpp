@@ -9,19 +9,26 @@ namespace {
 constexpr double kTrendMemories = 2.25;  // long enough to be calm, short enough to bend; measured in doc/health.md
 constexpr double kLagOfLa = 3.0;         // memories
 
-std::optional<LogChange> changeOf(const std::optional<UncertainValue>& now, const UncertainValue& healthy) {
-  if (!now || !(now->value > 0.0)) return std::nullopt;
-  // Not std::hypot: its care for huge and tiny numbers would be most of the cost.
-  const double of_value = now->stddev / now->value, of_healthy = healthy.stddev / healthy.value;
-  return LogChange{std::log(now->value / healthy.value), std::sqrt(of_value * of_value + of_healthy * of_healthy)};
+bool isStrut(const std::optional<UncertainValue>& now) { return now && now->value > 0.0; }
+
+// Not std::hypot: its care for huge and tiny numbers would be most of the cost.
+LogChange changeOf(const UncertainValue& now, const UncertainValue& healthy) {
+  const double of_value = now.stddev / now.value, of_healthy = healthy.stddev / healthy.value;
+  return {std::log(now.value / healthy.value), std::sqrt(of_value * of_value + of_healthy * of_healthy)};
 }
 
 // The change that is known better; the other one if it is larger, and certain.
-const LogChange& moreTelling(const LogChange& a, const LogChange& b, double certain) {
-  const LogChange& known = a.stddev < b.stddev ? a : b;
-  const LogChange& other = a.stddev < b.stddev ? b : a;
-  const double size = std::abs(other.size);
-  return size > std::abs(known.size) && size >= certain * other.stddev ? other : known;
+LogChange moreTelling(const UncertainValue& a, const UncertainValue& b, const UncertainValue& healthy, double certain) {
+  const bool a_is_known = a.stddev * b.value < b.stddev * a.value;
+  const UncertainValue& known = a_is_known ? a : b;
+  const UncertainValue& other = a_is_known ? b : a;
+  // Rises with |ln|, of which one is enough.
+  const auto distance = [&](double value) { return std::max(value / healthy.value, healthy.value / value); };
+  if (distance(other.value) > distance(known.value)) {
+    const LogChange change = changeOf(other, healthy);
+    if (std::abs(change.size) >= certain * change.stddev) return change;
+  }
+  return changeOf(known, healthy);
 }
 
 }  // namespace
@@ -45,11 +52,11 @@ void FollowedParameter::follow(const std::optional<UncertainValue>& ls, const Un
 }
 
 std::optional<LogChange> FollowedParameter::changeFrom(const UncertainValue& healthy, double certain) const {
-  if (!forgets_) return changeOf(newest_, healthy);
-  const std::optional<LogChange> by_ls = changeOf(ls_.now(), healthy), by_la = changeOf(la_.now(), healthy);
-  if (!by_ls && !by_la) return changeOf(newest_, healthy);
-  if (!by_ls || !by_la) return by_ls ? by_ls : by_la;
-  return moreTelling(*by_ls, *by_la, certain);
+  const std::optional<UncertainValue> ls = ls_.now(), la = la_.now();
+  if (isStrut(ls) && isStrut(la)) return moreTelling(*ls, *la, healthy, certain);
+  for (const std::optional<UncertainValue>& followed : {ls, la, newest_})
+    if (isStrut(followed)) return changeOf(*followed, healthy);
+  return std::nullopt;
 }
 
 }  // namespace suspension_health_monitor

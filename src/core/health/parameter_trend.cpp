@@ -22,19 +22,25 @@ ParameterTrend::ParameterTrend(double memory, double lag)
     : memory_(memory), lag_(lag), correlated_(lag * correlatedShare(memory / lag)) {}
 
 void ParameterTrend::follow(double value, double variance) {
-  pass();
   const double weight = 1.0 / variance;
-  if (!(weight > 0.0) || !std::isfinite(weight) || !std::isfinite(value)) return;
+  if (!(weight > 0.0) || !std::isfinite(weight) || !std::isfinite(value)) return pass();
   if (weight_ > 0.0) {
-    const Line line = fit();
-    const double error = value - line.level, noise = variance + line.level_variance;
+    const double error = value - line_.level - line_.slope, noise = variance + varianceAhead(1.0);
     if (error * error > kStep * kStep * noise) weight_ = age_ = age_squared_ = sum_ = sum_age_ = 0.0;
   }
+  forget();
   weight_ += weight;
   sum_ += weight * value;
+  fit();
 }
 
 void ParameterTrend::pass() {
+  forget();
+  if (weight_ > 0.0) fit();
+}
+
+// A step further, all are older by one.
+void ParameterTrend::forget() {
   const double kept = 1.0 - 1.0 / memory_;
   age_squared_ = kept * (age_squared_ + 2.0 * age_ + weight_);
   age_ = kept * (age_ + weight_);
@@ -45,20 +51,18 @@ void ParameterTrend::pass() {
 
 std::optional<UncertainValue> ParameterTrend::now() const {
   if (!(weight_ > 0.0)) return std::nullopt;
-  const Line line = fit();
-  const double most = kMostCarried * std::abs(line.level);
-  const double variance = line.level_variance + lag_ * (2.0 * age_ + lag_ * weight_) * line.unit;
-  return UncertainValue{line.level + std::clamp(line.slope * lag_, -most, most), std::sqrt(variance)};
+  const double most = kMostCarried * std::abs(line_.level);
+  return UncertainValue{line_.level + std::clamp(line_.slope * lag_, -most, most), std::sqrt(varianceAhead(lag_))};
 }
 
 // Normal equations [weight, -age; -age, age_squared + prior] [a; b] = [sum; -sum_age]; the prior of the slope is that of
 // kSlope of the mean per memory.
-ParameterTrend::Line ParameterTrend::fit() const {
+void ParameterTrend::fit() {
   const double per_slope = memory_ * weight_ / (kSlope * sum_);
   const double of_slope = age_squared_ + correlated_ * per_slope * per_slope;
   const double inverse = 1.0 / (weight_ * of_slope - age_ * age_);
-  return {(of_slope * sum_ - age_ * sum_age_) * inverse, (age_ * sum_ - weight_ * sum_age_) * inverse,
-          correlated_ * of_slope * inverse, correlated_ * inverse};
+  line_ = {(of_slope * sum_ - age_ * sum_age_) * inverse, (age_ * sum_ - weight_ * sum_age_) * inverse,
+           correlated_ * of_slope * inverse, correlated_ * inverse};
 }
 
 }  // namespace suspension_health_monitor

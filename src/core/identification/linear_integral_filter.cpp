@@ -7,7 +7,7 @@
 namespace suspension_health_monitor {
 
 LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOptions& options, int lowest_derivative)
-    : order_(order), horizon_(options.horizon_samples) {
+    : order_(order), horizon_(options.horizon_samples), missing_(order_ * horizon_ + 1) {
   if (order < 1) throw std::invalid_argument("filter order n = " + std::to_string(order) + ", must be at least 1");
   if (lowest_derivative < 0 || lowest_derivative > order)
     throw std::invalid_argument("derivative r = " + std::to_string(lowest_derivative) + ", must be in [0, " +
@@ -31,7 +31,7 @@ LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOption
 void LinearIntegralFilter::push(double sample) {
   lines_.front().push(sample);
   for (std::size_t i = 0; i < integrals_.size(); ++i) lines_[i + 1].push(integrals_[i].update(lines_[i]));
-  if (!full()) ++pushed_;
+  if (!full()) --missing_;
 }
 
 double LinearIntegralFilter::output(int derivative) const {
@@ -50,7 +50,7 @@ double LinearIntegralFilter::output(int derivative) const {
 }
 
 void LinearIntegralFilter::reset() {
-  pushed_ = 0;
+  missing_ = order_ * horizon_ + 1;
   for (HorizonIntegral& integral : integrals_) integral.reset();
   for (DelayLine& line : lines_) line.reset();
 }

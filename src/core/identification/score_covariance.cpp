@@ -12,7 +12,7 @@ namespace {
 constexpr double kMemories = 30.0;       // of the estimate, that the means last
 constexpr double kLongestMemory = 1e5;   // [rows] of an estimate that never forgets
 constexpr int kFirstRows = 100;          // while the estimate comes from its start
-constexpr int kRefreshEvery = 64;        // rows
+constexpr unsigned kRefreshEvery = 64;       // rows
 constexpr int kStretch = 3;              // windows of lags that it looks at without a break
 constexpr double kEnough = 6000.0;       // rows in the means, to rest between stretches from then on
 constexpr int kRest = 5;                 // stretches
@@ -68,11 +68,11 @@ void ScoreCovariance::setDecay() {
 }
 
 void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double scale) {
+  phase_ = (phase_ + 1) % kRefreshEvery;
   if (rest_ > 0) {
     --rest_;
     return;
   }
-  phase_ = (phase_ + 1) % kRefreshEvery;
   addScore(row, weight.smallest_divisor);
   if (in_stretch_ > lags_) average(row.regressor.data(), weight.weight, scale);
   if (isNowAndThen() || first_rows_ > 0) nowAndThen(theta);
