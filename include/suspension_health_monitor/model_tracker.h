@@ -24,7 +24,7 @@ struct ComparisonReport {
   Stamp stamp{};                    ///< of the compared sample, FreeRun::kDelay before the newest
   double measured = std::nan("");   ///< z'' [m/s^2]
   std::optional<double> predicted;  ///< by the free run with LA's parameters [m/s^2]; empty until it has settled
-  double rmse = std::nan("");       ///< over the window [m/s^2]
+  double rmse = std::nan("");       ///< over the window [m/s^2]; renewed every few samples, as what follows
   double fit_percent = std::nan("");
   double base_rmse = std::nan("");  ///< the same of the model without effects
   double base_fit_percent = std::nan("");
@@ -104,6 +104,7 @@ class ModelTracker {
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
   RunningComparison comparison_;
+  unsigned compared_ = 0;  // samples in it
 };
 
 }  // namespace suspension_health_monitor

@@ -11,7 +11,7 @@ namespace {
 // Standard deviations change slowly, and are the dear part of a description.
 constexpr unsigned kSpreadEvery = 32;  // rows
 // Rows between models of the free run, of which a new one costs as much as a step of it, and between judgements of
-// estimates that are valid.
+// estimates that are valid; samples between figures of its errors.
 constexpr unsigned kModelEvery = 8;
 
 // Every row: inlined, and without a loop for the plain strut.
@@ -231,6 +231,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
   if (!free_run_.settled()) comparison.predicted.reset();
   if (!comparison.predicted) return;
   comparison_.add(comparison.measured, *comparison.predicted);
+  if (compared_++ % kModelEvery != 0) return;
   comparison.rmse = comparison.base_rmse = comparison_.rmse();
   comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
   // Parameters whose free run is worse than a constant are not those of this strut, however small the rows' residuals.
