@@ -79,7 +79,7 @@ ModelTracker::ModelTracker(const MonitorOptions& options)
       least_absolute_(kNumStrutParameters, recursiveOptions(options, filter_), options.leastAbsolute()),
       free_run_(*options.sample_period),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
-  if (options.forgetting_rule == "directional") excitation_.emplace(filter_.horizon_samples, options.forgetting_factor);
+  if (options.forgetting_rule == "directional") excitation_.emplace(filter_, options.forgetting_factor);
 }
 
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report) {
@@ -145,14 +145,14 @@ void ModelTracker::judgeEstimates(bool moves, ModelReport& report) {
     estimate->valid = estimate->doubt == EstimateDoubt::kNone;
   }
   // From the first valid estimate on there is something to hold.
-  if (excitation_ && report.la.valid) excitation_->arm();
+  if (excitation_ && report.la.valid) excitation_->know({report.la.damping_to_mass, report.la.stiffness_to_mass});
 }
 
 void ModelTracker::judgeExcitation(const RegressionRow& row, ModelReport& report) {
   if (!excitation_->judge(row, least_absolute_.parameters())) return;
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
-    estimate->damping_excitation = excitation_->ratio(kDampingToMass);
-    estimate->stiffness_excitation = excitation_->ratio(kStiffnessToMass);
+    estimate->damping_excitation = excitation_->excitation(kDampingToMass);
+    estimate->stiffness_excitation = excitation_->excitation(kStiffnessToMass);
   }
   const bool damping = excitation_->excited(kDampingToMass), stiffness = excitation_->excited(kStiffnessToMass);
   const EstimateDoubt before = excitation_doubt_;
