@@ -68,11 +68,12 @@ class Excitation {
     void learnRest(double information, double num_blocks);
   };
 
+  bool releaseAtOnce(double damping_information, double stiffness_information);
+  void noteHeld();
   void closeBlock();
   void judgeExcited(const RowMoments& recent);
   void judgeHeld();
   std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, const StrutFit& fit) const;
-  bool isAnyHeld() const { return !parts_[kDampingToMass].excited || !parts_[kStiffnessToMass].excited; }
 
   int looks_per_block_;
   double most_blocks_;  // of the usual
@@ -87,6 +88,7 @@ class Excitation {
   Eigen::Vector2d most_;
   std::array<Part, kNumStrutParameters> parts_;
   bool knows_ = false;
+  bool is_held_ = false;  // either of them
 };
 
 }  // namespace suspension_health_monitor

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLeastShare = 0.5;       // of psi^2
 constexpr double kLeastExcitation = 4.5;  // of the noise's information
-constexpr double kUsualShare = 0.3;       // of the usual information: no rest
+constexpr double kUsualShare = 0.1;       // of the usual information: no rest
 constexpr double kByChance = 1e-7;        // that noise looks like a strut
 constexpr double kFarFromRest = 40.0;     // of the information at rest: no chance
 constexpr double kLeastFarShare = 0.03;   // of the usual information
@@ -42,16 +42,24 @@ bool Excitation::judge(const RegressionRow& row, const Eigen::VectorXd& theta) {
   double output = row.output;  // without what effects make of it
   for (Eigen::Index j = kNumStrutParameters; j < theta.size(); ++j) output -= phi[j] * theta[j];
   offset_.add(phi[kStiffnessToMass]);
-  const std::array<double, kNumStrutParameters> deviations{phi[kDampingToMass],
-                                                           phi[kStiffnessToMass] - offset_.mean()};
-  block_.add(deviations[0], deviations[1], output);
-  bool changed = false;
-  for (std::size_t i = 0; i < deviations.size(); ++i)
-    if (!parts_[i].excited && deviations[i] * deviations[i] > parts_[i].farFromRest()) changed = parts_[i].excited = true;
-  if (++looks_ < looks_per_block_) return changed;
+  const double damping = phi[kDampingToMass], stiffness = phi[kStiffnessToMass] - offset_.mean();
+  block_.add(damping, stiffness, output);
+  const bool released = is_held_ && releaseAtOnce(damping * damping, stiffness * stiffness);
+  if (++looks_ < looks_per_block_) return released;
   closeBlock();
   return true;
 }
+
+bool Excitation::releaseAtOnce(double damping_information, double stiffness_information) {
+  bool released = false;
+  const std::array<double, kNumStrutParameters> information{damping_information, stiffness_information};
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    if (!parts_[i].excited && information[i] > parts_[i].farFromRest()) released = parts_[i].excited = true;
+  noteHeld();
+  return released;
+}
+
+void Excitation::noteHeld() { is_held_ = !(parts_[kDampingToMass].excited && parts_[kStiffnessToMass].excited); }
 
 double Excitation::Part::farFromRest() const { return std::max(kFarFromRest * at_rest, kLeastFarShare * usual); }
 
@@ -69,7 +77,7 @@ void Excitation::Part::learnRest(double information, double num_blocks) {
 void Excitation::closeBlock() {
   blocks_ = std::min(blocks_ + 1, 2);
   if (knows_) {
-    if (isAnyHeld()) judgeHeld();
+    if (is_held_) judgeHeld();
     RowMoments recent = before_;
     recent += block_;
     judgeExcited(recent);
@@ -107,6 +115,7 @@ void Excitation::judgeExcited(const RowMoments& recent) {
     }
   }
   if (!is_new) return;
+  is_held_ = true;
   window_ = RowMoments();
   window_blocks_ = 0;
 }
@@ -126,7 +135,8 @@ void Excitation::judgeHeld() {
     part.learnRest(newest[i] / looks_per_block_, 1.0);
     part.excited = tells && excitation[i] >= least;
   }
-  if (window_blocks_ < kMostBlocks && isAnyHeld()) return;
+  noteHeld();
+  if (window_blocks_ < kMostBlocks && is_held_) return;
   window_ = RowMoments();
   window_blocks_ = 0;
 }
