@@ -121,9 +121,7 @@ void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
   rows_of_model_ += 1.0;
   const bool moves = motion_.moves(row.output);
   if (moves) {
-    if (excitation_ && spread_phase_ % Excitation::kJudgeEvery == 0 &&
-        excitation_->judge(row, least_absolute_.parameters()))
-      takeExcitation(report);
+    if (excitation_ && spread_phase_ % Excitation::kJudgeEvery == 0) judgeExcitation(row, report);
     if (excitation_doubt_ == EstimateDoubt::kNotExcited) {
       least_squares_.observe(row);
       least_absolute_.observe(row);
@@ -150,7 +148,8 @@ void ModelTracker::judgeEstimates(bool moves, ModelReport& report) {
   if (excitation_ && report.la.valid) excitation_->know({report.la.damping_to_mass, report.la.stiffness_to_mass});
 }
 
-void ModelTracker::takeExcitation(ModelReport& report) {
+void ModelTracker::judgeExcitation(const RegressionRow& row, ModelReport& report) {
+  if (!excitation_->judge(row, least_absolute_.parameters())) return;
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
     estimate->damping_excitation = excitation_->excitation(kDampingToMass);
     estimate->stiffness_excitation = excitation_->excitation(kStiffnessToMass);
@@ -161,17 +160,6 @@ void ModelTracker::takeExcitation(ModelReport& report) {
                       : damping            ? EstimateDoubt::kStiffnessNotExcited
                       : stiffness          ? EstimateDoubt::kDampingNotExcited
                                            : EstimateDoubt::kNotExcited;
-  const bool comes_to_rest = excitation_doubt_ != before && excitation_doubt_ == EstimateDoubt::kNotExcited;
-  for (RecursiveEstimator* estimator : {static_cast<RecursiveEstimator*>(&least_squares_),
-                                        static_cast<RecursiveEstimator*>(&least_absolute_)}) {
-    // What the rows said since it came to rest was noise.
-    if (comes_to_rest) estimator->goBack();
-    estimator->keep();
-  }
-  if (comes_to_rest) {
-    describe(report);
-    describeSpreads(report);
-  }
   if (excitation_doubt_ == before) return;
   for (RecursiveEstimator* estimator : {static_cast<RecursiveEstimator*>(&least_squares_),
                                         static_cast<RecursiveEstimator*>(&least_absolute_)}) {

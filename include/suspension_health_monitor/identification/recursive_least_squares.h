@@ -62,13 +62,6 @@ class RecursiveEstimator {
   /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
   void hold(int i, bool held);
 
-  /// Keeps estimate and covariance as they are, besides those of the call before. No allocation.
-  void keep();
-
-  /// Goes back to what was kept at the last call of keep() but one, if nothing has changed since that makes it another
-  /// estimate: columns, the first row of a parameter, LA's start. The running means go on.
-  void goBack();
-
   /// Takes a row into the running means only: neither does the estimate move nor is anything forgotten.
   /// @return the innovation psi - phi' theta, in the unit of psi.
   double observe(const RegressionRow& row) { return innovate(row); }
@@ -110,11 +103,7 @@ class RecursiveEstimator {
   UdCovariance covariance_;
   ScoreCovariance scores_;
 
-  /// What has been kept is not comparable with what comes.
-  void forgetKept() { num_kept_ = 0; }
-
  private:
-  void makeRoom();
   void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
   [[gnu::noinline]] const Eigen::VectorXd& correctPartly(const RegressionRow& row, double weight);
 
@@ -125,8 +114,6 @@ class RecursiveEstimator {
   int num_held_ = 0;
   Eigen::VectorXd excited_;  // the regressor without what is held
   RunningMeans<kNumMeans> means_;
-  std::vector<double> older_, newer_;  // kept: theta, then the factors of P
-  int num_kept_ = 0;
 };
 
 /// Recursive least squares with exponential forgetting: minimises sum_i lambda^(k-i) (psi_i - phi_i' theta)^2 (13).

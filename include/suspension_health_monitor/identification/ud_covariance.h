@@ -51,12 +51,6 @@ class UdCovariance {
   /// P <- factor P, the ceilings with it; factor > 0.
   void scale(double factor);
 
-  /// Writes U above its diagonal, and D, size() (size() + 1) / 2 numbers; no allocation.
-  void copyTo(double* factors) const;
-
-  /// P as it was at copyTo(); parameters that have been released since are fixed again.
-  void copyFrom(const double* factors);
-
   /// @return P_ii.
   double variance(int i) const {
     return withPlainSize(diagonal_.size(), [&](auto p) {

@@ -57,7 +57,6 @@ void RecursiveLeastAbsolute::takeOver() {
   // R(k) of LA sums phi phi' / |epsilon|, that of LS phi phi': without the factor the start depends on the unit of psi.
   if (absolute_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
   scores_.restart();
-  forgetKept();
 }
 
 }  // namespace suspension_health_monitor

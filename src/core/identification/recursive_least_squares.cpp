@@ -27,29 +27,6 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
       excited_(theta_),
       means_(options.forgetting_factor) {
   options.validate();
-  makeRoom();
-}
-
-void RecursiveEstimator::makeRoom() {
-  const std::size_t p = static_cast<std::size_t>(numParameters());
-  older_.assign(p + p * (p + 1) / 2, 0.0);
-  newer_ = older_;
-  forgetKept();
-}
-
-void RecursiveEstimator::keep() {
-  older_.swap(newer_);
-  const double* const theta = theta_.data();
-  double* const kept = newer_.data();
-  withPlainSize(theta_.size(), [&](auto p) { std::copy_n(theta, static_cast<Eigen::Index>(p), kept); });
-  covariance_.copyTo(kept + theta_.size());
-  num_kept_ = std::min(num_kept_ + 1, 2);
-}
-
-void RecursiveEstimator::goBack() {
-  if (num_kept_ < 2) return;
-  std::copy_n(older_.data(), theta_.size(), theta_.data());
-  covariance_.copyFrom(older_.data() + theta_.size());
 }
 
 double RecursiveEstimator::innovate(const RegressionRow& row) {
@@ -106,7 +83,6 @@ void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residu
     else
       covariance_.release(i, unit * options_.initial_variance / (relative ? regressor[i] * regressor[i] : 1.0));
     ++num_released_;
-    forgetKept();
   }
 }
 
@@ -122,7 +98,6 @@ void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns)
   held_.assign(columns.size(), false);  // the plain strut's own are held anew when its excitation is judged
   num_held_ = 0;
   excited_ = theta_;
-  makeRoom();
   scores_ = ScoreCovariance(scores_, sources);
   num_released_ = 0;
   for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;

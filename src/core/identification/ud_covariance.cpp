@@ -36,23 +36,6 @@ void UdCovariance::release(int i, double variance) {
   ceiling_[i] = variance;
 }
 
-void UdCovariance::copyTo(double* factors) const {
-  withPlainSize(diagonal_.size(), [&](auto p) {
-    const double* column = upper_.data();
-    for (Eigen::Index j = 0; j < p; ++j, column += p) {
-      for (Eigen::Index i = 0; i < j; ++i) *factors++ = column[i];
-      *factors++ = diagonal_[j];
-    }
-  });
-}
-
-void UdCovariance::copyFrom(const double* factors) {
-  for (Eigen::Index j = 0; j < diagonal_.size(); ++j) {
-    for (Eigen::Index i = 0; i < j; ++i) upper_(i, j) = *factors++;
-    diagonal_[j] = *factors++;
-  }
-}
-
 const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor) {
   // Plain pointers: the compiler cannot know that writing a number does not move a vector.
   const double* const phi = regressor.data();
