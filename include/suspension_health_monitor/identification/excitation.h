@@ -19,8 +19,8 @@ namespace suspension_health_monitor {
 /// besides, the information of its regressor, the mean of phi_i^2, is clear of what that rest would put there if it were
 /// white noise of both sensors (RegressorNoise): excitation(i) is the ratio of both, 1 for noise.
 /// A parameter is held once rows of two blocks, each of a horizon and more, do not tell of it and its information has
-/// fallen below 0.3 of the usual, that of blocks that told of it over ten memories: readings that the model does not
-/// explain on a road as rough as ever are not rest. It is held no longer when the rows since then, up to eight blocks, tell
+/// fallen below a tenth of the usual, that of blocks that told of it over ten memories: readings that the model does
+/// not explain on a road as rough as ever are not rest. It is held no longer when the rows since then, up to eight blocks, tell
 /// of it, and not by chance, or at once when a row stands far out of those at rest.
 /// A constant of phi_0 is the offset between the sensors and not counted.
 /// Looked at is every eighth row: rows change slowly. Cost per row: O(1) whatever L, no allocation. Free of units.
@@ -28,8 +28,9 @@ class Excitation {
  public:
   static constexpr int kJudgeEvery = 8;  // rows
 
-  /// @param filter  of the rows.  @param forgetting_factor  of the estimator.
-  Excitation(const IntegralFilterOptions& filter, double forgetting_factor);
+  /// @param horizon_samples  L of the filter.  @param forgetting_factor  of the estimator.
+  /// @param noise  of the same filter.
+  Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise);
 
   /// Takes in a row, to be called every kJudgeEvery rows.
   /// @param theta  estimate, as many entries as the regressor: b1 [1/s], b0 [1/s^2], and those of effects.

@@ -24,10 +24,10 @@ std::array<double, kNumStrutParameters> informationOf(const RowMoments& rows) {
 
 }  // namespace
 
-Excitation::Excitation(const IntegralFilterOptions& filter, double forgetting_factor)
-    : looks_per_block_(std::max(filter.horizon_samples, kFewestRows) / kJudgeEvery),
+Excitation::Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise)
+    : looks_per_block_(std::max(horizon_samples, kFewestRows) / kJudgeEvery),
       most_blocks_(std::max(1.0, kUsualMemories / (looks_per_block_ * kJudgeEvery * (1.0 - forgetting_factor)))),
-      noise_(filter),
+      noise_(noise),
       offset_(kOffsetMemory) {
   for (Part& part : parts_) part.excitation = std::numeric_limits<double>::quiet_NaN();
   // Of n outputs of white noise two regressors explain more than x with probability (1 - x)^((n - 2) / 2).
