@@ -188,7 +188,7 @@ void printTable() {
   }
 }
 
-// The paper's strut on the paper's road, which stands after a stop that takes `brake` seconds; 1 ms steps of the midpoint rule.
+// The paper's strut on the paper's road, until it stands after a stop that takes `brake` seconds. Midpoint rule, 1 ms.
 class BrakedDrive {
  public:
   static constexpr double kStop = 57.0;  // [s]
@@ -262,8 +262,8 @@ void printParked(const char* rule, double brake, double body_noise, double wheel
 
 void printParkedTable() {
   std::printf(
-      "\n| rule | stop within | noise of body, wheel [m/s^2] | b1 at the stop, after the day [1/s] | b0 [1/s^2] | stddev of b1 "
-      "[1/s] | b1, b0 1 s, 10 s into the next drive |\n|---|---|---|---|---|---|---|\n");
+      "\n| rule | stop within | noise of body, wheel [m/s^2] | b1 at the stop, after the day [1/s] | b0 [1/s^2] | stddev "
+      "of b1 [1/s] | b1, b0 1 s, 10 s into the next drive |\n|---|---|---|---|---|---|---|\n");
   for (const double brake : {3.0, 0.3}) printParked("exponential", brake, 0.024, 0.024);
   for (const double brake : {3.0, 0.3}) printParked("directional", brake, 0.024, 0.024);
   printParked("directional", 3.0, 0.024, 0.072);
