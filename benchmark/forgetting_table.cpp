@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,6 @@
 #include "../test/core/simulated_drive.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
 #include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/road.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
@@ -188,95 +186,7 @@ void printTable() {
   }
 }
 
-// The paper's strut on the paper's road, until it stands after a stop that takes `brake` seconds. Midpoint rule, 1 ms.
-class BrakedDrive {
- public:
-  static constexpr double kStop = 57.0;  // [s]
-
-  explicit BrakedDrive(double brake) : brake_(brake) {}
-
-  struct Accelerations {
-    double sprung, unsprung;
-  };
-
-  /// @return what ideal sensors read, 20 ms after the last time.
-  Accelerations next() {
-    const Accelerations now{bodyAt(t_, z_, v_), wheelAt(t_).acceleration};
-    constexpr double h = 1e-3;
-    for (int k = 0; k < 20; ++k) {
-      const double a = bodyAt(t_, z_, v_), middle = v_ + 0.5 * h * a;
-      const double a_middle = bodyAt(t_ + 0.5 * h, z_ + 0.5 * h * v_, middle);
-      z_ += h * middle;
-      v_ += h * a_middle;
-      t_ += h;
-    }
-    return now;
-  }
-
- private:
-  // The speed falls like half a cosine.
-  RoadPoint wheelAt(double t) const {
-    const double x = std::clamp(t - kStop, 0.0, brake_), angle = kPi * x / brake_;
-    const double s = std::min(t, kStop) + 0.5 * x + 0.5 * brake_ / kPi * std::sin(angle);
-    const double rate = 0.5 + 0.5 * std::cos(angle), slowing = -0.5 * kPi / brake_ * std::sin(angle);
-    const RoadPoint road = paperRoad(s);
-    return {road.height, road.rate * rate, road.acceleration * rate * rate + road.rate * slowing};
-  }
-
-  double bodyAt(double t, double z, double v) const {
-    const RoadPoint wheel = wheelAt(t);
-    return 3.0 * (wheel.rate - v) + 13.8 * (wheel.height - z);
-  }
-
-  double brake_, t_ = 0.0, z_ = 0.0, v_ = 0.0;
-};
-
-// A drive, a stop, 24 h of nothing but the sensors' noise, then the road again.
-void printParked(const char* rule, double brake, double body_noise, double wheel_noise) {
-  constexpr long kDay = 24L * 3600 * 50, kSecond = 50;
-  MonitorOptions options;
-  options.sample_period = 0.02;
-  options.forgetting_rule = rule;
-  SuspensionMonitor monitor(options);
-  Stamp stamp{};
-  std::mt19937_64 engine(7);
-  std::normal_distribution<double> noise;
-  const auto add = [&](const BrakedDrive::Accelerations& read) {
-    stamp += std::chrono::milliseconds(20);
-    monitor.addSample({stamp, read.sprung + body_noise * noise(engine), read.unsprung + wheel_noise * noise(engine)});
-    return monitor.report().la;
-  };
-  BrakedDrive drive(brake), next_drive(brake);
-  StrutEstimate stop, day, soon, next;
-  for (long k = 0; k < std::lround((BrakedDrive::kStop + brake) * kSecond); ++k) stop = add(drive.next());
-  for (long k = 0; k < 5 * kSecond; ++k) add(drive.next());  // the body comes to rest
-  for (long k = 0; k < kDay; ++k) day = add({0.0, 0.0});
-  for (long k = 0; k < kSecond; ++k) soon = add(next_drive.next());
-  for (long k = 0; k < 9 * kSecond; ++k) next = add(next_drive.next());
-  std::printf("| %s | %.1f s | %g, %g | %.2f, %.2f | %.1f, %.1f | %.3f, %.3f | %.2f, %.1f; %.2f, %.1f |\n", rule, brake,
-              body_noise, wheel_noise, stop.damping_to_mass, day.damping_to_mass, stop.stiffness_to_mass,
-              day.stiffness_to_mass, stop.damping_to_mass_stddev, day.damping_to_mass_stddev, soon.damping_to_mass,
-              soon.stiffness_to_mass, next.damping_to_mass, next.stiffness_to_mass);
-  std::fflush(stdout);
-}
-
-void printParkedTable() {
-  std::printf(
-      "\n| rule | stop within | noise of body, wheel [m/s^2] | b1 at the stop, after the day [1/s] | b0 [1/s^2] | stddev "
-      "of b1 [1/s] | b1, b0 1 s, 10 s into the next drive |\n|---|---|---|---|---|---|---|\n");
-  for (const double brake : {3.0, 0.3}) printParked("exponential", brake, 0.024, 0.024);
-  for (const double brake : {3.0, 0.3}) printParked("directional", brake, 0.024, 0.024);
-  printParked("directional", 3.0, 0.024, 0.072);
-  printParked("directional", 3.0, 0.072, 0.024);
-  printParked("directional", 3.0, 0.002, 0.002);
-  printParked("directional", 3.0, 0.1, 0.1);
-}
-
 }  // namespace
 }  // namespace suspension_health_monitor
 
-int main(int argc, char** argv) {
-  const std::string only = argc > 1 ? argv[1] : "";
-  if (only != "parked") suspension_health_monitor::printTable();
-  suspension_health_monitor::printParkedTable();
-}
+int main() { suspension_health_monitor::printTable(); }

@@ -11,17 +11,18 @@
 
 namespace suspension_health_monitor {
 
-/// Whether the rows of a strut tell anything of its damping and of its stiffness, or only of the sensors' noise, as those
-/// of a parked vehicle do.
+/// Whether the rows of a strut tell anything of its damping and of its stiffness, or only of the sensors' noise, as
+/// those of a parked vehicle do.
 ///
-/// Asked of the rows alone, so that a strut that breaks does not look parked: what does the best strut between none and
-/// twice the one that is known leave of psi? Rows tell of a strut if that is less than half. They tell of parameter i if,
-/// besides, the information of its regressor, the mean of phi_i^2, is clear of what that rest would put there if it were
-/// white noise of both sensors (RegressorNoise): excitation(i) is the ratio of both, 1 for noise.
-/// A parameter is held once rows of two blocks, each of a horizon and more, do not tell of it and its information has
-/// fallen below a tenth of the usual, that of blocks that told of it over ten memories: readings that the model does
-/// not explain on a road as rough as ever are not rest. It is held no longer when the rows since then, up to eight blocks, tell
-/// of it, and not by chance, or at once when a row stands far out of those at rest.
+/// It is asked of the rows alone, so that a strut that breaks does not look parked: what does the best strut between
+/// none and twice the one that is known leave of psi? Rows tell of a strut if that is less than half. They tell of
+/// parameter i if, besides, the information of its regressor, the mean of phi_i^2, is clear of what that rest would put
+/// there, were it white noise of both sensors (RegressorNoise): excitation(i) is the ratio of the two, 1 for noise.
+/// - A parameter is held once two blocks, each of a horizon and more, do not tell of it, and its information has fallen
+///   below a tenth of the usual, that of blocks that told of it over ten memories: readings that no strut explains on
+///   a road as rough as ever are not rest.
+/// - It is held no longer when the rows since then, up to eight blocks, tell of it and not by chance; at once, when a
+///   row stands far out of those at rest.
 /// A constant of phi_0 is the offset between the sensors and not counted.
 /// Looked at is every eighth row: rows change slowly. Cost per row: O(1) whatever L, no allocation. Free of units.
 class Excitation {
@@ -37,8 +38,9 @@ class Excitation {
   /// @return true if excited() or excitation() may have changed.
   [[gnu::noinline]] bool judge(const RegressionRow& row, const Eigen::VectorXd& theta);
 
-  /// From now on there is a strut that is worth being held, and that others are measured by; before, everything counts as
-  /// excited.
+  /// From now on there is a strut that is worth being held, and that others are measured by; before, everything counts
+  /// as excited.
+  /// @param strut  (b1 [1/s], b0 [1/s^2]).
   void know(const Eigen::Vector2d& strut) {
     most_ = 2.0 * strut;
     knows_ = true;

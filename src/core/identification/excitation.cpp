@@ -10,9 +10,10 @@ namespace {
 constexpr double kLeastShare = 0.5;       // of psi^2
 constexpr double kLeastExcitation = 4.5;  // of the noise's information
 constexpr double kUsualShare = 0.1;       // of the usual information: no rest
-constexpr double kByChance = 1e-7;        // that noise looks like a strut
+constexpr double kByChance = 1e-8;        // that noise looks like a strut
 constexpr double kFarFromRest = 40.0;     // of the information at rest: no chance
 constexpr double kLeastFarShare = 0.03;   // of the usual information
+constexpr double kMostRests = 64.0;       // blocks in the information at rest
 constexpr double kMostGrowth = 4.0;       // of the usual in a block: an outlier does not become it
 constexpr int kFewestRows = 64;           // of a block
 constexpr double kUsualMemories = 10.0;
@@ -70,7 +71,7 @@ void Excitation::Part::learnUsual(double information, double most_blocks) {
 }
 
 void Excitation::Part::learnRest(double information, double num_blocks) {
-  rests = std::min<double>(rests + num_blocks, kMostBlocks);
+  rests = std::min(rests + num_blocks, kMostRests);
   at_rest += (information - at_rest) * num_blocks / rests;
 }
 
