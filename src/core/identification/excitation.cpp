@@ -78,11 +78,10 @@ void Excitation::Part::learnRest(double information, double num_blocks) {
 void Excitation::closeBlock() {
   blocks_ = std::min(blocks_ + 1, 2);
   if (knows_) {
-    const bool was_held = is_held_;
+    if (is_held_) judgeHeld();
     RowMoments recent = before_;
     recent += block_;
     judgeExcited(recent);
-    if (was_held) judgeHeld();
   }
   before_ = block_;
   block_ = RowMoments();
