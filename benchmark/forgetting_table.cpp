@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -187,53 +186,7 @@ void printTable() {
   }
 }
 
-// The paper's road for 57 s, a stop, then 24 h of nothing but the sensors' noise, then the road again.
-void printParked() {
-  constexpr long kDay = 24L * 3600 * 50;
-  constexpr std::size_t kStop = 2850, kSecond = 50;
-  std::printf("\n| rule | stop within | b1 before, after the day [1/s] | b0 [1/s^2] | stddev of b1 [1/s] | b1, b0 1 s, 10 s into "
-              "the next drive |\n|---|---|---|---|---|---|\n");
-  SimulationOptions road;
-  road.damping_ramp = false;
-  road.duration = 60.0;
-  const std::vector<DriveSample> drive = driven(road, 7);
-  for (const char* rule : {"exponential", "directional"})
-    for (const std::size_t fade : {3 * kSecond, std::size_t{1}}) {
-      MonitorOptions options;
-      options.sample_period = 0.02;
-      options.forgetting_rule = rule;
-      SuspensionMonitor monitor(options);
-      Stamp stamp{};
-      std::mt19937_64 engine(7);
-      std::normal_distribution<double> noise(0.0, 0.024);
-      const auto add = [&](double sprung, double unsprung) {
-        stamp += std::chrono::milliseconds(20);
-        monitor.addSample({stamp, sprung, unsprung});
-      };
-      const auto play = [&](std::size_t k, double gain) {
-        add(gain * drive[k].sprung->acceleration, gain * drive[k].unsprung->acceleration);
-      };
-      for (std::size_t k = 0; k < kStop; ++k) play(k, 1.0);
-      const StrutEstimate before = monitor.report().la;
-      for (std::size_t k = 0; k < fade; ++k)
-        play(kStop + k, std::pow(std::cos(0.5 * kPi * static_cast<double>(k) / static_cast<double>(fade)), 2));
-      for (long k = 0; k < kDay; ++k) add(noise(engine), noise(engine));
-      const StrutEstimate after = monitor.report().la;
-      for (std::size_t k = 500; k < 500 + kSecond; ++k) play(k, 1.0);
-      const StrutEstimate soon = monitor.report().la;
-      for (std::size_t k = 500 + kSecond; k < 500 + 10 * kSecond; ++k) play(k, 1.0);
-      const StrutEstimate next = monitor.report().la;
-      std::printf("| %s | %.2g s | %.2f, %.2f | %.1f, %.1f | %.3f, %.3f | %.2f, %.1f; %.2f, %.1f |\n", rule, 0.02 * static_cast<double>(fade),
-                  before.damping_to_mass, after.damping_to_mass, before.stiffness_to_mass, after.stiffness_to_mass,
-                  before.damping_to_mass_stddev, after.damping_to_mass_stddev, soon.damping_to_mass,
-                  soon.stiffness_to_mass, next.damping_to_mass, next.stiffness_to_mass);
-    }
-}
-
 }  // namespace
 }  // namespace suspension_health_monitor
 
-int main() {
-  suspension_health_monitor::printTable();
-  suspension_health_monitor::printParked();
-}
+int main() { suspension_health_monitor::printTable(); }

@@ -79,7 +79,7 @@ class ModelTracker {
   void estimate(const RegressionRow& row, ModelReport& report);
   void describe(ModelReport& report) const;
   [[gnu::noinline]] void judgeEstimates(bool moves, ModelReport& report);
-  [[gnu::noinline]] void judgeExcitation(const RegressionRow& row, ModelReport& report);
+  [[gnu::noinline]] void takeExcitation(ModelReport& report);
   [[gnu::noinline]] void describeSpreads(ModelReport& report) const;
   EstimateDoubt doubt(const StrutEstimate& estimate) const;
   void takeModel(const StrutEstimate& la);

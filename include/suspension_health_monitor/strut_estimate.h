@@ -24,8 +24,8 @@ struct StrutEstimate {
   bool valid = false;      ///< enough rows, enough explained, a strut (b1 > 0, b0 > 0); LA: and its free run
                            ///< fits better than a constant does
   EstimateDoubt doubt = EstimateDoubt::kNoRows;    ///< why it is not valid
-  double damping_excitation = std::nan("");        ///< mean |b1 phi_1| of late over the residual [-]
-  double stiffness_excitation = std::nan("");      ///< mean |b0 phi_0|, without its constant, likewise
+  double damping_excitation = std::nan("");        ///< information of phi_1 of late over that of noise (Excitation) [-]
+  double stiffness_excitation = std::nan("");      ///< that of phi_0 likewise
 
   /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
   double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }

@@ -79,7 +79,8 @@ ModelTracker::ModelTracker(const MonitorOptions& options)
       least_absolute_(kNumStrutParameters, recursiveOptions(options, filter_), options.leastAbsolute()),
       free_run_(*options.sample_period),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
-  if (options.forgetting_rule == "directional") excitation_.emplace(filter_.horizon_samples, options.forgetting_factor);
+  if (options.forgetting_rule == "directional")
+    excitation_.emplace(filter_.horizon_samples, options.forgetting_factor, noise_);
 }
 
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report) {
@@ -121,7 +122,9 @@ void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
   rows_of_model_ += 1.0;
   const bool moves = motion_.moves(row.output);
   if (moves) {
-    if (excitation_ && spread_phase_ % Excitation::kJudgeEvery == 0) judgeExcitation(row, report);
+    if (excitation_ && spread_phase_ % Excitation::kJudgeEvery == 0 &&
+        excitation_->judge(row, least_absolute_.parameters()))
+      takeExcitation(report);
     if (excitation_doubt_ == EstimateDoubt::kNotExcited) {
       least_squares_.observe(row);
       least_absolute_.observe(row);
@@ -145,14 +148,13 @@ void ModelTracker::judgeEstimates(bool moves, ModelReport& report) {
     estimate->valid = estimate->doubt == EstimateDoubt::kNone;
   }
   // From the first valid estimate on there is something to hold.
-  if (excitation_ && report.la.valid) excitation_->arm();
+  if (excitation_ && report.la.valid) excitation_->know({report.la.damping_to_mass, report.la.stiffness_to_mass});
 }
 
-void ModelTracker::judgeExcitation(const RegressionRow& row, ModelReport& report) {
-  if (!excitation_->judge(row, least_absolute_.parameters())) return;
+void ModelTracker::takeExcitation(ModelReport& report) {
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
-    estimate->damping_excitation = excitation_->ratio(kDampingToMass);
-    estimate->stiffness_excitation = excitation_->ratio(kStiffnessToMass);
+    estimate->damping_excitation = excitation_->excitation(kDampingToMass);
+    estimate->stiffness_excitation = excitation_->excitation(kStiffnessToMass);
   }
   const bool damping = excitation_->excited(kDampingToMass), stiffness = excitation_->excited(kStiffnessToMass);
   const EstimateDoubt before = excitation_doubt_;

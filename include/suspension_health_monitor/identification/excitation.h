@@ -1,69 +1,97 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 
 #include "suspension_health_monitor/identification/regression_row.h"
+#include "suspension_health_monitor/identification/regressor_noise.h"
+#include "suspension_health_monitor/identification/row_moments.h"
 #include "suspension_health_monitor/identification/running_mean.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
 
 namespace suspension_health_monitor {
 
-/// Whether the rows of a strut tell anything of its damping and of its stiffness, or only of the sensors' noise, as those
-/// of a parked vehicle do.
+/// Whether the rows of a strut tell anything of its damping and of its stiffness, or only of the sensors' noise, as
+/// those of a parked vehicle do.
 ///
-/// The regressors phi_1 = I_1^2 u and phi_0 = I_0^2 u are the directions of excitation: neither noise (one impulse response is
-/// odd, the other even) nor motion (one is the other's derivative) correlates them, so that the information matrix is
-/// close to diagonal. Over blocks of a horizon and more, parameter i is not excited if both
-/// - its information, the mean of phi_i^2, has fallen below 3 % of what the estimate rests on: that of the blocks in
-///   which it was excited, over ten memories; and
-/// - what the held model makes of it, the mean of |theta_i phi_i|, is below 1.5 times the residual: noise of the sensors
-///   gives at most about one, since it is in psi as well.
-/// So a road that is merely smoother goes on counting, and so does a strut or a sensor that has changed, or a drive whose
-/// readings are noise to the eye. A constant of phi_0 is the offset between the sensors and not counted.
+/// It is asked of the rows alone, so that a strut that breaks does not look parked: what does the best strut between
+/// none and twice the one that is known leave of psi? Rows tell of a strut if that is less than half. They tell of
+/// parameter i if, besides, the information of its regressor, the mean of phi_i^2, is clear of what that rest would put
+/// there, were it white noise of both sensors (RegressorNoise): excitation(i) is the ratio of the two, 1 for noise.
+/// - A parameter is held once two blocks, each of a horizon and more, do not tell of it, and its information has fallen
+///   below a tenth of the usual, that of blocks that told of it over ten memories: readings that no strut explains on
+///   a road as rough as ever are not rest.
+/// - It is held no longer when the rows since then, up to eight blocks, tell of it and not by chance; at once, when a
+///   row stands far out of those at rest.
+/// A constant of phi_0 is the offset between the sensors and not counted.
 /// Looked at is every eighth row: rows change slowly. Cost per row: O(1) whatever L, no allocation. Free of units.
 class Excitation {
  public:
   static constexpr int kJudgeEvery = 8;  // rows
 
   /// @param horizon_samples  L of the filter.  @param forgetting_factor  of the estimator.
-  Excitation(int horizon_samples, double forgetting_factor);
+  /// @param noise  of the same filter.
+  Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise);
 
   /// Takes in a row, to be called every kJudgeEvery rows.
   /// @param theta  estimate, as many entries as the regressor: b1 [1/s], b0 [1/s^2], and those of effects.
-  /// @return true if excited() or ratio() may have changed.
+  /// @return true if excited() or excitation() may have changed.
   [[gnu::noinline]] bool judge(const RegressionRow& row, const Eigen::VectorXd& theta);
 
-  /// From now on the estimate is one that is worth being held; before, everything counts as excited.
-  void arm() { armed_ = true; }
+  /// From now on there is a strut that is worth being held, and that others are measured by; before, everything counts
+  /// as excited.
+  /// @param strut  (b1 [1/s], b0 [1/s^2]).
+  void know(const Eigen::Vector2d& strut) {
+    most_ = 2.0 * strut;
+    knows_ = true;
+  }
 
   bool excited(StrutParameter i) const { return parts_[i].excited; }
 
-  /// @return mean |theta_i phi_i| over mean |epsilon| of the last block [-]; NaN before it.
-  double ratio(StrutParameter i) const { return parts_[i].ratio; }
+  /// @return information of parameter i over what noise alone would give, by the newest judgement [-]; NaN before it.
+  double excitation(StrutParameter i) const { return parts_[i].excitation; }
 
   /// Starts a block anew after a gap; what was excited stays so.
   void reset();
 
  private:
+  static constexpr int kMostBlocks = 8;  // that are judged together
+
   /// What is known of one parameter's part of the rows.
   struct Part {
-    double information = 0.0;  // of the block: sum of phi_i^2
-    double size = 0.0;         // of the block: sum of |theta_i phi_i|
-    double usual = 0.0;        // mean phi_i^2 of the blocks in which it was excited
-    double blocks = 0.0;       // in that mean
-    double ratio;
+    double usual = 0.0;    // mean phi_i^2 of the blocks that told of it
+    double blocks = 0.0;   // in that mean
+    double at_rest = 0.0;  // mean phi_i^2 while it is held
+    double rests = 0.0;    // blocks in that mean
+    double excitation;
     bool excited = true;
+
+    double farFromRest() const;
+    void learnUsual(double information, double most_blocks);
+    void learnRest(double information, double num_blocks);
   };
 
+  bool releaseAtOnce(double damping_information, double stiffness_information);
+  void noteHeld();
   void closeBlock();
+  void judgeExcited(const RowMoments& recent);
+  void judgeHeld();
+  std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, const StrutFit& fit) const;
 
   int looks_per_block_;
-  double most_blocks_;  // of the mean
-  int looks_ = 0;       // of the block
-  double residual_ = 0.0;  // of the block: sum of |epsilon|
-  RunningMean offset_;     // of phi_0
+  double most_blocks_;  // of the usual
+  RegressorNoise noise_;
+  std::array<double, kMostBlocks> least_share_;  // of psi^2 that a strut explains and chance does not, by blocks
+  RowMoments block_, before_;  // the newest block and the one before it
+  RowMoments window_;          // the blocks since something was held
+  int looks_ = 0;              // of the block
+  int blocks_ = 0;             // closed without a gap, up to 2
+  int window_blocks_ = 0;
+  RunningMean offset_;  // of phi_0
+  Eigen::Vector2d most_;
   std::array<Part, kNumStrutParameters> parts_;
-  bool armed_ = false;
+  bool knows_ = false;
+  bool is_held_ = false;  // either of them
 };
 
 }  // namespace suspension_health_monitor

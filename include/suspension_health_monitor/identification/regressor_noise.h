@@ -18,10 +18,16 @@ class RegressorNoise {
   /// @param residual_variance  of a row [(m/s^2)^2], taken as sensor noise.
   /// @return E[phi e]: what R^-1 turns into the estimate's shift.
   Eigen::Vector2d moment(const Eigen::Vector2d& theta, double residual_variance) const {
-    const Eigen::Vector2d pull = regressors_ * theta;
-    const double gain = outputs_ + 2.0 * theta.dot(cross_) + 2.0 * theta.dot(pull);
-    return residual_variance / gain * (-cross_ - 2.0 * pull);
+    return residual_variance / residualGain(theta) * (-cross_ - 2.0 * (regressors_ * theta));
   }
+
+  /// @return variance of a row's residual over that of a sensor [-].
+  double residualGain(const Eigen::Vector2d& theta) const {
+    return outputs_ + 2.0 * theta.dot(cross_) + 2.0 * theta.dot(regressors_ * theta);
+  }
+
+  /// @return variance that phi_i has of the noise, over that of a sensor [s^2] (damping), [s^4] (stiffness).
+  double regressorGain(int i) const { return 2.0 * regressors_(i, i); }
 
  private:
   Eigen::Matrix2d regressors_;  // h_i' h_j

@@ -7,61 +7,144 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLeastInformation = 0.03;  // of the usual
-constexpr double kLeastPart = 1.5;          // of theta_i phi_i to the residual
-constexpr double kMostGrowth = 4.0;         // of the usual in a block: an outlier does not become it
-constexpr int kFewestRows = 64;             // of a block
+constexpr double kLeastShare = 0.5;       // of psi^2
+constexpr double kLeastExcitation = 4.5;  // of the noise's information
+constexpr double kUsualShare = 0.1;       // of the usual information: no rest
+constexpr double kByChance = 1e-8;        // that noise looks like a strut
+constexpr double kFarFromRest = 40.0;     // of the information at rest: no chance
+constexpr double kLeastFarShare = 0.03;   // of the usual information
+constexpr double kMostRests = 64.0;       // blocks in the information at rest
+constexpr double kMostGrowth = 4.0;       // of the usual in a block: an outlier does not become it
+constexpr int kFewestRows = 64;           // of a block
 constexpr double kUsualMemories = 10.0;
-constexpr double kOffsetMemory = 0.98;      // forgetting factor of a look
+constexpr double kOffsetMemory = 0.98;    // forgetting factor of a look
 
-double square(double x) { return x * x; }
+std::array<double, kNumStrutParameters> informationOf(const RowMoments& rows) {
+  return {rows.damping_information, rows.stiffness_information};
+}
 
 }  // namespace
 
-Excitation::Excitation(int horizon_samples, double forgetting_factor)
+Excitation::Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise)
     : looks_per_block_(std::max(horizon_samples, kFewestRows) / kJudgeEvery),
       most_blocks_(std::max(1.0, kUsualMemories / (looks_per_block_ * kJudgeEvery * (1.0 - forgetting_factor)))),
+      noise_(noise),
       offset_(kOffsetMemory) {
-  for (Part& part : parts_) part.ratio = std::numeric_limits<double>::quiet_NaN();
+  for (Part& part : parts_) part.excitation = std::numeric_limits<double>::quiet_NaN();
+  // Of n outputs of white noise two regressors explain more than x with probability (1 - x)^((n - 2) / 2).
+  for (int k = 0; k < kMostBlocks; ++k) {
+    const double exponent = 2.0 / ((k + 1) * looks_per_block_ - 2);
+    least_share_[static_cast<std::size_t>(k)] = std::max(kLeastShare, 1.0 - std::pow(kByChance, exponent));
+  }
 }
 
 bool Excitation::judge(const RegressionRow& row, const Eigen::VectorXd& theta) {
-  offset_.add(row.regressor[kStiffnessToMass]);
-  const std::array<double, kNumStrutParameters> deviations{row.regressor[kDampingToMass],
-                                                           row.regressor[kStiffnessToMass] - offset_.mean()};
-  bool changed = false;
-  for (std::size_t i = 0; i < deviations.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    const double information = square(deviations[i]);
-    parts_[i].information += information;
-    parts_[i].size += std::abs(deviations[i] * theta[column]);
-    // At once when it drives off.
-    if (!parts_[i].excited && information > parts_[i].usual) changed = parts_[i].excited = true;
-  }
-  residual_ += std::abs(row.output - row.regressor.dot(theta));
-  if (++looks_ < looks_per_block_) return changed;
+  const double* const phi = row.regressor.data();
+  double output = row.output;  // without what effects make of it
+  for (Eigen::Index j = kNumStrutParameters; j < theta.size(); ++j) output -= phi[j] * theta[j];
+  offset_.add(phi[kStiffnessToMass]);
+  const double damping = phi[kDampingToMass], stiffness = phi[kStiffnessToMass] - offset_.mean();
+  block_.add(damping, stiffness, output);
+  const bool released = is_held_ && releaseAtOnce(damping * damping, stiffness * stiffness);
+  if (++looks_ < looks_per_block_) return released;
   closeBlock();
   return true;
 }
 
+bool Excitation::releaseAtOnce(double damping_information, double stiffness_information) {
+  bool released = false;
+  const std::array<double, kNumStrutParameters> information{damping_information, stiffness_information};
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    if (!parts_[i].excited && information[i] > parts_[i].farFromRest()) released = parts_[i].excited = true;
+  noteHeld();
+  return released;
+}
+
+void Excitation::noteHeld() { is_held_ = !(parts_[kDampingToMass].excited && parts_[kStiffnessToMass].excited); }
+
+double Excitation::Part::farFromRest() const { return std::max(kFarFromRest * at_rest, kLeastFarShare * usual); }
+
+void Excitation::Part::learnUsual(double information, double most_blocks) {
+  blocks = std::min(blocks + 1.0, most_blocks);
+  const double most = blocks > 1.0 ? kMostGrowth * usual : information;
+  usual += (std::min(information, most) - usual) / blocks;
+}
+
+void Excitation::Part::learnRest(double information, double num_blocks) {
+  rests = std::min(rests + num_blocks, kMostRests);
+  at_rest += (information - at_rest) * num_blocks / rests;
+}
+
 void Excitation::closeBlock() {
-  for (Part& part : parts_) {
-    const double information = part.information / looks_;
-    part.ratio = residual_ > 0.0 ? part.size / residual_ : std::numeric_limits<double>::infinity();
-    part.excited = !armed_ || information >= kLeastInformation * part.usual || part.ratio >= kLeastPart;
-    if (part.excited) {
-      part.blocks = std::min(part.blocks + 1.0, most_blocks_);
-      const double most = part.blocks > 1.0 ? kMostGrowth * part.usual : information;
-      part.usual += (std::min(information, most) - part.usual) / part.blocks;
+  blocks_ = std::min(blocks_ + 1, 2);
+  if (knows_) {
+    if (is_held_) judgeHeld();
+    RowMoments recent = before_;
+    recent += block_;
+    judgeExcited(recent);
+  }
+  before_ = block_;
+  block_ = RowMoments();
+  looks_ = 0;
+}
+
+// @return information over that of the noise which the rest would be.
+std::array<double, kNumStrutParameters> Excitation::excitationOf(const RowMoments& rows, const StrutFit& fit) const {
+  const double sensor = fit.rest / noise_.residualGain(fit.theta);
+  return {rows.damping_information / (sensor * noise_.regressorGain(kDampingToMass)),
+          rows.stiffness_information / (sensor * noise_.regressorGain(kStiffnessToMass))};
+}
+
+void Excitation::judgeExcited(const RowMoments& recent) {
+  const StrutFit fit = recent.bestStrut(most_);
+  const bool tells = fit.rest < (1.0 - kLeastShare) * recent.output;
+  const auto excitation = excitationOf(recent, fit);
+  const auto information = informationOf(recent), newest = informationOf(block_);
+  bool is_new = false;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    Part& part = parts_[i];
+    if (!part.excited) continue;
+    part.excitation = excitation[i];
+    const double mean = information[i] / (blocks_ * looks_per_block_);
+    if (tells && excitation[i] >= kLeastExcitation) {
+      part.learnUsual(newest[i] / looks_per_block_, most_blocks_);
+    } else if (blocks_ == 2 && mean < kUsualShare * part.usual) {
+      part.excited = false;
+      part.at_rest = part.rests = 0.0;
+      part.learnRest(mean, blocks_);
+      is_new = true;
     }
   }
-  reset();
+  if (!is_new) return;
+  is_held_ = true;
+  window_ = RowMoments();
+  window_blocks_ = 0;
+}
+
+void Excitation::judgeHeld() {
+  window_ += block_;
+  ++window_blocks_;
+  const StrutFit fit = window_.bestStrut(most_);
+  const bool tells = fit.rest < (1.0 - least_share_[static_cast<std::size_t>(window_blocks_ - 1)]) * window_.output;
+  const auto excitation = excitationOf(window_, fit);
+  const auto newest = informationOf(block_);
+  const double least = kLeastExcitation * kMostBlocks / window_blocks_;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    Part& part = parts_[i];
+    if (part.excited) continue;
+    part.excitation = excitation[i];
+    part.learnRest(newest[i] / looks_per_block_, 1.0);
+    part.excited = tells && excitation[i] >= least;
+  }
+  noteHeld();
+  if (window_blocks_ < kMostBlocks && is_held_) return;
+  window_ = RowMoments();
+  window_blocks_ = 0;
 }
 
 void Excitation::reset() {
-  looks_ = 0;
-  residual_ = 0.0;
-  for (Part& part : parts_) part.information = part.size = 0.0;
+  block_ = before_ = window_ = RowMoments();
+  looks_ = blocks_ = window_blocks_ = 0;
 }
 
 }  // namespace suspension_health_monitor
