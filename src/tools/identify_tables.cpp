@@ -19,9 +19,7 @@ std::string cell(int width, int precision, double value) {
 // A negative stiffness has no frequency.
 std::string describeOscillation(const StrutEstimate& estimate) {
   if (!(estimate.stiffness_to_mass > 0.0)) return "no natural frequency";
-  char text[100];
-  std::snprintf(text, sizeof text, "%.3f Hz, damping ratio %.3f", estimate.naturalFrequency(), estimate.dampingRatio());
-  return text;
+  return cell(0, 3, estimate.naturalFrequency()) + " Hz, damping ratio " + cell(0, 3, estimate.dampingRatio());
 }
 
 std::string describeHop(const WheelEstimate& estimate) {
@@ -58,6 +56,11 @@ void printResult(const char* name, const StrutEstimate& estimate, const std::opt
 }
 
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut) {
+  const char* const doubt = estimate.valid ? "" : "  NOT VALID: too little or too poor excitation";
+  if (std::isnan(estimate.damping_to_wheel_mass)) {
+    std::printf("%s: nothing is known of the wheel%s\n", name, doubt);
+    return;
+  }
   std::printf("%s: damping/wheel mass %s +- %s 1/s, stiffness/wheel mass %s +- %s 1/s^2, tyre/wheel mass %s +- %s 1/s^2, "
               "%s%s\n",
               name, cell(0, 4, estimate.damping_to_wheel_mass).c_str(),
@@ -65,7 +68,7 @@ void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstim
               cell(0, 2, estimate.stiffness_to_wheel_mass).c_str(),
               cell(0, 2, estimate.stiffness_to_wheel_mass_stddev).c_str(),
               cell(0, 2, estimate.tyre_to_wheel_mass).c_str(), cell(0, 2, estimate.tyre_to_wheel_mass_stddev).c_str(),
-              describeHop(estimate).c_str(), estimate.valid ? "" : "  NOT VALID: too little or too poor excitation");
+              describeHop(estimate).c_str(), doubt);
   if (const auto ratio = massRatio(strut, estimate)) std::printf("    wheel mass / body mass %.4f\n", *ratio);
 }
 
