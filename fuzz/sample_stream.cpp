@@ -21,7 +21,7 @@ void require(bool holds, const char* law) {
 }
 
 MonitorOptions takeOptions(FuzzBytes& bytes) {
-  constexpr std::array kPeriods{1e-6, 1e-3, 0.005, 0.02, 0.1, 10.0};
+  constexpr std::array kPeriods{1e-5, 1e-3, 0.005, 0.02, 0.1, 10.0};
   constexpr std::array kForgetting{0.9, 0.98, 0.99, 0.999, 1.0};
   constexpr std::array kRules{"trapezoid", "simpson", "cubic"};
   MonitorOptions options;

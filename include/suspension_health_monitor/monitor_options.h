@@ -58,7 +58,9 @@ struct MonitorOptions {
 
   /// That of the wheel's regression: tyre/integration_horizon, or an eighth of the strut's, of at least 5 samples.
   IntegralFilterOptions tyreFilter(double period) const;
-  RecursiveOptions recursive() const;
+
+  /// @param correlated_rows  2 L for rows of a filter, as each reading of a sensor is in 2 L + 1 of them.
+  RecursiveOptions recursive(int correlated_rows = 0) const;
   LeastAbsoluteOptions leastAbsolute() const;
   /// @param period  sampling time [s].
   HealthOptions health(double period) const;
@@ -67,7 +69,7 @@ struct MonitorOptions {
 using MonitorField = OptionField<MonitorOptions>;
 inline constexpr std::array kMonitorFields{
     MonitorField{"sample_period", "s", "sampling time T; left out: measured from the stamps",
-                 &MonitorOptions::sample_period, 1e-6, 10.0},
+                 &MonitorOptions::sample_period, 1e-5, 10.0},
     MonitorField{"integration_horizon", "s", "horizon h of the integral filter; left out: 0.6",
                  &MonitorOptions::integration_horizon, 1e-5, 1e3},
     MonitorField{"horizon_samples", "-", "the horizon as a number of samples L, instead of integration_horizon",

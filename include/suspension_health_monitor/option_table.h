@@ -11,8 +11,14 @@
 
 namespace suspension_health_monitor {
 
-/// A value as a parameter server, a YAML file or a command line delivers it.
-using OptionValue = std::variant<bool, int, double, std::string>;
+/// A list that is none of texts. No option takes it: it is refused as any other wrong value is.
+struct UnusableList {
+  std::string text;  ///< as it was written
+  bool operator==(const UnusableList& other) const { return text == other.text; }
+};
+
+/// A value as a parameter server, a YAML file or a command line delivers it. A list of texts comes as one text with commas.
+using OptionValue = std::variant<bool, int, double, std::string, UnusableList>;
 
 /// Values by full name; a nested YAML key is joined with '/', as on the ROS parameter server: `la/small_divisor`.
 using OptionMap = std::map<std::string, OptionValue>;

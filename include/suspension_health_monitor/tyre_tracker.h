@@ -18,7 +18,7 @@ struct WheelEstimate {
   double damping_to_wheel_mass = std::nan("");           ///< beta/m [1/s]
   double stiffness_to_wheel_mass = std::nan("");         ///< K/m [1/s^2]
   double tyre_to_wheel_mass = std::nan("");              ///< K0/m [1/s^2]
-  double damping_to_wheel_mass_stddev = std::nan("");    ///< [1/s], for residuals taken as white
+  double damping_to_wheel_mass_stddev = std::nan("");    ///< [1/s], with the residuals' correlation
   double stiffness_to_wheel_mass_stddev = std::nan("");  ///< [1/s^2], likewise
   double tyre_to_wheel_mass_stddev = std::nan("");       ///< [1/s^2], likewise
   double effective_rows = 0.0;                           ///< rows in the estimator's memory
@@ -53,6 +53,10 @@ class TyreTracker {
   /// @param road_acceleration  mu'' at this sample [m/s^2]; none: the road's sensor is silent.
   const TyreReport& add(const CornerSample& sample, const std::optional<double>& road_acceleration);
 
+  /// Takes over the forgetting factor, from the next row on; estimates stay. Nothing else changes.
+  /// @throws std::invalid_argument  as RecursiveOptions::validate().
+  void reconfigure(const MonitorOptions& options);
+
   /// @param fits  false: no estimate is valid from the next sample on, as samples do not come at the sample period.
   void setPeriodFits(bool fits) { period_fits_ = fits; }
 
@@ -66,6 +70,7 @@ class TyreTracker {
 
   IntegralFilterOptions filter_;
   Stamp period_;
+  int valid_min_rows_;
   double min_rows_, min_explained_;
   bool period_fits_ = true;
   MotionJudge motion_;

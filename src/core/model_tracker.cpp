@@ -44,13 +44,6 @@ void doubtBoth(ModelReport& report, EstimateDoubt doubt) {
   report.ls.doubt = report.la.doubt = doubt;
 }
 
-/// Each reading of a sensor is in 2 L + 1 rows.
-RecursiveOptions recursiveOptions(const MonitorOptions& options, const IntegralFilterOptions& filter) {
-  RecursiveOptions recursive = options.recursive();
-  recursive.correlated_rows = 2 * filter.horizon_samples;
-  return recursive;
-}
-
 std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const std::vector<ActiveEffect>& after) {
   std::vector<ColumnOrigin> columns{{kDampingToMass, 0.0}, {kStiffnessToMass, 0.0}};
   for (const ActiveEffect& active : after) {
@@ -75,8 +68,8 @@ ModelTracker::ModelTracker(const MonitorOptions& options)
       rows_of_model_(std::numeric_limits<double>::infinity()),
       regression_(filter_),
       noise_(filter_),
-      least_squares_(kNumStrutParameters, recursiveOptions(options, filter_)),
-      least_absolute_(kNumStrutParameters, recursiveOptions(options, filter_), options.leastAbsolute()),
+      least_squares_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples)),
+      least_absolute_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples), options.leastAbsolute()),
       free_run_(*options.sample_period),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
   if (options.forgetting_rule == "directional")

@@ -55,9 +55,10 @@ IntegralFilterOptions MonitorOptions::tyreFilter(double period) const {
   return options.filter(period);
 }
 
-RecursiveOptions MonitorOptions::recursive() const {
+RecursiveOptions MonitorOptions::recursive(int correlated_rows) const {
   return {forgetting_factor, initial_variance,
-          initial_variance_rule == "relative" ? InitialVariance::kRelative : InitialVariance::kAbsolute};
+          initial_variance_rule == "relative" ? InitialVariance::kRelative : InitialVariance::kAbsolute,
+          correlated_rows};
 }
 
 LeastAbsoluteOptions MonitorOptions::leastAbsolute() const {

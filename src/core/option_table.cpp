@@ -23,6 +23,7 @@ std::string format(const OptionValue& value) {
     std::string operator()(int i) const { return std::to_string(i); }
     std::string operator()(double d) const { return format(d); }
     std::string operator()(const std::string& s) const { return '"' + s + '"'; }
+    std::string operator()(const UnusableList& list) const { return list.text; }
   };
   return std::visit(Formatter{}, value);
 }
@@ -46,8 +47,10 @@ std::string allowedText(const option_table::Bound& option) {
 }
 
 [[noreturn]] void refuse(const option_table::Bound& option, const OptionValue& value) {
+  const bool any_text = std::holds_alternative<std::string*>(option.member) && option.choices.empty();
+  const char* const or_list = any_text && std::holds_alternative<UnusableList>(value) ? " or a list of texts" : "";
   throw std::invalid_argument(std::string(option.name) + " = " + format(value) + " [" + std::string(option.unit) +
-                              "], must be " + allowedText(option) + ": " + std::string(option.help));
+                              "], must be " + allowedText(option) + or_list + ": " + std::string(option.help));
 }
 
 // A number may come as text: command lines have nothing else, and YAML 1.1 reads 1e-8 (no dot) as text.

@@ -34,12 +34,13 @@ std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate&
 TyreTracker::TyreTracker(const MonitorOptions& options)
     : filter_(options.tyreFilter(*options.sample_period)),
       period_(fromSeconds(*options.sample_period)),
-      min_rows_(fewestRows(options.valid_min_rows, options.forgetting_factor)),
+      valid_min_rows_(options.valid_min_rows),
+      min_rows_(fewestRows(valid_min_rows_, options.forgetting_factor)),
       min_explained_(options.valid_min_explained),
       motion_(filter_.horizon_samples),
       regression_(filter_),
-      least_squares_(kNumTyreParameters, options.recursive()),
-      least_absolute_(kNumTyreParameters, options.recursive(), options.leastAbsolute()) {}
+      least_squares_(kNumTyreParameters, options.recursive(2 * filter_.horizon_samples)),
+      least_absolute_(kNumTyreParameters, options.recursive(2 * filter_.horizon_samples), options.leastAbsolute()) {}
 
 const TyreReport& TyreTracker::add(const CornerSample& sample, const std::optional<double>& road_acceleration) {
   report_.has_row = false;
@@ -50,6 +51,12 @@ const TyreReport& TyreTracker::add(const CornerSample& sample, const std::option
   if (!usable) return report_;
   if (const RegressionRow* row = regression_.push(sample, *road_acceleration)) estimate(*row);
   return report_;
+}
+
+void TyreTracker::reconfigure(const MonitorOptions& options) {
+  least_squares_.setForgettingFactor(options.forgetting_factor);
+  least_absolute_.setForgettingFactor(options.forgetting_factor);
+  min_rows_ = fewestRows(valid_min_rows_, options.forgetting_factor);
 }
 
 bool TyreTracker::continues(Stamp stamp) const {
@@ -72,6 +79,8 @@ void TyreTracker::estimate(const RegressionRow& row) {
 
 void TyreTracker::startNewSeries() {
   regression_.reset();
+  least_squares_.interrupt();
+  least_absolute_.interrupt();
   report_.ls.valid = report_.la.valid = false;
 }
 

@@ -44,6 +44,7 @@ void ImuPipeline::setEffects(const std::vector<ActiveEffect>& effects) {
 void ImuPipeline::reconfigure(MonitorOptions options) {
   options.sample_period = options_.monitor.sample_period;
   if (monitor_) monitor_->reconfigure(options);
+  if (tyre_) tyre_->reconfigure(options);
   options_.monitor = options;
 }
 

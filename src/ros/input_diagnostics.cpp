@@ -9,6 +9,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr std::array<const char*, 2> kSideNames{"sprung", "unsprung"};
+constexpr double kShownLag = 0.0005;  // [s]
 
 }  // namespace
 
@@ -33,6 +34,8 @@ void InputDiagnostics::describe(const ImuPipeline& pipeline, Status& status) {
   summarize(pipeline, status);
   if (pipeline.monitor() != nullptr) describeSeries(*pipeline.monitor(), status);
   if (pipeline.grid() != nullptr) {
+    const std::string slow = pipeline.grid()->resamples() ? "" : pipeline.grid()->whatIsTooSlow();
+    if (!slow.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow);
     status.add("alignment", pipeline.grid()->describeAlignment());
     status.add("bridged", pipeline.grid()->bridged());
   }
@@ -84,7 +87,9 @@ void InputDiagnostics::describeStream(Side side, const ImuPipeline& pipeline, St
   const std::string name = kSideNames[index];
   if (const std::optional<Arrivals>& arrivals = arrivals_[index]) {
     const double lag = arrivals->lag.mean();
-    status.addf(name + " lag [s]", "%.3f", lag);
+    status.addf(name + " lag [s]", "%.3f", std::max(lag, 0.0));
+    // A little in simulation, where the clock ticks more coarsely than the sensors; else clocks are not synchronised.
+    if (lag <= -kShownLag) status.addf(name + " ahead of the clock [s]", "%.3f", -lag);
     if (options_.max_lag && lag > *options_.max_lag)
       status.mergeSummaryf(DiagnosticStatus::WARN, "%s IMU is %.3g s late", name.c_str(), lag);
   }
@@ -102,13 +107,14 @@ void InputDiagnostics::describeStream(Side side, const ImuPipeline& pipeline, St
 }
 
 void InputDiagnostics::describeRejected(const RejectCounts& rejected, Status& status) {
+  std::string newly;
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i) {
     const auto reason = static_cast<RejectReason>(i);
     const std::string name(kRejectReasonNames[i]);
-    if (rejected.count(reason) > rejected_before_.count(reason))
-      status.mergeSummary(DiagnosticStatus::WARN, "readings rejected: " + name);
+    if (rejected.count(reason) > rejected_before_.count(reason)) newly += (newly.empty() ? "" : ", ") + name;
     status.add("rejected " + name, rejected.count(reason));
   }
+  if (!newly.empty()) status.mergeSummary(DiagnosticStatus::WARN, "readings rejected: " + newly);
   rejected_before_ = rejected;
 }
 

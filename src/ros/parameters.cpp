@@ -10,21 +10,16 @@
 namespace suspension_health_monitor {
 namespace {
 
-[[noreturn]] void refuseList(const std::string& name, const XmlRpc::XmlRpcValue& list, int item) {
+/// A list of texts as one text with commas, such as the names of effects; of other lists their text.
+OptionValue toValue(XmlRpc::XmlRpcValue& list) {
   std::ostringstream text;
-  text << name << " = " << list << " is a list whose item " << item + 1
-       << " is no text, must be true or false, a number, a text or a list of texts";
-  throw std::invalid_argument(text.str());
-}
-
-/// A list of texts as one text with commas, such as the names of effects.
-std::string joined(const std::string& name, XmlRpc::XmlRpcValue& list) {
-  std::string text;
+  bool all_texts = true;
   for (int i = 0; i < list.size(); ++i) {
-    if (list[i].getType() != XmlRpc::XmlRpcValue::TypeString) refuseList(name, list, i);
-    text += (i == 0 ? "" : ", ") + static_cast<std::string>(list[i]);
+    text << (i == 0 ? "" : ", ") << list[i];
+    all_texts = all_texts && list[i].getType() == XmlRpc::XmlRpcValue::TypeString;
   }
-  return text;
+  if (all_texts) return text.str();
+  return UnusableList{'[' + text.str() + ']'};
 }
 
 void flatten(const std::string& name, XmlRpc::XmlRpcValue& value, OptionMap& result) {
@@ -45,7 +40,7 @@ void flatten(const std::string& name, XmlRpc::XmlRpcValue& value, OptionMap& res
       result[name] = static_cast<std::string>(value);
       break;
     case XmlRpc::XmlRpcValue::TypeArray:
-      result[name] = joined(name, value);
+      result[name] = toValue(value);
       break;
     default:
       throw std::invalid_argument(name + " is a date or binary, must be true or false, a number or a text");

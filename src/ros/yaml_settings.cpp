@@ -41,23 +41,26 @@ class Flattening {
       return;
     }
     if (node.IsNull() && name.empty()) return;  // a file of comments only sets nothing
-    const std::optional<std::string> value = node.IsScalar() ? node.as<std::string>() : joinedTexts(node);
-    if (!value || name.empty()) refuse(node, (name.empty() ? "the file" : name) + " must be a name with a plain value");
-    count(value->size());
-    if (!values_.emplace(name, *value).second) refuse(node, name + " is given twice, must be given once");
+    const bool plain = node.IsScalar() || node.IsSequence();
+    if (!plain || name.empty()) refuse(node, (name.empty() ? "the file" : name) + " must be a name with a plain value");
+    const OptionValue value = node.IsScalar() ? OptionValue(node.as<std::string>()) : toValue(node);
+    if (node.IsScalar()) count(node.Scalar().size());
+    if (!values_.emplace(name, value).second) refuse(node, name + " is given twice, must be given once");
   }
 
-  /// A list such as the names of effects; no option is a list of numbers.
-  std::optional<std::string> joinedTexts(const YAML::Node& list) {
-    if (!list.IsSequence()) return std::nullopt;
+  /// A list of texts, such as the names of effects, as one text with commas; of other lists their text, one level deep.
+  OptionValue toValue(const YAML::Node& list) {
     std::string text;
+    bool all_texts = true;
     for (const YAML::Node& item : list) {
       double number = 0.0;
-      if (!item.IsScalar() || YAML::convert<double>::decode(item, number)) return std::nullopt;
-      count(item.Scalar().size());
-      text += (text.empty() ? "" : ", ") + item.Scalar();
+      all_texts = all_texts && item.IsScalar() && !YAML::convert<double>::decode(item, number);
+      const std::string word = item.IsScalar() ? item.Scalar() : item.IsMap() ? "{...}" : "[...]";
+      count(word.size());
+      text += (text.empty() ? "" : ", ") + word;
     }
-    return text;
+    if (all_texts) return text;
+    return UnusableList{'[' + text + ']'};
   }
 
   void count(std::size_t characters) {

@@ -20,6 +20,15 @@ std::string describeSpike(const char* side, const StreamGate& gate) {
   return text;
 }
 
+// Of readings whose fourth powers vanish nothing can be computed, see isUsable().
+std::string describeStillness(const char* side, const StreamGate& gate) {
+  if (gate.timing().period() == 0.0 || gate.deviation() > 1e-60) return {};
+  char text[120];
+  std::snprintf(text, sizeof text, "; the %s readings differ by %.3g m/s^2 only: a dead sensor, or not in m/s^2?", side,
+                gate.deviation());
+  return text;
+}
+
 }  // namespace
 
 std::string describeRejected(const RejectCounts& rejected) {
@@ -32,7 +41,8 @@ std::string describeRejected(const RejectCounts& rejected) {
 
 std::string describeSuspicions(const UniformGrid& grid, bool negative_damping) {
   const StreamGate &body = grid.gate(Side::kSprung), &wheel = grid.gate(Side::kUnsprung);
-  std::string text = describeSpike("sprung", body) + describeSpike("unsprung", wheel);
+  std::string text = describeStillness("sprung", body) + describeStillness("unsprung", wheel);
+  text += describeSpike("sprung", body) + describeSpike("unsprung", wheel);
   if (body.deviation() > kMuchLarger * wheel.deviation() && wheel.deviation() > 0.0)
     text += "; the sprung IMU shakes far more than the unsprung one: swapped, or not in m/s^2?";
   else if (negative_damping)

@@ -11,6 +11,7 @@
 #include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
+#include "identify_tables.h"
 #include "identify_verdict.h"
 #include "interruption.h"
 #include "separate_files.h"
@@ -159,37 +160,6 @@ void printInput(const ImuPipeline& pipeline, const BagOptions& options) {
   std::printf("\nreadings %s\n\n", pipeline.grid()->describeAlignment().c_str());
 }
 
-void printTable(const std::vector<MonitorReport>& reports) {
-  std::printf("              damping/mass [1/s]   stiffness/mass [1/s^2]   free run\n");
-  std::printf("      time s      LS        LA          LS         LA       rmse m/s^2   fit %%   valid\n");
-  for (const MonitorReport& report : reports)
-    std::printf("%12.2f %9.4f %9.4f  %11.4f %10.4f %12.4f %8.1f   %s\n", toSeconds(report.stamp),
-                report.ls.damping_to_mass, report.la.damping_to_mass, report.ls.stiffness_to_mass,
-                report.la.stiffness_to_mass, report.comparison.rmse, report.comparison.fit_percent,
-                report.la.valid ? "yes" : "no");
-}
-
-void printResult(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
-  const std::string doubt = estimate.valid ? "" : "  NOT VALID: " + std::string(describe(estimate.doubt));
-  std::printf("%s: damping/mass %.4f +- %.4f 1/s, stiffness/mass %.4f +- %.4f 1/s^2, %.3f Hz, damping ratio %.3f%s\n",
-              name, estimate.damping_to_mass, estimate.damping_to_mass_stddev, estimate.stiffness_to_mass,
-              estimate.stiffness_to_mass_stddev, estimate.naturalFrequency(), estimate.dampingRatio(),
-              doubt.c_str());
-  if (mass)
-    std::printf("    damping %.4g N s/m, stiffness %.5g N/m\n", *mass * estimate.damping_to_mass,
-                *mass * estimate.stiffness_to_mass);
-}
-
-void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut) {
-  std::printf("%s: damping/wheel mass %.4f +- %.4f 1/s, stiffness/wheel mass %.2f +- %.2f 1/s^2, "
-              "tyre/wheel mass %.2f +- %.2f 1/s^2, wheel hop %.3f Hz%s\n",
-              name, estimate.damping_to_wheel_mass, estimate.damping_to_wheel_mass_stddev,
-              estimate.stiffness_to_wheel_mass, estimate.stiffness_to_wheel_mass_stddev, estimate.tyre_to_wheel_mass,
-              estimate.tyre_to_wheel_mass_stddev, estimate.wheelHopFrequency(),
-              estimate.valid ? "" : "  NOT VALID: too little or too poor excitation");
-  if (const auto ratio = massRatio(strut, estimate)) std::printf("    wheel mass / body mass %.4f\n", *ratio);
-}
-
 void checkEnough(const ImuPipeline& pipeline) {
   const SuspensionMonitor* monitor = pipeline.monitor();
   if (monitor != nullptr && monitor->input().rows > 0) return;
@@ -198,6 +168,8 @@ void checkEnough(const ImuPipeline& pipeline) {
     message += " (" + std::to_string(2 * monitor->horizonSamples() + 1) +
                " samples; usable samples in all: " + std::to_string(monitor->input().samples) +
                ", gaps: " + std::to_string(monitor->input().gaps) + ")";
+  const std::string slow = pipeline.grid() != nullptr ? pipeline.grid()->whatIsTooSlow() : "";
+  if (!slow.empty()) message += "; " + slow;
   throw TooLittleError(message + describeRejected(pipeline.rejected()));
 }
 

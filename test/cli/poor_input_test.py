@@ -30,6 +30,10 @@ def constant(value, *topics):
     return change
 
 
+def in_tiny_unit(topic, message, _):
+    message.linear_acceleration.z *= 1e-150
+
+
 def not_measured(topic, message, _):
     if topic == SPRUNG:
         message.linear_acceleration_covariance = [-1] + [0] * 8
@@ -73,6 +77,8 @@ POOR = {
     "wheel upside down": (scale(-1, UNSPRUNG), [], "damping comes out negative", UPSIDE_DOWN),
     "body upside down, horizon given": (scale(-1, SPRUNG), ["integration_horizon=0.6"], "upside down"),
     "wheel in g": (scale(1 / 9.81, UNSPRUNG), ["integration_horizon=0.6"], "the unsprung IMU", "in g"),
+    "hardly any reading": (in_tiny_unit, [], "the sprung readings differ by ", "m/s^2 only"),
+    "hardly any reading, horizon given": (in_tiny_unit, ["integration_horizon=0.26"], "m/s^2 only"),
     "spikes": (spikes, ["integration_horizon=0.6"], "190 m/s^2 off the mean", "sprung_range"),
 }
 
@@ -85,6 +91,7 @@ def test_message_names_what_is_wrong(program, messages, tmp_path, change, settin
     assert result.returncode == 4
     for word in words:
         assert word in result.stderr
+    assert "nan" not in result.stdout + result.stderr
 
 
 @pytest.mark.parametrize("settings", [[], ["--set", "integration_horizon=0.6"]], ids=["proposed", "given"])

@@ -30,6 +30,16 @@ def test_a_period_far_below_the_spacing_is_refused_at_once(program, paper_bag, t
     program.refuse(2, ["identify", paper_bag, *arguments], ["sample_period = 1e-05", "at least 0.002"], tmp_path)
 
 
+@pytest.mark.parametrize("period, status", [(0.01, 0), (0.004, 4)])  # 0.02 s, interpolated; too far apart
+def test_a_period_below_the_spacing_is_no_loss_of_readings(program, paper_bag, period, status):
+    settings = ["--set", f"sample_period={period}", "--set", "integration_horizon=0.6"]
+    result = program("identify", paper_bag, *settings)
+    assert result.returncode == status, result.stderr
+    text = result.stdout + result.stderr
+    assert f"readings come every 0.02 s (50 Hz), but sample_period = {period} [s]" in text
+    assert "lost" not in text
+
+
 def test_an_end_without_a_valid_estimate_is_too_little(program, tmp_path):
     times, sprung, unsprung = imu_bag.paper_drive()
     sprung[1200:] = unsprung[1200:] = 0.0  # parked, without noise

@@ -115,6 +115,20 @@ TEST(FreeRun, ThatRunsAwayStartsAnewAndCounts) {
   EXPECT_TRUE(run.settled());
 }
 
+// Their sum is small, but each has a column of its own in the regression.
+TEST(FreeRun, RunsAwayWhereEffectsThatCancelHaveForcesThatNoColumnCanHold) {
+  for (const double force : {1e30, 1e100}) {
+    FreeRun run = paperFreeRun();
+    std::vector<ActiveEffect> effects{active("asymmetric_spring", 2.0), active("quadratic_damping", -2.0)};
+    for (ActiveEffect& one : effects) one.effect.force = [force](const StrutMotion&, const double*) { return force; };
+    run.setEffects(effects);
+    bool predicted = false;
+    for (int k = 0; k < 200; ++k) predicted = run.push(std::sin(0.1 * k)).has_value() || predicted;
+    EXPECT_EQ(predicted, force < 1e60);
+    EXPECT_EQ(run.runaways() == 0u, force < 1e60);
+  }
+}
+
 TEST(FreeRun, RefusesEffectsThatItCannotHold) {
   FreeRun run = paperFreeRun();
   const std::vector<ActiveEffect> many(StrutState::kMostEffects + 1, active("asymmetric_spring", 1.0));

@@ -55,5 +55,13 @@ TEST(HorizonSurvey, GivesNothingBeforeItHasSeenAStrut) {
   EXPECT_FALSE(survey.horizonSamples());
 }
 
+// So small that squares vanish: parameters that are no numbers are passed over.
+TEST(HorizonSurvey, TakesNoParametersThatAreNoNumbers) {
+  HorizonSurvey survey(0.02, IntegrationRule::kCubic, 100);
+  for (const CornerSample& sample : healthyPaperDrive(20.0, 0.024))
+    survey.push({sample.stamp, 1e-150 * sample.sprung_acceleration, 1e-150 * sample.unsprung_acceleration});
+  EXPECT_NO_THROW(survey.horizonSamples());
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor

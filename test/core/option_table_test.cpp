@@ -128,6 +128,11 @@ TEST(OptionTable, MessageHasNameValueUnitAndWhatIsAllowed) {
   EXPECT_EQ(complaint("flag", 1), "flag = 1 [-], must be true or false: a switch");
   EXPECT_EQ(complaint("mode", std::string("medium")), "mode = \"medium\" [-], must be one of slow, fast, 17: a choice");
   EXPECT_EQ(complaint("label", 0.5), "label = 0.5 [-], must be any text: a text");
+  const UnusableList list{"[1, 2]"};
+  EXPECT_EQ(complaint("gain", list), "gain = [1, 2] [V/m], must be in [1e-09, 2]: a number");
+  EXPECT_EQ(complaint("flag", list), "flag = [1, 2] [-], must be true or false: a switch");
+  EXPECT_EQ(complaint("mode", list), "mode = [1, 2] [-], must be one of slow, fast, 17: a choice");
+  EXPECT_EQ(complaint("label", list), "label = [1, 2] [-], must be any text or a list of texts: a text");
 }
 
 TEST(OptionTable, LeavesOptionsUnchangedWhenItRefusesOne) {

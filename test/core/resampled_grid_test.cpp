@@ -236,5 +236,24 @@ TEST(AlignmentAuto, TheSwitchIsOneGap) {
   expectTrue(samples.back());
 }
 
+// 4 % lost are no reason to doubt the rate; readings that come half as often as samples are.
+TEST(AlignmentAuto, NamesTheMeasuredRateWhereSamplePeriodIsTooShortAndNothingIsLost) {
+  for (const double rate : {100.0, 120.0}) {
+    Messages messages(8);
+    UniformGrid grid(kPeriod, kAuto);
+    feed(grid, byTime(messages.of(Side::kSprung, rate, 1.0, 11.0), messages.of(Side::kUnsprung, rate, 1.0, 11.0)));
+    EXPECT_TRUE(grid.resamples());
+    EXPECT_EQ(grid.why(), grid.whatIsTooSlow());
+    EXPECT_NE(grid.why().find(rate == 100.0 ? "every 0.01 s (100 Hz), but sample_period = 0.005" : "(120 Hz)"),
+              std::string::npos) << grid.why();
+  }
+  Messages messages(9);
+  UniformGrid lossy(kPeriod, kAuto);
+  feed(lossy, byTime(messages.of(Side::kSprung, 200.0, 1.0, 31.0, 0.0, 0.04),
+                     messages.of(Side::kUnsprung, 200.0, 1.0, 31.0, 0.0, 0.04)));
+  EXPECT_EQ(lossy.whatIsTooSlow(), "");
+  EXPECT_NE(lossy.why().find("lost"), std::string::npos) << lossy.why();
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor

@@ -22,6 +22,7 @@
 #include "suspension_health_monitor/model/user_effects.h"
 #include "suspension_health_monitor/signal/uniform_grid.h"
 #include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/tyre_tracker.h"
 
 namespace {
 std::atomic<long> num_allocations{0};
@@ -118,6 +119,24 @@ TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {
   EXPECT_GT(monitor.input().gaps, 2u);
   EXPECT_EQ(monitor.input().restarts, 1u);
   EXPECT_GT(grid.rejected().count(RejectReason::kMissingPartner), 2u);
+}
+
+TEST(SamplePath, AllocatesNothingInTheTyreTrackerWhateverTheInput) {
+  MonitorOptions options;
+  options.sample_period = 0.02;
+  TyreTracker tracker(options);
+  Stamp stamp{};
+  int samples = 0;
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              stamp += std::chrono::milliseconds(++samples % 200 == 199 ? 100 : 20);
+              if (samples == 450) stamp = {};
+              const bool silent = samples % 150 == 140;
+              const double road = sample.unsprung_acceleration + 0.1 * sample.sprung_acceleration;
+              tracker.add({stamp, sample.sprung_acceleration, sample.unsprung_acceleration},
+                          silent ? std::nullopt : std::optional<double>(road));
+            }),
+            0);
+  EXPECT_GT(tracker.report().la.effective_rows, 40.0);
 }
 
 TEST(SamplePath, AllocatesNothingInAGridThatTurnsToResampling) {

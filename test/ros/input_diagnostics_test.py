@@ -104,6 +104,39 @@ class InputDiagnosticsTest(unittest.TestCase):
             self.assertEqual(status.level, DiagnosticStatus.WARN, status.message)
             drive.stop()
 
+    def test_reasons_of_rejection_are_named_in_one_list(self):
+        with load_monitor("two_reasons", {"sample_period": PERIOD}):
+            drive = drive_for("two_reasons")
+
+            def spoil(index, imu):
+                if index % 2:
+                    imu.linear_acceleration.z = float("nan")
+                else:
+                    imu.linear_acceleration_covariance[0] = -1.0
+            publish(drive, 200, spoil)
+            status = drive.input_status(lambda s: "readings rejected: not_measured, not_finite" in s.message)
+            self.assertEqual(status.message.count("readings rejected"), 1)
+            drive.stop()
+
+    def test_stamps_ahead_of_the_clock_are_no_negative_lag(self):
+        with load_monitor("ahead", {"sample_period": PERIOD}):
+            drive = drive_for("ahead")
+            drive.feed(0, 200, rospy.Time.now().to_sec() + 1000.0)
+            found = values(drive.input_status(lambda s: values(s).get("samples") == "200"))
+            for side in ("sprung", "unsprung"):
+                self.assertEqual(found[f"{side} lag [s]"], "0.000")
+                self.assertAlmostEqual(float(found[f"{side} ahead of the clock [s]"]), 1000.0, delta=10.0)
+            drive.stop()
+
+    def test_readings_that_come_too_seldom_for_the_sample_period_are_named(self):
+        with load_monitor("seldom", {"sample_period": 0.1 * PERIOD}):
+            drive = drive_for("seldom")
+            publish(drive, 200, lambda index, imu: None)
+            status = drive.input_status(lambda s: "readings come every 0.02 s (50 Hz)" in s.message)
+            self.assertEqual(status.level, DiagnosticStatus.WARN)
+            self.assertIn("sample_period = 0.002 [s]", status.message)
+            drive.stop()
+
     def test_readings_that_were_never_usable_do_not_become_good_when_they_end(self):
         with load_monitor("useless", {"sample_period": PERIOD, "input_timeout": 3600.0}):
             drive = drive_for("useless")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The missing effect found, added and saved while the drive goes on: ~diagnose, ~set_effects, ~save_model."""
+import math
 import os
 import tempfile
 import unittest
@@ -183,10 +184,11 @@ class LiveSearchTest(unittest.TestCase):
         self.assertEqual(newest.effect_names, [EFFECT])
 
     def test_window_beyond_what_is_kept_is_refused(self):
-        for window in (-1.0, 2 * KEPT, float("nan")):
+        for window in (-1.0, 2 * KEPT, math.nan, math.copysign(math.nan, -1.0)):
             answer = self.services.diagnose(window)
             self.assertFalse(answer.success)
             self.assertIn("must be in [0, 60", answer.message)
+            self.assertNotIn("-nan", answer.message)
 
 
 if __name__ == "__main__":

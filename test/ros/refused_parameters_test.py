@@ -17,10 +17,9 @@ WRONG = {
     "unknown": ({"forgeting_factor": 0.98}, ["unknown option forgeting_factor = 0.98", "forgetting_factor"]),
     "wrong type": ({"forgetting_factor": "high"}, ['forgetting_factor = "high"', "must be in [0.9, 1]"]),
     "not whole": ({"horizon_samples": 30.5}, ["horizon_samples = 30.5", "a whole number in [1, 100000]"]),
-    "list": ({"forgetting_factor": [0.98, 0.99]},
-             ["forgetting_factor = {0.98,0.99}", "list", "must be true or false, a number"]),
+    "list": ({"forgetting_factor": [0.98, 0.99]}, ["forgetting_factor = [0.98, 0.99] [-], must be in [0.9, 1]"]),
     "list of this and that": ({"effects": ["quadratic_damping", 3]},
-                              ["effects = {quadratic_damping,3}", "item 2 is no text", "a list of texts"]),
+                              ["effects = [quadratic_damping, 3] [-], must be any text or a list of texts"]),
     "not one of the words": ({"integration_rule": "euler"}, ['integration_rule = "euler"', "trapezoid", "cubic"]),
     "unknown effect": ({"effects": ["quadratic_damping", "bump"]},
                        ['effects = "quadratic_damping, bump"', "effect bump, must be one of", "bump_stop"]),
@@ -35,7 +34,7 @@ WRONG_COMPARISON = {
     "at the other end": ({"timeout": 0.05}, ["timeout = 0.05", "must be in [0.1, 3600]"]),
     "unknown": ({"confirm_tme": 1.0}, ["unknown option confirm_tme = 1", "confirm_time"]),
     "wrong type": ({"significance": "high"}, ['significance = "high"', "must be in [0, 100]"]),
-    "list": ({"timeout": [1.0, 2.0]}, ["timeout", "list", "must be true or false, a number"]),
+    "list": ({"timeout": [1.0, 2.0]}, ["timeout = [1, 2] [s], must be in [0.1, 3600]"]),
 }
 WRONG_SIMULATION = {"scenario": "paper_dirty"}
 DRIVE = {"real_time_factor": 20.0, "duration": 30.0}

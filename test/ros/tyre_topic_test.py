@@ -5,6 +5,7 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from dynamic_reconfigure.client import Client
 from ros_session import PACKAGE, Collector, start_node, statuses
 from suspension_health_monitor.msg import TyreEstimate
 
@@ -43,6 +44,20 @@ class TyreTopicTest(unittest.TestCase):
                     for field, truth in TRUTH.items():
                         self.assertAlmostEqual(getattr(estimate, field) / truth, 1.0, delta=0.02, msg=f"{name} {field}")
                 self.wait_for_task(DiagnosticStatus.OK, "wheel and tyre are known")
+
+    def test_forgetting_factor_that_is_turned_reaches_the_tyre(self):
+        estimates = self.estimates["la"]
+        with start_node("monitor_node", "monitor", MONITOR):
+            estimates.wait_for_publisher()
+            client = Client("/monitor", timeout=10.0)
+            with start_node("simulator_node", "simulator", dict(DRIVE, road_imu=True)):
+                estimates.wait_for(lambda message: message.effective_rows > 1000.0, 15.0, "a long memory")
+                client.update_configuration({"forgetting_factor": 0.99})
+                later = rospy.Time.from_sec(DRIVE["start_time"] + 2.0)  # 1000 rows
+                short = estimates.wait_for(lambda message: message.header.stamp > later and
+                                           message.effective_rows < 150.0, 15.0, "a short memory")
+            client.close()
+        self.assertTrue(short.valid)
 
     def test_silent_road_imu_is_told_and_nothing_is_valid(self):
         with start_node("monitor_node", "monitor", MONITOR):

@@ -45,7 +45,11 @@ class UniformGrid {
 
   /// @return true if the samples are resampled; why() tells the reason in words, if it was found out.
   bool resamples() const { return resamples_; }
-  std::string why() const { return describe(judge_.verdict()); }
+  std::string why() const;
+
+  /// @return that readings of a strut's sensor come every 3/2 T or more, in words: samples are then missing though nothing
+  /// gets lost, as sample_period is too short for this sensor. Empty if they come often enough.
+  std::string whatIsTooSlow() const;
 
   /// @return "paired", "resampled", or "resampled because ...".
   std::string describeAlignment() const;

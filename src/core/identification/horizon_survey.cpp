@@ -39,9 +39,8 @@ std::optional<int> HorizonSurvey::horizonSamples() const {
   double smallest_distance = std::numeric_limits<double>::infinity();
   for (const Candidate& candidate : candidates_) {
     const Eigen::VectorXd& theta = candidate.least_squares.parameters();
-    if (candidate.least_squares.effectiveRows() < kFewestRows || theta[kDampingToMass] <= 0.0 ||
-        theta[kStiffnessToMass] <= 0.0)
-      continue;
+    const bool is_strut = theta[kDampingToMass] > 0.0 && theta[kStiffnessToMass] > 0.0 && theta.allFinite();
+    if (candidate.least_squares.effectiveRows() < kFewestRows || !is_strut) continue;
     const double proposed = proposeHorizon(theta[kDampingToMass], theta[kStiffnessToMass]).horizon;
     const double distance = std::abs(std::log(proposed / (candidate.horizon_samples * period_)));
     if (distance >= smallest_distance) continue;

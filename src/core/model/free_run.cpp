@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/pi.h"
 
 namespace suspension_health_monitor {
@@ -192,7 +193,10 @@ void FreeRun::countTravelFrom(double offset) {
 
 bool FreeRun::ranAway(double prediction) {
   largest_ = std::max(largest_, std::abs(input_[newest_]));
-  return !(std::abs(prediction) <= kRunaway * largest_);  // NaN, too
+  // Forces that cancel each other in the prediction stand in columns of the regression one by one.
+  const bool usable = std::all_of(forces_.begin(), forces_.begin() + static_cast<std::ptrdiff_t>(model_.effects.size()),
+                                  [](double force) { return isUsable(force); });
+  return !usable || !(std::abs(prediction) <= kRunaway * largest_);  // NaN, too
 }
 
 // At rest under the constant part of the input.

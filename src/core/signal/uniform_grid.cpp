@@ -1,5 +1,7 @@
 #include "suspension_health_monitor/signal/uniform_grid.h"
 
+#include <algorithm>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -115,6 +117,21 @@ void UniformGrid::startNewSeries(std::size_t first) {
     while (!queue.empty()) drop(queue);
   for (std::size_t i = 0; i < gates_.size(); ++i)
     if (i != first) gates_[i].startNewSeries();
+}
+
+std::string UniformGrid::whatIsTooSlow() const {
+  const double spacing = std::max(gate(Side::kSprung).timing().period(), gate(Side::kUnsprung).timing().period());
+  if (spacing < 1.5 * toSeconds(period_)) return "";
+  std::ostringstream text;
+  text.precision(4);
+  text << "readings come every " << spacing << " s (" << 1.0 / spacing << " Hz), but sample_period = "
+       << toSeconds(period_) << " [s]";
+  return text.str();
+}
+
+std::string UniformGrid::why() const {
+  const std::string slow = judge_.verdict() == AlignmentJudge::Verdict::kInterrupted ? whatIsTooSlow() : "";
+  return slow.empty() ? describe(judge_.verdict()) : slow;
 }
 
 std::string UniformGrid::describeAlignment() const {
