@@ -69,7 +69,6 @@ std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const
 ModelTracker::ModelTracker(const MonitorOptions& options)
     : filter_(options.filter(*options.sample_period)),
       valid_min_rows_(options.valid_min_rows),
-      min_rows_(fewestRows(valid_min_rows_, options.forgetting_factor)),
       min_explained_(options.valid_min_explained),
       motion_(filter_.horizon_samples),
       rows_of_model_(std::numeric_limits<double>::infinity()),
@@ -80,6 +79,7 @@ ModelTracker::ModelTracker(const MonitorOptions& options)
       free_run_(*options.sample_period),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
   if (options.forgetting_rule == "directional") excitation_.emplace(filter_.horizon_samples, options.forgetting_factor);
+  setForgetting(options);
 }
 
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report) {
@@ -89,6 +89,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelRep
   least_absolute_.changeColumns(columns);
   regression_ = SuspensionRegression(filter_, effects.size());
   excitation_doubt_ = EstimateDoubt::kNone;  // columns are not held until they are judged anew
+  restartVariableForgetting();
   rows_of_model_ = 0.0;
   has_own_model_ = false;
   starts_.clear();
@@ -122,9 +123,8 @@ void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
   const bool moves = motion_.moves(row.output);
   if (moves) {
     if (excitation_ && spread_phase_ % Excitation::kJudgeEvery == 0) judgeExcitation(row, report);
-    if (excitation_doubt_ == EstimateDoubt::kNotExcited) {
-      least_squares_.observe(row);
-      least_absolute_.observe(row);
+    if (special_rows_) {
+      updateSpecially(row);
     } else {
       least_squares_.update(row);
       least_absolute_.update(row);
@@ -161,6 +161,7 @@ void ModelTracker::judgeExcitation(const RegressionRow& row, ModelReport& report
                       : stiffness          ? EstimateDoubt::kDampingNotExcited
                                            : EstimateDoubt::kNotExcited;
   if (excitation_doubt_ == before) return;
+  noteSpecialRows();
   for (RecursiveEstimator* estimator : {static_cast<RecursiveEstimator*>(&least_squares_),
                                         static_cast<RecursiveEstimator*>(&least_absolute_)}) {
     estimator->interrupt();
@@ -181,12 +182,6 @@ void ModelTracker::describeSpreads(ModelReport& report) const {
   const Eigen::Vector2d moment = noise_.moment(strut, 0.5 * kPi * size * size);
   describeSpread(least_squares_, moment, report.ls);
   describeSpread(least_absolute_, moment, report.la);
-}
-
-void ModelTracker::setForgettingFactor(double forgetting_factor) {
-  least_squares_.setForgettingFactor(forgetting_factor);
-  least_absolute_.setForgettingFactor(forgetting_factor);
-  min_rows_ = fewestRows(valid_min_rows_, forgetting_factor);
 }
 
 void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {

@@ -53,8 +53,8 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
 void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   options_ = checked(options);
   health_.setOptions(options.health(period()));
-  plain_.setForgettingFactor(options.forgetting_factor);
-  if (extended_) extended_->setForgettingFactor(options.forgetting_factor);
+  plain_.setForgetting(options);
+  if (extended_) extended_->setForgetting(options);
 }
 
 // Flat: a sample passes a dozen small functions, whose calls alone would cost a fifth of its time.
