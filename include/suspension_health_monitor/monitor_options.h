@@ -60,6 +60,8 @@ struct MonitorOptions {
   /// That of the wheel's regression: tyre/integration_horizon, or an eighth of the strut's, of at least 5 samples.
   IntegralFilterOptions tyreFilter(double period) const;
   RecursiveOptions recursive() const;
+  /// @return the smallest lambda that rows may be forgotten by.
+  double fastestForgetting() const { return fastest_forgetting_factor.value_or(forgetting_factor); }
   LeastAbsoluteOptions leastAbsolute() const;
   /// @param period  sampling time [s].
   HealthOptions health(double period) const;

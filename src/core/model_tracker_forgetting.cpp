@@ -4,7 +4,7 @@
 namespace suspension_health_monitor {
 
 void ModelTracker::setForgetting(const MonitorOptions& options) {
-  const double slow = options.forgetting_factor, fastest = options.fastest_forgetting_factor.value_or(slow);
+  const double slow = options.forgetting_factor, fastest = options.fastestForgetting();
   least_squares_.setForgettingFactor(slow);
   least_absolute_.setForgettingFactor(slow);
   min_rows_ = fewestRows(valid_min_rows_, fastest);

@@ -80,6 +80,9 @@ class HealthAssessment {
   /// @param sensor  what is known of the sensors; counts from the next update().
   void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
 
+  /// The estimates to come rest on fewer rows than forgetting_factor says, since they forget faster for the time being.
+  void setMemory(double rows);
+
   /// Judges by this from now on; learning ends.
   void setBaseline(const Baseline& baseline);
   const Baseline& baseline() const { return baseline_; }
