@@ -10,7 +10,7 @@ namespace suspension_health_monitor {
 ///
 /// While an estimate is right its scores, the regressors times a bounded function of the residual, have the mean 0, whatever
 /// the road and the noise; when parameter i has moved, the rows' scores phi_i b get the sign of what it has moved by. So
-///   b = epsilon / m, clamped to [-1, 1];  0 beyond |epsilon| = 6 m;  m the running mean |epsilon|,
+///   b = epsilon / m, clamped to [-1, 1];  0 beyond |epsilon| = 5 m;  m the running mean |epsilon|,
 ///   s_i = mean of b phi_i,  q_i = mean of (b phi_i)^2,  both over M = 3 (2 L + 1) rows (exponential weights),
 ///   T = max_i s_i^2 / q_i in [0, 1],
 ///   lambda = slow + (fastest - slow) min(max(T / t - 1, 0), 1),  t = (1 - e^(-1/3))^2 = 0.080.

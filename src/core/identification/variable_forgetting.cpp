@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kWindows = 3.0;      // of 2 L + 1 rows, in the memory
 constexpr double kFewestRows = 60.0;  // of the memory
-constexpr double kFarOff = 6.0;       // mean residuals
+constexpr double kFarOff = 5.0;       // mean residuals
 
 // What the rows of one window make of T alone.
 double stillDrift() {
