@@ -274,7 +274,7 @@ TEST(VaryingMonitor, StaysWhereItIsWithoutExcitation) {
       monitor.addSample({stamp, noise(generator), noise(generator)});
     }
   };
-  park(400);  // until the last of the drive has left the filter, and a block is closed
+  park(3000);  // until the drive has left filter and means
   ASSERT_EQ(monitor.report().la.doubt, EstimateDoubt::kNotExcited);
   const double held = monitor.forgettingFactor();
   park(5000);
