@@ -1,5 +1,5 @@
-// Prints the tables of doc/forgetting.md: how late LS and LA follow the paper's ramp of the damping and a step of it, how
-// much they scatter, and what faults do to them, against the forgetting factors; and a day parked.
+// Prints the tables of doc/forgetting.md: how late LS and LA follow the paper's ramp of the damping and a step of it,
+// how much they scatter, and what faults do to them, against the forgetting factors; and a day parked.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,5 +1,5 @@
-// Prints the table of doc/forgetting.md over roads and horizons: what a forgetting factor that falls while the damping moves
-// gains after a step, and what it costs while nothing changes, against the slow factor alone.
+// Prints the table of doc/forgetting.md over roads and horizons: what a forgetting factor that falls while the damping
+// moves gains after a step, and what it costs while nothing changes, against the slow factor alone.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -62,8 +62,8 @@ void spoil(std::vector<DriveSample>& drive, double rate) {
   for (const DriveSample& sample : drive) square += std::pow(sample.truth.sprung_acceleration, 2);
   const double size = 5.0 * std::sqrt(square / static_cast<double>(drive.size()));
   for (int i = 2; i < 7; ++i)
-    for (int j = 0; j < (i % 2 == 0 ? 1 : 10); ++j)
-      drive[static_cast<std::size_t>((10.0 * i + 5.0) * rate) + static_cast<std::size_t>(j)].unsprung->acceleration += size;
+    for (std::size_t j = 0; j < (i % 2 == 0 ? 1U : 10U); ++j)
+      drive[static_cast<std::size_t>((10.0 * i + 5.0) * rate) + j].unsprung->acceleration += size;
 }
 
 /// Of one drive, by LA.
@@ -129,14 +129,16 @@ double median(std::vector<double> values) {
 }
 
 void printRow(const Case& road) {
-  std::vector<double> slow, fast, variable, damping, stiffness, spoilt_damping, spoilt_stiffness, opened, spoilt, chance;
+  std::vector<double> slow, fast, variable, damping, stiffness, spoilt_damping, spoilt_stiffness;
+  std::vector<double> opened, spoilt, chance;
   for (int seed = kFirstSeed; seed < kFirstSeed + road.seeds; ++seed) {
     const std::vector<DriveSample> step = driven(road, seed, true);
     std::vector<DriveSample> healthy = driven(road, seed, false);
     chance.push_back(chanceOf(healthy, road));
     Case quick = road;
     quick.slow = road.fastest;
-    const Course constant = follow(step, road, std::nullopt, kStepAt), varied = follow(step, road, road.fastest, kStepAt);
+    const Course constant = follow(step, road, std::nullopt, kStepAt);
+    const Course varied = follow(step, road, road.fastest, kStepAt);
     slow.push_back(constant.seen_after);
     fast.push_back(follow(step, quick, std::nullopt, kStepAt).seen_after);
     variable.push_back(varied.seen_after);

@@ -86,6 +86,7 @@ class ModelTracker {
   [[gnu::noinline]] void updateSpecially(const RegressionRow& row);
   void noteSpecialRows() { special_rows_ = variable_ || excitation_doubt_ == EstimateDoubt::kNotExcited; }
   void restartVariableForgetting();
+  void forgetBy(double factor);
   [[gnu::noinline]] void judgeEstimates(bool moves, ModelReport& report);
   [[gnu::noinline]] void judgeExcitation(const RegressionRow& row, ModelReport& report);
   [[gnu::noinline]] void describeSpreads(ModelReport& report) const;

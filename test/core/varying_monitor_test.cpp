@@ -208,7 +208,7 @@ TEST(VaryingMonitor, IsReconfiguredWithoutLosingItsEstimates) {
   for (; k < 1500; ++k) monitor.addSample(drive[k]);
   const double before = monitor.report().la.damping_to_mass;
   monitor.reconfigure(optionsWith(kSlow, kFastest));
-  EXPECT_EQ(monitor.forgettingFactor(), kSlow);
+  ASSERT_EQ(monitor.forgettingFactor(), kSlow);
   monitor.addSample(drive[k++]);
   EXPECT_NEAR(monitor.report().la.damping_to_mass, before, 0.02);
   EXPECT_TRUE(monitor.report().la.valid);
@@ -217,6 +217,20 @@ TEST(VaryingMonitor, IsReconfiguredWithoutLosingItsEstimates) {
   EXPECT_EQ(monitor.options().forgetting_factor, kSlow);
   for (; k < drive.size(); ++k) monitor.addSample(drive[k]);
   EXPECT_GT(monitor.report().la.effective_rows, 150.0);
+}
+
+TEST(VaryingMonitor, TheSameOptionsChangeNothing) {
+  SuspensionMonitor left_alone(optionsWith(kSlow, kFastest)), reconfigured(optionsWith(kSlow, kFastest));
+  double least = kSlow;
+  for (const CornerSample& sample : simulate({})) {
+    left_alone.addSample(sample);
+    reconfigured.reconfigure(reconfigured.options());
+    reconfigured.addSample(sample);
+    ASSERT_EQ(reconfigured.forgettingFactor(), left_alone.forgettingFactor());
+    least = std::min(least, left_alone.forgettingFactor());
+  }
+  EXPECT_LT(least, 0.98);
+  EXPECT_EQ(reconfigured.report().la.damping_to_mass, left_alone.report().la.damping_to_mass);
 }
 
 // A memory that was longer counts for a while: 500 rows at 1/50 would make a negative variance of 2 - 10.

@@ -80,7 +80,8 @@ class HealthAssessment {
   /// @param sensor  what is known of the sensors; counts from the next update().
   void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
 
-  /// The estimates to come rest on fewer rows than forgetting_factor says, since they forget faster for the time being.
+  /// For estimators that forget faster than forgetting_factor for the time being.
+  /// @param rows  that the estimates to come rest on; no more than forgetting_factor says count.
   void setMemory(double rows);
 
   /// Judges by this from now on; learning ends.
