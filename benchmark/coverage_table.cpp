@@ -1,8 +1,9 @@
 // Prints the table of doc/uncertainty.md: how often the estimates plus and minus 1.96 stddev hold the truth, over roads,
 // vehicles, noise, horizons and forgetting factors.
-//   coverage_table [SEEDS]      measurements of each drive, default 10
+//   coverage_table [SEEDS [FASTEST]]      measurements of each drive, default 10; fastest_forgetting_factor, default none
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 #include "../test/core/interval_coverage.h"
 
@@ -35,7 +36,7 @@ void printRow(const char* name, const char* horizon, const char* lambda, const C
   std::printf("\n");
 }
 
-void printTable(int seeds) {
+void printTable(int seeds, std::optional<double> fastest) {
   std::printf(
       "| drive | L / proposed | lambda | LS b1: %%, rms z | LS b0 | LA b1 | LA b0 |\n|---|---|---|---|---|---|---|\n");
   Coverages all;
@@ -53,6 +54,7 @@ void printTable(int seeds) {
         MonitorOptions options;
         options.horizon_samples = std::max(5, static_cast<int>(std::lround(horizon * proposed)));
         options.forgetting_factor = forgetting_factor;
+        options.fastest_forgetting_factor = fastest;
         const Coverages coverages = coverageOf(clean, drive.noise, options, seeds);
         printRow(drive.name, std::to_string(horizon).substr(0, 3).c_str(),
                  std::to_string(forgetting_factor).substr(0, 5).c_str(), coverages);
@@ -65,4 +67,7 @@ void printTable(int seeds) {
 }  // namespace
 }  // namespace suspension_health_monitor
 
-int main(int argc, char** argv) { suspension_health_monitor::printTable(argc > 1 ? std::atoi(argv[1]) : 10); }
+int main(int argc, char** argv) {
+  suspension_health_monitor::printTable(argc > 1 ? std::atoi(argv[1]) : 10,
+                                        argc > 2 ? std::optional<double>(std::atof(argv[2])) : std::nullopt);
+}

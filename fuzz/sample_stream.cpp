@@ -39,6 +39,7 @@ MonitorOptions takeOptions(FuzzBytes& bytes) {
   if ((flags & 64U) != 0) options.initial_variance = 1e15;
   options.la_start_rows = (flags & 128U) != 0 ? 1 : 150;
   options.valid_min_rows = 2 + static_cast<int>(bytes.choose(60));
+  if (options.valid_min_rows % 2 != 0) options.fastest_forgetting_factor = 0.9;
   return options;
 }
 

@@ -12,6 +12,7 @@
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/regressor_noise.h"
 #include "suspension_health_monitor/identification/suspension_regression.h"
+#include "suspension_health_monitor/identification/variable_forgetting.h"
 #include "suspension_health_monitor/model/free_run.h"
 #include "suspension_health_monitor/monitor_options.h"
 #include "suspension_health_monitor/strut_estimate.h"
@@ -72,12 +73,20 @@ class ModelTracker {
   void setPeriodFits(bool fits, ModelReport& report);
 
   /// From the next row on; the estimates stay.
+  /// @param options  of which forgetting_factor and fastest_forgetting_factor count.
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
-  void setForgettingFactor(double forgetting_factor);
+  void setForgetting(const MonitorOptions& options);
+
+  /// @return the factor that rows are forgotten by now.
+  double forgettingFactor() const { return least_absolute_.forgettingFactor(); }
 
  private:
   void estimate(const RegressionRow& row, ModelReport& report);
   void describe(ModelReport& report) const;
+  [[gnu::noinline]] void updateSpecially(const RegressionRow& row);
+  void noteSpecialRows() { special_rows_ = variable_ || excitation_doubt_ == EstimateDoubt::kNotExcited; }
+  void restartVariableForgetting();
+  void forgetBy(double factor);
   [[gnu::noinline]] void judgeEstimates(bool moves, ModelReport& report);
   [[gnu::noinline]] void takeExcitation(ModelReport& report);
   [[gnu::noinline]] void describeSpreads(ModelReport& report) const;
@@ -97,6 +106,8 @@ class ModelTracker {
   std::uint64_t runaways_ = 0;
   std::optional<Excitation> excitation_;  // none: everything is forgotten all the time
   EstimateDoubt excitation_doubt_ = EstimateDoubt::kNone;
+  std::optional<VariableForgetting> variable_;  // none: rows are forgotten by one factor
+  bool special_rows_ = false;                   // which are not just taken in
   SuspensionRegression regression_;
   RegressorNoise noise_;
   RecursiveLeastSquares least_squares_;

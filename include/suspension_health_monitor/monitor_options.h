@@ -19,6 +19,7 @@ struct MonitorOptions {
   std::optional<int> horizon_samples;
   std::string integration_rule = "cubic";
   double forgetting_factor = 0.99;
+  std::optional<double> fastest_forgetting_factor;
   std::string forgetting_rule = "directional";
   double initial_variance = RecursiveOptions{}.initial_variance;
   std::string initial_variance_rule = "relative";
@@ -61,6 +62,8 @@ struct MonitorOptions {
 
   /// @param correlated_rows  2 L for rows of a filter, as each reading of a sensor is in 2 L + 1 of them.
   RecursiveOptions recursive(int correlated_rows = 0) const;
+  /// @return the smallest lambda that rows may be forgotten by.
+  double fastestForgetting() const { return fastest_forgetting_factor.value_or(forgetting_factor); }
   LeastAbsoluteOptions leastAbsolute() const;
   /// @param period  sampling time [s].
   HealthOptions health(double period) const;
@@ -78,6 +81,9 @@ inline constexpr std::array kMonitorFields{
                  &MonitorOptions::integration_rule, 0, 0, kIntegrationRuleNames},
     MonitorField{"forgetting_factor", "-", "lambda; memory 1/(1 - lambda) rows, 1 never forgets",
                  &MonitorOptions::forgetting_factor, 0.9, 1.0},
+    MonitorField{"fastest_forgetting_factor", "-",
+                 "lambda while damping or stiffness move, at most forgetting_factor; left out: lambda stays",
+                 &MonitorOptions::fastest_forgetting_factor, 0.9, 1.0},
     MonitorField{"forgetting_rule", "-",
                  "directional: nothing is forgotten without excitation (parked); exponential: always (the paper's)",
                  &MonitorOptions::forgetting_rule, 0, 0, "directional exponential"},

@@ -54,7 +54,7 @@ class SuspensionMonitor {
   /// @return the effects in the model, with the coefficients that the free run has now.
   const std::vector<ActiveEffect>& effects() const { return tracker().effects(); }
 
-  /// Goes on with another forgetting factor and other thresholds of health; estimates and filters are kept.
+  /// Goes on with other forgetting factors and other thresholds of health; estimates and filters are kept.
   /// @param options  which differ from options() in nothing else.
   /// @throws std::invalid_argument  naming the option, its value and what is allowed; all then stays as it was.
   void reconfigure(const MonitorOptions& options);
@@ -76,6 +76,8 @@ class SuspensionMonitor {
   const InputStatus& input() const { return input_; }
   const RejectCounts& rejected() const { return rejected_; }
   const MonitorOptions& options() const { return options_; }
+  /// @return lambda for the rows to come, between fastest_forgetting_factor and forgetting_factor.
+  double forgettingFactor() const { return tracker().forgettingFactor(); }
   double period() const { return toSeconds(period_); }
   int horizonSamples() const { return horizon_samples_; }
 

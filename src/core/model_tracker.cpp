@@ -22,8 +22,10 @@ template <class Estimator>
   estimate.stiffness_to_mass = theta[kStiffnessToMass];
   estimate.effective_rows = estimator.effectiveRows();
   estimate.num_effects = static_cast<std::size_t>(estimator.numParameters() - kNumStrutParameters);
-  if (estimate.num_effects > 0)
-    std::copy_n(theta + kNumStrutParameters, estimate.num_effects, estimate.coefficients.begin());
+  if (estimate.num_effects == 0) return;
+  std::copy_n(theta + kNumStrutParameters, estimate.num_effects, estimate.coefficients.begin());
+  // Columns of effects may be as large as a double can be; what comes of that is judged at once, not at the next turn.
+  estimate.valid = estimate.valid && std::isfinite(estimate.damping_to_mass + estimate.stiffness_to_mass);
 }
 
 /// What is random, and what the sensors' noise in the regressors shifts.
@@ -62,7 +64,6 @@ std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const
 ModelTracker::ModelTracker(const MonitorOptions& options)
     : filter_(options.filter(*options.sample_period)),
       valid_min_rows_(options.valid_min_rows),
-      min_rows_(fewestRows(valid_min_rows_, options.forgetting_factor)),
       min_explained_(options.valid_min_explained),
       motion_(filter_.horizon_samples),
       rows_of_model_(std::numeric_limits<double>::infinity()),
@@ -74,6 +75,7 @@ ModelTracker::ModelTracker(const MonitorOptions& options)
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
   if (options.forgetting_rule == "directional")
     excitation_.emplace(filter_.horizon_samples, options.forgetting_factor, noise_);
+  setForgetting(options);
 }
 
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report) {
@@ -83,6 +85,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelRep
   least_absolute_.changeColumns(columns);
   regression_ = SuspensionRegression(filter_, effects.size());
   excitation_doubt_ = EstimateDoubt::kNone;  // columns are not held until they are judged anew
+  restartVariableForgetting();
   rows_of_model_ = 0.0;
   has_own_model_ = false;
   starts_.clear();
@@ -118,9 +121,8 @@ void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
     if (excitation_ && spread_phase_ % Excitation::kJudgeEvery == 0 &&
         excitation_->judge(row, least_absolute_.parameters()))
       takeExcitation(report);
-    if (excitation_doubt_ == EstimateDoubt::kNotExcited) {
-      least_squares_.observe(row);
-      least_absolute_.observe(row);
+    if (special_rows_) {
+      updateSpecially(row);
     } else {
       least_squares_.update(row);
       least_absolute_.update(row);
@@ -156,6 +158,7 @@ void ModelTracker::takeExcitation(ModelReport& report) {
                       : stiffness          ? EstimateDoubt::kDampingNotExcited
                                            : EstimateDoubt::kNotExcited;
   if (excitation_doubt_ == before) return;
+  noteSpecialRows();
   for (RecursiveEstimator* estimator : {static_cast<RecursiveEstimator*>(&least_squares_),
                                         static_cast<RecursiveEstimator*>(&least_absolute_)}) {
     estimator->interrupt();
@@ -176,12 +179,6 @@ void ModelTracker::describeSpreads(ModelReport& report) const {
   const Eigen::Vector2d moment = noise_.moment(strut, 0.5 * kPi * size * size);
   describeSpread(least_squares_, moment, report.ls);
   describeSpread(least_absolute_, moment, report.la);
-}
-
-void ModelTracker::setForgettingFactor(double forgetting_factor) {
-  least_squares_.setForgettingFactor(forgetting_factor);
-  least_absolute_.setForgettingFactor(forgetting_factor);
-  min_rows_ = fewestRows(valid_min_rows_, forgetting_factor);
 }
 
 void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {

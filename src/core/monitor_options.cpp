@@ -17,6 +17,9 @@ void MonitorOptions::validate() const {
   suspension_health_monitor::validate(*this, kMonitorFields);
   if (integration_horizon && horizon_samples)
     throw std::invalid_argument("integration_horizon and horizon_samples are both given, must be one of them");
+  if (fastest_forgetting_factor && *fastest_forgetting_factor > forgetting_factor)
+    throw std::invalid_argument("fastest_forgetting_factor = " + std::to_string(*fastest_forgetting_factor) +
+                                ", must be at most forgetting_factor = " + std::to_string(forgetting_factor));
   health(sample_period.value_or(1.0)).validate();
   if (sample_period) filter(*sample_period);
 }

@@ -51,8 +51,8 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
 void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   options_ = checked(options);
   health_.setOptions(options.health(period()));
-  plain_.setForgettingFactor(options.forgetting_factor);
-  if (extended_) extended_->setForgettingFactor(options.forgetting_factor);
+  plain_.setForgetting(options);
+  if (extended_) extended_->setForgetting(options);
 }
 
 // Flat: a sample passes a dozen small functions, whose calls alone would cost a fifth of its time.
@@ -76,7 +76,8 @@ void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   until_judged_ = health_.options().rows_per_update;
   const CornerSample& previous = in_series_ > 1 ? recent_[(in_series_ - 2) % recent_.size()] : sample;
   const bool enough_rows =
-      report_.la.effective_rows >= fewestRows(10 * options_.valid_min_rows, options_.forgetting_factor);
+      report_.la.effective_rows >= fewestRows(10 * options_.valid_min_rows, options_.fastestForgetting());
+  if (options_.fastest_forgetting_factor) health_.setMemory(report_.la.effective_rows);
   judgePeriod(sample.stamp);
   health_.setSensors(sensors_.look(previous, sample, report_.la, enough_rows));
   report_.health = health_.update(report_.stamp, report_.ls, report_.la);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "suspension_health_monitor/monitor_options.h"
 
 namespace suspension_health_monitor {
@@ -8,6 +10,14 @@ namespace suspension_health_monitor {
 inline MonitorOptions liveOptions() {
   MonitorOptions options;
   options.sample_period = 0.02;
+  return options;
+}
+
+/// The defaults with other forgetting factors.
+inline MonitorOptions optionsWith(double slow, std::optional<double> fastest) {
+  MonitorOptions options = liveOptions();
+  options.forgetting_factor = slow;
+  options.fastest_forgetting_factor = fastest;
   return options;
 }
 

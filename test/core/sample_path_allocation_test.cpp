@@ -4,6 +4,7 @@
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
+#include <algorithm>
 #include <atomic>
 #include <string>
 #include <vector>
@@ -137,6 +138,25 @@ TEST(SamplePath, AllocatesNothingInTheTyreTrackerWhateverTheInput) {
             }),
             0);
   EXPECT_GT(tracker.report().la.effective_rows, 40.0);
+}
+
+TEST(SamplePath, AllocatesNothingWithAVariableForgettingFactor) {
+  MonitorOptions options;
+  options.sample_period = 0.02;
+  options.fastest_forgetting_factor = 0.97;
+  options.nominal_damping_to_mass = kPaperB1;
+  SuspensionMonitor monitor(options);
+  Stamp stamp{};
+  double least = options.forgetting_factor;
+  // A vehicle that becomes stiffer and softer again every few seconds.
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              stamp += std::chrono::milliseconds(20);
+              const double scale = monitor.input().samples % 600 < 300 ? 1.0 : 1.5;
+              monitor.addSample({stamp, scale * sample.sprung_acceleration, sample.unsprung_acceleration});
+              least = std::min(least, monitor.forgettingFactor());
+            }),
+            0);
+  EXPECT_LT(least, 0.98);
 }
 
 TEST(SamplePath, AllocatesNothingInAGridThatTurnsToResampling) {

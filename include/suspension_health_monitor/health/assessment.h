@@ -80,6 +80,10 @@ class HealthAssessment {
   /// @param sensor  what is known of the sensors; counts from the next update().
   void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
 
+  /// For estimators that forget faster than forgetting_factor for the time being.
+  /// @param rows  that the estimates to come rest on; no more than forgetting_factor says count.
+  void setMemory(double rows);
+
   /// Judges by this from now on; learning ends.
   void setBaseline(const Baseline& baseline);
   const Baseline& baseline() const { return baseline_; }

@@ -17,6 +17,10 @@ class FollowedParameter {
   /// @param memory  of the estimators, in updates; infinite: they never forget.  @param horizon  of their filter, in updates.
   FollowedParameter(double memory, double horizon);
 
+  /// From the next values on, for estimators that forget by another factor for the time being.
+  /// @param memory, horizon  as in the constructor; finite.
+  void setMemory(double memory, double horizon);
+
   /// @param ls  empty: not valid.
   void follow(const std::optional<UncertainValue>& ls, const UncertainValue& la);
 

@@ -23,7 +23,11 @@ struct UncertainValue {
 class ParameterTrend {
  public:
   /// @param memory  in steps, above 1.  @param lag  of the values behind the parameter, in steps, above 0.
-  ParameterTrend(double memory, double lag);
+  ParameterTrend(double memory, double lag) { setMemory(memory, lag); }
+
+  /// From the next value on, as in the constructor, for values of an estimator that forgets by another factor; what has
+  /// been taken in keeps its weight.
+  void setMemory(double memory, double lag);
 
   /// The next value x.
   /// @param variance  of x, above 0; 0, NaN or infinite: it tells nothing.

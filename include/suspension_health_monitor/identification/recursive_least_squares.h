@@ -49,11 +49,19 @@ class RecursiveEstimator {
   int numParameters() const { return static_cast<int>(theta_.size()); }
   const Eigen::VectorXd& parameters() const { return theta_; }  ///< theta, (p)
   const UdCovariance& covariance() const { return covariance_; }
-  double forgettingFactor() const { return options_.forgetting_factor; }
+  double forgettingFactor() const { return options_.forgetting_factor; }  ///< the present one
 
   /// Forgets faster or more slowly from the next row on; the estimate stays.
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
   void setForgettingFactor(double forgetting_factor);
+
+  /// Forgets by another factor for the time being, at most that of setForgettingFactor(). Variances are meant for that one:
+  /// while the present one is below, they are those of fewer rows of nearly equal weight, up to twice too large.
+  /// @param forgetting_factor  lambda in (0, 1].
+  void setPresentFactor(double forgetting_factor) {
+    options_.forgetting_factor = forgetting_factor;
+    means_.setForgettingFactor(forgetting_factor);
+  }
 
   /// The next row does not follow the one before: residuals of both are not correlated.
   void interrupt() { scores_.interrupt(); }

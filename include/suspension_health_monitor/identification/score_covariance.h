@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -65,7 +66,8 @@ class ScoreCovariance {
   /// @param weight  sum lambda^(k-i).
   double inflation(int i, double weight) const {
     const double forgetting = 1.0 - forgetting_factor_;
-    return ratio_[i] * (2.0 - forgetting * weight) / (slope_ * (2.0 - forgetting * slope_));
+    // The weight of a memory that was longer still counts for a while.
+    return ratio_[i] * (2.0 - std::min(1.0, forgetting * weight)) / (slope_ * (2.0 - forgetting * slope_));
   }
 
  private:

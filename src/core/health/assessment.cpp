@@ -83,6 +83,12 @@ void HealthAssessment::setOptions(const HealthOptions& options) {
   confirmation_.setConfirmTime(fromSeconds(options.confirm_time));
 }
 
+void HealthAssessment::setMemory(double rows) {
+  const double memory = std::min(memory_, rows / options_.rows_per_update);
+  damping_.setMemory(memory, horizonOf(options_));
+  stiffness_.setMemory(memory, horizonOf(options_));
+}
+
 void HealthAssessment::setBaseline(const Baseline& baseline) {
   baseline_ = baseline;
   learner_.reset();

@@ -18,8 +18,11 @@ double correlatedShare(double r) {
 
 }  // namespace
 
-ParameterTrend::ParameterTrend(double memory, double lag)
-    : memory_(memory), lag_(lag), correlated_(lag * correlatedShare(memory / lag)) {}
+void ParameterTrend::setMemory(double memory, double lag) {
+  memory_ = memory;
+  lag_ = lag;
+  correlated_ = lag * correlatedShare(memory / lag);
+}
 
 void ParameterTrend::follow(double value, double variance) {
   const double weight = 1.0 / variance;

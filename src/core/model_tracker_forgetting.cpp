@@ -1,0 +1,50 @@
+// How fast a ModelTracker forgets.
+#include <algorithm>
+
+#include "suspension_health_monitor/model_tracker.h"
+
+namespace suspension_health_monitor {
+
+void ModelTracker::setForgetting(const MonitorOptions& options) {
+  const double slow = options.forgetting_factor, fastest = options.fastestForgetting(), now = forgettingFactor();
+  least_squares_.setForgettingFactor(slow);
+  least_absolute_.setForgettingFactor(slow);
+  min_rows_ = fewestRows(valid_min_rows_, fastest);
+  if (!options.fastest_forgetting_factor) {
+    variable_.reset();
+  } else if (!variable_) {
+    variable_.emplace(least_absolute_.numParameters(), 2 * filter_.horizon_samples, slow, fastest);
+  } else {
+    variable_->setFactors(slow, fastest);
+    forgetBy(std::clamp(now, fastest, slow));  // until it is decided anew
+  }
+  noteSpecialRows();
+}
+
+// For other columns.
+void ModelTracker::restartVariableForgetting() {
+  if (variable_) variable_->restart(least_absolute_.numParameters());
+  noteSpecialRows();
+}
+
+void ModelTracker::updateSpecially(const RegressionRow& row) {
+  if (excitation_doubt_ == EstimateDoubt::kNotExcited) {
+    least_squares_.observe(row);
+    least_absolute_.observe(row);
+    return;
+  }
+  least_squares_.update(row);
+  const double innovation = least_absolute_.update(row);
+  // Estimates that come from their start move; of a parameter that is held nobody knows.
+  if (!variable_ || excitation_doubt_ != EstimateDoubt::kNone || least_absolute_.effectiveRows() < min_rows_) return;
+  variable_->add(row, innovation, least_absolute_.meanAbsoluteResidual());
+  if (spread_phase_ % VariableForgetting::kDecideEvery != 0) return;
+  forgetBy(variable_->factor());
+}
+
+void ModelTracker::forgetBy(double factor) {
+  least_squares_.setPresentFactor(factor);
+  least_absolute_.setPresentFactor(factor);
+}
+
+}  // namespace suspension_health_monitor
