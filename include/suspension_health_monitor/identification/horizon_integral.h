@@ -57,8 +57,9 @@ class HorizonIntegral {
   // Running sums over the window by parity of the sample's index, and the ones that will replace them.
   std::array<double, 2> sums_{};
   std::array<double, 2> fresh_{};
-  int since_refresh_ = 0;
-  std::size_t parity_ = 0;
+  int until_refresh_;
+  std::size_t parity_ = 0;            // of the newest sample
+  std::size_t leaves_other_parity_;   // 1: the sample that leaves the window is of the other parity
 };
 
 }  // namespace suspension_health_monitor

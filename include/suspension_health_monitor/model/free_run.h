@@ -113,6 +113,7 @@ class FreeRun {
   StrutModel model_;
   const WheelInterpolator* steps_ = nullptr;  // of one sample
   int num_steps_ = 0;                         // 0: no model yet
+  double step_ = 0.0;                         // [s]
   double decay_rate_ = 0.0;                   // of the slowest free motion [1/s]
   double mean_memory_ = std::numeric_limits<double>::infinity();  // [samples]
   StrutState state_;

@@ -22,7 +22,10 @@ IntegrationRule integrationRule(std::string_view name) {
 }
 
 HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule rule)
-    : intervals_(intervals), period_(period) {
+    : intervals_(intervals),
+      period_(period),
+      until_refresh_(intervals + 1),
+      leaves_other_parity_(intervals % 2 == 0 ? 1 : 0) {
   if (intervals < 1) refuseIntervals(intervals, "at least 1");
   if (!(std::isfinite(period) && period > 0.0))
     throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be above 0");
@@ -46,28 +49,27 @@ HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule r
 
 double HorizonIntegral::update(const DelayLine& signal) {
   const double newest = signal.at(0);
-  const std::size_t leaving_parity = intervals_ % 2 == 0 ? 1 - parity_ : parity_;
   sums_[parity_] += newest;
-  sums_[leaving_parity] -= signal.at(intervals_ + 1);
+  sums_[parity_ ^ leaves_other_parity_] -= signal.at(intervals_ + 1);
   fresh_[parity_] += newest;
-  if (++since_refresh_ == intervals_ + 1) {
+  if (--until_refresh_ == 0) {
     sums_ = fresh_;
     fresh_ = {};
-    since_refresh_ = 0;
+    until_refresh_ = intervals_ + 1;
   }
-  double integral = same_weight_ * sums_[parity_] + other_weight_ * sums_[1 - parity_];
+  double integral = same_weight_ * sums_[parity_] + other_weight_ * sums_[parity_ ^ 1];
   integral += end_corrections_[0] * (newest + signal.at(intervals_));
   if (corrects_neighbours_)
     integral += end_corrections_[1] * (signal.at(1) + signal.at(intervals_ - 1)) +
                 end_corrections_[2] * (signal.at(2) + signal.at(intervals_ - 2));
-  parity_ = 1 - parity_;
+  parity_ ^= 1;
   return period_ * integral;
 }
 
 void HorizonIntegral::reset() {
   sums_ = {};
   fresh_ = {};
-  since_refresh_ = 0;
+  until_refresh_ = intervals_ + 1;
   parity_ = 0;
 }
 

@@ -96,6 +96,7 @@ void FreeRun::split(double steps) {
   std::size_t i = 0;
   while (steps > 1 << i) ++i;
   num_steps_ = 1 << i;
+  step_ = period_ / num_steps_;
   steps_ = splits()[i].data();
 }
 
@@ -161,15 +162,15 @@ void FreeRun::insert(double unsprung_acceleration) {
 
 // From the sample at `time` to the next.
 void FreeRun::advance(double time) {
-  const double h = period_ / num_steps_, square = period_ * period_;
+  const double square = period_ * period_;
   for (int i = 0; i < num_steps_; ++i) {
     WheelStep wheel = steps_[i](window());  // in samples
     wheel.middle_position *= square;
     wheel.middle_velocity *= period_;
     wheel.end_position *= square;
     wheel.end_velocity *= period_;
-    if (withEffects()) takeOff(offset_, h, wheel);
-    integrateStrut(model_, time + i * h, h, wheel, state_);
+    if (withEffects()) takeOff(offset_, step_, wheel);
+    integrateStrut(model_, time + i * step_, step_, wheel, state_);
   }
 }
 
