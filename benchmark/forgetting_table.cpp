@@ -1,7 +1,6 @@
 // Prints the tables of doc/forgetting.md: how late LS and LA follow the paper's ramp of the damping and a step of it,
-// how much they scatter, and what faults do to them, against the forgetting factors; and a day parked.
+// how much they scatter, and what faults do to them, against the forgetting factors.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -9,7 +8,6 @@
 #include <vector>
 
 #include "../test/core/simulated_drive.h"
-#include "suspension_health_monitor/pi.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {

@@ -86,6 +86,7 @@ class ModelTracker {
   [[gnu::noinline]] void updateSpecially(const RegressionRow& row);
   void noteSpecialRows() { special_rows_ = variable_ || excitation_doubt_ == EstimateDoubt::kNotExcited; }
   void restartVariableForgetting();
+  void noteExcitation();
   void forgetBy(double factor);
   [[gnu::noinline]] void judgeEstimates(bool moves, ModelReport& report);
   [[gnu::noinline]] void takeExcitation(ModelReport& report);
@@ -98,7 +99,9 @@ class ModelTracker {
   IntegralFilterOptions filter_;
   int valid_min_rows_;
   bool period_fits_ = true;
-  double min_rows_, min_explained_;
+  double start_rows_, min_rows_;  // of an estimate that is valid, the first time and from then on
+  bool has_been_valid_ = false;   // since the effects were set
+  double min_explained_;
   unsigned spread_phase_ = 0;
   MotionJudge motion_;
   double rows_of_model_;     // since the effects were set; infinite for the plain model
@@ -107,7 +110,7 @@ class ModelTracker {
   std::optional<Excitation> excitation_;  // none: everything is forgotten all the time
   EstimateDoubt excitation_doubt_ = EstimateDoubt::kNone;
   std::optional<VariableForgetting> variable_;  // none: rows are forgotten by one factor
-  bool special_rows_ = false;                   // which are not just taken in
+  bool special_rows_ = false;                   // forgotten by a variable factor, or only observed
   SuspensionRegression regression_;
   RegressorNoise noise_;
   RecursiveLeastSquares least_squares_;

@@ -24,7 +24,7 @@ template <class Estimator>
   estimate.num_effects = static_cast<std::size_t>(estimator.numParameters() - kNumStrutParameters);
   if (estimate.num_effects == 0) return;
   std::copy_n(theta + kNumStrutParameters, estimate.num_effects, estimate.coefficients.begin());
-  // Columns of effects may be as large as a double can be; what comes of that is judged at once, not at the next turn.
+  // Columns of effects may be too large for an estimator; what comes of that is judged at once, not at the next turn.
   estimate.valid = estimate.valid && std::isfinite(estimate.damping_to_mass + estimate.stiffness_to_mass);
 }
 
@@ -87,7 +87,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelRep
   excitation_doubt_ = EstimateDoubt::kNone;  // columns are not held until they are judged anew
   restartVariableForgetting();
   rows_of_model_ = 0.0;
-  has_own_model_ = false;
+  has_been_valid_ = has_own_model_ = false;
   starts_.clear();
   for (std::size_t j = 0; j < effects.size(); ++j) {
     starts_.push_back(least_absolute_.parameters()[kNumStrutParameters + static_cast<Eigen::Index>(j)]);
@@ -128,7 +128,8 @@ void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
       least_absolute_.update(row);
     }
     describe(report);
-    if (spread_phase_ == 0 && excitation_doubt_ != EstimateDoubt::kNotExcited) describeSpreads(report);
+    const unsigned every = report.la.valid ? kSpreadEvery : kModelEvery;
+    if (spread_phase_ % every == 0 && excitation_doubt_ != EstimateDoubt::kNotExcited) describeSpreads(report);
     spread_phase_ = (spread_phase_ + 1) % kSpreadEvery;
   }
   // At once at the start, and when a sensor sticks.
@@ -142,8 +143,10 @@ void ModelTracker::judgeEstimates(bool moves, ModelReport& report) {
     estimate->doubt = moves ? doubt(*estimate) : EstimateDoubt::kSensorStuck;
     estimate->valid = estimate->doubt == EstimateDoubt::kNone;
   }
+  if (!report.la.valid) return;
+  has_been_valid_ = true;
   // From the first valid estimate on there is something to hold.
-  if (excitation_ && report.la.valid) excitation_->know({report.la.damping_to_mass, report.la.stiffness_to_mass});
+  if (excitation_) excitation_->know({report.la.damping_to_mass, report.la.stiffness_to_mass});
 }
 
 void ModelTracker::takeExcitation(ModelReport& report) {
@@ -158,7 +161,7 @@ void ModelTracker::takeExcitation(ModelReport& report) {
                       : stiffness          ? EstimateDoubt::kDampingNotExcited
                                            : EstimateDoubt::kNotExcited;
   if (excitation_doubt_ == before) return;
-  noteSpecialRows();
+  noteExcitation();
   for (RecursiveEstimator* estimator : {static_cast<RecursiveEstimator*>(&least_squares_),
                                         static_cast<RecursiveEstimator*>(&least_absolute_)}) {
     estimator->interrupt();
@@ -188,7 +191,8 @@ void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {
 
 EstimateDoubt ModelTracker::doubt(const StrutEstimate& estimate) const {
   if (!period_fits_) return EstimateDoubt::kWrongPeriod;
-  if (std::min(estimate.effective_rows, rows_of_model_) < min_rows_) return EstimateDoubt::kFewRows;
+  if (std::min(estimate.effective_rows, rows_of_model_) < (has_been_valid_ ? min_rows_ : start_rows_))
+    return EstimateDoubt::kFewRows;
   if (excitation_doubt_ != EstimateDoubt::kNone) return excitation_doubt_;
   if (!(estimate.explained >= min_explained_)) return EstimateDoubt::kNotExplained;
   if (!(estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0)) return EstimateDoubt::kNotAStrut;
@@ -211,7 +215,7 @@ void ModelTracker::lead(const StrutEstimate& plain) {
 void ModelTracker::fallBack() {
   runaways_ = free_run_.runaways();
   rows_of_model_ = 0.0;
-  has_own_model_ = false;
+  has_been_valid_ = has_own_model_ = false;
   for (std::size_t j = 0; j < starts_.size(); ++j) free_run_.setCoefficient(j, starts_[j] = 0.0);
 }
 
@@ -223,9 +227,10 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
   if (!free_run_.settled()) comparison.predicted.reset();
   if (!comparison.predicted) return;
   comparison_.add(comparison.measured, *comparison.predicted);
-  if (compared_++ % kModelEvery != 0) return;
-  comparison.rmse = comparison.base_rmse = comparison_.rmse();
-  comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
+  if (compared_++ % kModelEvery == 0) {
+    comparison.rmse = comparison.base_rmse = comparison_.rmse();
+    comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
+  }
   // Parameters whose free run is worse than a constant are not those of this strut, however small the rows' residuals.
   if (comparison.fit_percent < 0.0 && comparison_.isFull() && report.la.valid) {
     report.la.valid = false;

@@ -76,7 +76,7 @@ void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   until_judged_ = health_.options().rows_per_update;
   const CornerSample& previous = in_series_ > 1 ? recent_[(in_series_ - 2) % recent_.size()] : sample;
   const bool enough_rows =
-      report_.la.effective_rows >= fewestRows(10 * options_.valid_min_rows, options_.fastestForgetting());
+      report_.la.effective_rows >= fewestRows(10 * options_.valid_min_rows, options_.forgetting_factor);
   if (options_.fastest_forgetting_factor) health_.setMemory(report_.la.effective_rows);
   judgePeriod(sample.stamp);
   health_.setSensors(sensors_.look(previous, sample, report_.la, enough_rows));

@@ -30,7 +30,7 @@ constexpr std::array kBaselineFields{
                   &BaselineSettings::stiffness_to_mass_stddev, 0.0, 1e12},
     BaselineField{"integration_horizon", "s", "of the filter that it was learned with",
                   &BaselineSettings::integration_horizon, 0.0, 1e9},
-    BaselineField{"sample_period", "s", "likewise", &BaselineSettings::sample_period, 1e-6, 10.0},
+    BaselineField{"sample_period", "s", "likewise", &BaselineSettings::sample_period, 1e-5, 10.0},
     BaselineField{"learned_from", "s", "stamp of the first estimate", &BaselineSettings::learned_from, 0.0, 9e9},
     BaselineField{"learned_to", "s", "stamp of the last estimate", &BaselineSettings::learned_to, 0.0, 9e9},
 };

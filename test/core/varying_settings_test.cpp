@@ -112,33 +112,29 @@ TEST(VaryingSettings, GoesOnWithEffectsInTheModel) {
   EXPECT_LT(least, 0.98);
 }
 
-// A parked vehicle has nothing to forget: lambda, too, stays as it is.
-TEST(VaryingSettings, StaysWhereItIsWithoutExcitation) {
+// Of a strut that is parked nobody knows whether it moves on, though the rows before the stop said so: without noise
+// residuals are the errors of integration, which have a drift.
+TEST(VaryingSettings, IsTheSlowOneOnceNothingIsExcited) {
   SimulationOptions drive;
   drive.seed = 305;
   drive.noise = 0.0;
-  drive.ramp_start = 40.0;
-  drive.ramp_end = 40.02;
-  drive.damping_end_fraction = 0.8;
   const std::vector<CornerSample> samples = simulate(drive);
   SuspensionMonitor monitor(optionsWith(kSlow, kFastest));
   std::size_t k = 0;
-  while (k < samples.size() && monitor.forgettingFactor() > 0.98) monitor.addSample(samples[k++]);
-  ASSERT_LT(k, samples.size());
+  while (k < 2001) monitor.addSample(samples[k++]);
+  ASSERT_LT(monitor.forgettingFactor(), kSlow);
   std::mt19937 generator(1);
   std::normal_distribution<double> noise(0.0, 1e-4);
   Stamp stamp = samples[k - 1].stamp;
-  const auto park = [&](int rows) {
-    for (int i = 0; i < rows; ++i) {
-      stamp += std::chrono::milliseconds(20);
-      monitor.addSample({stamp, noise(generator), noise(generator)});
-    }
-  };
-  park(3000);  // until the drive has left filter and means
+  double before = kSlow;
+  for (int i = 0; i < 1000 && monitor.report().la.doubt != EstimateDoubt::kNotExcited; ++i) {
+    before = monitor.forgettingFactor();
+    stamp += std::chrono::milliseconds(20);
+    monitor.addSample({stamp, noise(generator), noise(generator)});
+  }
   ASSERT_EQ(monitor.report().la.doubt, EstimateDoubt::kNotExcited);
-  const double held = monitor.forgettingFactor();
-  park(5000);
-  EXPECT_EQ(monitor.forgettingFactor(), held);
+  EXPECT_LT(before, kSlow);
+  EXPECT_EQ(monitor.forgettingFactor(), kSlow);
 }
 
 std::string complaint(double slow, double fastest) {

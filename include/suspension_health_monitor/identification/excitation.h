@@ -15,14 +15,14 @@ namespace suspension_health_monitor {
 /// those of a parked vehicle do.
 ///
 /// It is asked of the rows alone, so that a strut that breaks does not look parked: what does the best strut between
-/// none and twice the one that is known leave of psi? Rows tell of a strut if that is less than half. They tell of
-/// parameter i if, besides, the information of its regressor, the mean of phi_i^2, is clear of what that rest would put
+/// none and twice the one that is known (the largest of late) leave of psi? Rows tell of a strut if that is less than
+/// half. They tell of parameter i if, besides, the information of its regressor, the mean of phi_i^2, is clear of what that rest would put
 /// there, were it white noise of both sensors (RegressorNoise): excitation(i) is the ratio of the two, 1 for noise.
 /// - A parameter is held once two blocks, each of a horizon and more, do not tell of it, and its information has fallen
 ///   below a tenth of the usual, that of blocks that told of it over ten memories: readings that no strut explains on
 ///   a road as rough as ever are not rest.
-/// - It is held no longer when the rows since then, up to eight blocks, tell of it and not by chance; at once, when a
-///   row stands far out of those at rest.
+/// - It is held no longer when the rows since then, up to eight blocks, tell of it and not by chance. No single row does:
+///   a wrong reading is in 2 L + 1 of them.
 /// A constant of phi_0 is the offset between the sensors and not counted.
 /// Looked at is every eighth row: rows change slowly. Cost per row: O(1) whatever L, no allocation. Free of units.
 class Excitation {
@@ -39,12 +39,9 @@ class Excitation {
   [[gnu::noinline]] bool judge(const RegressionRow& row, const Eigen::VectorXd& theta);
 
   /// From now on there is a strut that is worth being held, and that others are measured by; before, everything counts
-  /// as excited.
-  /// @param strut  (b1 [1/s], b0 [1/s^2]).
-  void know(const Eigen::Vector2d& strut) {
-    most_ = 2.0 * strut;
-    knows_ = true;
-  }
+  /// as excited. To be called every kJudgeEvery rows of a strut that is valid.
+  /// @param strut  (b1 [1/s], b0 [1/s^2]), above 0.
+  void know(const Eigen::Vector2d& strut);
 
   bool excited(StrutParameter i) const { return parts_[i].excited; }
 
@@ -59,20 +56,14 @@ class Excitation {
 
   /// What is known of one parameter's part of the rows.
   struct Part {
-    double usual = 0.0;    // mean phi_i^2 of the blocks that told of it
-    double blocks = 0.0;   // in that mean
-    double at_rest = 0.0;  // mean phi_i^2 while it is held
-    double rests = 0.0;    // blocks in that mean
+    double usual = 0.0;   // mean phi_i^2 of the blocks that told of it
+    double blocks = 0.0;  // in that mean
     double excitation;
     bool excited = true;
 
-    double farFromRest() const;
     void learnUsual(double information, double most_blocks);
-    void learnRest(double information, double num_blocks);
   };
 
-  bool releaseAtOnce(double damping_information, double stiffness_information);
-  void noteHeld();
   void closeBlock();
   void judgeExcited(const RowMoments& recent);
   void judgeHeld();
@@ -80,6 +71,7 @@ class Excitation {
 
   int looks_per_block_;
   double most_blocks_;  // of the usual
+  double kept_;         // of the largest strut, per look
   RegressorNoise noise_;
   std::array<double, kMostBlocks> least_share_;  // of psi^2 that a strut explains and chance does not, by blocks
   RowMoments block_, before_;  // the newest block and the one before it
@@ -88,9 +80,8 @@ class Excitation {
   int blocks_ = 0;             // closed without a gap, up to 2
   int window_blocks_ = 0;
   RunningMean offset_;  // of phi_0
-  Eigen::Vector2d most_;
+  Eigen::Vector2d most_ = Eigen::Vector2d::Zero();  // of the best strut; 0: none is known
   std::array<Part, kNumStrutParameters> parts_;
-  bool knows_ = false;
   bool is_held_ = false;  // either of them
 };
 

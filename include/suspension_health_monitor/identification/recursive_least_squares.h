@@ -55,8 +55,8 @@ class RecursiveEstimator {
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
   void setForgettingFactor(double forgetting_factor);
 
-  /// Forgets by another factor for the time being, at most that of setForgettingFactor(). Variances are meant for that one:
-  /// while the present one is below, they are those of fewer rows of nearly equal weight, up to twice too large.
+  /// Forgets by another factor for the time being, at most that of setForgettingFactor(). Variances are meant for that
+  /// one: while the present one is below, they are up to twice too large, standard deviations up to 1.41 times.
   /// @param forgetting_factor  lambda in (0, 1].
   void setPresentFactor(double forgetting_factor) {
     options_.forgetting_factor = forgetting_factor;

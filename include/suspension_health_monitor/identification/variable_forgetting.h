@@ -47,6 +47,8 @@ class VariableForgetting {
   /// @param mean_residual  running mean of its size, in the unit of psi.
   void add(const RegressionRow& row, double innovation, double mean_residual);
 
+  double slow() const { return slow_; }
+
   /// @return T: how much of the rows' scores is drift [-].
   double drift() const;
 

@@ -82,7 +82,8 @@ class FreeRun {
   bool settled() const { return decayed_ >= kSettledDecay; }
 
   /// How often the run has left all bounds: the force of an effect was not usable (isUsable()), a prediction was not
-  /// finite, or larger than a thousand times the largest w'' of the run. Effects can do that, whose coefficients accepts() does not judge. The run then starts anew.
+  /// finite, or larger than a thousand times the largest w'' of the run. Effects can do that, whose coefficients accepts()
+  /// does not judge. The run then starts anew.
   std::uint64_t runaways() const { return runaways_; }
 
   /// At the sample that the last prediction belongs to:

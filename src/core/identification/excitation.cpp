@@ -11,12 +11,10 @@ constexpr double kLeastShare = 0.5;       // of psi^2
 constexpr double kLeastExcitation = 4.5;  // of the noise's information
 constexpr double kUsualShare = 0.1;       // of the usual information: no rest
 constexpr double kByChance = 1e-8;        // that noise looks like a strut
-constexpr double kFarFromRest = 40.0;     // of the information at rest: no chance
-constexpr double kLeastFarShare = 0.03;   // of the usual information
-constexpr double kMostRests = 64.0;       // blocks in the information at rest
 constexpr double kMostGrowth = 4.0;       // of the usual in a block: an outlier does not become it
 constexpr int kFewestRows = 64;           // of a block
 constexpr double kUsualMemories = 10.0;
+constexpr double kMostTimes = 2.0;        // the strut that is known
 constexpr double kOffsetMemory = 0.98;    // forgetting factor of a look
 
 std::array<double, kNumStrutParameters> informationOf(const RowMoments& rows) {
@@ -28,6 +26,7 @@ std::array<double, kNumStrutParameters> informationOf(const RowMoments& rows) {
 Excitation::Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise)
     : looks_per_block_(std::max(horizon_samples, kFewestRows) / kJudgeEvery),
       most_blocks_(std::max(1.0, kUsualMemories / (looks_per_block_ * kJudgeEvery * (1.0 - forgetting_factor)))),
+      kept_(1.0 - 1.0 / (most_blocks_ * looks_per_block_)),
       noise_(noise),
       offset_(kOffsetMemory) {
   for (Part& part : parts_) part.excitation = std::numeric_limits<double>::quiet_NaN();
@@ -45,24 +44,12 @@ bool Excitation::judge(const RegressionRow& row, const Eigen::VectorXd& theta) {
   offset_.add(phi[kStiffnessToMass]);
   const double damping = phi[kDampingToMass], stiffness = phi[kStiffnessToMass] - offset_.mean();
   block_.add(damping, stiffness, output);
-  const bool released = is_held_ && releaseAtOnce(damping * damping, stiffness * stiffness);
-  if (++looks_ < looks_per_block_) return released;
+  if (++looks_ < looks_per_block_) return false;
   closeBlock();
   return true;
 }
 
-bool Excitation::releaseAtOnce(double damping_information, double stiffness_information) {
-  bool released = false;
-  const std::array<double, kNumStrutParameters> information{damping_information, stiffness_information};
-  for (std::size_t i = 0; i < parts_.size(); ++i)
-    if (!parts_[i].excited && information[i] > parts_[i].farFromRest()) released = parts_[i].excited = true;
-  noteHeld();
-  return released;
-}
-
-void Excitation::noteHeld() { is_held_ = !(parts_[kDampingToMass].excited && parts_[kStiffnessToMass].excited); }
-
-double Excitation::Part::farFromRest() const { return std::max(kFarFromRest * at_rest, kLeastFarShare * usual); }
+void Excitation::know(const Eigen::Vector2d& strut) { most_ = (kMostTimes * strut).cwiseMax(kept_ * most_); }
 
 void Excitation::Part::learnUsual(double information, double most_blocks) {
   blocks = std::min(blocks + 1.0, most_blocks);
@@ -70,15 +57,10 @@ void Excitation::Part::learnUsual(double information, double most_blocks) {
   usual += (std::min(information, most) - usual) / blocks;
 }
 
-void Excitation::Part::learnRest(double information, double num_blocks) {
-  rests = std::min(rests + num_blocks, kMostRests);
-  at_rest += (information - at_rest) * num_blocks / rests;
-}
-
 void Excitation::closeBlock() {
   blocks_ = std::min(blocks_ + 1, 2);
-  if (knows_) {
-    if (is_held_) judgeHeld();
+  if (most_.all()) {
+    if (is_held_) judgeHeld();  // first: what is released by older blocks is held again if the newest do not tell of it
     RowMoments recent = before_;
     recent += block_;
     judgeExcited(recent);
@@ -110,8 +92,6 @@ void Excitation::judgeExcited(const RowMoments& recent) {
       part.learnUsual(newest[i] / looks_per_block_, most_blocks_);
     } else if (blocks_ == 2 && mean < kUsualShare * part.usual) {
       part.excited = false;
-      part.at_rest = part.rests = 0.0;
-      part.learnRest(mean, blocks_);
       is_new = true;
     }
   }
@@ -127,16 +107,14 @@ void Excitation::judgeHeld() {
   const StrutFit fit = window_.bestStrut(most_);
   const bool tells = fit.rest < (1.0 - least_share_[static_cast<std::size_t>(window_blocks_ - 1)]) * window_.output;
   const auto excitation = excitationOf(window_, fit);
-  const auto newest = informationOf(block_);
   const double least = kLeastExcitation * kMostBlocks / window_blocks_;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (part.excited) continue;
     part.excitation = excitation[i];
-    part.learnRest(newest[i] / looks_per_block_, 1.0);
     part.excited = tells && excitation[i] >= least;
   }
-  noteHeld();
+  is_held_ = !(parts_[kDampingToMass].excited && parts_[kStiffnessToMass].excited);
   if (window_blocks_ < kMostBlocks && is_held_) return;
   window_ = RowMoments();
   window_blocks_ = 0;

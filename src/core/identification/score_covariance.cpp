@@ -12,7 +12,7 @@ namespace {
 constexpr double kMemories = 30.0;       // of the estimate, that the means last
 constexpr double kLongestMemory = 1e5;   // [rows] of an estimate that never forgets
 constexpr int kFirstRows = 100;          // while the estimate comes from its start
-constexpr unsigned kRefreshEvery = 64;       // rows
+constexpr unsigned kRefreshEvery = 64;   // rows
 constexpr int kStretch = 3;              // windows of lags that it looks at without a break
 constexpr double kEnough = 6000.0;       // rows in the means, to rest between stretches from then on
 constexpr int kRest = 5;                 // stretches
@@ -109,7 +109,8 @@ void ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor
 }
 
 void ScoreCovariance::endStretch() {
-  rest_ = kRest * in_stretch_;
+  refresh();  // the next turn of it may fall into the rest
+  rest_ = (kRest * in_stretch_ / kFewRows + 1) * kFewRows;  // so that the next look comes kFewRows rows after the rest
   interrupt();
 }
 
