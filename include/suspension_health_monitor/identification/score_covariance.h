@@ -73,7 +73,8 @@ class ScoreCovariance {
  private:
   static constexpr int kFewRows = 8;  // between looks at what changes slowly
 
-  void addScore(const RegressionRow& row, double smallest_divisor);
+  bool addScore(const RegressionRow& row, double smallest_divisor);
+  bool isUsual(double size);
   void endStretch();
   // Out of line: rare, and long enough to take the registers of what comes with every row.
   [[gnu::noinline]] void nowAndThen(const Eigen::VectorXd& theta);
@@ -97,6 +98,7 @@ class ScoreCovariance {
   int rest_ = 0;                             // rows that are not looked at
   int in_stretch_ = 0;                       // rows that have been, without a break
   unsigned phase_ = 0;                       // number of the row, modulo what is done only now and then
+  double usual_ = 0.0;                       // size of a residual
   double averaged_ = 0.0;                    // rows in the means below
   Eigen::MatrixXd long_run_, lag0_, information_;  // means of s s' + s c' + c s', s s', w phi phi'
   double scale_ = 0.0;

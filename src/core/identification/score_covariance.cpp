@@ -19,6 +19,7 @@ constexpr int kRest = 5;                 // stretches
 constexpr double kFading = 2.0;          // the first rows, when the slow mean is still poor, count least
 constexpr double kWhiteRatio = 2.0;      // of variances, before anything is known: the usual horizons give 0.5 to 3
 constexpr double kSmallestShare = 0.4;   // of what uncorrelated scores would give: below, the lags' sum is mostly noise
+constexpr double kFar = 5.0;             // mean sizes of a residual: beyond, a reading is wrong, or many are
 // Whatever lambda, rounding and outliers that have left the window are forgotten after a thousand windows.
 constexpr double kWindows = 1000.0;
 
@@ -73,8 +74,8 @@ void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta
     --rest_;
     return;
   }
-  addScore(row, weight.smallest_divisor);
-  if (in_stretch_ > lags_) average(row.regressor.data(), weight.weight, scale);
+  const bool counts = addScore(row, weight.smallest_divisor);
+  if (counts && in_stretch_ > lags_) average(row.regressor.data(), weight.weight, scale);
   if (isNowAndThen() || first_rows_ > 0) nowAndThen(theta);
 }
 
@@ -86,7 +87,19 @@ void ScoreCovariance::nowAndThen(const Eigen::VectorXd& theta) {
   if (averaged_ >= kEnough && in_stretch_ == whole) endStretch();
 }
 
-void ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor) {
+// Learns what is usual, of which an outlier becomes part slowly, by kFar of it at most.
+bool ScoreCovariance::isUsual(double size) {
+  if (first_rows_ > 0) {
+    usual_ = std::max(usual_, size);
+    return true;
+  }
+  const double most = usual_ > 0.0 ? kFar * usual_ : size;
+  usual_ += std::max(slow_gain_, kFading / (averaged_ + kFading)) * (std::min(size, most) - usual_);
+  return size <= most;
+}
+
+// @return false for a row that stands out: its score is taken as 0.
+bool ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor) {
   const double* const phi = row.regressor.data();
   const double* const slow = slow_theta_.data();
   double* const score = score_.data();
@@ -94,17 +107,21 @@ void ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor
   const double decay = decay_, end_decay = end_decay_;
   newest_ = (newest_ + 1) & mask_;
   const std::size_t end = (newest_ + mask_ - static_cast<std::size_t>(lags_)) & mask_;
-  withPlainSize(size_, [&](auto p) {
+  return withPlainSize(size_, [&](auto p) {
     double* const at_newest = line_.data() + newest_ * static_cast<std::size_t>(p);
     const double* const at_end = line_.data() + end * static_cast<std::size_t>(p);
     double residual = row.output;
     for (Eigen::Index i = 0; i < p; ++i) residual -= phi[i] * slow[i];
-    if (smallest_divisor > 0.0) residual /= std::max(std::abs(residual), smallest_divisor);
+    const double size = std::abs(residual);
+    const bool counts = isUsual(size);
+    if (!counts) residual = 0.0;
+    if (smallest_divisor > 0.0) residual /= std::max(size, smallest_divisor);
     for (Eigen::Index i = 0; i < p; ++i) {
       lagged[i] = decay * (lagged[i] + score[i]) - end_decay * at_end[i];
       score[i] = residual * phi[i];
       at_newest[i] = score[i];
     }
+    return counts;
   });
 }
 
@@ -181,6 +198,7 @@ void ScoreCovariance::restart() {
   first_rows_ = kFirstRows;
   rest_ = 0;
   averaged_ = 0.0;
+  usual_ = 0.0;
 }
 
 }  // namespace suspension_health_monitor
