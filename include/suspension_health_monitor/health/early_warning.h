@@ -8,13 +8,16 @@ namespace suspension_health_monitor {
 /// It adds up small changes that no single estimate could prove. h = ln(2 N) for at least N values in the mean between two
 /// false alarms, by G. Lorden (Procedures for reacting to a change in distribution, Annals of Mathematical Statistics
 /// 1971): one sum gives at least exp(h), a sum each way alarms twice as often.
-/// Assumes: values that are not correlated, so far apart that the estimator has forgotten.
+/// Values that correlate with the next one by c, and not beyond, have sums with 1 + 2 c times the variance: so sigma^2 is
+/// taken.
+/// Assumes: values so far apart that those after the next one are not correlated.
 /// Cost per value: O(1), no allocation.
 class EarlyWarning {
  public:
   /// @param reference  changes below it are of no interest [-].
   /// @param values_between_false_alarms  N, >= 2.
-  EarlyWarning(double reference, double values_between_false_alarms);
+  /// @param correlation  c of a value with the next one; below 0 and NaN count as 0.
+  EarlyWarning(double reference, double values_between_false_alarms, double correlation = 0.0);
 
   /// @param change  x [-].  @param stddev  sigma; a value whose sigma is not known says nothing.
   /// @return isOn().
@@ -33,6 +36,7 @@ class EarlyWarning {
   };
 
   double reference_, threshold_;
+  double variance_of_sums_;  // over that of values without correlation
   Sum fall_, rise_;
 };
 

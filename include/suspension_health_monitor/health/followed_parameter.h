@@ -21,6 +21,10 @@ class FollowedParameter {
   /// @param memory, horizon  as in the constructor; finite.
   void setMemory(double memory, double horizon);
 
+  /// @return correlation of changes of a healthy strut that are so many updates apart, when LA's trend counts, which is
+  /// the longer one; NaN for estimators that never forget.
+  static double correlation(double memory, double horizon, double updates);
+
   /// @param ls  empty: not valid.
   void follow(const std::optional<UncertainValue>& ls, const UncertainValue& la);
 

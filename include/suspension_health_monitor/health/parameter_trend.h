@@ -36,6 +36,10 @@ class ParameterTrend {
   /// A step without a value.
   void pass();
 
+  /// @return correlation of now() with what it was so many steps ago, of a trend as in the constructor while the parameter
+  /// stays; lag != memory.
+  static double correlation(double memory, double lag, double steps);
+
   /// @return the parameter now; empty before the first value.
   std::optional<UncertainValue> now() const;
 

@@ -30,6 +30,10 @@ struct RowWeight {
 /// - LA moves more slowly than lambda says: a row's step is P phi w epsilon, a bounded function of epsilon, which an error
 ///   of the estimate turns by its mean slope rho / E[w] only. So mu = 1 - (1 - lambda) rho, and the variance is 1/rho times as
 ///   large; in the scores w is that of e_i.
+/// Rows whose residual or innovation is beyond kFar mean sizes of a residual are left out of the means: readings that are
+/// wrong, and rows while the estimate comes back from them. They are so large that their correlation and their scale
+/// would be all that is learned, and they need not be in the same rows. What they do to the estimate shows in the present
+/// scale.
 /// Once it has learned enough it looks at a sixth of the rows, in stretches of 6 L, which is plenty for what changes as
 /// slowly as this.
 /// Cost per row: O(p^2), independent of L, no allocation.
@@ -45,8 +49,10 @@ class ScoreCovariance {
 
   /// Takes in a row.
   /// @param theta  the estimate before it, (p).
+  /// @param innovation  epsilon of the row before it.
   /// @param scale  what P is multiplied by to be a variance, of this row: epsilon^2 for LS, |epsilon| for LA.
-  void add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double scale);
+  void add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double innovation,
+           double scale);
 
   /// The next row does not follow the one before.
   void interrupt();

@@ -52,7 +52,7 @@ void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
 void RecursiveEstimator::correct(const RegressionRow& row, double innovation, const RowWeight& weight, double scale) {
   const double lambda = options_.forgetting_factor;
   // Rows that are held in part say nothing of how residuals of whole ones are correlated.
-  if (num_held_ == 0) scores_.add(row, theta_, weight, scale);
+  if (num_held_ == 0) scores_.add(row, theta_, weight, innovation, scale);
   const Eigen::VectorXd& gains = num_held_ == 0 ? covariance_.update(row.regressor, lambda / weight.weight, lambda)
                                                 : correctPartly(row, weight.weight);
   const double* const gain = gains.data();

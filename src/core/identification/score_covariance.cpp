@@ -68,13 +68,14 @@ void ScoreCovariance::setDecay() {
   end_decay_ = std::pow(decay_, lags_ + 1);
 }
 
-void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double scale) {
+void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight,
+                          double innovation, double scale) {
   phase_ = (phase_ + 1) % kRefreshEvery;
   if (rest_ > 0) {
     --rest_;
     return;
   }
-  const bool counts = addScore(row, weight.smallest_divisor);
+  const bool counts = addScore(row, weight.smallest_divisor) && std::abs(innovation) <= kFar * usual_;
   if (counts && in_stretch_ > lags_) average(row.regressor.data(), weight.weight, scale);
   if (isNowAndThen() || first_rows_ > 0) nowAndThen(theta);
 }
