@@ -8,16 +8,15 @@ namespace suspension_health_monitor {
 /// It adds up small changes that no single estimate could prove. h = ln(2 N) for at least N values in the mean between two
 /// false alarms, by G. Lorden (Procedures for reacting to a change in distribution, Annals of Mathematical Statistics
 /// 1971): one sum gives at least exp(h), a sum each way alarms twice as often.
-/// Values that correlate with the next one by c, and not beyond, have sums with 1 + 2 c times the variance: so sigma^2 is
-/// taken.
-/// Assumes: values so far apart that those after the next one are not correlated.
+/// Sums of correlated values scatter as if sigma^2 were 1 + 2 (sum of their correlations) times as large, which then is taken
+/// (R. A. Johnson, M. Bagshaw, The effect of serial correlation on the performance of CUSUM tests, Technometrics 1974).
 /// Cost per value: O(1), no allocation.
 class EarlyWarning {
  public:
   /// @param reference  changes below it are of no interest [-].
   /// @param values_between_false_alarms  N, >= 2.
-  /// @param correlation  c of a value with the next one; below 0 and NaN count as 0.
-  EarlyWarning(double reference, double values_between_false_alarms, double correlation = 0.0);
+  /// @param variance_of_means  of correlated values, over that of uncorrelated ones [-]; below 1 counts as 1.
+  EarlyWarning(double reference, double values_between_false_alarms, double variance_of_means = 1.0);
 
   /// @param change  x [-].  @param stddev  sigma; a value whose sigma is not known says nothing.
   /// @return isOn().
@@ -36,7 +35,7 @@ class EarlyWarning {
   };
 
   double reference_, threshold_;
-  double variance_of_sums_;  // over that of values without correlation
+  double variance_of_means_;
   Sum fall_, rise_;
 };
 

@@ -49,16 +49,18 @@ class ScoreCovariance {
 
   /// Takes in a row.
   /// @param theta  the estimate before it, (p).
-  /// @param innovation  epsilon of the row before it.
-  /// @param scale  what P is multiplied by to be a variance, of this row: epsilon^2 for LS, |epsilon| for LA.
-  void add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double innovation,
-           double scale);
+  /// @param innovation  epsilon of the row, against theta.
+  void add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double innovation);
 
   /// The next row does not follow the one before.
   void interrupt();
 
+  /// @return mean size of a residual over the scale, of rows that do not stand out; 0 or NaN as long as it is not known.
+  double sizePerScale() const { return usual_ * weight_ / square_; }
+
   /// For a recursion that begins to weigh its rows differently: what was learned does not hold any more.
-  void restart();
+  /// @param unit  of the inflation from now on, in that of before.
+  void restart(double unit);
 
   void setForgettingFactor(double forgetting_factor);
 
@@ -68,7 +70,8 @@ class ScoreCovariance {
   /// @return true at every few rows: often enough to look at what changes slowly.
   bool isNowAndThen() const { return phase_ % kFewRows == 0; }
 
-  /// @return V_ii / (P_ii scale) with the mean scale of the newest rows.
+  /// @return V_ii / (P_ii scale), with the scale E[(w epsilon)^2] / E[w] of the newest rows: what P is multiplied by to be
+  /// the variance for residuals that are not correlated.
   /// @param weight  sum lambda^(k-i).
   double inflation(int i, double weight) const {
     const double forgetting = 1.0 - forgetting_factor_;
@@ -85,7 +88,7 @@ class ScoreCovariance {
   // Out of line: rare, and long enough to take the registers of what comes with every row.
   [[gnu::noinline]] void nowAndThen(const Eigen::VectorXd& theta);
   void follow(const Eigen::VectorXd& theta);
-  void average(const double* regressor, double weight, double scale);
+  void average(const double* regressor, double weight, double innovation);
   void refresh();
   void setDecay();
 
@@ -107,9 +110,10 @@ class ScoreCovariance {
   double usual_ = 0.0;                       // size of a residual
   double averaged_ = 0.0;                    // rows in the means below
   Eigen::MatrixXd long_run_, lag0_, information_;  // means of s s' + s c' + c s', s s', w phi phi'
-  double scale_ = 0.0;
+  double square_ = 0.0, weight_ = 0.0;             // means of (w epsilon)^2, w
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::VectorXd unit_, column_;
+  double unknown_;  // ratio of a parameter of which nothing is known
   Eigen::VectorXd prior_, ratio_;
 };
 

@@ -47,8 +47,9 @@ void FollowedParameter::setMemory(double memory, double horizon) {
   la_.setMemory(trendMemory(memory), lagOfLa(memory, horizon));
 }
 
-double FollowedParameter::correlation(double memory, double horizon, double updates) {
-  return ParameterTrend::correlation(trendMemory(memory), lagOfLa(memory, horizon), updates);
+double FollowedParameter::varianceOfMeans(double memory, double horizon, double updates) {
+  if (!std::isfinite(memory)) return 1.0;
+  return ParameterTrend::varianceOfMeans(trendMemory(memory), lagOfLa(memory, horizon), updates);
 }
 
 void FollowedParameter::follow(const std::optional<UncertainValue>& ls, const UncertainValue& la) {

@@ -6,6 +6,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr double kUncorrelated = 20.0;  // memories or lags apart
+
 // Autocovariance of the value now over t, in the units of correlatedShare(), up to a factor: the integral that is named
 // there, with exp(i w t), by the residues at -1 and -1 / r.
 double autocovariance(double r, double t) {
@@ -33,8 +35,11 @@ void ParameterTrend::setMemory(double memory, double lag) {
   correlated_ = lag * correlatedShare(memory / lag);
 }
 
-double ParameterTrend::correlation(double memory, double lag, double steps) {
-  return autocovariance(memory / lag, steps / lag) / autocovariance(memory / lag, 0.0);
+double ParameterTrend::varianceOfMeans(double memory, double lag, double steps) {
+  double sum = 0.0;
+  for (double apart = steps; apart < kUncorrelated * std::max(memory, lag); apart += steps)
+    sum += autocovariance(memory / lag, apart / lag);
+  return 1.0 + 2.0 * sum / autocovariance(memory / lag, 0.0);
 }
 
 void ParameterTrend::follow(double value, double variance) {

@@ -43,7 +43,8 @@ ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double
       factor_(Eigen::MatrixXd::Identity(size_, size_)),  // without a matrix it has no state to copy
       unit_(Eigen::VectorXd::Zero(size_)),
       column_(unit_),
-      prior_(Eigen::VectorXd::Constant(size_, kWhiteRatio)),
+      unknown_(kWhiteRatio),
+      prior_(Eigen::VectorXd::Constant(size_, unknown_)),
       ratio_(prior_) {
   setForgettingFactor(forgetting_factor);
 }
@@ -51,6 +52,8 @@ ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double
 ScoreCovariance::ScoreCovariance(const ScoreCovariance& before, const std::vector<std::optional<int>>& sources)
     : ScoreCovariance(static_cast<int>(sources.size()), before.lags_, before.forgetting_factor_) {
   slope_ = before.slope_;
+  unknown_ = before.unknown_;
+  prior_.setConstant(unknown_);
   for (int i = 0; i < size_; ++i)
     if (const std::optional<int>& source = sources[static_cast<std::size_t>(i)]) prior_[i] = before.ratio_[*source];
   ratio_ = prior_;
@@ -69,14 +72,14 @@ void ScoreCovariance::setDecay() {
 }
 
 void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight,
-                          double innovation, double scale) {
+                          double innovation) {
   phase_ = (phase_ + 1) % kRefreshEvery;
   if (rest_ > 0) {
     --rest_;
     return;
   }
   const bool counts = addScore(row, weight.smallest_divisor) && std::abs(innovation) <= kFar * usual_;
-  if (counts && in_stretch_ > lags_) average(row.regressor.data(), weight.weight, scale);
+  if (counts && in_stretch_ > lags_) average(row.regressor.data(), weight.weight, innovation);
   if (isNowAndThen() || first_rows_ > 0) nowAndThen(theta);
 }
 
@@ -145,7 +148,7 @@ void ScoreCovariance::follow(const Eigen::VectorXd& theta) {
   slow_theta_ = 2.0 * once_ - twice_;
 }
 
-void ScoreCovariance::average(const double* regressor, double weight, double scale) {
+void ScoreCovariance::average(const double* regressor, double weight, double innovation) {
   averaged_ += 1.0;
   const double gain = std::max(slow_gain_, kFading / (averaged_ + kFading - 1.0));
   withPlainSize(size_, [&](auto p) {
@@ -158,14 +161,15 @@ void ScoreCovariance::average(const double* regressor, double weight, double sca
       }
     }
   });
-  scale_ += gain * (scale - scale_);
+  square_ += gain * (weight * innovation * weight * innovation - square_);
+  weight_ += gain * (weight - weight_);
 }
 
 // ratio_i = (R^-1 G R^-1)_ii / (R^-1)_ii / scale, by the columns of R^-1.
 void ScoreCovariance::refresh() {
   setDecay();
   factor_.compute(information_.selfadjointView<Eigen::Upper>());
-  if (factor_.info() != Eigen::Success || !(scale_ > 0.0)) return;  // some parameter has not been excited yet
+  if (factor_.info() != Eigen::Success || !(square_ > 0.0)) return;  // some parameter has not been excited yet
   // What was known before counts as some windows' rows.
   const double doubted = kFirstRows + 4.0 * lags_;
   const double trust = averaged_ * averaged_ / (averaged_ * averaged_ + doubted * doubted);
@@ -182,7 +186,7 @@ void ScoreCovariance::refresh() {
         uncorrelated += product * lag0_(a, b);
       }
     }
-    const double found = std::max(correlated, kSmallestShare * uncorrelated) / (column_[i] * scale_);
+    const double found = std::max(correlated, kSmallestShare * uncorrelated) / (column_[i] * square_ / weight_);
     if (std::isfinite(found)) ratio_[i] = prior_[i] + trust * (found - prior_[i]);
   }
 }
@@ -194,12 +198,14 @@ void ScoreCovariance::interrupt() {
   lagged_.setZero();
 }
 
-void ScoreCovariance::restart() {
+void ScoreCovariance::restart(double unit) {
   interrupt();
   first_rows_ = kFirstRows;
   rest_ = 0;
   averaged_ = 0.0;
-  usual_ = 0.0;
+  usual_ = square_ = weight_ = 0.0;
+  unknown_ *= unit;
+  ratio_ = prior_ = Eigen::VectorXd::Constant(size_, unknown_);
 }
 
 }  // namespace suspension_health_monitor
