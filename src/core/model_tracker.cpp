@@ -177,7 +177,7 @@ void ModelTracker::describe(ModelReport& report) const {
 
 void ModelTracker::describeSpreads(ModelReport& report) const {
   // LA's residuals, which outliers hardly touch; for a normal distribution the variance is pi/2 times their mean squared.
-  const double size = least_absolute_.meanAbsoluteResidual();
+  const double size = least_absolute_.usualResidual();
   const Eigen::Vector2d strut(report.la.damping_to_mass, report.la.stiffness_to_mass);
   const Eigen::Vector2d moment = noise_.moment(strut, 0.5 * kPi * size * size);
   describeSpread(least_squares_, moment, report.ls);

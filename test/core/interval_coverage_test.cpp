@@ -70,7 +70,7 @@ TEST(ScoreCovariance, OfMovingSumsIsThatOfTheSquaredTriangle) {
   const Eigen::VectorXd truth = Eigen::VectorXd::Zero(1);
   for (int k = 0; k < 400000; ++k) {
     const RegressionRow row = rows.next();
-    scores.add(row, truth, {}, row.output * row.output);
+    scores.add(row, truth, {}, row.output);
   }
   const double expected = (2.0 * kWindow * kWindow + 1.0) / (3.0 * kWindow);
   // 1 / (1 + lambda) of it, since an estimate that forgets rests on sum lambda^2i; a sixth of the rows is looked at, in
@@ -85,7 +85,7 @@ TEST(ScoreCovariance, OfWhiteRowsIsThatOfTheTextbook) {
   EXPECT_DOUBLE_EQ(scores.inflation(0, 0.0), 2.0 * 2.0 / 1.99);  // nothing known: twice that
   for (int k = 0; k < 100000; ++k) {
     const RegressionRow row = rows.next();
-    scores.add(row, truth, {}, row.output * row.output);
+    scores.add(row, truth, {}, row.output);
   }
   EXPECT_NEAR(scores.inflation(0, 100.0), 1.0 / 1.99, 0.1);
   EXPECT_NEAR(scores.inflation(0, 1.0) / scores.inflation(0, 100.0), 1.99, 1e-12);  // of one row all counts

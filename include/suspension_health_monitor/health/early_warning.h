@@ -8,13 +8,15 @@ namespace suspension_health_monitor {
 /// It adds up small changes that no single estimate could prove. h = ln(2 N) for at least N values in the mean between two
 /// false alarms, by G. Lorden (Procedures for reacting to a change in distribution, Annals of Mathematical Statistics
 /// 1971): one sum gives at least exp(h), a sum each way alarms twice as often.
-/// Assumes: values that are not correlated, so far apart that the estimator has forgotten.
+/// Sums of correlated values scatter as if sigma^2 were 1 + 2 (sum of their correlations) times as large, which then is taken
+/// (R. A. Johnson, M. Bagshaw, The effect of serial correlation on the performance of CUSUM tests, Technometrics 1974).
 /// Cost per value: O(1), no allocation.
 class EarlyWarning {
  public:
   /// @param reference  changes below it are of no interest [-].
   /// @param values_between_false_alarms  N, >= 2.
-  EarlyWarning(double reference, double values_between_false_alarms);
+  /// @param variance_of_means  of correlated values, over that of uncorrelated ones [-]; below 1 counts as 1.
+  EarlyWarning(double reference, double values_between_false_alarms, double variance_of_means = 1.0);
 
   /// @param change  x [-].  @param stddev  sigma; a value whose sigma is not known says nothing.
   /// @return isOn().
@@ -33,6 +35,7 @@ class EarlyWarning {
   };
 
   double reference_, threshold_;
+  double variance_of_means_;
   Sum fall_, rise_;
 };
 

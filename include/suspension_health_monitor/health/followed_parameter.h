@@ -21,6 +21,10 @@ class FollowedParameter {
   /// @param memory, horizon  as in the constructor; finite.
   void setMemory(double memory, double horizon);
 
+  /// @return variance of the mean of many changes of a healthy strut, so many updates apart, over that of uncorrelated
+  /// ones, where LA's trend counts, the longer one; 1 for estimators that never forget.
+  static double varianceOfMeans(double memory, double horizon, double updates);
+
   /// @param ls  empty: not valid.
   void follow(const std::optional<UncertainValue>& ls, const UncertainValue& la);
 

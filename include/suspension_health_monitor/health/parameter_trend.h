@@ -36,6 +36,10 @@ class ParameterTrend {
   /// A step without a value.
   void pass();
 
+  /// @return variance of the mean of many now(), so many steps apart, over that of uncorrelated ones (1 + 2 sum of the
+  /// correlations), of a trend as in the constructor while the parameter stays; memory != lag.
+  static double varianceOfMeans(double memory, double lag, double steps);
+
   /// @return the parameter now; empty before the first value.
   std::optional<UncertainValue> now() const;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/identification/small_divisor.h"
 
@@ -32,21 +34,29 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
   /// @return the innovation before the update, in the unit of psi.
   double update(const RegressionRow& row);
 
-  /// @return variance of theta_i: mean|epsilon| P_ii times what the residuals' correlation and LA's slower convergence
-  /// make of it (ScoreCovariance). During the first k0 rows that of LS.
-  double parameterVariance(int i) const { return varianceAt(i, leads() ? meanAbsoluteResidual() : meanSquareResidual()); }
+  /// @return variance of theta_i: P_ii times the mean square of the bounded scores over the mean weight, which outliers
+  /// hardly touch, times what the residuals' correlation and LA's slower convergence make of it (ScoreCovariance). During
+  /// the first k0 rows that of LS.
+  double parameterVariance(int i) const { return varianceAt(i, leads() ? scale() : meanSquareResidual()); }
+
+  /// @return mean |epsilon| now, as rows that stand out hardly touch it.
+  double usualResidual() const {
+    return leads() ? std::min(meanAbsoluteResidual(), scale() * scores_.sizePerScale()) : meanAbsoluteResidual();
+  }
 
   /// As RecursiveLeastSquares::parameterShift(): by rows of that weight.
   double parameterShift(int i, const Eigen::Vector2d& moment) const {
-    return shiftAt(i, moment) * (leads() ? slopes_.mean(kWeight) : 1.0);
+    return shiftAt(i, moment) * (leads() ? slopes_.mean(kSlopeWeight) : 1.0);
   }
 
  private:
+  double scale() const { return weights_.mean(kSquareScore) / weights_.mean(kWeight); }
   bool leads() const { return rows_ == absolute_.start_rows; }  // else LS does
+  RowWeight weigh(double innovation);
   void takeOver();
   [[gnu::noinline]] void noteSlope(double innovation, const RowWeight& weight);
 
-  enum Mean : std::size_t { kSlope, kWeight, kNumMeans };
+  enum Mean : std::size_t { kSlope, kSlopeWeight, kNumMeans };
 
   LeastAbsoluteOptions absolute_;
   RunningMeans<kNumMeans> slopes_;  // of the weighted residual at 0; of the weight

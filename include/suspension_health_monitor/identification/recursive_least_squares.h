@@ -61,6 +61,7 @@ class RecursiveEstimator {
   void setPresentFactor(double forgetting_factor) {
     options_.forgetting_factor = forgetting_factor;
     means_.setForgettingFactor(forgetting_factor);
+    weights_.setForgettingFactor(forgetting_factor);
   }
 
   /// The next row does not follow the one before: residuals of both are not correlated.
@@ -93,10 +94,9 @@ class RecursiveEstimator {
   }
 
   /// theta <- theta + gain epsilon.
-  /// @param scale  what P is multiplied by to be a variance, of this row.
-  void correct(const RegressionRow& row, double innovation, const RowWeight& weight, double scale);
+  void correct(const RegressionRow& row, double innovation, const RowWeight& weight);
 
-  /// @return variance of theta_i; `scale` as the mean of that in correct().
+  /// @return variance of theta_i; `scale` as in ScoreCovariance::inflation().
   double varianceAt(int i, double scale) const {
     return scale * covariance_.variance(i) * scores_.inflation(i, effectiveRows());
   }
@@ -110,6 +110,8 @@ class RecursiveEstimator {
   Eigen::VectorXd theta_;
   UdCovariance covariance_;
   ScoreCovariance scores_;
+  enum OfWeights : std::size_t { kSquareScore, kWeight, kNumOfWeights };
+  RunningMeans<kNumOfWeights> weights_;  // (w epsilon)^2, w; only if there are weights
 
  private:
   void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);

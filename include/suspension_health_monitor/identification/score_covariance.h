@@ -30,6 +30,10 @@ struct RowWeight {
 /// - LA moves more slowly than lambda says: a row's step is P phi w epsilon, a bounded function of epsilon, which an error
 ///   of the estimate turns by its mean slope rho / E[w] only. So mu = 1 - (1 - lambda) rho, and the variance is 1/rho times as
 ///   large; in the scores w is that of e_i.
+/// Rows whose residual or innovation is beyond kFar mean sizes of a residual are left out of the means: readings that are
+/// wrong, and rows while the estimate comes back from them. They are so large that their correlation and their scale
+/// would be all that is learned, and they need not be in the same rows. What they do to the estimate shows in the present
+/// scale.
 /// Once it has learned enough it looks at a sixth of the rows, in stretches of 6 L, which is plenty for what changes as
 /// slowly as this.
 /// Cost per row: O(p^2), independent of L, no allocation.
@@ -45,14 +49,18 @@ class ScoreCovariance {
 
   /// Takes in a row.
   /// @param theta  the estimate before it, (p).
-  /// @param scale  what P is multiplied by to be a variance, of this row: epsilon^2 for LS, |epsilon| for LA.
-  void add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double scale);
+  /// @param innovation  epsilon of the row, against theta.
+  void add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double innovation);
 
   /// The next row does not follow the one before.
   void interrupt();
 
+  /// @return mean size of a residual over the scale, of rows that do not stand out; 0 or NaN as long as it is not known.
+  double sizePerScale() const { return usual_ * weight_ / square_; }
+
   /// For a recursion that begins to weigh its rows differently: what was learned does not hold any more.
-  void restart();
+  /// @param unit  of the inflation from now on, in that of before.
+  void restart(double unit);
 
   void setForgettingFactor(double forgetting_factor);
 
@@ -62,7 +70,8 @@ class ScoreCovariance {
   /// @return true at every few rows: often enough to look at what changes slowly.
   bool isNowAndThen() const { return phase_ % kFewRows == 0; }
 
-  /// @return V_ii / (P_ii scale) with the mean scale of the newest rows.
+  /// @return V_ii / (P_ii scale), with the scale E[(w epsilon)^2] / E[w] of the newest rows: what P is multiplied by to be
+  /// the variance for residuals that are not correlated.
   /// @param weight  sum lambda^(k-i).
   double inflation(int i, double weight) const {
     const double forgetting = 1.0 - forgetting_factor_;
@@ -73,12 +82,13 @@ class ScoreCovariance {
  private:
   static constexpr int kFewRows = 8;  // between looks at what changes slowly
 
-  void addScore(const RegressionRow& row, double smallest_divisor);
+  bool addScore(const RegressionRow& row, double smallest_divisor);
+  bool isUsual(double size);
   void endStretch();
   // Out of line: rare, and long enough to take the registers of what comes with every row.
   [[gnu::noinline]] void nowAndThen(const Eigen::VectorXd& theta);
   void follow(const Eigen::VectorXd& theta);
-  void average(const double* regressor, double weight, double scale);
+  void average(const double* regressor, double weight, double innovation);
   void refresh();
   void setDecay();
 
@@ -97,11 +107,13 @@ class ScoreCovariance {
   int rest_ = 0;                             // rows that are not looked at
   int in_stretch_ = 0;                       // rows that have been, without a break
   unsigned phase_ = 0;                       // number of the row, modulo what is done only now and then
+  double usual_ = 0.0;                       // size of a residual
   double averaged_ = 0.0;                    // rows in the means below
   Eigen::MatrixXd long_run_, lag0_, information_;  // means of s s' + s c' + c s', s s', w phi phi'
-  double scale_ = 0.0;
+  double square_ = 0.0, weight_ = 0.0;             // means of (w epsilon)^2, w
   Eigen::LLT<Eigen::MatrixXd> factor_;
   Eigen::VectorXd unit_, column_;
+  double unknown_;  // ratio of a parameter of which nothing is known
   Eigen::VectorXd prior_, ratio_;
 };
 

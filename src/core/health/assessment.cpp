@@ -26,7 +26,8 @@ double spacingOfEarly(const HealthOptions& options) { return 2.0 * (memoryOf(opt
 
 EarlyWarning earlyWarning(const HealthOptions& options) {
   const double spacing = spacingOfEarly(options) * options.rows_per_update * options.period;  // [s]
-  return {options.early_change, std::max(2.0, options.false_alarm_interval / spacing)};
+  return {options.early_change, std::max(2.0, options.false_alarm_interval / spacing),
+          FollowedParameter::varianceOfMeans(memoryOf(options), horizonOf(options), spacingOfEarly(options))};
 }
 
 bool apart(double ls, double la, double ls_stddev, double la_stddev, double most, double tails) {

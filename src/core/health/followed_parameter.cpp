@@ -9,6 +9,8 @@ namespace {
 constexpr double kTrendMemories = 2.25;  // long enough to be calm, short enough to bend; measured in doc/health.md
 constexpr double kLagOfLa = 3.0;         // memories
 
+double lagOfLa(double memory, double horizon) { return kLagOfLa * memory + horizon; }
+
 double trendMemory(double memory) { return std::max(2.0, kTrendMemories * memory); }
 
 bool isStrut(const std::optional<UncertainValue>& now) { return now && now->value > 0.0; }
@@ -38,11 +40,16 @@ LogChange moreTelling(const UncertainValue& a, const UncertainValue& b, const Un
 FollowedParameter::FollowedParameter(double memory, double horizon)
     : forgets_(std::isfinite(memory)),
       ls_(trendMemory(memory), memory + horizon),
-      la_(trendMemory(memory), kLagOfLa * memory + horizon) {}
+      la_(trendMemory(memory), lagOfLa(memory, horizon)) {}
 
 void FollowedParameter::setMemory(double memory, double horizon) {
   ls_.setMemory(trendMemory(memory), memory + horizon);
-  la_.setMemory(trendMemory(memory), kLagOfLa * memory + horizon);
+  la_.setMemory(trendMemory(memory), lagOfLa(memory, horizon));
+}
+
+double FollowedParameter::varianceOfMeans(double memory, double horizon, double updates) {
+  if (!std::isfinite(memory)) return 1.0;
+  return ParameterTrend::varianceOfMeans(trendMemory(memory), lagOfLa(memory, horizon), updates);
 }
 
 void FollowedParameter::follow(const std::optional<UncertainValue>& ls, const UncertainValue& la) {

@@ -6,6 +6,17 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr double kUncorrelated = 20.0;  // memories or lags apart
+
+// Autocovariance of the value now over t, in the units of correlatedShare(), up to a factor: the integral that is named
+// there, with exp(i w t), by the residues at -1 and -1 / r.
+double autocovariance(double r, double t) {
+  const double r2 = r * r, a2 = (2.0 * r + 1.0) * (2.0 * r + 1.0);
+  const double of_errors = (1.0 - a2) / (2.0 * (1.0 - r2) * (1.0 - r2)) * std::exp(-t);
+  const double of_line = (r2 - a2) / (4.0 * r2 * (r2 - 1.0)) * std::exp(-t / r);
+  return of_errors + of_line * (2.0 * a2 * r / (r2 - a2) - 2.0 * r / (r2 - 1.0) + r + t);
+}
+
 // Variance of the value now for errors with autocorrelation exp(-t), carried on over a time of 1, against the one that
 // the normal equations give for uncorrelated ones, in continuous time with the memory r: the line has the frequency response
 // (1 + (2 r + 1) s) / (1 + r s)^2, and 1/pi times the integral of its square over 1 + w^2 is [r (2 + r) + (2 r + 1)^2] /
@@ -22,6 +33,13 @@ void ParameterTrend::setMemory(double memory, double lag) {
   memory_ = memory;
   lag_ = lag;
   correlated_ = lag * correlatedShare(memory / lag);
+}
+
+double ParameterTrend::varianceOfMeans(double memory, double lag, double steps) {
+  double sum = 0.0;
+  for (double apart = steps; apart < kUncorrelated * std::max(memory, lag); apart += steps)
+    sum += autocovariance(memory / lag, apart / lag);
+  return 1.0 + 2.0 * sum / autocovariance(memory / lag, 0.0);
 }
 
 void ParameterTrend::follow(double value, double variance) {

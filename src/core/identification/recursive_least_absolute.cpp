@@ -32,16 +32,25 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   const double innovation = innovate(row);
   if (!leads()) {
     releaseExcited(row, meanSquareResidual(), 1.0);
-    correct(row, innovation, {}, innovation * innovation);
+    correct(row, innovation, {});
+    weigh(innovation);
     if (++rows_ == absolute_.start_rows) takeOver();
   } else {
     releaseExcited(row, meanAbsoluteResidual(), absolute_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
-    const double smallest = smallestDivisor(absolute_.small_divisor_rule, absolute_.small_divisor, meanAbsoluteResidual());
-    const RowWeight weight{1.0 / std::max(std::abs(innovation), smallest), smallest};
+    const RowWeight weight = weigh(innovation);
     if (scores_.isNowAndThen()) noteSlope(innovation, weight);
-    correct(row, innovation, weight, std::abs(innovation));
+    correct(row, innovation, weight);
   }
   return innovation;
+}
+
+// The weight of the row, also taken into the means of weights.
+RowWeight RecursiveLeastAbsolute::weigh(double innovation) {
+  const double smallest = smallestDivisor(absolute_.small_divisor_rule, absolute_.small_divisor, meanAbsoluteResidual());
+  const RowWeight weight{1.0 / std::max(std::abs(innovation), smallest), smallest};
+  const double score = weight.weight * innovation;
+  if (std::isfinite(weight.weight)) weights_.add({score * score, weight.weight});
+  return weight;
 }
 
 // rho of ScoreCovariance: the weighted residual w epsilon is a straight line through 0 as far as the small divisor
@@ -50,13 +59,15 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
 void RecursiveLeastAbsolute::noteSlope(double innovation, const RowWeight& weight) {
   const double within = std::max(weight.smallest_divisor, kNearZero * meanAbsoluteResidual());
   slopes_.add({std::abs(innovation) < within ? 1.0 / within : 0.0, weight.weight});
-  scores_.setSlope(std::clamp(slopes_.mean(kSlope) / slopes_.mean(kWeight), kFlattest, 1.0));
+  scores_.setSlope(std::clamp(slopes_.mean(kSlope) / slopes_.mean(kSlopeWeight), kFlattest, 1.0));
 }
 
 void RecursiveLeastAbsolute::takeOver() {
   // R(k) of LA sums phi phi' / |epsilon|, that of LS phi phi': without the factor the start depends on the unit of psi.
   if (absolute_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
-  scores_.restart();
+  // Of the same variance: that of the mean |epsilon| for the scale.
+  const double unit = meanAbsoluteResidual() / scale();
+  scores_.restart(std::isfinite(unit) && unit > 0.0 ? unit : 1.0);
 }
 
 }  // namespace suspension_health_monitor

@@ -23,6 +23,7 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
       scores_(num_parameters, std::max(0, options.correlated_rows), options.forgetting_factor),
+      weights_(options.forgetting_factor),
       held_(static_cast<std::size_t>(num_parameters), false),
       excited_(theta_),
       means_(options.forgetting_factor) {
@@ -46,13 +47,14 @@ void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
   changed.validate();
   options_ = changed;
   means_.setForgettingFactor(forgetting_factor);
+  weights_.setForgettingFactor(forgetting_factor);
   scores_.setForgettingFactor(forgetting_factor);
 }
 
-void RecursiveEstimator::correct(const RegressionRow& row, double innovation, const RowWeight& weight, double scale) {
+void RecursiveEstimator::correct(const RegressionRow& row, double innovation, const RowWeight& weight) {
   const double lambda = options_.forgetting_factor;
   // Rows that are held in part say nothing of how residuals of whole ones are correlated.
-  if (num_held_ == 0) scores_.add(row, theta_, weight, scale);
+  if (num_held_ == 0) scores_.add(row, theta_, weight, innovation);
   const Eigen::VectorXd& gains = num_held_ == 0 ? covariance_.update(row.regressor, lambda / weight.weight, lambda)
                                                 : correctPartly(row, weight.weight);
   const double* const gain = gains.data();
@@ -107,7 +109,7 @@ double RecursiveLeastSquares::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
   const double innovation = innovate(row);
   releaseExcited(row, meanSquareResidual(), 1.0);
-  correct(row, innovation, {}, innovation * innovation);
+  correct(row, innovation, {});
   return innovation;
 }
 

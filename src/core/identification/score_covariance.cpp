@@ -19,6 +19,7 @@ constexpr int kRest = 5;                 // stretches
 constexpr double kFading = 2.0;          // the first rows, when the slow mean is still poor, count least
 constexpr double kWhiteRatio = 2.0;      // of variances, before anything is known: the usual horizons give 0.5 to 3
 constexpr double kSmallestShare = 0.4;   // of what uncorrelated scores would give: below, the lags' sum is mostly noise
+constexpr double kFar = 5.0;             // mean sizes of a residual: beyond, a reading is wrong, or many are
 // Whatever lambda, rounding and outliers that have left the window are forgotten after a thousand windows.
 constexpr double kWindows = 1000.0;
 
@@ -42,7 +43,8 @@ ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double
       factor_(Eigen::MatrixXd::Identity(size_, size_)),  // without a matrix it has no state to copy
       unit_(Eigen::VectorXd::Zero(size_)),
       column_(unit_),
-      prior_(Eigen::VectorXd::Constant(size_, kWhiteRatio)),
+      unknown_(kWhiteRatio),
+      prior_(Eigen::VectorXd::Constant(size_, unknown_)),
       ratio_(prior_) {
   setForgettingFactor(forgetting_factor);
 }
@@ -50,6 +52,8 @@ ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double
 ScoreCovariance::ScoreCovariance(const ScoreCovariance& before, const std::vector<std::optional<int>>& sources)
     : ScoreCovariance(static_cast<int>(sources.size()), before.lags_, before.forgetting_factor_) {
   slope_ = before.slope_;
+  unknown_ = before.unknown_;
+  prior_.setConstant(unknown_);
   for (int i = 0; i < size_; ++i)
     if (const std::optional<int>& source = sources[static_cast<std::size_t>(i)]) prior_[i] = before.ratio_[*source];
   ratio_ = prior_;
@@ -67,14 +71,15 @@ void ScoreCovariance::setDecay() {
   end_decay_ = std::pow(decay_, lags_ + 1);
 }
 
-void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight, double scale) {
+void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight,
+                          double innovation) {
   phase_ = (phase_ + 1) % kRefreshEvery;
   if (rest_ > 0) {
     --rest_;
     return;
   }
-  addScore(row, weight.smallest_divisor);
-  if (in_stretch_ > lags_) average(row.regressor.data(), weight.weight, scale);
+  const bool counts = addScore(row, weight.smallest_divisor) && std::abs(innovation) <= kFar * usual_;
+  if (counts && in_stretch_ > lags_) average(row.regressor.data(), weight.weight, innovation);
   if (isNowAndThen() || first_rows_ > 0) nowAndThen(theta);
 }
 
@@ -86,7 +91,19 @@ void ScoreCovariance::nowAndThen(const Eigen::VectorXd& theta) {
   if (averaged_ >= kEnough && in_stretch_ == whole) endStretch();
 }
 
-void ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor) {
+// Learns what is usual, of which an outlier becomes part slowly, by kFar of it at most.
+bool ScoreCovariance::isUsual(double size) {
+  if (first_rows_ > 0) {
+    usual_ = std::max(usual_, size);
+    return true;
+  }
+  const double most = usual_ > 0.0 ? kFar * usual_ : size;
+  usual_ += std::max(slow_gain_, kFading / (averaged_ + kFading)) * (std::min(size, most) - usual_);
+  return size <= most;
+}
+
+// @return false for a row that stands out: its score is taken as 0.
+bool ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor) {
   const double* const phi = row.regressor.data();
   const double* const slow = slow_theta_.data();
   double* const score = score_.data();
@@ -94,17 +111,21 @@ void ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor
   const double decay = decay_, end_decay = end_decay_;
   newest_ = (newest_ + 1) & mask_;
   const std::size_t end = (newest_ + mask_ - static_cast<std::size_t>(lags_)) & mask_;
-  withPlainSize(size_, [&](auto p) {
+  return withPlainSize(size_, [&](auto p) {
     double* const at_newest = line_.data() + newest_ * static_cast<std::size_t>(p);
     const double* const at_end = line_.data() + end * static_cast<std::size_t>(p);
     double residual = row.output;
     for (Eigen::Index i = 0; i < p; ++i) residual -= phi[i] * slow[i];
-    if (smallest_divisor > 0.0) residual /= std::max(std::abs(residual), smallest_divisor);
+    const double size = std::abs(residual);
+    const bool counts = isUsual(size);
+    if (!counts) residual = 0.0;
+    if (smallest_divisor > 0.0) residual /= std::max(size, smallest_divisor);
     for (Eigen::Index i = 0; i < p; ++i) {
       lagged[i] = decay * (lagged[i] + score[i]) - end_decay * at_end[i];
       score[i] = residual * phi[i];
       at_newest[i] = score[i];
     }
+    return counts;
   });
 }
 
@@ -128,7 +149,7 @@ void ScoreCovariance::follow(const Eigen::VectorXd& theta) {
   slow_theta_ = 2.0 * once_ - twice_;
 }
 
-void ScoreCovariance::average(const double* regressor, double weight, double scale) {
+void ScoreCovariance::average(const double* regressor, double weight, double innovation) {
   averaged_ += 1.0;
   const double gain = std::max(slow_gain_, kFading / (averaged_ + kFading - 1.0));
   withPlainSize(size_, [&](auto p) {
@@ -141,14 +162,15 @@ void ScoreCovariance::average(const double* regressor, double weight, double sca
       }
     }
   });
-  scale_ += gain * (scale - scale_);
+  square_ += gain * (weight * innovation * weight * innovation - square_);
+  weight_ += gain * (weight - weight_);
 }
 
 // ratio_i = (R^-1 G R^-1)_ii / (R^-1)_ii / scale, by the columns of R^-1.
 void ScoreCovariance::refresh() {
   setDecay();
   factor_.compute(information_.selfadjointView<Eigen::Upper>());
-  if (factor_.info() != Eigen::Success || !(scale_ > 0.0)) return;  // some parameter has not been excited yet
+  if (factor_.info() != Eigen::Success || !(square_ > 0.0)) return;  // some parameter has not been excited yet
   // What was known before counts as some windows' rows.
   const double doubted = kFirstRows + 4.0 * lags_;
   const double trust = averaged_ * averaged_ / (averaged_ * averaged_ + doubted * doubted);
@@ -165,7 +187,7 @@ void ScoreCovariance::refresh() {
         uncorrelated += product * lag0_(a, b);
       }
     }
-    const double found = std::max(correlated, kSmallestShare * uncorrelated) / (column_[i] * scale_);
+    const double found = std::max(correlated, kSmallestShare * uncorrelated) / (column_[i] * square_ / weight_);
     if (std::isfinite(found)) ratio_[i] = prior_[i] + trust * (found - prior_[i]);
   }
 }
@@ -177,11 +199,14 @@ void ScoreCovariance::interrupt() {
   lagged_.setZero();
 }
 
-void ScoreCovariance::restart() {
+void ScoreCovariance::restart(double unit) {
   interrupt();
   first_rows_ = kFirstRows;
   rest_ = 0;
   averaged_ = 0.0;
+  usual_ = square_ = weight_ = 0.0;
+  unknown_ *= unit;
+  ratio_ = prior_ = Eigen::VectorXd::Constant(size_, unknown_);
 }
 
 }  // namespace suspension_health_monitor
