@@ -153,7 +153,7 @@ TEST(EarlyWarning, HasNoMoreFalseAlarmsThanWereAskedFor) {
 }
 
 // Values of a first-order process with correlation c: means of many have (1 + c) / (1 - c) times the variance. Taken for
-// uncorrelated, they give twenty times as many false alarms as were asked for.
+// uncorrelated, they give more false alarms than were asked for.
 TEST(EarlyWarning, HasNoMoreFalseAlarmsOfCorrelatedValues) {
   constexpr double kWanted = 1000.0, kCorrelation = 0.6, kStddev = 0.05;
   const auto mean_time = [&](double variance_of_means) {
