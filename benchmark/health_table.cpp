@@ -178,16 +178,16 @@ void printRamps() {
 }
 
 // The paper's healthy drive, repeated with fresh noise; in every minute a second of zeros and a bump into the stops.
-void printDay(double hours) {
-  constexpr double kPeriod = 0.02, kNoise = 0.024;
+template <class Noise>
+void printDay(double hours, const char* kind, unsigned seed, Noise noise) {
+  constexpr double kPeriod = 0.02;
   SimulationOptions options;
   options.scenario = "paper_saturation";
   options.damping_ramp = false;
   options.noise = 0.0;
   options.duration = 120.0;  // bumps at 85 s and 110 s
   const std::vector<CornerSample> clean = simulate(options);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> noise(-kNoise * std::sqrt(3.0), kNoise * std::sqrt(3.0));
+  std::mt19937 random(seed);
   SuspensionMonitor monitor(optionsFor(kPeriod, kPaperB1, kPaperB0));
   long warn = 0, error = 0, stale = 0, early = 0, samples = 0;
   HealthReport before;
@@ -206,9 +206,20 @@ void printDay(double hours) {
       ++samples;
       before = now;
     }
-  std::printf("\n%.0f h healthy, zeros once a minute, bumps twice in two minutes: %ld ERROR, %ld WARN, %ld early notices, "
-              "%.1f %% of the time cannot tell\n", hours, error, warn, early,
+  std::printf("| %s | %u | %ld | %ld | %ld | %.1f %% |\n", kind, seed, error, warn, early,
               100.0 * static_cast<double>(stale) / static_cast<double>(samples));
+  std::fflush(stdout);
+}
+
+void printDays() {
+  constexpr double kHours = 24.0, kNoise = 0.024;
+  std::printf("\n| noise | seed | ERROR | WARN | early notices | cannot tell |\n|---|---|---|---|---|---|\n");
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const double half_width = kNoise * std::sqrt(3.0);
+    printDay(kHours, "uniform", seed, std::uniform_real_distribution<double>(-half_width, half_width));
+    printDay(kHours, "normal", seed, std::normal_distribution<double>(0.0, kNoise));
+  }
+  std::printf("\n");
 }
 
 }  // namespace
@@ -217,7 +228,7 @@ void printDay(double hours) {
 int main() {
   using namespace suspension_health_monitor;
   printRamps();
-  printDay(24.0);
+  printDays();
   printPayloads();
   std::printf("\n");
   printRoads();

@@ -152,6 +152,27 @@ TEST(EarlyWarning, HasNoMoreFalseAlarmsThanWereAskedFor) {
   }
 }
 
+// Values of a first-order process with correlation c: means of many have (1 + c) / (1 - c) times the variance. Taken for
+// uncorrelated, they give more false alarms than were asked for.
+TEST(EarlyWarning, HasNoMoreFalseAlarmsOfCorrelatedValues) {
+  constexpr double kWanted = 1000.0, kCorrelation = 0.6, kStddev = 0.05;
+  const auto mean_time = [&](double variance_of_means) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0.0, kStddev * std::sqrt(1.0 - kCorrelation * kCorrelation));
+    double values = 0.0, value = 0.0;
+    for (int alarm = 0; alarm < 200; ++alarm) {
+      EarlyWarning warning(0.03, kWanted, variance_of_means);
+      do {
+        values += 1.0;
+        value = kCorrelation * value + noise(random);
+      } while (!warning.add(value, kStddev));
+    }
+    return values / 200;
+  };
+  EXPECT_GT(mean_time((1.0 + kCorrelation) / (1.0 - kCorrelation)), kWanted);
+  EXPECT_LT(mean_time(1.0), kWanted);
+}
+
 TEST(EarlyWarning, ProvesASmallChangeOfEitherSignAndEndsWithIt) {
   for (const double sign : {-1.0, 1.0}) {
     EarlyWarning warning(0.03, 1e5);

@@ -78,6 +78,21 @@ TEST(ScoreCovariance, OfMovingSumsIsThatOfTheSquaredTriangle) {
   EXPECT_NEAR(2.0 * scores.inflation(0, 1e4), expected, 0.1 * expected);
 }
 
+// Bursts of ten rows in a thousand that are a hundred times as large say nothing of how the others are correlated.
+TEST(ScoreCovariance, RowsThatStandOutTeachNothing) {
+  constexpr int kWindow = 10;
+  CorrelatedRows rows(kWindow);
+  ScoreCovariance scores(1, kWindow, 1.0 - 1e-4);
+  const Eigen::VectorXd truth = Eigen::VectorXd::Zero(1);
+  for (int k = 0; k < 400000; ++k) {
+    RegressionRow row = rows.next();
+    if (k % 1000 > 989) row.output = 100.0 * kWindow;
+    scores.add(row, truth, {}, row.output);
+  }
+  const double expected = (2.0 * kWindow * kWindow + 1.0) / (3.0 * kWindow);
+  EXPECT_NEAR(2.0 * scores.inflation(0, 1e4), expected, 0.1 * expected);
+}
+
 TEST(ScoreCovariance, OfWhiteRowsIsThatOfTheTextbook) {
   CorrelatedRows rows(1);
   ScoreCovariance scores(1, 0, 0.99);

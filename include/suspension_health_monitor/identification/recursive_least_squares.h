@@ -61,7 +61,7 @@ class RecursiveEstimator {
   void setPresentFactor(double forgetting_factor) {
     options_.forgetting_factor = forgetting_factor;
     means_.setForgettingFactor(forgetting_factor);
-    weights_.setForgettingFactor(forgetting_factor);
+    weights_.setForgettingFactor(ofFourRows(forgetting_factor));
   }
 
   /// The next row does not follow the one before: residuals of both are not correlated.
@@ -110,8 +110,10 @@ class RecursiveEstimator {
   Eigen::VectorXd theta_;
   UdCovariance covariance_;
   ScoreCovariance scores_;
+  static double ofFourRows(double lambda) { return lambda * lambda * lambda * lambda; }
+
   enum OfWeights : std::size_t { kSquareScore, kWeight, kNumOfWeights };
-  RunningMeans<kNumOfWeights> weights_;  // (w epsilon)^2, w; only if there are weights
+  RunningMeans<kNumOfWeights> weights_;  // (w epsilon)^2, w of every fourth row; only if there are weights
 
  private:
   void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);

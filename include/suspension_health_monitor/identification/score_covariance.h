@@ -69,6 +69,7 @@ class ScoreCovariance {
 
   /// @return true at every few rows: often enough to look at what changes slowly.
   bool isNowAndThen() const { return phase_ % kFewRows == 0; }
+  bool isEveryFourth() const { return phase_ % 4 == 0; }
 
   /// @return V_ii / (P_ii scale), with the scale E[(w epsilon)^2] / E[w] of the newest rows: what P is multiplied by to be
   /// the variance for residuals that are not correlated.

@@ -44,12 +44,14 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   return innovation;
 }
 
-// The weight of the row, also taken into the means of weights.
+// The weight of the row; every fourth is taken into the means of weights, since neighbours are much alike.
 RowWeight RecursiveLeastAbsolute::weigh(double innovation) {
   const double smallest = smallestDivisor(absolute_.small_divisor_rule, absolute_.small_divisor, meanAbsoluteResidual());
   const RowWeight weight{1.0 / std::max(std::abs(innovation), smallest), smallest};
-  const double score = weight.weight * innovation;
-  if (std::isfinite(weight.weight)) weights_.add({score * score, weight.weight});
+  if (scores_.isEveryFourth() && std::isfinite(weight.weight)) {
+    const double score = weight.weight * innovation;
+    weights_.add({score * score, weight.weight});
+  }
   return weight;
 }
 

@@ -23,7 +23,7 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
       scores_(num_parameters, std::max(0, options.correlated_rows), options.forgetting_factor),
-      weights_(options.forgetting_factor),
+      weights_(ofFourRows(options.forgetting_factor)),
       held_(static_cast<std::size_t>(num_parameters), false),
       excited_(theta_),
       means_(options.forgetting_factor) {
@@ -47,7 +47,7 @@ void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
   changed.validate();
   options_ = changed;
   means_.setForgettingFactor(forgetting_factor);
-  weights_.setForgettingFactor(forgetting_factor);
+  weights_.setForgettingFactor(ofFourRows(forgetting_factor));
   scores_.setForgettingFactor(forgetting_factor);
 }
 
