@@ -93,6 +93,27 @@ TEST(ScoreCovariance, RowsThatStandOutTeachNothing) {
   EXPECT_NEAR(2.0 * scores.inflation(0, 1e4), expected, 0.1 * expected);
 }
 
+// Whatever the window and the stretches and rests that it makes.
+TEST(ScoreCovariance, GoesOnLearning) {
+  for (int window = 0; window <= 20; ++window) {
+    CorrelatedRows rows(10);
+    ScoreCovariance scores(1, window, 0.99);
+    const Eigen::VectorXd truth = Eigen::VectorXd::Zero(1);
+    const auto learn = [&](int num_rows) {
+      for (int k = 0; k < num_rows; ++k) {
+        const RegressionRow row = rows.next();
+        scores.add(row, truth, {}, row.output);
+      }
+      return scores.inflation(0, 100.0);
+    };
+    const double before = learn(20000);
+    EXPECT_NE(learn(20000), before) << window;
+    scores.restart(1.0);
+    const double anew = learn(20000);
+    EXPECT_NE(learn(20000), anew) << window;
+  }
+}
+
 TEST(ScoreCovariance, OfWhiteRowsIsThatOfTheTextbook) {
   CorrelatedRows rows(1);
   ScoreCovariance scores(1, 0, 0.99);

@@ -34,7 +34,7 @@ struct RowWeight {
 /// wrong, and rows while the estimate comes back from them. They are so large that their correlation and their scale
 /// would be all that is learned, and they need not be in the same rows. What they do to the estimate shows in the present
 /// scale.
-/// Once it has learned enough it looks at a sixth of the rows, in stretches of 6 L, which is plenty for what changes as
+/// Once it has learned enough it looks at an eighth of the rows, in stretches of 6 L, which is plenty for what changes as
 /// slowly as this.
 /// Cost per row: O(p^2), independent of L, no allocation.
 class ScoreCovariance {
