@@ -11,6 +11,7 @@ namespace {
 constexpr double kSlopeMemory = 0.998;  // forgetting factor of a row in eight; a property of the noise, not the strut
 constexpr double kNearZero = 0.2;        // mean absolute residuals
 constexpr double kFlattest = 0.02;
+constexpr double kMostUnit = 3.0;        // mean |epsilon| over scale; 2 for a normal distribution and the default divisor
 
 }  // namespace
 
@@ -67,9 +68,9 @@ void RecursiveLeastAbsolute::noteSlope(double innovation, const RowWeight& weigh
 void RecursiveLeastAbsolute::takeOver() {
   // R(k) of LA sums phi phi' / |epsilon|, that of LS phi phi': without the factor the start depends on the unit of psi.
   if (absolute_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
-  // Of the same variance: that of the mean |epsilon| for the scale.
-  const double unit = meanAbsoluteResidual() / scale();
-  scores_.restart(std::isfinite(unit) && unit > 0.0 ? unit : 1.0);
+  // Of the same variance: that of the mean |epsilon| for the scale. The first rows may have left it huge.
+  const double unit = std::min(meanAbsoluteResidual() / scale(), kMostUnit);
+  scores_.restart(unit > 0.0 ? unit : 1.0);
 }
 
 }  // namespace suspension_health_monitor

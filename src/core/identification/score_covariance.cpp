@@ -52,6 +52,9 @@ ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double
 ScoreCovariance::ScoreCovariance(const ScoreCovariance& before, const std::vector<std::optional<int>>& sources)
     : ScoreCovariance(static_cast<int>(sources.size()), before.lags_, before.forgetting_factor_) {
   slope_ = before.slope_;
+  usual_ = before.usual_;
+  square_ = before.square_;
+  weight_ = before.weight_;
   unknown_ = before.unknown_;
   prior_.setConstant(unknown_);
   for (int i = 0; i < size_; ++i)
