@@ -30,7 +30,7 @@ struct RowWeight {
 /// - LA moves more slowly than lambda says: a row's step is P phi w epsilon, a bounded function of epsilon, which an error
 ///   of the estimate turns by its mean slope rho / E[w] only. So mu = 1 - (1 - lambda) rho, and the variance is 1/rho times as
 ///   large; in the scores w is that of e_i.
-/// Rows whose residual or innovation is beyond kFar mean sizes of a residual are left out of the means: readings that are
+/// Of LA, rows whose residual or innovation is beyond kFar mean sizes of a residual are left out of the means: readings that are
 /// wrong, and rows while the estimate comes back from them. They are so large that their correlation and their scale
 /// would be all that is learned, and they need not be in the same rows. What they do to the estimate shows in the present
 /// scale.

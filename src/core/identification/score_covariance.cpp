@@ -81,7 +81,8 @@ void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta
     --rest_;
     return;
   }
-  const bool counts = addScore(row, weight.smallest_divisor) && std::abs(innovation) <= kFar * usual_;
+  const bool is_usual = addScore(row, weight.smallest_divisor);
+  const bool counts = is_usual && (weight.smallest_divisor == 0.0 || std::abs(innovation) <= kFar * usual_);
   if (counts && in_stretch_ > lags_) average(row.regressor.data(), weight.weight, innovation);
   if (isNowAndThen() || first_rows_ > 0) nowAndThen(theta);
 }
@@ -120,7 +121,7 @@ bool ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor
     double residual = row.output;
     for (Eigen::Index i = 0; i < p; ++i) residual -= phi[i] * slow[i];
     const double size = std::abs(residual);
-    const bool counts = isUsual(size);
+    const bool counts = smallest_divisor == 0.0 || isUsual(size);
     if (!counts) residual = 0.0;
     if (smallest_divisor > 0.0) residual /= std::max(size, smallest_divisor);
     for (Eigen::Index i = 0; i < p; ++i) {
