@@ -62,11 +62,6 @@ SimulationOptions stepDrive() {
   return options;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 using Errors = double (Point::*)[2];
 
 double rms(const std::vector<Point>& points, double from, double to, Errors errors, int estimator) {
@@ -137,8 +132,8 @@ std::vector<std::string> rowsOf(const Setting& setting, const Drives& drives) {
     std::snprintf(factors, sizeof factors, setting.fastest ? "%g to %g" : "%g", setting.slow,
                   setting.fastest.value_or(0.0));
     std::snprintf(row, sizeof row, "| %s, %s | %.1f | %.1f | %.3f, %.3f | %.3f, %.3f | %.3f, %.3f |",
-                  i == 0 ? "LS" : "LA", factors, median(lag[i]), median(step[i]), median(scatter1[i]),
-                  median(scatter0[i]), median(loss1[i]), median(loss0[i]), median(stops1[i]), median(stops0[i]));
+                  i == 0 ? "LS" : "LA", factors, medianOf(lag[i]), medianOf(step[i]), medianOf(scatter1[i]),
+                  medianOf(scatter0[i]), medianOf(loss1[i]), medianOf(loss0[i]), medianOf(stops1[i]), medianOf(stops0[i]));
     rows.push_back(row);
   }
   return rows;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../test/core/first_alarms.h"
-#include "../test/core/paper_drive.h"
+#include "../test/core/healthy_day.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -177,37 +177,11 @@ void printRamps() {
   }
 }
 
-// The paper's healthy drive, repeated with fresh noise; in every minute a second of zeros and a bump into the stops.
 template <class Noise>
-void printDay(double hours, const char* kind, unsigned seed, Noise noise) {
-  constexpr double kPeriod = 0.02;
-  SimulationOptions options;
-  options.scenario = "paper_saturation";
-  options.damping_ramp = false;
-  options.noise = 0.0;
-  options.duration = 120.0;  // bumps at 85 s and 110 s
-  const std::vector<CornerSample> clean = simulate(options);
-  std::mt19937 random(seed);
-  SuspensionMonitor monitor(optionsFor(kPeriod, kPaperB1, kPaperB0));
-  long warn = 0, error = 0, stale = 0, early = 0, samples = 0;
-  HealthReport before;
-  for (Stamp stamp{}; toSeconds(stamp) < 3600.0 * hours;)
-    for (std::size_t k = 0; k + 1 < clean.size(); ++k, stamp += fromSeconds(kPeriod)) {
-      CornerSample sample{stamp, clean[k].sprung_acceleration + noise(random),
-                          clean[k].unsprung_acceleration + noise(random)};
-      if (k % 3000 >= 1250 && k % 3000 < 1300) sample.sprung_acceleration = sample.unsprung_acceleration = 0.0;
-      const MonitorReport* report = monitor.addSample(sample);
-      if (report == nullptr) continue;
-      const HealthReport& now = report->health;
-      warn += now.level == HealthLevel::kWarn && before.level != now.level ? 1 : 0;
-      error += now.level == HealthLevel::kError && before.level != now.level ? 1 : 0;
-      early += now.early_warning && !before.early_warning ? 1 : 0;
-      stale += now.level == HealthLevel::kStale ? 1 : 0;
-      ++samples;
-      before = now;
-    }
-  std::printf("| %s | %u | %ld | %ld | %ld | %.1f %% |\n", kind, seed, error, warn, early,
-              100.0 * static_cast<double>(stale) / static_cast<double>(samples));
+void printDay(double hours, const char* kind, unsigned seed, const Noise& noise) {
+  const DayCounts day = healthyDay(optionsFor(0.02, kPaperB1, kPaperB0), hours, seed, noise);
+  std::printf("| %s | %u | %ld | %ld | %ld | %.1f %% |\n", kind, seed, day.error, day.warn, day.early,
+              100.0 * static_cast<double>(day.stale) / static_cast<double>(day.samples));
   std::fflush(stdout);
 }
 

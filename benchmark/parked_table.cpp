@@ -31,9 +31,8 @@ struct Saying {
 
 Saying sayingOf(const RowMoments& rows, const RegressorNoise& noise) {
   const StrutFit fit = rows.bestStrut(2.0 * kStrut);
-  const double sensor = fit.rest / noise.residualGain(fit.theta);
-  return {1.0 - fit.rest / rows.output, rows.damping_information / (sensor * noise.regressorGain(kDampingToMass)),
-          rows.stiffness_information / (sensor * noise.regressorGain(kStiffnessToMass))};
+  const auto [damping, stiffness] = excitationOf(rows, fit, noise);
+  return {1.0 - fit.rest / rows.output, damping, stiffness};
 }
 
 using Readings = std::function<Accelerations(long)>;

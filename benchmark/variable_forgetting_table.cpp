@@ -123,11 +123,6 @@ double chanceOf(const std::vector<DriveSample>& drive, const Case& road) {
   return sum / count;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 void printRow(const Case& road) {
   std::vector<double> slow, fast, variable, damping, stiffness, spoilt_damping, spoilt_stiffness;
   std::vector<double> opened, spoilt, chance;
@@ -153,8 +148,8 @@ void printRow(const Case& road) {
     spoilt.push_back(tried.opened);
   }
   std::printf("| %s | %d | %g to %g | %.4f | %.1f, %.1f, %.1f | %.2f, %.2f | %.2f, %.2f | %.1f, %.1f |\n", road.name,
-              road.horizon, road.slow, road.fastest, meanOf(chance), median(slow), median(variable), median(fast),
-              median(damping), median(stiffness), median(spoilt_damping), median(spoilt_stiffness),
+              road.horizon, road.slow, road.fastest, meanOf(chance), medianOf(slow), medianOf(variable), medianOf(fast),
+              medianOf(damping), medianOf(stiffness), medianOf(spoilt_damping), medianOf(spoilt_stiffness),
               100.0 * meanOf(opened), 100.0 * meanOf(spoilt));
   std::fflush(stdout);
 }

@@ -87,6 +87,7 @@ class SuspensionMonitor {
   const CornerSample* remember(const CornerSample& sample);
   const CornerSample* track(const CornerSample& sample);
   void judgeHealth(const CornerSample& sample);
+  void countSpacings(Stamp until);
   void judgePeriod(Stamp stamp);
   const ModelTracker& tracker() const { return extended_ ? *extended_ : plain_; }
 

@@ -83,9 +83,13 @@ void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   report_.health = health_.update(report_.stamp, report_.ls, report_.la);
 }
 
-void SuspensionMonitor::judgePeriod(Stamp stamp) {
-  spacing_.countUntil(stamp, in_series_);
+void SuspensionMonitor::countSpacings(Stamp until) {
+  spacing_.countUntil(until, in_series_);
   input_.mean_period = spacing_.mean();
+}
+
+void SuspensionMonitor::judgePeriod(Stamp stamp) {
+  countSpacings(stamp);
   if (spacing_.weight() < kSpacings) return;
   input_.period_fits = std::abs(input_.mean_period / period() - 1.0) <= InputStatus::kPeriodTolerance;
   plain_.setPeriodFits(input_.period_fits, extended_ ? base_ : report_);
@@ -146,8 +150,7 @@ bool SuspensionMonitor::continues(Stamp stamp) {
 }
 
 void SuspensionMonitor::startNewSeries(Stamp stamp) {
-  spacing_.countUntil(*last_stamp_, in_series_);
-  input_.mean_period = spacing_.mean();
+  countSpacings(*last_stamp_);
   spacing_.begin(stamp);
   in_series_ = 0;
   reported_until_.reset();

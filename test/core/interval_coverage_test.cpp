@@ -63,34 +63,29 @@ class CorrelatedRows {
 
 // phi and e are moving sums over w rows, so the autocovariance of phi e is the square of a triangle: relative to lag 0
 // the sum over lags |m| < w of (1 - |m|/w)^2 is (2 w^2 + 1) / (3 w), for a memory far longer than w.
-TEST(ScoreCovariance, OfMovingSumsIsThatOfTheSquaredTriangle) {
-  constexpr int kWindow = 10;
-  CorrelatedRows rows(kWindow);
-  ScoreCovariance scores(1, kWindow, 1.0 - 1e-4);
-  const Eigen::VectorXd truth = Eigen::VectorXd::Zero(1);
-  for (int k = 0; k < 400000; ++k) {
-    const RegressionRow row = rows.next();
-    scores.add(row, truth, {}, row.output);
-  }
-  const double expected = (2.0 * kWindow * kWindow + 1.0) / (3.0 * kWindow);
-  // 1 / (1 + lambda) of it, since an estimate that forgets rests on sum lambda^2i; a sixth of the rows is looked at, in
-  // which windows of 10 rows repeat each other: about 400000 / 60 products, each as large as the sum itself.
-  EXPECT_NEAR(2.0 * scores.inflation(0, 1e4), expected, 0.1 * expected);
-}
-
-// Bursts of ten rows in a thousand that are a hundred times as large say nothing of how the others are correlated.
-TEST(ScoreCovariance, RowsThatStandOutTeachNothing) {
+void expectSquaredTriangle(const RowWeight& weight, int wrong_in_a_thousand) {
   constexpr int kWindow = 10;
   CorrelatedRows rows(kWindow);
   ScoreCovariance scores(1, kWindow, 1.0 - 1e-4);
   const Eigen::VectorXd truth = Eigen::VectorXd::Zero(1);
   for (int k = 0; k < 400000; ++k) {
     RegressionRow row = rows.next();
-    if (k % 1000 > 989) row.output = 100.0 * kWindow;
-    scores.add(row, truth, {1e-3, 1e3}, row.output);  // as LA's, but for a divisor that no residual exceeds
+    if (k % 1000 >= 1000 - wrong_in_a_thousand) row.output = 100.0 * kWindow;
+    scores.add(row, truth, weight, row.output);
   }
   const double expected = (2.0 * kWindow * kWindow + 1.0) / (3.0 * kWindow);
+  // 1 / (1 + lambda) of it, since an estimate that forgets rests on sum lambda^2i; an eighth of the rows is looked at, in
+  // which windows of 10 rows repeat each other: about 400000 / 80 products, each as large as the sum itself.
   EXPECT_NEAR(2.0 * scores.inflation(0, 1e4), expected, 0.1 * expected);
+}
+
+TEST(ScoreCovariance, OfMovingSumsIsThatOfTheSquaredTriangle) {
+  expectSquaredTriangle({}, 0);
+}
+
+// Bursts of ten rows in a thousand that are a hundred times as large say nothing of how the others are correlated.
+TEST(ScoreCovariance, RowsThatStandOutTeachNothing) {
+  expectSquaredTriangle({1e-3, 1e3}, 10);  // weighted as LA's rows, but for a divisor that no residual exceeds
 }
 
 // Whatever the window and the stretches and rests that it makes.

@@ -11,13 +11,18 @@
 
 namespace suspension_health_monitor {
 
+/// @param fit  of the rows.
+/// @return information of either parameter over that which noise would give that is as large as what the fit leaves [-].
+std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, const StrutFit& fit,
+                                                     const RegressorNoise& noise);
+
 /// Whether the rows of a strut tell anything of its damping and of its stiffness, or only of the sensors' noise, as
 /// those of a parked vehicle do.
 ///
 /// It is asked of the rows alone, so that a strut that breaks does not look parked: what does the best strut between
 /// none and twice the one that is known (the largest of late) leave of psi? Rows tell of a strut if that is less than
-/// half. They tell of parameter i if, besides, the information of its regressor, the mean of phi_i^2, is clear of what that rest would put
-/// there, were it white noise of both sensors (RegressorNoise): excitation(i) is the ratio of the two, 1 for noise.
+/// half. They tell of parameter i if, besides, the information of its regressor, the mean of phi_i^2, is clear of what
+/// that rest would put there, were it white noise of both sensors: excitationOf(), 1 for noise.
 /// - A parameter is held once two blocks, each of a horizon and more, do not tell of it, and its information has fallen
 ///   below a tenth of the usual, that of blocks that told of it over ten memories: readings that no strut explains on
 ///   a road as rough as ever are not rest.
@@ -67,7 +72,6 @@ class Excitation {
   void closeBlock();
   void judgeExcited(const RowMoments& recent);
   void judgeHeld();
-  std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, const StrutFit& fit) const;
 
   int looks_per_block_;
   double most_blocks_;  // of the usual

@@ -23,6 +23,13 @@ std::array<double, kNumStrutParameters> informationOf(const RowMoments& rows) {
 
 }  // namespace
 
+std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, const StrutFit& fit,
+                                                     const RegressorNoise& noise) {
+  const double sensor = fit.rest / noise.residualGain(fit.theta);
+  return {rows.damping_information / (sensor * noise.regressorGain(kDampingToMass)),
+          rows.stiffness_information / (sensor * noise.regressorGain(kStiffnessToMass))};
+}
+
 Excitation::Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise)
     : looks_per_block_(std::max(horizon_samples, kFewestRows) / kJudgeEvery),
       most_blocks_(std::max(1.0, kUsualMemories / (looks_per_block_ * kJudgeEvery * (1.0 - forgetting_factor)))),
@@ -70,17 +77,10 @@ void Excitation::closeBlock() {
   looks_ = 0;
 }
 
-// @return information over that of the noise which the rest would be.
-std::array<double, kNumStrutParameters> Excitation::excitationOf(const RowMoments& rows, const StrutFit& fit) const {
-  const double sensor = fit.rest / noise_.residualGain(fit.theta);
-  return {rows.damping_information / (sensor * noise_.regressorGain(kDampingToMass)),
-          rows.stiffness_information / (sensor * noise_.regressorGain(kStiffnessToMass))};
-}
-
 void Excitation::judgeExcited(const RowMoments& recent) {
   const StrutFit fit = recent.bestStrut(most_);
   const bool tells = fit.rest < (1.0 - kLeastShare) * recent.output;
-  const auto excitation = excitationOf(recent, fit);
+  const auto excitation = excitationOf(recent, fit, noise_);
   const auto information = informationOf(recent), newest = informationOf(block_);
   bool is_new = false;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -106,7 +106,7 @@ void Excitation::judgeHeld() {
   ++window_blocks_;
   const StrutFit fit = window_.bestStrut(most_);
   const bool tells = fit.rest < (1.0 - least_share_[static_cast<std::size_t>(window_blocks_ - 1)]) * window_.output;
-  const auto excitation = excitationOf(window_, fit);
+  const auto excitation = excitationOf(window_, fit, noise_);
   const double least = kLeastExcitation * kMostBlocks / window_blocks_;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];

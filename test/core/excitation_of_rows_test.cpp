@@ -1,0 +1,139 @@
+// Whether rows tell of either parameter, by rows of noise.
+#include "suspension_health_monitor/identification/excitation.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <utility>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kB1 = 3.0, kB0 = 13.8;
+
+// Rows of white noise with given standard deviations of the regressors and of what the model leaves.
+class NoiseRows {
+ public:
+  explicit NoiseRows(double unit = 1.0) : unit_(unit) {}
+
+  /// @return the row psi = phi' theta + error. Every second phi_0 is the one before, turned over: it has no mean.
+  RegressionRow next(double damping, double stiffness, double error) {
+    RegressionRow row;
+    phi_0_ = turns_ ? -phi_0_ : normal_(engine_);
+    turns_ = !turns_;
+    row.regressor = Eigen::Vector2d(unit_ * damping * normal_(engine_), unit_ * stiffness * phi_0_);
+    row.output = row.regressor.dot(theta) + unit_ * error * normal_(engine_);
+    return row;
+  }
+
+  const Eigen::VectorXd theta = Eigen::Vector2d(kB1, kB0);
+
+ private:
+  double unit_, phi_0_ = 0.0;
+  bool turns_ = false;
+  std::mt19937_64 engine_{3};
+  std::normal_distribution<double> normal_;
+};
+
+constexpr int kLooksOfTenBlocks = 80;  // of 64 rows
+
+/// What is judged of noise rows, from a drive on that is worth being held.
+struct Judged {
+  explicit Judged(bool knows = true, double unit = 1.0) : rows(unit) {
+    if (knows) excitation.know({kB1, kB0});
+    look(1.0, 1.0, 0.5);
+  }
+
+  void judge(const RegressionRow& row) { excitation.judge(row, rows.theta); }
+
+  void look(double damping, double stiffness, double error) {
+    for (int k = 0; k < kLooksOfTenBlocks; ++k) judge(rows.next(damping, stiffness, error));
+  }
+
+  std::pair<bool, bool> excited() const {
+    return {excitation.excited(kDampingToMass), excitation.excited(kStiffnessToMass)};
+  }
+
+  NoiseRows rows;
+  Excitation excitation{30, 0.99, RegressorNoise({30, 0.02, IntegrationRule::kCubic})};
+};
+
+// Drive, then a tenth of a thousandth of its information.
+TEST(Excitation, OfEachParameterIsJudgedByItsOwnRegressor) {
+  const std::pair both(true, true);
+  for (const double unit : {1.0, 1e-6, 1e6}) {
+    Judged judged(true, unit);
+    EXPECT_EQ(judged.excited(), both) << unit;
+    judged.look(0.01, 1.0, 0.5);
+    EXPECT_EQ(judged.excited(), std::pair(false, true)) << unit;
+    judged.look(1.0, 0.01, 0.5);
+    EXPECT_EQ(judged.excited(), std::pair(true, false)) << unit;
+    judged.look(0.01, 0.01, 0.5);
+    EXPECT_EQ(judged.excited(), std::pair(false, false)) << unit;
+    judged.look(1.0, 1.0, 0.5);
+    EXPECT_EQ(judged.excited(), both) << unit;
+  }
+}
+
+TEST(Excitation, ASmootherRoadThatIsClearOfTheNoiseGoesOnCounting) {
+  Judged judged;
+  judged.look(0.01, 0.01, 0.003);
+  EXPECT_EQ(judged.excited(), std::pair(true, true));
+}
+
+TEST(Excitation, ARoughRoadThatTheModelDoesNotExplainGoesOnCounting) {
+  Judged judged;
+  judged.look(1.0, 1.0, 1000.0);
+  EXPECT_EQ(judged.excited(), std::pair(true, true));
+}
+
+// A spike is no road: what comes after it is measured by what was before.
+TEST(Excitation, AnOutlierDoesNotMakeTheDriveLookParked) {
+  Judged judged;
+  judged.judge(judged.rows.next(1e9, 1e9, 0.5));
+  judged.look(1.0, 1.0, 100.0);  // thrown off
+  EXPECT_EQ(judged.excited(), std::pair(true, true));
+}
+
+// Two sensors of equal noise, through the filter itself, in blocks long enough for chance to be small.
+TEST(Excitation, OfWhiteNoiseIsOne) {
+  const IntegralFilterOptions options{30, 0.02, IntegrationRule::kCubic};
+  constexpr int kBlock = 6400, kBlocks = 100;
+  for (const double unit : {1.0, 1e-5}) {
+    SuspensionRegression regression(options);
+    Excitation excitation(kBlock, 0.99, RegressorNoise(options));
+    excitation.know({kB1, kB0});
+    std::mt19937_64 engine(4);
+    std::normal_distribution<double> noise(0.0, unit);
+    double damping = 0.0, stiffness = 0.0;
+    for (int k = 0; k < kBlock * kBlocks; ++k) {
+      const RegressionRow* row = regression.push({Stamp{}, noise(engine), noise(engine)});
+      if (row == nullptr || k % Excitation::kJudgeEvery != 0) continue;
+      if (!excitation.judge(*row, Eigen::Vector2d(kB1, kB0))) continue;
+      damping += excitation.excitation(kDampingToMass) / kBlocks;
+      stiffness += excitation.excitation(kStiffnessToMass) / kBlocks;
+    }
+    EXPECT_NEAR(damping, 1.0, 0.08) << unit;
+    EXPECT_NEAR(stiffness, 1.0, 0.08) << unit;
+  }
+}
+
+TEST(Excitation, BeforeThereIsAnythingToHoldEverythingCounts) {
+  Judged judged(false);
+  judged.look(1e-6, 1e-6, 0.5);
+  EXPECT_EQ(judged.excited(), std::pair(true, true));
+}
+
+// The constant is what two sensors of different offset leave in the twice integrated difference.
+TEST(Excitation, AConstantOfTheStiffnessRegressorIsNone) {
+  Judged judged;
+  for (int k = 0; k < 5 * kLooksOfTenBlocks; ++k) {
+    RegressionRow row = judged.rows.next(0.001, 0.001, 0.5);
+    row.regressor[kStiffnessToMass] += 5.0;
+    judged.judge(row);
+  }
+  EXPECT_EQ(judged.excited(), std::pair(false, false));
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
