@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "suspension_health_monitor/discrepancy/drive_record.h"
-#include "suspension_health_monitor/model/effect_library.h"
 #include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/model/effect_library.h"
 #include "suspension_health_monitor/pi.h"
 #include "suspension_health_monitor/simulation/drive_simulator.h"
 #include "suspension_health_monitor/simulation/random_stream.h"
@@ -60,7 +60,8 @@ class BatteryDriver {
     DriveSimulator simulator(options_);
     while (const auto sample = simulator.next()) plain_.push_back(*sample);
     for (std::size_t k = 1; k < plain_.size(); ++k)
-      jerk_ += std::pow((plain_[k].truth.sprung_acceleration - plain_[k - 1].truth.sprung_acceleration) * vehicle.rate, 2);
+      jerk_ +=
+          std::pow((plain_[k].truth.sprung_acceleration - plain_[k - 1].truth.sprung_acceleration) * vehicle.rate, 2);
     for (const DriveSample& sample : plain_) {
       travel_ += std::pow(sample.truth.travel, 2);
       travel_rate_ += std::pow(sample.truth.travel_rate, 2);
@@ -80,9 +81,10 @@ class BatteryDriver {
       if (reading == known.end())
         options_.hidden.push_back(sized(findEffect(forceEffects(), name)));
       else
-        readings.push_back({*reading, {0.15 * (name == "clock_offset"  ? linear_ / jerk_
-                                               : name == "scale_error" ? 1.0
-                                                                       : linear_)}});
+        readings.push_back({*reading,
+                            {0.15 * (name == "clock_offset"  ? linear_ / jerk_
+                                     : name == "scale_error" ? 1.0
+                                                             : linear_)}});
     }
     return record(options_.hidden, readings);
   }
@@ -137,8 +139,7 @@ class BatteryDriver {
     using M = StrutMotion;
     const double bounce = std::sqrt(stiffness()), d = travel_, v = travel_rate_, phase = 6.0 * random_.uniform();
     ForceEffect effect{kDisturbances[kind], "", "m/s^2", "", {}};
-    if (kind == 0)
-      effect.force = [=](const M& m, const double*) { return std::sin(0.83 * bounce * m.time + phase); };
+    if (kind == 0) effect.force = [=](const M& m, const double*) { return std::sin(0.83 * bounce * m.time + phase); };
     if (kind == 1)
       effect.force = [=](const M& m, const double*) {
         double sum = 0.0;
@@ -149,10 +150,8 @@ class BatteryDriver {
       effect.force = [=](const M& m, const double*) {
         return std::sin(1.3 * bounce * m.time) * std::pow(std::sin(0.05 * bounce * m.time + phase), 8);
       };
-    if (kind == 3)
-      effect.force = [=](const M& m, const double*) { return std::sin(3.0 * m.travel / d); };
-    if (kind == 4)
-      effect.force = [=](const M& m, const double*) { return m.travel / d * m.travel_rate / v; };
+    if (kind == 3) effect.force = [=](const M& m, const double*) { return std::sin(3.0 * m.travel / d); };
+    if (kind == 4) effect.force = [=](const M& m, const double*) { return m.travel / d * m.travel_rate / v; };
     return effect;
   }
 
@@ -166,14 +165,16 @@ class BatteryDriver {
     DriveSimulator simulator(options);
     std::vector<DriveTruth> truths;
     while (const auto sample = simulator.next()) truths.push_back(sample->truth);
-    const auto shift = late ? static_cast<std::size_t>(std::lround(readings.front().coefficients[0] * options.rate)) : 0;
+    const auto shift =
+        late ? static_cast<std::size_t>(std::lround(readings.front().coefficients[0] * options.rate)) : 0;
     for (std::size_t k = shift, i = 0; k < truths.size(); k += static_cast<std::size_t>(finer), ++i) {
       double sprung = truths[k - shift].sprung_acceleration;
       for (const ActiveMeasurementEffect& reading : readings) {
         if (reading.effect.name == "scale_error") sprung *= 1.0 + reading.coefficients[0];
         if (reading.effect.name == "accelerometer_bias") sprung += reading.coefficients[0];
       }
-      drive.record.push({fromSeconds(static_cast<double>(i) / options_.rate), sprung + sensor_noise_ * noise_.gaussian(),
+      drive.record.push({fromSeconds(static_cast<double>(i) / options_.rate),
+                         sprung + sensor_noise_ * noise_.gaussian(),
                          truths[k].unsprung_acceleration + sensor_noise_ * noise_.gaussian()});
     }
     drive.record.finish();
@@ -184,7 +185,7 @@ class BatteryDriver {
   RandomStream random_, noise_;
   std::vector<DriveSample> plain_;
   double travel_ = 0.0, travel_rate_ = 0.0, linear_ = 0.0, jerk_ = 0.0;  // rms [m], [m/s], [m/s^2], [m/s^3]
-  double sensor_noise_;                                     // [m/s^2]
+  double sensor_noise_;                                                  // [m/s^2]
 };
 
 }  // namespace suspension_health_monitor

@@ -1,6 +1,6 @@
-// Prints the table of doc/uncertainty.md: how often the estimates plus and minus 1.96 stddev hold the truth, over roads,
-// vehicles, noise, horizons and forgetting factors.
-//   coverage_table [SEEDS [FASTEST]]      measurements of each drive, default 10; fastest_forgetting_factor, default none
+// Prints the table of doc/uncertainty.md: how often the estimates plus and minus 1.96 stddev hold the truth, over
+// roads, vehicles, noise, horizons and forgetting factors.
+//   coverage_table [SEEDS [FASTEST]]      measurements of each drive, default 10; fastest_forgetting_factor
 #include <cstdio>
 #include <cstdlib>
 #include <optional>

@@ -67,7 +67,8 @@ struct Tally {
 
   void add(const Tally& other) {
     for (const auto& [outcome, count] : other.outcomes) outcomes[outcome] += count;
-    coefficient_errors.insert(coefficient_errors.end(), other.coefficient_errors.begin(), other.coefficient_errors.end());
+    coefficient_errors.insert(coefficient_errors.end(), other.coefficient_errors.begin(),
+                              other.coefficient_errors.end());
     floor_ratios.insert(floor_ratios.end(), other.floor_ratios.begin(), other.floor_ratios.end());
     seconds.insert(seconds.end(), other.seconds.begin(), other.seconds.end());
     drives += other.drives;
@@ -120,11 +121,12 @@ void print(const char* title, const Tally& tally) {
     const auto found = tally.outcomes.find(static_cast<Outcome>(i));
     std::printf(" %s %d,", kOutcomes[i], found == tally.outcomes.end() ? 0 : found->second);
   }
-  std::printf(" coefficient error median %.2f %% (90 %%: %.1f %%), rmse / truth median %.3f (95 %%: %.3f, worst %.3f), "
-              "processor time median %.1f s, worst %.1f s\n",
-              100.0 * quantile(tally.coefficient_errors, 0.5), 100.0 * quantile(tally.coefficient_errors, 0.9),
-              quantile(tally.floor_ratios, 0.5), quantile(tally.floor_ratios, 0.95), quantile(tally.floor_ratios, 1.0),
-              quantile(tally.seconds, 0.5), quantile(tally.seconds, 1.0));
+  std::printf(
+      " coefficient error median %.2f %% (90 %%: %.1f %%), rmse / truth median %.3f (95 %%: %.3f, worst %.3f), "
+      "processor time median %.1f s, worst %.1f s\n",
+      100.0 * quantile(tally.coefficient_errors, 0.5), 100.0 * quantile(tally.coefficient_errors, 0.9),
+      quantile(tally.floor_ratios, 0.5), quantile(tally.floor_ratios, 0.95), quantile(tally.floor_ratios, 1.0),
+      quantile(tally.seconds, 0.5), quantile(tally.seconds, 1.0));
 }
 
 Tally runKind(const std::string& kind, const BatteryVehicle& vehicle, int seed) {
@@ -174,8 +176,7 @@ int main(int argc, char** argv) {
         continue;
       }
       for (const BatteryVehicle& vehicle : kBatteryVehicles)
-        if (std::string(vehicle.label).find(vehicle_part) != std::string::npos)
-          tally.add(runKind(kind, vehicle, seed));
+        if (std::string(vehicle.label).find(vehicle_part) != std::string::npos) tally.add(runKind(kind, vehicle, seed));
     }
     print(kind, tally);
   }

@@ -22,8 +22,8 @@ struct Setting {
 
 struct Point {
   double time;
-  double b1_change;      // of the strut [1/s]
-  double b1[2], b0[2];   // errors of LS, LA
+  double b1_change;     // of the strut [1/s]
+  double b1[2], b0[2];  // errors of LS, LA
 };
 
 std::vector<Point> follow(const std::vector<DriveSample>& drive, const Setting& setting) {
@@ -133,7 +133,8 @@ std::vector<std::string> rowsOf(const Setting& setting, const Drives& drives) {
                   setting.fastest.value_or(0.0));
     std::snprintf(row, sizeof row, "| %s, %s | %.1f | %.1f | %.3f, %.3f | %.3f, %.3f | %.3f, %.3f |",
                   i == 0 ? "LS" : "LA", factors, medianOf(lag[i]), medianOf(step[i]), medianOf(scatter1[i]),
-                  medianOf(scatter0[i]), medianOf(loss1[i]), medianOf(loss0[i]), medianOf(stops1[i]), medianOf(stops0[i]));
+                  medianOf(scatter0[i]), medianOf(loss1[i]), medianOf(loss0[i]), medianOf(stops1[i]),
+                  medianOf(stops0[i]));
     rows.push_back(row);
   }
   return rows;
@@ -145,8 +146,15 @@ void printTable() {
       "changes | data loss | end stops |\n|---|---|---|---|---|---|\n");
   const Drives drives = simulateAll();
   std::vector<std::string> of_la;
-  for (const Setting& setting : std::vector<Setting>{{0.97, {}}, {0.98, {}}, {0.985, {}}, {0.99, {}}, {0.995, {}},
-                                                     {0.99, 0.98}, {0.99, 0.97}, {0.995, 0.98}, {0.995, 0.97}}) {
+  for (const Setting& setting : std::vector<Setting>{{0.97, {}},
+                                                     {0.98, {}},
+                                                     {0.985, {}},
+                                                     {0.99, {}},
+                                                     {0.995, {}},
+                                                     {0.99, 0.98},
+                                                     {0.99, 0.97},
+                                                     {0.995, 0.98},
+                                                     {0.995, 0.97}}) {
     const std::vector<std::string> rows = rowsOf(setting, drives);
     std::printf("%s\n", rows[0].c_str());
     std::fflush(stdout);

@@ -24,8 +24,8 @@ struct Change {
   double left;      // share of the damping
   double duration;  // [s]
 };
-constexpr Change kChanges[] = {{"none", 1.0, 0.02},       {"-10 %", 0.9, 0.02},        {"-20 %", 0.8, 0.02},
-                               {"-30 %", 0.7, 0.02},      {"-50 %", 0.5, 0.02},        {"-20 % in 60 s", 0.8, 60.0},
+constexpr Change kChanges[] = {{"none", 1.0, 0.02},         {"-10 %", 0.9, 0.02}, {"-20 %", 0.8, 0.02},
+                               {"-30 %", 0.7, 0.02},        {"-50 %", 0.5, 0.02}, {"-20 % in 60 s", 0.8, 60.0},
                                {"-50 % in 60 s", 0.5, 60.0}};
 
 struct Road {
@@ -122,7 +122,8 @@ void printRow(const char* first, const Change& change, const Delays& delays) {
 }
 
 constexpr const char* kHead =
-    "change | early notice [s] | WARN [s] | ERROR [s] | false notices/h | false WARN/h | false ERROR/h | cannot tell |\n"
+    "change | early notice [s] | WARN [s] | ERROR [s] | false notices/h | false WARN/h | false ERROR/h | cannot tell "
+    "|\n"
     "|---|---|---|---|---|---|---|---|---|\n";
 
 void printRoads() {
@@ -155,8 +156,9 @@ struct Spread {
 void printRamps() {
   constexpr int kRampSeeds = 60;
   constexpr double kWarnDue = 67.0, kErrorDue = 94.0;
-  std::printf("| scenario | WARN [s]: mean, least, most | ERROR [s]: mean, least, most | early notice at [s] | "
-              "WARN later than 5 s |\n|---|---|---|---|---|\n");
+  std::printf(
+      "| scenario | WARN [s]: mean, least, most | ERROR [s]: mean, least, most | early notice at [s] | "
+      "WARN later than 5 s |\n|---|---|---|---|---|\n");
   for (const char* scenario : {"paper_clean", "paper_outliers"}) {
     Spread warns, errors, notices;
     int late = 0;

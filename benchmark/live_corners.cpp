@@ -1,5 +1,6 @@
-// Four monitors in one nodelet manager, IMUs at 1 kHz: processor time of the manager, and the time from the message that
-// completes a sample to the estimate of that sample at a subscriber. Needs a ROS master; scripts/benchmark_live runs it.
+// Four monitors in one nodelet manager, IMUs at 1 kHz: processor time of the manager, and the time from the message
+// that completes a sample to the estimate of that sample at a subscriber. Needs a ROS master; scripts/benchmark_live
+// runs it.
 //   live_corners inside SECONDS TOPICS    the IMUs' driver publishes within the manager: messages are handed on
 //   live_corners network SECONDS TOPICS   the driver is a process of its own: messages go over TCP
 //   live_corners bare SECONDS TOPICS      the same with empty callbacks instead of monitors: what ROS alone takes
@@ -31,8 +32,8 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::array<const char*, 4> kCorners{"front_left", "front_right", "rear_left", "rear_right"};
-constexpr int kRate = 1000;           // [Hz]
-constexpr double kSettling = 3.0;     // [s] before anything is measured: connections, filters that fill
+constexpr int kRate = 1000;            // [Hz]
+constexpr double kSettling = 3.0;      // [s] before anything is measured: connections, filters that fill
 constexpr std::int64_t kStart = 1000;  // [s] stamp of the first sample
 
 std::string sprungTopic(std::size_t corner, bool shared) {
@@ -41,7 +42,9 @@ std::string sprungTopic(std::size_t corner, bool shared) {
 
 std::string unsprungTopic(std::size_t corner) { return std::string("/") + kCorners[corner] + "/unsprung"; }
 
-double seconds(const timespec& time) { return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec); }
+double seconds(const timespec& time) {
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 double clockNow(clockid_t clock) {
   timespec now{};

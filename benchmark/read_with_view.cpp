@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   rosbag::Bag bag(argv[1]);
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/sprung/imu", "/unsprung/imu"}));
   double sum = 0.0;
-  for (const rosbag::MessageInstance& message : view) sum += message.instantiate<sensor_msgs::Imu>()->linear_acceleration.z;
+  for (const rosbag::MessageInstance& message : view)
+    sum += message.instantiate<sensor_msgs::Imu>()->linear_acceleration.z;
   std::printf("%u messages, mean %g\n", view.size(), sum / view.size());
 }

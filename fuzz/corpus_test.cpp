@@ -56,7 +56,8 @@ TEST(SettingsText, LargeTextsAreRefusedInWords) {
        {often + aliases, repeated("a: 1\n", 500000), "[" + repeated("[", 100000), "a: " + repeated("{a: ", 100000),
         "effects: {" + repeated("x", 500000) + ": {force: d, unit: m}}", law(repeated("(", 200000) + "d"),
         law(repeated("y", 500000)), law("d" + repeated("+d", 200000)), law(repeated("d>0?1:", 100000) + "0"),
-        law(repeated("-", 300000) + "d"), law(repeated("sin(", 100000) + "d" + repeated(")", 100000)), repeated("x", 2000000)}) {
+        law(repeated("-", 300000) + "d"), law(repeated("sin(", 100000) + "d" + repeated(")", 100000)),
+        repeated("x", 2000000)}) {
     std::string answers;
     EXPECT_NO_THROW(answers = readSettingsText(text)) << text.substr(0, 100);
     EXPECT_EQ(answers.find("accepted"), std::string::npos) << text.substr(0, 100);

@@ -124,8 +124,9 @@ class Stream {
 
   double takeValue(FuzzBytes& bytes) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    constexpr std::array kSpecial{0.0, -0.0, 9.81, -9.81, 1e59, -1e59, 1e61, 1e-300, 5e-324, 1e300, 1e6, -1e9,
-                                  kInfinity, -kInfinity, std::numeric_limits<double>::quiet_NaN()};
+    constexpr std::array kSpecial{0.0,   -0.0, 9.81,      -9.81,      1e59,
+                                  -1e59, 1e61, 1e-300,    5e-324,     1e300,
+                                  1e6,   -1e9, kInfinity, -kInfinity, std::numeric_limits<double>::quiet_NaN()};
     switch (bytes.choose(8)) {
       case 0: return kSpecial[bytes.choose(kSpecial.size())];
       case 1: return bytes.take<double>();

@@ -14,9 +14,7 @@ inline double toSeconds(Stamp stamp) { return std::chrono::duration<double>(stam
 
 /// @param seconds  [s], finite and below 2.9e2 years in magnitude.
 /// @return the nearest whole nanosecond.
-inline Stamp fromSeconds(double seconds) {
-  return std::chrono::round<Stamp>(std::chrono::duration<double>(seconds));
-}
+inline Stamp fromSeconds(double seconds) { return std::chrono::round<Stamp>(std::chrono::duration<double>(seconds)); }
 
 /// @return true for an acceleration that can be computed with: not NaN, not infinite, nor so large that sums of its
 /// fourth power would overflow.

@@ -104,7 +104,7 @@ class ModelTracker {
   double min_explained_;
   unsigned spread_phase_ = 0;
   MotionJudge motion_;
-  double rows_of_model_;     // since the effects were set; infinite for the plain model
+  double rows_of_model_;  // since the effects were set; infinite for the plain model
   bool has_own_model_ = false;
   std::uint64_t runaways_ = 0;
   std::optional<Excitation> excitation_;  // none: everything is forgotten all the time

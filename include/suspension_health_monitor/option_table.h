@@ -17,7 +17,8 @@ struct UnusableList {
   bool operator==(const UnusableList& other) const { return text == other.text; }
 };
 
-/// A value as a parameter server, a YAML file or a command line delivers it. A list of texts comes as one text with commas.
+/// A value as a parameter server, a YAML file or a command line delivers it. A list of texts comes as one text with
+/// commas.
 using OptionValue = std::variant<bool, int, double, std::string, UnusableList>;
 
 /// Values by full name; a nested YAML key is joined with '/', as on the ROS parameter server: `la/small_divisor`.
@@ -59,12 +60,9 @@ struct Bound {
 
 template <class Options>
 Bound bind(const OptionField<Options>& field, Options& options) {
-  return {field.name,
-          field.unit,
-          field.help,
-          std::visit([&](auto pointer) { return Member(&(options.*pointer)); }, field.member),
-          field.min,
-          field.max,
+  return {field.name,   field.unit,
+          field.help,   std::visit([&](auto pointer) { return Member(&(options.*pointer)); }, field.member),
+          field.min,    field.max,
           field.choices};
 }
 

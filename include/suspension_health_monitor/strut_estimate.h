@@ -19,13 +19,13 @@ struct StrutEstimate {
   std::size_t num_effects = 0;                     ///< in the model
   std::array<double, StrutState::kMostEffects> coefficients{};         ///< c_j [unit of the effect's coefficient]
   std::array<double, StrutState::kMostEffects> coefficient_stddevs{};  ///< likewise
-  double effective_rows = 0.0;                     ///< rows in the estimator's memory
+  double effective_rows = 0.0;                                         ///< rows in the estimator's memory
   double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
   bool valid = false;      ///< enough rows, enough explained, a strut (b1 > 0, b0 > 0); LA: and its free run
                            ///< fits better than a constant does
-  EstimateDoubt doubt = EstimateDoubt::kNoRows;    ///< why it is not valid
-  double damping_excitation = std::nan("");        ///< information of phi_1 of late over that of noise (Excitation) [-]
-  double stiffness_excitation = std::nan("");      ///< that of phi_0 likewise
+  EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid
+  double damping_excitation = std::nan("");      ///< information of phi_1 of late over that of noise (Excitation) [-]
+  double stiffness_excitation = std::nan("");    ///< that of phi_0 likewise
 
   /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
   double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }

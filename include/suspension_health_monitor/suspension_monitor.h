@@ -16,8 +16,8 @@ namespace suspension_health_monitor {
 
 /// Everything that is known after one sample.
 struct MonitorReport : ModelReport {
-  Stamp stamp{};           ///< of the row's sample: the newest; with effects in the model FreeRun::kDelay before it
-  double measured = 0.0;   ///< z'' at this stamp [m/s^2]
+  Stamp stamp{};          ///< of the row's sample: the newest; with effects in the model FreeRun::kDelay before it
+  double measured = 0.0;  ///< z'' at this stamp [m/s^2]
   HealthReport health;
 };
 
@@ -95,8 +95,8 @@ class SuspensionMonitor {
   Stamp period_;
   int horizon_samples_;
   ModelTracker plain_;
-  std::optional<ModelTracker> extended_;  // with effects
-  ModelReport base_;                      // of the plain model while there is an extended one
+  std::optional<ModelTracker> extended_;   // with effects
+  ModelReport base_;                       // of the plain model while there is an extended one
   std::array<CornerSample, 16> recent_{};  // by their number in the series, modulo
   std::size_t in_series_ = 0;
   HealthAssessment health_;

@@ -22,13 +22,11 @@ struct WheelEstimate {
   double stiffness_to_wheel_mass_stddev = std::nan("");  ///< [1/s^2], likewise
   double tyre_to_wheel_mass_stddev = std::nan("");       ///< [1/s^2], likewise
   double effective_rows = 0.0;                           ///< rows in the estimator's memory
-  double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory
-  bool valid = false;      ///< enough rows, enough explained, all three parameters positive
+  double explained = 0.0;                                ///< 1 - mean|epsilon| / mean|psi| over the memory
+  bool valid = false;  ///< enough rows, enough explained, all three parameters positive
 
   /// @return undamped natural frequency of the wheel between strut and tyre, the body held fast [Hz].
-  double wheelHopFrequency() const {
-    return std::sqrt(stiffness_to_wheel_mass + tyre_to_wheel_mass) / (2 * M_PI);
-  }
+  double wheelHopFrequency() const { return std::sqrt(stiffness_to_wheel_mass + tyre_to_wheel_mass) / (2 * M_PI); }
 };
 
 /// @return m/M = b1 / (beta/m) [-], the share of the wheel's mass in the body's; none unless both are valid.
@@ -40,9 +38,8 @@ struct TyreReport {
 };
 
 /// Wheel and tyre of one strut, followed through a drive by LS and LA side by side, with a third accelerometer where
-/// the tyre touches the road. Samples without a reading of it empty the filter, as does a gap: estimates hold meanwhile,
-/// marked as not valid.
-/// Cost per sample: O(1), no allocation.
+/// the tyre touches the road. Samples without a reading of it empty the filter, as does a gap: estimates hold
+/// meanwhile, marked as not valid. Cost per sample: O(1), no allocation.
 class TyreTracker {
  public:
   /// @param options  with sample_period given.

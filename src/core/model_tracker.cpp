@@ -133,7 +133,8 @@ void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
     spread_phase_ = (spread_phase_ + 1) % kSpreadEvery;
   }
   // At once at the start, and when a sensor sticks.
-  if (!moves || spread_phase_ % kModelEvery == 0 || !(report.la.valid && report.ls.valid)) judgeEstimates(moves, report);
+  if (!moves || spread_phase_ % kModelEvery == 0 || !(report.la.valid && report.ls.valid))
+    judgeEstimates(moves, report);
 }
 
 void ModelTracker::judgeEstimates(bool moves, ModelReport& report) {
@@ -162,8 +163,8 @@ void ModelTracker::takeExcitation(ModelReport& report) {
                                            : EstimateDoubt::kNotExcited;
   if (excitation_doubt_ == before) return;
   noteExcitation();
-  for (RecursiveEstimator* estimator : {static_cast<RecursiveEstimator*>(&least_squares_),
-                                        static_cast<RecursiveEstimator*>(&least_absolute_)}) {
+  for (RecursiveEstimator* estimator :
+       {static_cast<RecursiveEstimator*>(&least_squares_), static_cast<RecursiveEstimator*>(&least_absolute_)}) {
     estimator->interrupt();
     estimator->hold(kDampingToMass, !damping);
     estimator->hold(kStiffnessToMass, !stiffness);
@@ -176,7 +177,8 @@ void ModelTracker::describe(ModelReport& report) const {
 }
 
 void ModelTracker::describeSpreads(ModelReport& report) const {
-  // LA's residuals, which outliers hardly touch; for a normal distribution the variance is pi/2 times their mean squared.
+  // LA's residuals, which outliers hardly touch; for a normal distribution the variance is pi/2 times their mean
+  // squared.
   const double size = least_absolute_.usualResidual();
   const Eigen::Vector2d strut(report.la.damping_to_mass, report.la.stiffness_to_mass);
   const Eigen::Vector2d moment = noise_.moment(strut, 0.5 * kPi * size * size);
@@ -196,7 +198,8 @@ EstimateDoubt ModelTracker::doubt(const StrutEstimate& estimate) const {
   if (excitation_doubt_ != EstimateDoubt::kNone) return excitation_doubt_;
   if (!(estimate.explained >= min_explained_)) return EstimateDoubt::kNotExplained;
   if (!(estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0)) return EstimateDoubt::kNotAStrut;
-  if (!std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev)) return EstimateDoubt::kNoSpread;
+  if (!std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev))
+    return EstimateDoubt::kNoSpread;
   return EstimateDoubt::kNone;
 }
 

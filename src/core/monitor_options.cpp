@@ -7,8 +7,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kDefaultHorizon = 0.6;  // [s], the paper's
-constexpr int kMostSamples = 100000;  // as of horizon_samples
+constexpr double kDefaultHorizon = 0.6;    // [s], the paper's
+constexpr int kMostSamples = 100000;       // as of horizon_samples
 constexpr int kUpdatesPerTwoHorizons = 3;  // of health: rows within a horizon share most of their samples
 
 }  // namespace
@@ -40,9 +40,9 @@ IntegralFilterOptions MonitorOptions::filter(double period) const {
     HorizonIntegral(filter.horizon_samples, filter.period, filter.rule);
   } catch (const std::invalid_argument& error) {
     if (horizon_samples) throw;  // the user's own words
-    throw std::invalid_argument("integration_horizon = " +
-                                std::to_string(integration_horizon.value_or(kDefaultHorizon)) +
-                                " [s] with sample_period = " + std::to_string(period) + " [s] makes " + error.what());
+    throw std::invalid_argument(
+        "integration_horizon = " + std::to_string(integration_horizon.value_or(kDefaultHorizon)) +
+        " [s] with sample_period = " + std::to_string(period) + " [s] makes " + error.what());
   }
   return filter;
 }

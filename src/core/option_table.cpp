@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/option_table.h"
 
 #include <boost/lexical_cast/try_lexical_convert.hpp>
-
 #include <cmath>
 #include <limits>
 #include <sstream>

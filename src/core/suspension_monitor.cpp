@@ -27,8 +27,8 @@ SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
       horizon_samples_(options.horizonSamples(*options.sample_period)),
       plain_(options),
       health_(options.health(*options.sample_period)),
-      sensors_(options.gravity_tolerance, options.comparison_window / *options.sample_period /
-                                              health_.options().rows_per_update),
+      sensors_(options.gravity_tolerance,
+               options.comparison_window / *options.sample_period / health_.options().rows_per_update),
       until_judged_(health_.options().rows_per_update) {}
 
 void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
@@ -131,11 +131,8 @@ bool SuspensionMonitor::continues(Stamp stamp) {
   }
   const Stamp spacing = stamp - *last_stamp_;
   switch (continuity(spacing, period_)) {
-    case Continuity::kTooSoon:
-      rejected_.add(RejectReason::kTooSoon);
-      return false;
-    case Continuity::kContinues:
-      break;
+    case Continuity::kTooSoon: rejected_.add(RejectReason::kTooSoon); return false;
+    case Continuity::kContinues: break;
     case Continuity::kGap:
       ++input_.gaps;
       startNewSeries(stamp);

@@ -17,9 +17,7 @@ const ros::WallDuration kTick(0.1);
 const ros::WallDuration kPublishing(1.0);
 constexpr std::array<const char*, 5> kVerdictNames{"cannot tell", "alike", "load", "damper", "spring"};
 
-std::optional<double> known(double value) {
-  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
-}
+std::optional<double> known(double value) { return std::isfinite(value) ? std::optional<double>(value) : std::nullopt; }
 
 bool sameVerdict(const CornerComparisonReport& a, const CornerComparisonReport& b) {
   return a.level == b.level && a.verdicts == b.verdicts;
@@ -50,8 +48,8 @@ void CornersNodelet::onInit() {
 void CornersNodelet::subscribe() {
   for (std::size_t i = 0; i < kNumCorners; ++i) {
     const std::string name(kCornerNames[i]);
-    subscribers_.push_back(node_.subscribe<ParameterEstimate>(
-        name + "/la", 1, [this, i](const ParameterEstimateConstPtr& estimate) {
+    subscribers_.push_back(
+        node_.subscribe<ParameterEstimate>(name + "/la", 1, [this, i](const ParameterEstimateConstPtr& estimate) {
           corners_[i].estimate = estimate;
           corners_[i].last = ros::WallTime::now();
         }));

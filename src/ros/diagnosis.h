@@ -12,7 +12,7 @@ namespace suspension_health_monitor {
 struct SearchTask {
   DriveSamples samples;
   std::vector<BodyMotion> body;  ///< what else the body's IMU measured meanwhile
-  MonitorOptions options;  ///< with sample_period given
+  MonitorOptions options;        ///< with sample_period given
   EffectLibrary library;
   std::optional<StrutModel> model;  ///< whose effects stay; nothing: the linear strut
 };

@@ -33,7 +33,8 @@ std::string withoutSlash(const std::string& frame) {
 ImuMount::ImuMount(const std::string& axis, const std::string& target_frame, const std::optional<double>& range,
                    const tf2::BufferCore* transforms)
     : axes_{}, target_frame_(withoutSlash(target_frame)), range_(range), transforms_(transforms) {
-  // The other two axes in turn, so that they and the upward one are right-handed; turned over, the second changes sides.
+  // The other two axes in turn, so that they and the upward one are right-handed; turned over, the second changes
+  // sides.
   const auto up = static_cast<std::size_t>(axis.back() - 'x');
   const double sign = axis.front() == '-' ? -1.0 : 1.0;
   axes_[0][(up + 1) % 3] = 1.0;

@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "shell_options.h"
-#include "suspension_health_monitor/signal/alignment.h"
 #include "suspension_health_monitor/discrepancy/body_motion.h"
+#include "suspension_health_monitor/signal/alignment.h"
 #include "suspension_health_monitor/signal/reject_reason.h"
 
 namespace suspension_health_monitor {
@@ -31,8 +31,8 @@ class ImuMount {
   /// The mounts of sprung and unsprung IMU.
   static std::array<ImuMount, kMostStreams> of(const ShellOptions& options, const tf2::BufferCore* transforms);
 
-  /// @return acceleration along the strut, gravity included as measured [m/s^2]; or why there is none: kNotMeasured (the
-  /// message says so: covariance -1, sensor_msgs/Imu), kNoTransform, kClipped.
+  /// @return acceleration along the strut, gravity included as measured [m/s^2]; or why there is none: kNotMeasured
+  /// (the message says so: covariance -1, sensor_msgs/Imu), kNoTransform, kClipped.
   std::variant<double, RejectReason> acceleration(const sensor_msgs::Imu& imu);
 
   /// @return what the IMU measures across the strut; NaN what it says it does not measure.

@@ -71,8 +71,7 @@ void InputDiagnostics::describeSeries(const SuspensionMonitor& monitor, Status& 
   const InputStatus& input = monitor.input();
   if (input.gaps + input.restarts > gaps_before_) status.mergeSummary(DiagnosticStatus::WARN, "gap in the input");
   gaps_before_ = input.gaps + input.restarts;
-  if (!input.period_fits)
-    status.mergeSummary(DiagnosticStatus::WARN, "stamps do not fit sample_period");
+  if (!input.period_fits) status.mergeSummary(DiagnosticStatus::WARN, "stamps do not fit sample_period");
   status.addf("rate [Hz]", "%.4g", input.mean_period > 0.0 ? 1.0 / input.mean_period : 0.0);
   status.addf("sample_period [s]", "%.9g", monitor.period());
   status.addf("horizon_samples", "%d", monitor.horizonSamples());
@@ -125,8 +124,8 @@ void InputDiagnostics::describeTransforms(const ImuPipeline& pipeline, Status& s
                                                        options_.target_frame + " (/tf_static)");
 }
 
-// Silent by the clock that stamps the data and by the wall clock: the one stands still while a simulation is paused, the
-// other runs ahead of a replay that is slower than life.
+// Silent by the clock that stamps the data and by the wall clock: the one stands still while a simulation is paused,
+// the other runs ahead of a replay that is slower than life.
 void InputDiagnostics::describeSilence(Status& status) const {
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const std::optional<Arrivals>& arrivals = arrivals_[i];

@@ -73,8 +73,7 @@ LiveModel::LiveModel(const ShellOptions& options) : model_file_(options.model_fi
   for (const ActiveEffect& active : effects_) names.push_back(active.effect.name);
   for (const std::string& name : split(options.effects))
     if (find(effects_, name) == nullptr) names.push_back(name);
-  named("effects = \"" + options.effects + "\": ",
-        [&] { effects_ = choose(names, {}, [] { return std::nullopt; }); });
+  named("effects = \"" + options.effects + "\": ", [&] { effects_ = choose(names, {}, [] { return std::nullopt; }); });
 }
 
 const ActiveEffect* LiveModel::known(const std::string& name) const {

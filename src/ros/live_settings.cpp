@@ -72,12 +72,10 @@ dynamic_reconfigure::ConfigDescription describeAll() {
 }  // namespace
 
 LiveSettings::LiveSettings(const PipelineOptions& options) {
-  forEachLive(kMonitorFields, [&](const auto& field, auto member) {
-    values_[std::string(field.name)] = options.monitor.*member;
-  });
-  forEachLive(kShellFields, [&](const auto& field, auto member) {
-    values_[std::string(field.name)] = options.shell.*member;
-  });
+  forEachLive(kMonitorFields,
+              [&](const auto& field, auto member) { values_[std::string(field.name)] = options.monitor.*member; });
+  forEachLive(kShellFields,
+              [&](const auto& field, auto member) { values_[std::string(field.name)] = options.shell.*member; });
 }
 
 PipelineOptions LiveSettings::appliedTo(PipelineOptions options) const {

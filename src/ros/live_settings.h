@@ -33,7 +33,8 @@ class LiveSettings {
   static const LiveSettings& __getMin__();
   static const LiveSettings& __getMax__();
   static const LiveSettings& __getDefault__();
-  void __fromServer__(const ros::NodeHandle& node);  ///< @throws std::invalid_argument  as PipelineOptions::fromValues()
+  void __fromServer__(
+      const ros::NodeHandle& node);  ///< @throws std::invalid_argument  as PipelineOptions::fromValues()
   void __toServer__(const ros::NodeHandle& node) const;
   bool __fromMessage__(const dynamic_reconfigure::Config& message);  ///< what the message lacks stays
   void __toMessage__(dynamic_reconfigure::Config& message) const;

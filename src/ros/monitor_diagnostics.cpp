@@ -26,8 +26,7 @@ void addJudgement(diagnostic_updater::DiagnosticStatusWrapper& status, const std
 
 MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                        const std::string& name, const ShellOptions& options,
-                                       const std::array<ros::Subscriber, 2>& imu,
-                                       const LiveModel& model)
+                                       const std::array<ros::Subscriber, 2>& imu, const LiveModel& model)
     : input_timeout_(options.input_timeout), input_(options, imu), model_(model), updater_(node, private_node, name) {
   updater_.setHardwareID(options.hardware_id);
   updater_.add("Input", [this](Status& status) { input_.describe(*pipeline_, status); });
@@ -71,7 +70,8 @@ void MonitorDiagnostics::describeHealth(Status& status) {
   status.add("sensor fault", describe(report.health.sensor));
 }
 
-// A level is one of the newest readings; once they are old, nobody knows it. A clock that stands still makes nothing old.
+// A level is one of the newest readings; once they are old, nobody knows it. A clock that stands still makes nothing
+// old.
 void MonitorDiagnostics::describeSilence(const SuspensionMonitor& monitor, Status& status) {
   const ros::Time now = ros::Time::now();
   const std::uint64_t samples = monitor.input().samples;

@@ -1,8 +1,7 @@
 #include "monitor_nodelet.h"
 
-#include <pluginlib/class_list_macros.hpp>
-
 #include <cmath>
+#include <pluginlib/class_list_macros.hpp>
 
 #include "conversions.h"
 #include "parameters.h"
@@ -15,8 +14,7 @@ LiveModel::Shapes shapesOf(const SetEffectsRequest& request) {
     throw std::invalid_argument(std::to_string(request.shape_values.size()) + " shape_values, must be as many as " +
                                 "shape_names: " + std::to_string(request.shape_names.size()));
   LiveModel::Shapes shapes;
-  for (std::size_t i = 0; i < request.shape_names.size(); ++i)
-    shapes[request.shape_names[i]] = request.shape_values[i];
+  for (std::size_t i = 0; i < request.shape_names.size(); ++i) shapes[request.shape_names[i]] = request.shape_values[i];
   return shapes;
 }
 
@@ -64,7 +62,8 @@ void MonitorNodelet::start() {
 }
 
 void MonitorNodelet::makePipeline() {
-  pipeline_.emplace(options_, [this](const MonitorReport& report) { publish(report); }, &transforms_);
+  pipeline_.emplace(
+      options_, [this](const MonitorReport& report) { publish(report); }, &transforms_);
   pipeline_->setEffects(model_->effects());
   if (baseline_->known()) pipeline_->setBaseline(*baseline_->known());
   pipeline_->keepSamples(options_.shell.diagnose_window);
@@ -151,8 +150,7 @@ void MonitorNodelet::publish(const MonitorReport& report) {
   const std::vector<ActiveEffect>& effects = pipeline_->monitor()->effects();
   send(ls_, [&] { return toMsg(report.ls, "ls", header, effects, mass); });
   send(la_, [&] { return toMsg(report.la, "la", header, effects, mass); });
-  if (report.comparison.has_sample)
-    send(comparison_, [&] { return toMsg(report.comparison, header.frame_id); });
+  if (report.comparison.has_sample) send(comparison_, [&] { return toMsg(report.comparison, header.frame_id); });
   if (tyre_) tyre_->publish(*pipeline_->tyre(), report.la, header);
   send(health_, [&] { return toMsg(report, pipeline_->monitor()->baseline(), header); });
 }
@@ -236,8 +234,8 @@ SearchTask MonitorNodelet::giveSamples(double window) const {
   const SuspensionMonitor* monitor = pipeline_->monitor();
   if (monitor == nullptr) throw std::runtime_error("the sample period is still being measured: drive on");
   const double span = window > 0.0 ? window : kept;
-  SearchTask task{pipeline_->newestSamples(span), pipeline_->newestBodyMotion(span), monitor->options(),
-                  model_->library(), {}};
+  SearchTask task{
+      pipeline_->newestSamples(span), pipeline_->newestBodyMotion(span), monitor->options(), model_->library(), {}};
   const StrutEstimate& la = monitor->report().la;
   if (!model_->effects().empty() && la.valid)
     task.model = StrutModel{la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}};

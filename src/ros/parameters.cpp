@@ -27,23 +27,12 @@ void flatten(const std::string& name, XmlRpc::XmlRpcValue& value, OptionMap& res
     case XmlRpc::XmlRpcValue::TypeStruct:
       for (auto& [key, nested] : value) flatten(name.empty() ? key : name + '/' + key, nested, result);
       break;
-    case XmlRpc::XmlRpcValue::TypeBoolean:
-      result[name] = static_cast<bool>(value);
-      break;
-    case XmlRpc::XmlRpcValue::TypeInt:
-      result[name] = static_cast<int>(value);
-      break;
-    case XmlRpc::XmlRpcValue::TypeDouble:
-      result[name] = static_cast<double>(value);
-      break;
-    case XmlRpc::XmlRpcValue::TypeString:
-      result[name] = static_cast<std::string>(value);
-      break;
-    case XmlRpc::XmlRpcValue::TypeArray:
-      result[name] = toValue(value);
-      break;
-    default:
-      throw std::invalid_argument(name + " is a date or binary, must be true or false, a number or a text");
+    case XmlRpc::XmlRpcValue::TypeBoolean: result[name] = static_cast<bool>(value); break;
+    case XmlRpc::XmlRpcValue::TypeInt: result[name] = static_cast<int>(value); break;
+    case XmlRpc::XmlRpcValue::TypeDouble: result[name] = static_cast<double>(value); break;
+    case XmlRpc::XmlRpcValue::TypeString: result[name] = static_cast<std::string>(value); break;
+    case XmlRpc::XmlRpcValue::TypeArray: result[name] = toValue(value); break;
+    default: throw std::invalid_argument(name + " is a date or binary, must be true or false, a number or a text");
   }
 }
 

@@ -11,7 +11,8 @@
 namespace suspension_health_monitor {
 
 /// Has work done by the thread of a callback queue.
-/// @param owner  to take it out again by, CallbackQueueInterface::removeByID(); its future then throws std::future_error.
+/// @param owner  to take it out again by, CallbackQueueInterface::removeByID(); its future then throws
+/// std::future_error.
 /// @return what the work returns or throws.
 template <class Result>
 std::future<Result> addWork(ros::CallbackQueueInterface& queue, std::function<Result()> work, std::uint64_t owner) {

@@ -1,5 +1,6 @@
 #include "nodelet_as_node.h"
 
 int main(int argc, char** argv) {
-  return suspension_health_monitor::runNodeletAsNode(argc, argv, "simulator", "suspension_health_monitor/SimulatorNodelet");
+  return suspension_health_monitor::runNodeletAsNode(argc, argv, "simulator",
+                                                     "suspension_health_monitor/SimulatorNodelet");
 }

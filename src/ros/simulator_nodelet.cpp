@@ -35,9 +35,9 @@ void SimulatorNodelet::onInit() {
   if (options.publishing.road_imu) road_ = node.advertise<sensor_msgs::Imu>("road/imu", kQueueSize);
   truth_ = private_node.advertise<SimulationTruth>("truth", kQueueSize);
   if (options.publishing.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize);
-  pace_ = node.subscribe<ParameterEstimate>(
-      "pace", kQueueSize,
-      [this](const ParameterEstimateConstPtr& estimate) { paced_until_ = estimate->header.stamp.toSec(); });
+  pace_ = node.subscribe<ParameterEstimate>("pace", kQueueSize, [this](const ParameterEstimateConstPtr& estimate) {
+    paced_until_ = estimate->header.stamp.toSec();
+  });
   thread_ = std::thread(&SimulatorNodelet::drive, this, options);
 }
 

@@ -7,9 +7,9 @@ namespace suspension_health_monitor {
 
 /// A file that appears under its name whole or not at all: it is written beside it and renamed by commit().
 /// Without commit() (an error on the way) nothing is left, and a file that was there before stays as it was.
-/// A process that is killed leaves the file under its name as it was, and its unfinished one beside it, which is removed
-/// when that file is written next. After commit() the content outlives a loss of power, too.
-/// A link stays a link; what is no regular file (a pipe, /dev/null) is written to as it is.
+/// A process that is killed leaves the file under its name as it was, and its unfinished one beside it, which is
+/// removed when that file is written next. After commit() the content outlives a loss of power, too. A link stays a
+/// link; what is no regular file (a pipe, /dev/null) is written to as it is.
 class WholeFile {
  public:
   /// @throws std::runtime_error  naming the file, if it cannot be written.

@@ -15,8 +15,8 @@ struct BagDrives {
 };
 
 /// @param model  where to start; without it b1 and b0 by least squares over all bags.
-/// @throws InputError, TooLittleError  as readSamples(), if the drives show no damped spring, and if the body's IMU does
-/// not measure what the model needs.
+/// @throws InputError, TooLittleError  as readSamples(), if the drives show no damped spring, and if the body's IMU
+/// does not measure what the model needs.
 BagDrives readDrives(const BagOptions& options, const std::optional<StrutModel>& model);
 
 }  // namespace suspension_health_monitor

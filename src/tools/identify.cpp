@@ -123,18 +123,18 @@ void writeJson(std::FILE* out, const ImuPipeline& pipeline) {
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     rejected[std::string(kRejectReasonNames[i])] = counts.count(static_cast<RejectReason>(i));
   nlohmann::json result{{"samples", monitor.input().samples},
-                              {"rows", monitor.input().rows},
-                              {"gaps", monitor.input().gaps},
-                              {"clock_jumps", monitor.input().restarts},
-                              {"alignment", pipeline.grid()->describeAlignment()},
-                              {"bridged", pipeline.grid()->bridged()},
-                              {"rejected", rejected},
-                              {"sample_period", monitor.period()},
-                              {"mean_period", monitor.input().mean_period},
-                              {"warnings", nlohmann::json::array()},
-                              {"horizon_samples", monitor.horizonSamples()},
-                              {"ls", toJson(monitor.report().ls)},
-                              {"la", toJson(monitor.report().la)}};
+                        {"rows", monitor.input().rows},
+                        {"gaps", monitor.input().gaps},
+                        {"clock_jumps", monitor.input().restarts},
+                        {"alignment", pipeline.grid()->describeAlignment()},
+                        {"bridged", pipeline.grid()->bridged()},
+                        {"rejected", rejected},
+                        {"sample_period", monitor.period()},
+                        {"mean_period", monitor.input().mean_period},
+                        {"warnings", nlohmann::json::array()},
+                        {"horizon_samples", monitor.horizonSamples()},
+                        {"ls", toJson(monitor.report().ls)},
+                        {"la", toJson(monitor.report().la)}};
   if (const auto warning = periodWarning(monitor)) result["warnings"].push_back(*warning);
   if (const TyreTracker* tyre = pipeline.tyre())
     result["tyre"] = {{"ls", toJson(tyre->report().ls, monitor.report().ls)},
@@ -150,8 +150,7 @@ void printInput(const ImuPipeline& pipeline, const BagOptions& options) {
               monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
   std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
               input.rows, input.gaps, input.restarts);
-  if (pipeline.grid()->resamples())
-    std::printf(", bridged %" PRIu64, pipeline.grid()->bridged());
+  if (pipeline.grid()->resamples()) std::printf(", bridged %" PRIu64, pipeline.grid()->bridged());
   const RejectCounts rejected = pipeline.rejected();
   if (rejected.total() == 0) std::printf(", rejected 0");
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
@@ -200,12 +199,15 @@ void identify(const Arguments& arguments) {
   RowTable table(csv ? csv->stream() : nullptr);
   Digest digest;
   bool ever_valid = false;
-  ImuPipeline pipeline(options.pipeline, [&](const MonitorReport& report) {
-    table.add(report);
-    if (!report.has_row) return;
-    ever_valid = ever_valid || report.la.valid || report.ls.valid;
-    digest.add(report);
-  }, options.bags.transforms.get());
+  ImuPipeline pipeline(
+      options.pipeline,
+      [&](const MonitorReport& report) {
+        table.add(report);
+        if (!report.has_row) return;
+        ever_valid = ever_valid || report.la.valid || report.ls.valid;
+        digest.add(report);
+      },
+      options.bags.transforms.get());
   pipeline.setEffects(model.effects());
   readImuMessages(options.bags, [&](Side side, const sensor_msgs::Imu& imu) {
     pipeline.push(side, imu);

@@ -61,14 +61,13 @@ void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstim
     std::printf("%s: nothing is known of the wheel%s\n", name, doubt);
     return;
   }
-  std::printf("%s: damping/wheel mass %s +- %s 1/s, stiffness/wheel mass %s +- %s 1/s^2, tyre/wheel mass %s +- %s 1/s^2, "
-              "%s%s\n",
-              name, cell(0, 4, estimate.damping_to_wheel_mass).c_str(),
-              cell(0, 4, estimate.damping_to_wheel_mass_stddev).c_str(),
-              cell(0, 2, estimate.stiffness_to_wheel_mass).c_str(),
-              cell(0, 2, estimate.stiffness_to_wheel_mass_stddev).c_str(),
-              cell(0, 2, estimate.tyre_to_wheel_mass).c_str(), cell(0, 2, estimate.tyre_to_wheel_mass_stddev).c_str(),
-              describeHop(estimate).c_str(), doubt);
+  std::printf(
+      "%s: damping/wheel mass %s +- %s 1/s, stiffness/wheel mass %s +- %s 1/s^2, tyre/wheel mass %s +- %s 1/s^2, "
+      "%s%s\n",
+      name, cell(0, 4, estimate.damping_to_wheel_mass).c_str(),
+      cell(0, 4, estimate.damping_to_wheel_mass_stddev).c_str(), cell(0, 2, estimate.stiffness_to_wheel_mass).c_str(),
+      cell(0, 2, estimate.stiffness_to_wheel_mass_stddev).c_str(), cell(0, 2, estimate.tyre_to_wheel_mass).c_str(),
+      cell(0, 2, estimate.tyre_to_wheel_mass_stddev).c_str(), describeHop(estimate).c_str(), doubt);
   if (const auto ratio = massRatio(strut, estimate)) std::printf("    wheel mass / body mass %.4f\n", *ratio);
 }
 

@@ -18,7 +18,7 @@ namespace suspension_health_monitor {
 struct ImuBags {
   std::vector<std::string> paths;
   std::vector<std::string> topics;  ///< by Side; the road's may be left out
-  double start = 0.0;                 ///< seconds after the beginning of each bag
+  double start = 0.0;               ///< seconds after the beginning of each bag
   double end = std::numeric_limits<double>::infinity();
   std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted
 };

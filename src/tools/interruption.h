@@ -15,9 +15,8 @@ struct Interrupted {
 };
 
 /// Made before a file is begun. While it lives, a signal that asks the program to end is only noted, and check() throws
-/// it out of the loop that does the work, so that unfinished files are removed on the way. A second one ends the program
-/// at once.
-/// What the parent has ignored (nohup) stays ignored. One at a time.
+/// it out of the loop that does the work, so that unfinished files are removed on the way. A second one ends the
+/// program at once. What the parent has ignored (nohup) stays ignored. One at a time.
 class Interruption {
  public:
   Interruption();

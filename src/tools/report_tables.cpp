@@ -58,8 +58,7 @@ json effectsJson(const EffectLibrary& library) {
     json numbers = json::array({{{"key", effect.name}, {"symbol", "c"}, {"unit", effect.unit}}});
     for (const ShapeParameter& shape : effect.shapes)
       numbers.push_back({{"key", effect.name + '/' + shape.name}, {"symbol", shape.name}, {"unit", shape.unit}});
-    effects[effect.name] = {
-        {"law", effect.law}, {"finding", effect.finding}, {"numbers", numbers}, {"kind", "force"}};
+    effects[effect.name] = {{"law", effect.law}, {"finding", effect.finding}, {"numbers", numbers}, {"kind", "force"}};
   }
   for (const MeasurementEffect& effect : library.readings) {
     json numbers = json::array();

@@ -29,12 +29,9 @@ json shortened(const std::vector<double>& values) {
 
 json axisOf(ForceVariable variable) {
   switch (variable) {
-    case ForceVariable::kTravel:
-      return {{"title", "travel"}, {"unit", "m"}};
-    case ForceVariable::kTravelRate:
-      return {{"title", "travel rate"}, {"unit", "m/s"}};
-    case ForceVariable::kTime:
-      break;
+    case ForceVariable::kTravel: return {{"title", "travel"}, {"unit", "m"}};
+    case ForceVariable::kTravelRate: return {{"title", "travel rate"}, {"unit", "m/s"}};
+    case ForceVariable::kTime: break;
   }
   return {{"title", "time"}, {"unit", "s"}};
 }
@@ -60,8 +57,7 @@ json mapOf(const ForceSurface& surface) {
     errors.push_back(error);
     counts.push_back(count);
   }
-  map.update(
-      {{"mean", means}, {"standard_error", errors}, {"count", counts}});
+  map.update({{"mean", means}, {"standard_error", errors}, {"count", counts}});
   return map;
 }
 

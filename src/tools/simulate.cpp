@@ -83,7 +83,7 @@ void simulate(const Arguments& arguments) {
   requireSeparateFiles(*values, {"config", "effects-file"}, {"output"});
   OptionMap settings =
       gatherOptions((*values)["config"].as<std::string>(), (*values)["set"].as<std::vector<std::string>>());
-  for (const std::string& effect : (*values)["effect"].as<std::vector<std::string>>()) 
+  for (const std::string& effect : (*values)["effect"].as<std::vector<std::string>>())
     setEffect(settings, effect, measurementEffects());
   for (const char* flag : kFlags)
     if (values->count(flag) != 0) settings[flag] = (*values)[flag].as<std::string>();

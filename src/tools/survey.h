@@ -10,8 +10,8 @@ namespace suspension_health_monitor {
 /// @throws InputError  as readImuMessages().  @throws TooLittleError  if there are too few messages to tell.
 void measureOpenSettings(const ImuBags& bags, PipelineOptions& options);
 
-/// @throws std::invalid_argument  if sample_period is so far below the spacing of the stamps at the beginning of the bags
-/// that nearly all samples would be made up. Bags whose stamps tell no spacing are left to what reads them.
+/// @throws std::invalid_argument  if sample_period is so far below the spacing of the stamps at the beginning of the
+/// bags that nearly all samples would be made up. Bags whose stamps tell no spacing are left to what reads them.
 void requireFittingPeriod(const ImuBags& bags, double sample_period);
 
 }  // namespace suspension_health_monitor

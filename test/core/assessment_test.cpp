@@ -127,7 +127,8 @@ TEST(HealthAssessment, NewLevelMustLastForTheConfirmTime) {
 TEST(HealthAssessment, NoiseAtAThresholdHidesNothing) {
   HealthAssessment assessment(options());
   const auto alternate = [&](double first, double change, double other_change) {
-    for (int k = 0; k <= 60; ++k) update(assessment, at(first + 0.02 * k), estimate(k % 2 ? change : other_change, 0.0));
+    for (int k = 0; k <= 60; ++k)
+      update(assessment, at(first + 0.02 * k), estimate(k % 2 ? change : other_change, 0.0));
     return assessment.report().level;
   };
   EXPECT_EQ(alternate(0.0, 0.0, 0.0), HealthLevel::kOk);
@@ -160,9 +161,9 @@ TEST(HealthAssessment, AChangeThatIsNotSignificantIsNone) {
     vague.damping_to_mass_stddev = relative_stddev * vague.damping_to_mass;
     return judged(vague).level;
   };
-  EXPECT_EQ(levelWith(0.05), HealthLevel::kWarn);    // 4.5 sigma
-  EXPECT_EQ(levelWith(0.06), HealthLevel::kOk);      // 3.7 sigma
-  EXPECT_EQ(levelWith(0.08), HealthLevel::kStale);   // 30 % would not be 4 sigma
+  EXPECT_EQ(levelWith(0.05), HealthLevel::kWarn);   // 4.5 sigma
+  EXPECT_EQ(levelWith(0.06), HealthLevel::kOk);     // 3.7 sigma
+  EXPECT_EQ(levelWith(0.08), HealthLevel::kStale);  // 30 % would not be 4 sigma
   vague.damping_to_mass_stddev = 0.08 * vague.damping_to_mass;
   EXPECT_NE(describe(judged(vague)).find("too uncertain"), std::string::npos);
   HealthAssessment by_baseline(options());  // the baseline's own uncertainty counts as well
@@ -216,8 +217,7 @@ TEST(HealthReport, SaysInOneSentenceWhatChanged) {
   EXPECT_EQ(describe(judged(estimate(-0.31, -0.16), only_stiffness)), "stiffness 16 % below nominal");
   HealthOptions nothing;
   nothing.learn_time = 0.0;
-  EXPECT_EQ(describe(judged(estimate(0.0, 0.0), nothing)),
-            "estimates valid; no nominal values given to judge them by");
+  EXPECT_EQ(describe(judged(estimate(0.0, 0.0), nothing)), "estimates valid; no nominal values given to judge them by");
   EXPECT_EQ(describe(HealthReport{}), "cannot tell: the filter is filling after a start or a gap");
 }
 

@@ -61,8 +61,8 @@ TEST(BandlimitedInterpolator, IntegralIsThatOfASine) {
         const std::vector<double> samples = sineAround(omega, phase);
         const double at_from = omega * from + phase, at_to = omega * to + phase;
         const double once = (std::cos(at_from) - std::cos(at_to)) / omega;
-        const double weighted = (to - from) * std::cos(at_from) / omega -
-                                (std::sin(at_to) - std::sin(at_from)) / (omega * omega);
+        const double weighted =
+            (to - from) * std::cos(at_from) / omega - (std::sin(at_to) - std::sin(at_from)) / (omega * omega);
         EXPECT_NEAR(BandlimitedInterpolator::integral(from, to, 0)(samples.data()), once, 2e-4) << omega;
         EXPECT_NEAR(BandlimitedInterpolator::integral(from, to, 1)(samples.data()), weighted, 1e-4) << omega;
       }

@@ -1,5 +1,7 @@
 #include "suspension_health_monitor/identification/batch_estimators.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,8 +9,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "paper_drive.h"
 #include "random_rows.h"

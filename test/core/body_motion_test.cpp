@@ -20,7 +20,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 DriveRecord makeRecord() {
   DriveRecord record(kPeriod, 1);
-  for (int k = 0; k < kSamples; ++k) record.push({fromSeconds(5.0 + k * kPeriod), std::sin(0.3 * k), std::cos(0.2 * k)});
+  for (int k = 0; k < kSamples; ++k)
+    record.push({fromSeconds(5.0 + k * kPeriod), std::sin(0.3 * k), std::cos(0.2 * k)});
   record.finish();
   return record;
 }
@@ -70,8 +71,9 @@ TEST(BodyMotion, AccelerationsComeToTheSamplesWithoutTheirMean) {
 }
 
 TEST(BodyMotion, AngularAccelerationIsTheRatesDerivative) {
-  const DriveRecord record =
-      withBody([](double t) { return BodyMotion{{}, {}, {std::sin(5.0 * t), 0.2 * std::cos(8.0 * t)}}; });
+  const DriveRecord record = withBody([](double t) {
+    return BodyMotion{{}, {}, {std::sin(5.0 * t), 0.2 * std::cos(8.0 * t)}};
+  });
   const std::vector<double>& x = channel(record, BodyChannel::kAngularAccelerationX);
   const std::vector<double>& y = channel(record, BodyChannel::kAngularAccelerationY);
   ASSERT_EQ(x.size(), record.segments()[0].size());
@@ -84,8 +86,9 @@ TEST(BodyMotion, AngularAccelerationIsTheRatesDerivative) {
 TEST(BodyMotion, NoiseOfTheRateIsSmoothedAway) {
   std::mt19937 random(3);
   std::normal_distribution<double> noise(0.0, 0.002);
-  const DriveRecord record =
-      withBody([&](double t) { return BodyMotion{{}, {}, {0.1 * std::sin(8.0 * t) + noise(random), noise(random)}}; });
+  const DriveRecord record = withBody([&](double t) {
+    return BodyMotion{{}, {}, {0.1 * std::sin(8.0 * t) + noise(random), noise(random)}};
+  });
   const std::vector<double>& x = channel(record, BodyChannel::kAngularAccelerationX);
   double square = 0.0;
   for (std::size_t k = 0; k < x.size(); ++k) square += std::pow(x[k] - 0.8 * std::cos(8.0 * timeOf(k)), 2);

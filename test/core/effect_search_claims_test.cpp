@@ -107,7 +107,8 @@ TEST(EffectSearch, NamesTheCubicSpringOfAnOscillatorThatIsNoVehicle) {
   const ActiveEffect& spring = result.final_fit->model.effects.at(0);
   EXPECT_NEAR(spring.shapes.at(0), 3.0, 0.1);
   const double size = 0.1;  // where forces are compared: c and p alone trade for one another
-  EXPECT_NEAR(spring.coefficient * std::pow(size, spring.shapes[0]) / (Oscillator::kCubic * std::pow(size, 3)), 1.0, 0.1);
+  EXPECT_NEAR(spring.coefficient * std::pow(size, spring.shapes[0]) / (Oscillator::kCubic * std::pow(size, 3)), 1.0,
+              0.1);
 }
 
 TEST(EffectSearch, ReconsidersTheFirstEffectWhenTheSecondIsKnown) {

@@ -1,10 +1,10 @@
 // Whether rows tell of either parameter, by rows of noise.
-#include "suspension_health_monitor/identification/excitation.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
 #include <utility>
+
+#include "suspension_health_monitor/identification/excitation.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPeriod = 0.02;  // [s]
 constexpr double kB1 = 3.0, kB0 = 13.8;
-constexpr int kDay = 24 * 3600;   // rows, at one a second instead of 50: the law counts rows
+constexpr int kDay = 24 * 3600;  // rows, at one a second instead of 50: the law counts rows
 
 // A strut over a wheel whose height is given, and sensors with noise.
 class Strut {
@@ -276,9 +276,8 @@ TEST(Excitation, OfSlowHeaveReachesTheStiffnessOnlyAndLeavesTheDampingWhatItWas)
   const double start = strut.time();
   strut.b0 = 0.8 * kB0;
   const int rows = 15000;
-  const int held = strut.drive(rows, [=](double t) {
-    return 1.3 * std::min(1.0, (t - start) / 30.0) * std::sin(0.6 * (t - start));
-  });
+  const int held = strut.drive(
+      rows, [=](double t) { return 1.3 * std::min(1.0, (t - start) / 30.0) * std::sin(0.6 * (t - start)); });
   EXPECT_GT(held, rows * 0.8);
   EXPECT_NEAR(strut.la().stiffness_to_mass, 0.8 * kB0, 0.1 * kB0);
   EXPECT_NEAR(strut.la().damping_to_mass, damping, 0.1 * damping);

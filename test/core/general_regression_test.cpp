@@ -1,10 +1,10 @@
 #include "suspension_health_monitor/identification/general_regression.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <complex>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "paper_drive.h"
 #include "random_rows.h"

@@ -27,8 +27,8 @@ HealthReport healthAfter(const std::vector<CornerSample>& drive, const MonitorOp
 }
 
 // The damping falls from 3 to 2 1/s between 40 s and 100 s: -15 % at 67 s, -30 % at 94 s. An estimate that scatters by
-// 1 % of a parameter that falls by 0.55 % a second moves the time by 2 s: doc/health.md has more drives. Of paper_outliers
-// a second without readings ends a second before the warning is due: 5 s of readings are 6 s there.
+// 1 % of a parameter that falls by 0.55 % a second moves the time by 2 s: doc/health.md has more drives. Of
+// paper_outliers a second without readings ends a second before the warning is due: 5 s of readings are 6 s there.
 TEST(Health, WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp) {
   for (const auto& [scenario, warn_within] : {std::pair("paper_clean", 5.0), std::pair("paper_outliers", 6.0)})
     for (int seed = 1; seed <= 15; ++seed) {
@@ -44,7 +44,8 @@ TEST(Health, WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp) {
     }
 }
 
-// Neither trend may carry a small step on into a large one: by 3 % at most, and the line itself overshoots by a seventh.
+// Neither trend may carry a small step on into a large one: by 3 % at most, and the line itself overshoots by a
+// seventh.
 TEST(Health, ASmallStepDoesNotLookLarge) {
   for (const auto& [left, level] : {std::pair(0.92, HealthLevel::kOk), std::pair(0.8, HealthLevel::kWarn)})
     for (int seed = 1; seed <= 5; ++seed) {
@@ -59,8 +60,8 @@ TEST(Health, ASmallStepDoesNotLookLarge) {
     }
 }
 
-// One hour; the whole day is in the benchmark. The clean drive is repeated with fresh noise; once a minute both readings
-// are 0 for a second, and once a minute a bump hits the stops, which adds a pulse to the body's reading.
+// One hour; the whole day is in the benchmark. The clean drive is repeated with fresh noise; once a minute both
+// readings are 0 for a second, and once a minute a bump hits the stops, which adds a pulse to the body's reading.
 TEST(Health, HealthyDriveWithOutliersAndBumpsNeverWarns) {
   constexpr int kPeriods = 60;
   constexpr double kNoise = 0.024;

@@ -134,8 +134,8 @@ TEST(FollowedParameter, OfEstimatorsThatNeverForgetIsLa) {
   EXPECT_DOUBLE_EQ(parameter.changeFrom({3.0, 0.0}, 4.0)->size, std::log(2.801 / 3.0));
 }
 
-// The mean time between false alarms of a healthy strut is at least the one that was asked for (Lorden's bound), whatever
-// the noise against the reference; 400 alarms know their mean to 5 %.
+// The mean time between false alarms of a healthy strut is at least the one that was asked for (Lorden's bound),
+// whatever the noise against the reference; 400 alarms know their mean to 5 %.
 TEST(EarlyWarning, HasNoMoreFalseAlarmsThanWereAskedFor) {
   constexpr double kWanted = 100.0;
   for (const double stddev : {0.02, 0.05, 0.15}) {
@@ -152,8 +152,8 @@ TEST(EarlyWarning, HasNoMoreFalseAlarmsThanWereAskedFor) {
   }
 }
 
-// Values of a first-order process with correlation c: means of many have (1 + c) / (1 - c) times the variance. Taken for
-// uncorrelated, they give more false alarms than were asked for.
+// Values of a first-order process with correlation c: means of many have (1 + c) / (1 - c) times the variance. Taken
+// for uncorrelated, they give more false alarms than were asked for.
 TEST(EarlyWarning, HasNoMoreFalseAlarmsOfCorrelatedValues) {
   constexpr double kWanted = 1000.0, kCorrelation = 0.6, kStddev = 0.05;
   const auto mean_time = [&](double variance_of_means) {
@@ -223,8 +223,8 @@ TEST(BaselineLearner, DoesNotTakeAChangingStrutAsHealthy) {
     BaselineLearner learner(4000.0, 100.0);
     for (int k = 0; k < 400; ++k) {
       const double share = 1.0 - 0.2 * k / 400.0;
-      const auto learned = learner.add(fromSeconds(k), stiffness ? estimate(3.0, 13.8 * share) : estimate(3.0 * share, 13.8),
-                                       10.0);
+      const auto learned =
+          learner.add(fromSeconds(k), stiffness ? estimate(3.0, 13.8 * share) : estimate(3.0 * share, 13.8), 10.0);
       ASSERT_FALSE(learned);
     }
     EXPECT_EQ(learner.restarts(), 1);

@@ -14,8 +14,8 @@ struct DayCounts {
   long stale = 0, samples = 0;
 };
 
-/// The paper's healthy drive at 50 Hz, repeated with fresh noise; in every minute a second of zeros, in every two minutes
-/// two bumps into the stops, at 85 s and 110 s.
+/// The paper's healthy drive at 50 Hz, repeated with fresh noise; in every minute a second of zeros, in every two
+/// minutes two bumps into the stops, at 85 s and 110 s.
 /// @param noise  distribution of a reading's error [m/s^2].
 template <class Noise>
 DayCounts healthyDay(const MonitorOptions& options, double hours, unsigned seed, Noise noise) {

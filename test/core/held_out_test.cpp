@@ -1,5 +1,4 @@
 #include "suspension_health_monitor/discrepancy/held_out.h"
-#include "suspension_health_monitor/discrepancy/noise_floor.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 
 #include "recorded_drive.h"
 #include "simulated_drive.h"
+#include "suspension_health_monitor/discrepancy/noise_floor.h"
 #include "suspension_health_monitor/pi.h"
 #include "suspension_health_monitor/simulation/random_stream.h"
 
@@ -20,8 +20,9 @@ const double kHalfSecond = std::pow(2.0 * kPi / 0.5, 2);  // b0 of a natural per
 
 // 1500 usable samples: fifteen blocks of 100, of which 2, 5, 8, 11, 14 are held out; z'' is 1 in every second sample.
 DriveRecord blocks() {
-  return recorded(1500 + 2 * kEnd, kPeriod, [](int k) { return (k - kEnd) % 2 + 0.0; },
-                  [](int k) { return std::sin(0.2 * kPi * k); });
+  return recorded(
+      1500 + 2 * kEnd, kPeriod, [](int k) { return (k - kEnd) % 2 + 0.0; },
+      [](int k) { return std::sin(0.2 * kPi * k); });
 }
 
 std::vector<std::vector<double>> unitResidualAt(std::size_t k) {
@@ -43,10 +44,10 @@ TEST(ComparePaired, IsAsWorkedByHand) {
 }
 
 TEST(IsSignificant, UsesTheQuantilesOfBothStatistics) {
-  EXPECT_TRUE(isSignificant({0.1, 2.33, 0.0}, 0.01));   // normal: 2.326
+  EXPECT_TRUE(isSignificant({0.1, 2.33, 0.0}, 0.01));  // normal: 2.326
   EXPECT_FALSE(isSignificant({0.1, 2.32, 0.0}, 0.01));
   EXPECT_FALSE(isSignificant({0.1, -9.0, 0.0}, 0.01));
-  EXPECT_TRUE(isSignificant({0.1, 0.0, 9.22}, 0.01));   // chi square of 2: -2 ln 0.01 = 9.210
+  EXPECT_TRUE(isSignificant({0.1, 0.0, 9.22}, 0.01));  // chi square of 2: -2 ln 0.01 = 9.210
   EXPECT_FALSE(isSignificant({0.1, 0.0, 9.20}, 0.01));
 }
 

@@ -1,12 +1,12 @@
 #include "suspension_health_monitor/identification/horizon_selection.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "paper_drive.h"
 #include "suspension_health_monitor/identification/linear_integral_filter.h"
@@ -22,7 +22,8 @@ struct RoughStrut {
   double naturalFrequency() const { return std::sqrt(b0) / (2.0 * kPi); }
 };
 
-constexpr RoughStrut kStruts[] = {{3.0, 13.8}, {6.0, 63.3}, {5.0, 120.0}, {4.0, 40.0}, {0.5, 40.0}, {13.0, 40.0}, {90.0, 40.0}};
+constexpr RoughStrut kStruts[] = {{3.0, 13.8}, {6.0, 63.3},  {5.0, 120.0}, {4.0, 40.0},
+                                  {0.5, 40.0}, {13.0, 40.0}, {90.0, 40.0}};
 
 TEST(Transmissibility, Is1AtRestAndAtRootTwoTimesTheNaturalFrequencyWhateverTheDamping) {
   for (const RoughStrut& strut : kStruts) {
@@ -31,7 +32,8 @@ TEST(Transmissibility, Is1AtRestAndAtRootTwoTimesTheNaturalFrequencyWhateverTheD
     EXPECT_GT(transmissibility(strut.b1, strut.b0, strut.naturalFrequency()), 1.0);
   }
   // |b1 j w + b0| / |b1 j w| at the natural frequency.
-  EXPECT_NEAR(transmissibility(3.0, 13.8, std::sqrt(13.8) / (2.0 * kPi)), std::hypot(3.0, std::sqrt(13.8)) / 3.0, 1e-12);
+  EXPECT_NEAR(transmissibility(3.0, 13.8, std::sqrt(13.8) / (2.0 * kPi)), std::hypot(3.0, std::sqrt(13.8)) / 3.0,
+              1e-12);
 }
 
 // Amplitude of the filter's answer to a sine, from two outputs a quarter of a period apart.
@@ -116,7 +118,8 @@ double errorAt(double horizon) {
     RecursiveLeastSquares ls(kNumStrutParameters, {0.99, 1e5, InitialVariance::kRelative});
     const int samples = horizonSamples(horizon, 1.0 / options.rate, IntegrationRule::kCubic);
     int rows = 0;
-    for (const RegressionRow& row : strutRows(simulate(options), {samples, 1.0 / options.rate, IntegrationRule::kCubic})) {
+    for (const RegressionRow& row :
+         strutRows(simulate(options), {samples, 1.0 / options.rate, IntegrationRule::kCubic})) {
       ls.update(row);
       if (++rows < 1000) continue;
       ++count;

@@ -1,10 +1,10 @@
 #include "suspension_health_monitor/identification/instrumental_variables.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <stdexcept>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "paper_drive.h"
 #include "random_rows.h"
@@ -119,7 +119,8 @@ TEST(RecursiveInstrumentalVariables, EqualTheBatchAfterEveryRow) {
   }
 }
 
-// A direction is quiet for a long time, comes back, a huge outlier passes: the estimate is the one of the rows in memory.
+// A direction is quiet for a long time, comes back, a huge outlier passes: the estimate is the one of the rows in
+// memory.
 TEST(RecursiveInstrumentalVariables, StaySoundOverAMillionRowsOfBadExcitation) {
   const double lambda = 0.98;
   RecursiveInstrumentalVariables recursive(3, lambda);
@@ -163,7 +164,8 @@ TEST(RecursiveInstrumentalVariables, IgnoreRowsThatSayNothing) {
 
 TEST(RecursiveInstrumentalLeastAbsolute, EqualsRecursiveLeastAbsoluteWhenTheRegressorIsItsOwnInstrument) {
   const auto rows = randomRows(kTheta, 400, 0.3, 11);
-  // The two start differently, by P(0) and by rank; the innovations of the first two rows are still in the residual scale.
+  // The two start differently, by P(0) and by rank; the innovations of the first two rows are still in the residual
+  // scale.
   RecursiveLeastAbsolute expected(3, {0.98, 1e8, InitialVariance::kAbsolute}, {});
   RecursiveInstrumentalLeastAbsolute actual(3, 0.98, {});
   for (const RegressionRow& row : rows) {

@@ -9,7 +9,8 @@ namespace suspension_health_monitor {
 namespace {
 
 // Two vehicles, three horizons, twelve measurements each. Intervals three memories of LS apart, one memory of LA's, are
-// taken as half as many independent ones: 95 % of n/2 has a standard deviation of 0.6 % here; 92 % and 98 % are the claim.
+// taken as half as many independent ones: 95 % of n/2 has a standard deviation of 0.6 % here; 92 % and 98 % are the
+// claim.
 TEST(IntervalCoverage, OfEstimatesAndTheirStandardDeviationsIs95Percent) {
   Coverages all;
   for (const char* vehicle : {"rover", "paper"}) {
@@ -74,14 +75,12 @@ void expectSquaredTriangle(const RowWeight& weight, int wrong_in_a_thousand) {
     scores.add(row, truth, weight, row.output);
   }
   const double expected = (2.0 * kWindow * kWindow + 1.0) / (3.0 * kWindow);
-  // 1 / (1 + lambda) of it, since an estimate that forgets rests on sum lambda^2i; an eighth of the rows is looked at, in
-  // which windows of 10 rows repeat each other: about 400000 / 80 products, each as large as the sum itself.
+  // 1 / (1 + lambda) of it, since an estimate that forgets rests on sum lambda^2i; an eighth of the rows is looked at,
+  // in which windows of 10 rows repeat each other: about 400000 / 80 products, each as large as the sum itself.
   EXPECT_NEAR(2.0 * scores.inflation(0, 1e4), expected, 0.1 * expected);
 }
 
-TEST(ScoreCovariance, OfMovingSumsIsThatOfTheSquaredTriangle) {
-  expectSquaredTriangle({}, 0);
-}
+TEST(ScoreCovariance, OfMovingSumsIsThatOfTheSquaredTriangle) { expectSquaredTriangle({}, 0); }
 
 // Bursts of ten rows in a thousand that are a hundred times as large say nothing of how the others are correlated.
 TEST(ScoreCovariance, RowsThatStandOutTeachNothing) {

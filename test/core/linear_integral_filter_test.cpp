@@ -1,12 +1,12 @@
 #include "suspension_health_monitor/identification/linear_integral_filter.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "paper_drive.h"
 #include "suspension_health_monitor/identification/batch_estimators.h"
@@ -164,7 +164,8 @@ TEST(LinearIntegralFilter, IntegratesPolynomialsExactlyUpToTheDegreeOfTheRule) {
     }
 }
 
-// Error of the double integral of sin(3 t) over h = 0.6 s against -(1/9) [sin(3 t) - 2 sin(3 (t - h)) + sin(3 (t - 2 h))].
+// Error of the double integral of sin(3 t) over h = 0.6 s against -(1/9) [sin(3 t) - 2 sin(3 (t - h)) + sin(3 (t - 2
+// h))].
 double errorOnSine(IntegrationRule rule, int horizon) {
   const double period = 0.6 / horizon, omega = 3.0, phase = 0.4;
   LinearIntegralFilter filter(2, {horizon, period, rule});
@@ -187,9 +188,9 @@ Eigen::VectorXd noiseFreeBias(IntegrationRule rule) {
   return theta.value().cwiseQuotient(Eigen::Vector2d(kPaperB1, kPaperB0)) - Eigen::Vector2d::Ones();
 }
 
-// One trapezoid integral of a sine is short by x = (omega T)^2 / 12, so that b1 comes out x and b0 2 x too large if there
-// is one frequency. The paper's four (x = 1.7e-4 to 7.8e-4) give +0.058 % and +0.093 %; an independent NumPy computation
-// of Eq. (9) and (31) gives the same.
+// One trapezoid integral of a sine is short by x = (omega T)^2 / 12, so that b1 comes out x and b0 2 x too large if
+// there is one frequency. The paper's four (x = 1.7e-4 to 7.8e-4) give +0.058 % and +0.093 %; an independent NumPy
+// computation of Eq. (9) and (31) gives the same.
 TEST(LinearIntegralFilter, BetterRulesTakeTheBiasOfTheTrapezoidRuleAtLeastTenfold) {
   const Eigen::VectorXd trapezoid = noiseFreeBias(IntegrationRule::kTrapezoid);
   EXPECT_NEAR(trapezoid[kDampingToMass], 0.00058, 0.00003);
@@ -218,7 +219,8 @@ double driftAfter(std::size_t num_samples, int horizon) {
     ring[place] = sample;
     if (k + 2 * memory < num_samples || k % 7 != 0) continue;
     for (const int r : {0, 1})
-      worst = std::max(worst, std::abs(filter.output(r) - convolve(taps[r], ring, place)) / rmsOfFilteredNoise(taps[r]));
+      worst =
+          std::max(worst, std::abs(filter.output(r) - convolve(taps[r], ring, place)) / rmsOfFilteredNoise(taps[r]));
   }
   return worst;
 }

@@ -36,8 +36,7 @@ struct HiddenDrive {
       : options(carDrive(duration, kNoise)), effect(hiddenEffect(options, name, shapes, 0.15)) {
     generate();
   }
-  HiddenDrive(ActiveEffect hidden, double duration)
-      : options(carDrive(duration, kNoise)), effect(std::move(hidden)) {
+  HiddenDrive(ActiveEffect hidden, double duration) : options(carDrive(duration, kNoise)), effect(std::move(hidden)) {
     generate();
   }
 

@@ -37,7 +37,9 @@ ActiveEffect active(const std::string& name, double coefficient, std::vector<dou
 }
 
 StrutModel exampleModel() {
-  return {0.1 + 0.2, 63.3, {active("bump_stop", 1.0 / 3.0, {0.02}), active("asymmetric_damping", -4e-12)},
+  return {0.1 + 0.2,
+          63.3,
+          {active("bump_stop", 1.0 / 3.0, {0.02}), active("asymmetric_damping", -4e-12)},
           {{findEffect(measurementEffects(), "clock_offset"), {-0.0041}}}};
 }
 

@@ -1,7 +1,7 @@
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "csv.h"
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
@@ -71,8 +71,8 @@ TEST_F(PaperReference, LeastSquaresEqualsTheIndependentComputation) {
   for (const std::size_t column : {4, 5}) expectEqual(actual_, expected_, column, 0, expected_.size(), 1e-6);
 }
 
-// After the loss of data, rows that are hit almost exactly (|epsilon| down to 5e-6 with eps_min = 1e-8) amplify rounding:
-// the reference's own recursion in long double from exact rows is up to 4.1e-5 away from the reference.
+// After the loss of data, rows that are hit almost exactly (|epsilon| down to 5e-6 with eps_min = 1e-8) amplify
+// rounding: the reference's own recursion in long double from exact rows is up to 4.1e-5 away from the reference.
 TEST_F(PaperReference, LeastAbsoluteEqualsTheIndependentComputationUpToItsSensitivityToRounding) {
   const std::size_t sensitive = 1300;  // at 27.2 s, when the filters have left the loss behind
   for (const std::size_t column : {6, 7}) {

@@ -1,11 +1,11 @@
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "paper_drive.h"
 #include "random_rows.h"

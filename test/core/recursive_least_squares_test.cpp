@@ -1,11 +1,11 @@
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
 
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
-
-#include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include "paper_drive.h"
 #include "random_rows.h"

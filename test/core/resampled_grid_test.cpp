@@ -133,8 +133,7 @@ TEST(ResampledGrid, BridgesThreeLostReadingsAndBeginsAnewAfterMore) {
     std::vector<Message> sprung = messages.of(Side::kSprung, 200.0, 1.0, 3.0);
     sprung.erase(sprung.begin() + 200, sprung.begin() + 200 + lost);
     UniformGrid grid(kPeriod, kResampled);
-    const std::vector<CornerSample> samples =
-        feed(grid, byTime(sprung, messages.of(Side::kUnsprung, 333.0, 1.0, 3.0)));
+    const std::vector<CornerSample> samples = feed(grid, byTime(sprung, messages.of(Side::kUnsprung, 333.0, 1.0, 3.0)));
     for (const CornerSample& sample : samples) expectTrue(sample);
     EXPECT_EQ(grid.bridged(), lost == 3 ? 3u : 0u);
     if (lost == 3) {
@@ -178,8 +177,9 @@ TEST(ResampledGrid, GivesTheRoadAtTheSameInstantsAndDoesWithoutIt) {
   UniformGrid grid(kPeriod, {Alignment::kResampled, true, 240});
   std::vector<Message> road_readings = messages.of(Side::kRoad, 500.0, 1.0, 3.0, 0.001, 0.02);
   int with = 0, without = 0;
-  for (const Message& message : byTime(byTime(messages.of(Side::kSprung, 200.0, 1.0, 5.0),
-                                              messages.of(Side::kUnsprung, 333.0, 1.0, 5.0)), road_readings))
+  for (const Message& message :
+       byTime(byTime(messages.of(Side::kSprung, 200.0, 1.0, 5.0), messages.of(Side::kUnsprung, 333.0, 1.0, 5.0)),
+              road_readings))
     for (auto sample = grid.push(message.side, fromSeconds(message.time), message.acceleration); sample;
          sample = grid.next()) {
       expectTrue(*sample);
@@ -197,11 +197,11 @@ struct Case {
 };
 
 TEST(AlignmentAuto, ResamplesWhenTheStampsShowThatPairingDoesBadly) {
-  for (const Case& it : {Case{"", 200.0, 0.0, 0.0, 0.0}, Case{"", 200.0, 0.0003, 0.0, 0.0},
-                         Case{"", 200.0, 0.0, 0.001, 0.0}, Case{"", 200.0, 0.0, 0.0, 0.0005},
-                         Case{"different instants", 200.0, 0.0006, 0.0, 0.0},
-                         Case{"different instants", 200.0, 0.0, 0.002, 0.0},
-                         Case{"rates differ", 400.0, 0.0, 0.0, 0.0}, Case{"lost", 200.0, 0.0, 0.0, 0.01}}) {
+  for (const Case& it :
+       {Case{"", 200.0, 0.0, 0.0, 0.0}, Case{"", 200.0, 0.0003, 0.0, 0.0}, Case{"", 200.0, 0.0, 0.001, 0.0},
+        Case{"", 200.0, 0.0, 0.0, 0.0005}, Case{"different instants", 200.0, 0.0006, 0.0, 0.0},
+        Case{"different instants", 200.0, 0.0, 0.002, 0.0}, Case{"rates differ", 400.0, 0.0, 0.0, 0.0},
+        Case{"lost", 200.0, 0.0, 0.0, 0.01}}) {
     Messages messages(7);
     UniformGrid grid(kPeriod, kAuto);
     const std::vector<CornerSample> samples =
@@ -245,7 +245,8 @@ TEST(AlignmentAuto, NamesTheMeasuredRateWhereSamplePeriodIsTooShortAndNothingIsL
     EXPECT_TRUE(grid.resamples());
     EXPECT_EQ(grid.why(), grid.whatIsTooSlow());
     EXPECT_NE(grid.why().find(rate == 100.0 ? "every 0.01 s (100 Hz), but sample_period = 0.005" : "(120 Hz)"),
-              std::string::npos) << grid.why();
+              std::string::npos)
+        << grid.why();
   }
   Messages messages(9);
   UniformGrid lossy(kPeriod, kAuto);

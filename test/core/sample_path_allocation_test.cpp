@@ -4,12 +4,12 @@
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <atomic>
 #include <string>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "paper_drive.h"
 #include "suspension_health_monitor/identification/auxiliary_instruments.h"
@@ -191,12 +191,12 @@ TEST(SamplePath, AllocatesNothingInLawsOfTheUser) {
   const long before = num_allocations;
   integrateStrut(copy, 0.0, 0.02, {1e-3, 0.1, 4e-3, 0.2}, state);
   EXPECT_EQ(num_allocations, before);
-  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
-              const double wheel = 0.02 * sample.unsprung_acceleration;
-              integrateStrut(model, toSeconds(sample.stamp), 0.02, {0.0025 * wheel, wheel / 2, 0.01 * wheel, wheel},
-                             state);
-            }),
-            0);
+  EXPECT_EQ(
+      allocationsPerDrive([&](const CornerSample& sample) {
+        const double wheel = 0.02 * sample.unsprung_acceleration;
+        integrateStrut(model, toSeconds(sample.stamp), 0.02, {0.0025 * wheel, wheel / 2, 0.01 * wheel, wheel}, state);
+      }),
+      0);
   EXPECT_NE(state.memory[0], 0.0);
 }
 

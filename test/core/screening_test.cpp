@@ -15,7 +15,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kB1 = 6.0, kB0 = 63.3;  // of the reference car
+constexpr double kB1 = 6.0, kB0 = 63.3;                // of the reference car
 constexpr double kTravel = 0.008, kTravelRate = 0.19;  // its rms on the road of these tests
 
 std::vector<double> middleShapes(const ForceEffect& effect) {
@@ -121,9 +121,8 @@ TEST(Screening, AnEffectThatNeverActsIsNoCandidate) {
 
 TEST(Screening, AFreeFormSurfaceTakesWhatIsALawOfTravelAndRateAndNothingElse) {
   SimulationOptions options = carDrive(120.0, 0.02);
-  ForceEffect law{"product", "c d v", "1/(m s)", "", [](const StrutMotion& m, const double*) {
-                    return m.travel * m.travel_rate;
-                  }};
+  ForceEffect law{"product", "c d v", "1/(m s)", "",
+                  [](const StrutMotion& m, const double*) { return m.travel * m.travel_rate; }};
   options.hidden = {{law, 0.15 * 0.9 / (kTravel * kTravelRate), {}}};
   EXPECT_GT(ScreenedDrive(options).screening().surfaceGain(), 0.7);
   law.force = [](const StrutMotion& m, const double*) { return std::sin(7.0 * m.time); };

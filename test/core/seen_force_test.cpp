@@ -17,7 +17,7 @@ namespace {
 
 using Variables = std::vector<ForceVariable>;
 
-constexpr std::size_t kFewest = 60;           // samples in a bin that tell enough of its mean
+constexpr std::size_t kFewest = 60;         // samples in a bin that tell enough of its mean
 const std::vector<double> kFriction{0.02};  // vs [m/s]
 
 DriveRecord drivenWith(const std::string& name, double coefficient, std::vector<double> shapes) {

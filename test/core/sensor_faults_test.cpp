@@ -33,7 +33,8 @@ TEST(BodySway, HasTheRmsThatIsAskedForAndItsDerivativeIsOne) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
       acceleration[axis] += now.acceleration[axis] * now.acceleration[axis];
       rate[axis] += now.angular_rate[axis] * now.angular_rate[axis];
-      ASSERT_NEAR(now.angular_acceleration[axis], (after.angular_rate[axis] - before.angular_rate[axis]) / (2 * h), 1e-4);
+      ASSERT_NEAR(now.angular_acceleration[axis], (after.angular_rate[axis] - before.angular_rate[axis]) / (2 * h),
+                  1e-4);
     }
   }
   for (std::size_t axis = 0; axis < 2; ++axis) {  // sines of 0.1 Hz and more: 600 s are 60 periods of the slowest

@@ -20,10 +20,10 @@ constexpr int kCount = 600;  // instants of the grid
 
 /// How a sensor reads.
 struct Sampling {
-  double rate = 200.0;       // [Hz]
-  double phase = 0.0013;     // [s]
-  double jitter = 0.0;       // readings are late by 0..jitter [s], and stamped so
-  double lost = 0.0;         // share
+  double rate = 200.0;    // [Hz]
+  double phase = 0.0013;  // [s]
+  double jitter = 0.0;    // readings are late by 0..jitter [s], and stamped so
+  double lost = 0.0;      // share
 };
 
 std::vector<double> timesOf(const Sampling& sampling, unsigned seed) {

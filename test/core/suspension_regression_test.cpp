@@ -1,9 +1,9 @@
 #include "suspension_health_monitor/identification/suspension_regression.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "paper_drive.h"
 #include "suspension_health_monitor/identification/batch_estimators.h"

@@ -1,9 +1,9 @@
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cstdint>
 #include <random>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "interval_coverage.h"
 #include "simulated_drive.h"
@@ -56,8 +56,9 @@ void measure(const CleanTyreDrive& clean, double noise, unsigned seed, double la
   }
 }
 
-// Three vehicles whose wheels hop at 9 to 13 Hz, memories of 1.3 and 3.3 windows of the filter, twelve measurements each.
-// Intervals taken as half as many independent ones, 95 % has a standard deviation of 0.5 %; 92 % and 98 % are the claim.
+// Three vehicles whose wheels hop at 9 to 13 Hz, memories of 1.3 and 3.3 windows of the filter, twelve measurements
+// each. Intervals taken as half as many independent ones, 95 % has a standard deviation of 0.5 %; 92 % and 98 % are the
+// claim.
 TEST(TyreCoverage, OfEstimatesAndTheirStandardDeviationsIs95Percent) {
   TyreCoverages all;
   for (const char* vehicle : {"golden_car", "rover", "ugv"}) {

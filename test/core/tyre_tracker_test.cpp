@@ -1,8 +1,8 @@
 #include "suspension_health_monitor/tyre_tracker.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "simulated_drive.h"
 #include "suspension_health_monitor/suspension_monitor.h"

@@ -1,14 +1,14 @@
 #include "suspension_health_monitor/identification/ud_covariance.h"
 
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <random>
 #include <vector>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <gtest/gtest.h>
 
 namespace suspension_health_monitor {
 namespace {
@@ -20,8 +20,7 @@ using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 template <class Scalar>
 class Textbook {
  public:
-  Textbook(int size, double variance)
-      : p_(Matrix<Scalar>::Identity(size, size) * static_cast<Scalar>(variance)) {}
+  Textbook(int size, double variance) : p_(Matrix<Scalar>::Identity(size, size) * static_cast<Scalar>(variance)) {}
 
   void update(const Eigen::VectorXd& regressor, double noise, double lambda) {
     const Eigen::Matrix<Scalar, Eigen::Dynamic, 1> phi = regressor.cast<Scalar>();

@@ -1,14 +1,14 @@
 // A build with sanitizers only: do their reports reach the file where scripts/test looks for them?
 #if defined(__SANITIZE_ADDRESS__)
 
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <string>
-
-#include <gtest/gtest.h>
 
 namespace {
 

@@ -132,8 +132,7 @@ TEST_F(Interleaving, OfTheStreamsDoesNotMatter) {
 
 TEST_F(Interleaving, GivesSamplesInOrderOfTime) {
   UniformGrid grid(0.02);
-  const std::vector<CornerSample> samples =
-      pairs(grid, merged(stream(Side::kSprung), stream(Side::kUnsprung), 0.5));
+  const std::vector<CornerSample> samples = pairs(grid, merged(stream(Side::kSprung), stream(Side::kUnsprung), 0.5));
   for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_LT(samples[i - 1].stamp, samples[i].stamp);
 }
 

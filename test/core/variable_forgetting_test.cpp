@@ -9,8 +9,8 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kSlow = 0.995, kFastest = 0.97;
-constexpr int kCorrelated = 60;      // 2 L
-constexpr double kMemory = 3 * 61;   // rows
+constexpr int kCorrelated = 60;     // 2 L
+constexpr double kMemory = 3 * 61;  // rows
 
 RegressionRow rowOf(double first, double second = 0.0) {
   RegressionRow row;
@@ -58,8 +58,8 @@ TEST(VariableForgetting, OneWindowOfRowsAllOfOneSignIsTheMostThatChangesNothing)
   EXPECT_EQ(forgetting.factor(), kSlow);
 }
 
-// T of white scores is s^2 / q with Var s = q / (2 M - 1); 400 000 rows are 2000 memories, of which each gives a chi squared
-// with a standard deviation of sqrt(2): 3 % of the mean, 10 % are three of them.
+// T of white scores is s^2 / q with Var s = q / (2 M - 1); 400 000 rows are 2000 memories, of which each gives a chi
+// squared with a standard deviation of sqrt(2): 3 % of the mean, 10 % are three of them.
 TEST(VariableForgetting, ChanceGivesHalfAMemoryOfDriftAndIsNotTakenForAChange) {
   VariableForgetting forgetting(1, kCorrelated, kSlow, kFastest);
   std::mt19937 generator(11);

@@ -84,7 +84,8 @@ double farthest(const std::vector<CornerSample>& drive, double slow) {
   return farthest;
 }
 
-// Wrong readings move lambda by chance, by less than three quarters of the way, and mostly not at all: T may reach t, not 2 t.
+// Wrong readings move lambda by chance, by less than three quarters of the way, and mostly not at all: T may reach t,
+// not 2 t.
 TEST(VaryingMonitor, WrongReadingsAloneDoNotOpenIt) {
   struct Kind {
     const char *name, *scenario;

@@ -35,8 +35,8 @@ TEST(GoodCitizen, ZeroCopyNeedsSharedPointers) {
   std::array<ros::Publisher, 2> imu{node.advertise<sensor_msgs::Imu>("sprung/imu", kMessages),
                                     node.advertise<sensor_msgs::Imu>("unsprung/imu", kMessages)};
   std::atomic<int> estimates{0};
-  const ros::Subscriber la = node.subscribe<ParameterEstimate>(
-      "/monitor/la", kMessages, [&](const ParameterEstimateConstPtr&) { ++estimates; });
+  const ros::Subscriber la = node.subscribe<ParameterEstimate>("/monitor/la", kMessages,
+                                                               [&](const ParameterEstimateConstPtr&) { ++estimates; });
   ros::AsyncSpinner spinner(1);
   spinner.start();
   const auto wait = [](const auto& done) {

@@ -33,13 +33,13 @@ class HeldOut {
   /// @return sum of squared residuals of each held-out stretch.
   std::vector<double> stretchErrors(const std::vector<std::vector<double>>& residuals) const;
 
-  /// The same with the loss that fits minimise, which is softer on outliers: 2 a^2 (sqrt(1 + (r/a)^2) - 1) instead of r^2,
-  /// so that a few blows do not decide what is missing.
+  /// The same with the loss that fits minimise, which is softer on outliers: 2 a^2 (sqrt(1 + (r/a)^2) - 1) instead of
+  /// r^2, so that a few blows do not decide what is missing.
   /// @param outlier  a [m/s^2], > 0.
   std::vector<double> stretchLosses(const std::vector<std::vector<double>>& residuals, double outlier) const;
 
-  /// How many independent squares the held-out residuals are worth, being coloured: N / (1 + 2 sum_k rho_k^2), rho their
-  /// autocorrelation at the lags of up to one stretch. Bartlett, "On the theoretical specification and sampling
+  /// How many independent squares the held-out residuals are worth, being coloured: N / (1 + 2 sum_k rho_k^2), rho
+  /// their autocorrelation at the lags of up to one stretch. Bartlett, "On the theoretical specification and sampling
   /// properties of autocorrelated time-series", Supplement to the Journal of the Royal Statistical Society 8 (1946).
   double independentSquares(const std::vector<std::vector<double>>& residuals) const;
 

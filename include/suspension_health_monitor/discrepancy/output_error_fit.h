@@ -21,15 +21,15 @@ bool runFree(const StrutModel& model, const DriveRecord& record, const DriveSegm
 
 struct FitOptions {
   int max_iterations = 25;
-  double outlier_scale = 4.0;  ///< residuals beyond this many (robust) standard deviations lose weight
+  double outlier_scale = 4.0;            ///< residuals beyond this many (robust) standard deviations lose weight
   std::vector<StrutState> initial = {};  ///< first guess of the initial states, per segment; empty: at rest
 };
 
 /// A model fitted by output error, with the initial state of every segment.
 struct ModelFit {
   StrutModel model;
-  std::vector<StrutState> initial;              ///< per segment
-  std::vector<std::vector<double>> residuals;   ///< measured - predicted, per segment and sample [m/s^2]
+  std::vector<StrutState> initial;             ///< per segment
+  std::vector<std::vector<double>> residuals;  ///< measured - predicted, per segment and sample [m/s^2]
   Eigen::VectorXd stddev;  ///< of b1, b0, coefficient and shapes effect by effect, then of the reading's coefficients
 };
 

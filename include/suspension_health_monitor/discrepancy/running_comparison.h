@@ -21,8 +21,8 @@ class RunningComparison {
   /// @return root mean square of (measured - predicted) about its mean; 0 before the first sample.
   double rmse() const;
 
-  /// @return 100 (1 - |y - yhat| / |y - mean y|), 100 for a perfect model, 0 for a constant; below 0 is worse than that.
-  /// NaN while the measurement has not moved.
+  /// @return 100 (1 - |y - yhat| / |y - mean y|), 100 for a perfect model, 0 for a constant; below 0 is worse than
+  /// that. NaN while the measurement has not moved.
   double fitPercent() const { return fitPercent(rmse()); }
 
   /// The same, for a caller that has rmse() already.

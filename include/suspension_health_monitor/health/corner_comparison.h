@@ -17,19 +17,19 @@ inline constexpr std::array<std::string_view, kNumCorners> kCornerNames{"front_l
 /// What is known of one strut of four.
 struct CornerState {
   bool valid = false;
-  double damping_to_mass = 0.0;           ///< b1 [1/s]
-  double stiffness_to_mass = 0.0;         ///< b0 [1/s^2]
-  double damping_to_mass_stddev = 0.0;    ///< [1/s]
-  double stiffness_to_mass_stddev = 0.0;  ///< [1/s^2]
+  double damping_to_mass = 0.0;                                              ///< b1 [1/s]
+  double stiffness_to_mass = 0.0;                                            ///< b0 [1/s^2]
+  double damping_to_mass_stddev = 0.0;                                       ///< [1/s]
+  double stiffness_to_mass_stddev = 0.0;                                     ///< [1/s^2]
   std::optional<double> nominal_damping_to_mass, nominal_stiffness_to_mass;  ///< of the healthy strut
 };
 
 enum class CornerVerdict : unsigned char {
   kCannotTell = 0,
-  kAlike = 1,     ///< as the others, and as it was
-  kLoad = 2,      ///< damping and stiffness changed by the same share: the mass did
-  kDamper = 3,    ///< its damping left that of the others
-  kSpring = 4     ///< its stiffness did
+  kAlike = 1,   ///< as the others, and as it was
+  kLoad = 2,    ///< damping and stiffness changed by the same share: the mass did
+  kDamper = 3,  ///< its damping left that of the others
+  kSpring = 4   ///< its stiffness did
 };
 
 struct CornerComparisonReport {
@@ -37,12 +37,12 @@ struct CornerComparisonReport {
   std::array<CornerVerdict, kNumCorners> verdicts{};
   std::array<std::optional<double>, kNumCorners> damping_deviation{};    ///< from the others, as a share [-]
   std::array<std::optional<double>, kNumCorners> stiffness_deviation{};  ///< likewise
-  std::string sentence;  ///< for a person
+  std::string sentence;                                                  ///< for a person
 };
 
 struct CornerComparisonOptions {
-  double threshold = 0.15;     ///< deviation from the others that counts, as a share [-]
-  double significance = 3.0;   ///< and how many of its standard deviations it must be
+  double threshold = 0.15;    ///< deviation from the others that counts, as a share [-]
+  double significance = 3.0;  ///< and how many of its standard deviations it must be
 };
 
 /// Compares the four struts of a vehicle: what moves all of them, or an axle, is load; what moves one is damage.
@@ -52,8 +52,8 @@ struct CornerComparisonOptions {
 /// damper or spring did it is told against the other wheel of the axle, which carries the load that it does.
 /// What all dampers do alike (they warm up) accuses none. Without nominal values of all corners the two wheels of each
 /// axle are compared with each other; the weaker one is accused, since dampers and springs fail that way.
-/// Fewer than three valid corners say nothing: of two that differ either may be the one. Three that are alike are no proof of
-/// the fourth: kStale.
+/// Fewer than three valid corners say nothing: of two that differ either may be the one. Three that are alike are no
+/// proof of the fourth: kStale.
 CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>& corners,
                                       const CornerComparisonOptions& options = {});
 

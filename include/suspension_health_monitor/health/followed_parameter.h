@@ -8,13 +8,13 @@
 namespace suspension_health_monitor {
 
 /// One parameter of the strut, followed by the trends of LS and of LA at once. LS lags a change by one memory of the
-/// estimator, LA by about three (doc/uncertainty.md: its slope rho), but outliers hardly touch it. Of their two trends the
-/// one counts that knows the parameter better. Estimators that never forget, or do not know their standard deviations, have
-/// no trend: LA as it is counts.
-/// Cost per update: O(1), no allocation.
+/// estimator, LA by about three (doc/uncertainty.md: its slope rho), but outliers hardly touch it. Of their two trends
+/// the one counts that knows the parameter better. Estimators that never forget, or do not know their standard
+/// deviations, have no trend: LA as it is counts. Cost per update: O(1), no allocation.
 class FollowedParameter {
  public:
-  /// @param memory  of the estimators, in updates; infinite: they never forget.  @param horizon  of their filter, in updates.
+  /// @param memory  of the estimators, in updates; infinite: they never forget.  @param horizon  of their filter, in
+  /// updates.
   FollowedParameter(double memory, double horizon);
 
   /// From the next values on, for estimators that forget by another factor for the time being.

@@ -16,10 +16,10 @@ struct UncertainValue {
 /// Series, 1963, ch. 9), each value weighted by its inverse variance, so that poor ones hardly count: least sum of
 /// exp(-age / memory) (x - a + b age)^2 / variance. The value now is a + b lag, since x tells what was `lag` steps ago.
 /// Values in a row share most of their rows: their errors are correlated by exp(-steps / lag). What that makes of the
-/// variance is taken from values that are all as good (shareOfErrors()); it grows while there are none or poor ones. A strut loses no more than a tenth of its parameter
-/// per memory (standard deviation of the slope beforehand). A faster change is a step: a value that is far from the line
-/// begins a new one, and the line is carried on by no more than kMostCarried, so that a small step does not look large.
-/// Cost per step: O(1), no allocation.
+/// variance is taken from values that are all as good (shareOfErrors()); it grows while there are none or poor ones. A
+/// strut loses no more than a tenth of its parameter per memory (standard deviation of the slope beforehand). A faster
+/// change is a step: a value that is far from the line begins a new one, and the line is carried on by no more than
+/// kMostCarried, so that a small step does not look large. Cost per step: O(1), no allocation.
 class ParameterTrend {
  public:
   /// @param memory  in steps, above 1.  @param lag  of the values behind the parameter, in steps, above 0.
@@ -49,9 +49,9 @@ class ParameterTrend {
   static constexpr double kMostCarried = 0.03;  // of the value
 
   struct Line {
-    double level, slope;    // at the newest step; per step
+    double level, slope;  // at the newest step; per step
     double level_variance;
-    double unit;            // of the covariance's other entries
+    double unit;  // of the covariance's other entries
   };
 
   void forget();
@@ -63,7 +63,7 @@ class ParameterTrend {
   }
 
   double memory_, lag_;
-  double correlated_;  // steps for which an error counts
+  double correlated_;                                    // steps for which an error counts
   double weight_ = 0.0, age_ = 0.0, age_squared_ = 0.0;  // sums, weighted
   double sum_ = 0.0, sum_age_ = 0.0;                     // of x and of x times age, weighted
   Line line_{};                                          // through them

@@ -31,9 +31,9 @@ struct SensorReport {
 };
 
 /// Tells faults of a sensor from those of the strut, by what a strut cannot do:
-/// - a vehicle does not climb for good, so a mean reading is gravity (REP 145: +9.81 at rest on the up axis) or 0 (taken
-///   out before). A gain error shows there as well as in the parameters, a worn damper does not; so do an offset and a
-///   mount that has turned;
+/// - a vehicle does not climb for good, so a mean reading is gravity (REP 145: +9.81 at rest on the up axis) or 0
+///   (taken out before). A gain error shows there as well as in the parameters, a worn damper does not; so do an offset
+///   and a mount that has turned;
 /// - a strut takes energy: damping that is certainly negative is that of readings of which one has the wrong sign, and
 ///   a body that shakes three times as much as the wheel may be the wheel;
 /// - a spring lets no wheel move without the body;
@@ -64,8 +64,8 @@ class SensorCheck {
     bool isMotion() const { return step < kWhiteShare * 2.0 * variance; }
   };
 
-  static constexpr double kMeanNoise = 0.2;   // of the rms: more than a mean over the memory is off by
-  static constexpr double kQuick = 10.0;      // motion is forgotten so much sooner than the mean: else a stop takes long
+  static constexpr double kMeanNoise = 0.2;  // of the rms: more than a mean over the memory is off by
+  static constexpr double kQuick = 10.0;     // motion is forgotten so much sooner than the mean: else a stop takes long
   static constexpr double kWhiteShare = 0.5;  // of 2 variance, the mean square step of white noise
   static constexpr int kStill = 20;           // samples looked at
 

@@ -12,7 +12,8 @@
 namespace suspension_health_monitor {
 
 /// @param fit  of the rows.
-/// @return information of either parameter over that which noise would give that is as large as what the fit leaves [-].
+/// @return information of either parameter over that which noise would give that is as large as what the fit leaves
+/// [-].
 std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, const StrutFit& fit,
                                                      const RegressorNoise& noise);
 
@@ -26,8 +27,8 @@ std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, con
 /// - A parameter is held once two blocks, each of a horizon and more, do not tell of it, and its information has fallen
 ///   below a tenth of the usual, that of blocks that told of it over ten memories: readings that no strut explains on
 ///   a road as rough as ever are not rest.
-/// - It is held no longer when the rows since then, up to eight blocks, tell of it and not by chance. No single row does:
-///   a wrong reading is in 2 L + 1 of them.
+/// - It is held no longer when the rows since then, up to eight blocks, tell of it and not by chance. No single row
+///   does: a wrong reading is in 2 L + 1 of them.
 /// A constant of phi_0 is the offset between the sensors and not counted.
 /// Looked at is every eighth row: rows change slowly. Cost per row: O(1) whatever L, no allocation. Free of units.
 class Excitation {
@@ -78,12 +79,12 @@ class Excitation {
   double kept_;         // of the largest strut, per look
   RegressorNoise noise_;
   std::array<double, kMostBlocks> least_share_;  // of psi^2 that a strut explains and chance does not, by blocks
-  RowMoments block_, before_;  // the newest block and the one before it
-  RowMoments window_;          // the blocks since something was held
-  int looks_ = 0;              // of the block
-  int blocks_ = 0;             // closed without a gap, up to 2
+  RowMoments block_, before_;                    // the newest block and the one before it
+  RowMoments window_;                            // the blocks since something was held
+  int looks_ = 0;                                // of the block
+  int blocks_ = 0;                               // closed without a gap, up to 2
   int window_blocks_ = 0;
-  RunningMean offset_;  // of phi_0
+  RunningMean offset_;                              // of phi_0
   Eigen::Vector2d most_ = Eigen::Vector2d::Zero();  // of the best strut; 0: none is known
   std::array<Part, kNumStrutParameters> parts_;
   bool is_held_ = false;  // either of them

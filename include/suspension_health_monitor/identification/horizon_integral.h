@@ -13,8 +13,8 @@ enum class IntegrationRule {
   kSimpson,    ///< a parabola through every pair of intervals, error O(T^4); needs an even L.
                ///< Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed. (1984), eq. (2.2.2)
   kCubic,      ///< piecewise cubic through four neighbours (a parabola in the first and the last interval), error
-               ///< O(T^4), any L >= 5. Summed over the intervals it is the trapezoid rule with Gregory's end corrections
-               ///< up to second differences (ibid., sec. 2.9)
+           ///< O(T^4), any L >= 5. Summed over the intervals it is the trapezoid rule with Gregory's end corrections
+           ///< up to second differences (ibid., sec. 2.9)
 };
 
 /// The names of the rules in configuration files, in the order of the enumeration.
@@ -58,8 +58,8 @@ class HorizonIntegral {
   std::array<double, 2> sums_{};
   std::array<double, 2> fresh_{};
   int until_refresh_;
-  std::size_t parity_ = 0;            // of the newest sample
-  std::size_t leaves_other_parity_;   // 1: the sample that leaves the window is of the other parity
+  std::size_t parity_ = 0;           // of the newest sample
+  std::size_t leaves_other_parity_;  // 1: the sample that leaves the window is of the other parity
 };
 
 }  // namespace suspension_health_monitor

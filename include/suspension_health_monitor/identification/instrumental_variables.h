@@ -1,9 +1,8 @@
 #pragma once
 
-#include <optional>
-
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <optional>
 
 #include "suspension_health_monitor/identification/batch_estimators.h"
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
@@ -15,8 +14,8 @@ namespace suspension_health_monitor {
 /// The equations R theta = r of the instrumental-variable method, R = sum w z phi', r = sum w z psi (p equations).
 ///
 /// The recursion (16) with z in place of phi would carry P = R^-1, which is not symmetric, so that no factored form
-/// keeps it sound; and a row with lambda + phi' P z near 0 wrecks it for good. Here R and r themselves are kept: sums of
-/// products in which an error fades as the data do, whatever happens. theta comes from a factorisation with complete
+/// keeps it sound; and a row with lambda + phi' P z near 0 wrecks it for good. Here R and r themselves are kept: sums
+/// of products in which an error fades as the data do, whatever happens. theta comes from a factorisation with complete
 /// pivoting of R scaled to correlations, in steps from the last theta: directions in which R says nothing stay put.
 /// Cost: O(p^2) to add, O(p^3) to solve, no allocation.
 class InstrumentalEquations {
@@ -37,9 +36,9 @@ class InstrumentalEquations {
   int solve(Eigen::VectorXd& theta);
 
  private:
-  Eigen::MatrixXd information_;                              // R
-  Eigen::VectorXd right_side_;                               // r
-  Eigen::VectorXd instrument_squares_, regressor_squares_;   // sum w z_i^2, sum w phi_j^2
+  Eigen::MatrixXd information_;                             // R
+  Eigen::VectorXd right_side_;                              // r
+  Eigen::VectorXd instrument_squares_, regressor_squares_;  // sum w z_i^2, sum w phi_j^2
   Eigen::MatrixXd correlation_;
   Eigen::VectorXd row_scale_, column_scale_, residual_, permuted_;
   Eigen::FullPivLU<Eigen::MatrixXd> factors_;
@@ -58,8 +57,9 @@ std::optional<Eigen::VectorXd> batchInstrumentalVariables(const RegressionRows& 
 /// The same in the sense of the least sum of absolute values: w = lambda^(N-i) / |e_i|, repeated as in (20)-(23).
 /// A fixed point solves sum lambda^(N-i) z_i sgn(e_i) = 0. It is not the minimum of (18), which may therefore rise on
 /// the way; iteration ends when (18) changes by less than min_decrease either way.
-std::optional<BatchLeastAbsoluteEstimate> batchInstrumentalLeastAbsolute(
-    const RegressionRows& rows, const Eigen::MatrixXd& instruments, const BatchLeastAbsoluteOptions& options = {});
+std::optional<BatchLeastAbsoluteEstimate> batchInstrumentalLeastAbsolute(const RegressionRows& rows,
+                                                                         const Eigen::MatrixXd& instruments,
+                                                                         const BatchLeastAbsoluteOptions& options = {});
 
 /// What the recursive instrumental estimators have in common.
 class RecursiveInstrumentalEstimator {

@@ -44,7 +44,7 @@ class LinearIntegralFilter {
   int horizon_;
   int missing_;  // samples until it is full
   std::vector<HorizonIntegral> integrals_;
-  std::vector<DelayLine> lines_;            // lines_[i] holds J^i x
+  std::vector<DelayLine> lines_;                // lines_[i] holds J^i x
   std::vector<std::vector<double>> binomials_;  // binomials_[r][j]: coefficient of q^(-jL) in (1 - q^-L)^r
 };
 

@@ -35,8 +35,8 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
   double update(const RegressionRow& row);
 
   /// @return variance of theta_i: P_ii times the mean square of the bounded scores over the mean weight, which outliers
-  /// hardly touch, times what the residuals' correlation and LA's slower convergence make of it (ScoreCovariance). During
-  /// the first k0 rows that of LS.
+  /// hardly touch, times what the residuals' correlation and LA's slower convergence make of it (ScoreCovariance).
+  /// During the first k0 rows that of LS.
   double parameterVariance(int i) const { return varianceAt(i, leads() ? scale() : meanSquareResidual()); }
 
   /// @return mean |epsilon| now, as rows that stand out hardly touch it.
@@ -60,7 +60,7 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
 
   LeastAbsoluteOptions absolute_;
   RunningMeans<kNumMeans> slopes_;  // of the weighted residual at 0; of the weight
-  int rows_ = 0;  // counts up to k0 and stays there
+  int rows_ = 0;                    // counts up to k0 and stays there
 };
 
 }  // namespace suspension_health_monitor

@@ -101,7 +101,8 @@ class RecursiveEstimator {
     return scale * covariance_.variance(i) * scores_.inflation(i, effectiveRows());
   }
 
-  /// @return P phi_e sum lambda^(k-i): how far row moments E[phi e] shift theta_i; of parameters beyond moment's size 0.
+  /// @return P phi_e sum lambda^(k-i): how far row moments E[phi e] shift theta_i; of parameters beyond moment's size
+  /// 0.
   double shiftAt(int i, const Eigen::Vector2d& moment) const {
     return effectiveRows() * (covariance_.entry(i, 0) * moment[0] + covariance_.entry(i, 1) * moment[1]);
   }

@@ -6,10 +6,10 @@
 
 namespace suspension_health_monitor {
 
-/// What sensor noise does to the strut's regression (28)-(30): it is in the regressors, too, and so pulls the estimates.
-/// With white noise n_z, n_w of the same variance on both accelerometers and the filters' impulse responses h_2, h_1, h_0
-/// of I_2^2, I_1^2, I_0^2, row noise is h_2 * n_z for psi and h_i * (n_w - n_z) for phi.
-/// Source: the bias of least squares with errors in the variables, e.g. Soderstrom, Automatica 43 (2007), 939-958.
+/// What sensor noise does to the strut's regression (28)-(30): it is in the regressors, too, and so pulls the
+/// estimates. With white noise n_z, n_w of the same variance on both accelerometers and the filters' impulse responses
+/// h_2, h_1, h_0 of I_2^2, I_1^2, I_0^2, row noise is h_2 * n_z for psi and h_i * (n_w - n_z) for phi. Source: the bias
+/// of least squares with errors in the variables, e.g. Soderstrom, Automatica 43 (2007), 939-958.
 class RegressorNoise {
  public:
   explicit RegressorNoise(const IntegralFilterOptions& options);

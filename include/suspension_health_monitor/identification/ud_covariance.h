@@ -21,7 +21,8 @@ class UdCovariance {
   /// @param size  p >= 1, number of parameters.
   explicit UdCovariance(int size);
 
-  /// P of other parameters: parameter i of the new ones is parameter sources[i] of `before`, or one that is fixed still.
+  /// P of other parameters: parameter i of the new ones is parameter sources[i] of `before`, or one that is fixed
+  /// still.
   UdCovariance(const UdCovariance& before, const std::vector<std::optional<int>>& sources);
 
   int size() const { return static_cast<int>(diagonal_.size()); }
@@ -44,8 +45,8 @@ class UdCovariance {
   ///   P <- P + (1 - lambda) / lambda phi phi' / (phi' P^-1 phi),
   /// so that what phi does not reach is neither forgotten nor less certain. If phi is the i-th unit vector times a
   /// number, the information on parameter i fades by lambda, as do its correlations.
-  /// Source: L. Cao, H. Schwartz, Automatica 36 (2000), 1725-1731; by the triangular update of Agee and Turner (Bierman,
-  /// ch. III.3).
+  /// Source: L. Cao, H. Schwartz, Automatica 36 (2000), 1725-1731; by the triangular update of Agee and Turner
+  /// (Bierman, ch. III.3).
   void forgetAlong(const Eigen::VectorXd& regressor, double forgetting_factor);
 
   /// P <- factor P, the ceilings with it; factor > 0.

@@ -9,16 +9,17 @@ namespace suspension_health_monitor {
 /// A forgetting factor that is slow as long as the parameters stay and fast while they move.
 ///
 /// While an estimate is right its scores, the regressors times a bounded function of the residual, have the mean 0,
-/// whatever the road and the noise; when parameter i has moved, scores phi_i b have the sign of what it has moved by. So
+/// whatever the road and the noise; when parameter i has moved, scores phi_i b have the sign of what it has moved by.
+/// So
 ///   b = epsilon / m, clamped to [-1, 1];  0 beyond |epsilon| = 5 m;  m the running mean |epsilon|,
 ///   s_i = mean of b phi_i,  q_i = mean of (b phi_i)^2,  both over M = 3 (2 L + 1) rows (exponential weights),
 ///   T = max_i s_i^2 / q_i in [0, 1],
 ///   lambda = slow + (fastest - slow) min(max(T / t - 1, 0), 1),  t = (1 - e^(-1/3))^2 = 0.080.
 /// Why t: one wrong reading is in 2 L + 1 rows, a third of the memory; all of one sign they make s_i^2 / q_i = t among
-/// rows of full size. By chance, s_i^2 / q_i of scores correlated over c rows has a mean of c / (2 M): c is 0.2 to 2.5 at
-/// usual horizons, about 0.05 (2 L + 1) at most (doc/forgetting.md), which makes t ten times that. M is at least 60 rows
-/// for the same reason. A row far off says that a reading is wrong, or that much has changed: then m grows, and soon it
-/// counts.
+/// rows of full size. By chance, s_i^2 / q_i of scores correlated over c rows has a mean of c / (2 M): c is 0.2 to 2.5
+/// at usual horizons, about 0.05 (2 L + 1) at most (doc/forgetting.md), which makes t ten times that. M is at least 60
+/// rows for the same reason. A row far off says that a reading is wrong, or that much has changed: then m grows, and
+/// soon it counts.
 ///
 /// Source: scores as the statistic of a change are the local approach (Benveniste, Basseville, Moustakides, IEEE Trans.
 /// Automatic Control 32 (1987), 583-592) and the M-fluctuation tests (Zeileis, Hornik, Statistica Neerlandica 61

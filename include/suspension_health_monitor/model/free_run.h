@@ -82,13 +82,13 @@ class FreeRun {
   bool settled() const { return decayed_ >= kSettledDecay; }
 
   /// How often the run has left all bounds: the force of an effect was not usable (isUsable()), a prediction was not
-  /// finite, or larger than a thousand times the largest w'' of the run. Effects can do that, whose coefficients accepts()
-  /// does not judge. The run then starts anew.
+  /// finite, or larger than a thousand times the largest w'' of the run. Effects can do that, whose coefficients
+  /// accepts() does not judge. The run then starts anew.
   std::uint64_t runaways() const { return runaways_; }
 
   /// At the sample that the last prediction belongs to:
-  double travel() const { return state_.travel; }           ///< d [m]; with effects less a / b0
-  double travelRate() const { return state_.travel_rate; }  ///< v [m/s]
+  double travel() const { return state_.travel; }                       ///< d [m]; with effects less a / b0
+  double travelRate() const { return state_.travel_rate; }              ///< v [m/s]
   double unsprungAcceleration() const { return window()[kDelay - 1]; }  ///< w'' as measured [m/s^2]
   /// f_j, one per effect, per unit of its coefficient.
   const double* effectForces() const { return forces_.data(); }
@@ -112,10 +112,10 @@ class FreeRun {
 
   double period_;
   StrutModel model_;
-  const WheelInterpolator* steps_ = nullptr;  // of one sample
-  int num_steps_ = 0;                         // 0: no model yet
-  double step_ = 0.0;                         // [s]
-  double decay_rate_ = 0.0;                   // of the slowest free motion [1/s]
+  const WheelInterpolator* steps_ = nullptr;                      // of one sample
+  int num_steps_ = 0;                                             // 0: no model yet
+  double step_ = 0.0;                                             // [s]
+  double decay_rate_ = 0.0;                                       // of the slowest free motion [1/s]
   double mean_memory_ = std::numeric_limits<double>::infinity();  // [samples]
   StrutState state_;
   std::array<double, StrutState::kMostEffects> forces_{};

@@ -34,7 +34,8 @@ class WheelInterpolator {
   /// @param from, to  ends of the step in samples, 0 <= from < to <= 1.  @param period  T [s].
   WheelInterpolator(double from, double to, double period);
 
-  /// @param around  kWidth samples of w'' [m/s^2], the oldest first; the step begins `from` after number kWidth / 2 - 1.
+  /// @param around  kWidth samples of w'' [m/s^2], the oldest first; the step begins `from` after number kWidth / 2
+  /// - 1.
   WheelStep operator()(const double* around) const {
     if (!is_whole_) return ofPart(around);
     // From sample to sample the middle follows from the ends, whose accelerations are known: half the sums. Position by
@@ -57,7 +58,8 @@ class WheelInterpolator {
       for (Eigen::Index row = 0; row < kRows; ++row) pairs.col(row) += weights_.col(4 * i + row) * pair;
     }
     std::array<double, kRows> totals;
-    for (Eigen::Index row = 0; row < kRows; ++row) totals[static_cast<std::size_t>(row)] = pairs(0, row) + pairs(1, row);
+    for (Eigen::Index row = 0; row < kRows; ++row)
+      totals[static_cast<std::size_t>(row)] = pairs(0, row) + pairs(1, row);
     return totals;
   }
 
@@ -71,8 +73,8 @@ class WheelInterpolator {
 /// One step of the strut under the wheel's motion:
 ///   d'' = w'' - z''(d, v, t, s),   s_j' = g_j.
 /// Only the body's part of the motion is integrated numerically (classical Runge-Kutta); the wheel's part, which
-/// oscillates much faster, comes in as what it exactly is in the middle and at the end. A step is taken in parts where a
-/// memory forgets faster than that, by as many as 32.
+/// oscillates much faster, comes in as what it exactly is in the middle and at the end. A step is taken in parts where
+/// a memory forgets faster than that, by as many as 32.
 /// @pre model.effects.size() <= StrutState::kMostEffects.
 void integrateStrut(const StrutModel& model, double time, double step, const WheelStep& wheel, StrutState& state);
 

@@ -12,8 +12,7 @@ namespace suspension_health_monitor {
 class DelayLine {
  public:
   /// @param length  number of samples kept at least, >= 1.
-  explicit DelayLine(int length)
-      : size_(static_cast<std::size_t>(length)), samples_(2 * size_, 0.0), newest_(size_) {}
+  explicit DelayLine(int length) : size_(static_cast<std::size_t>(length)), samples_(2 * size_, 0.0), newest_(size_) {}
 
   void push(double sample) {
     newest_ = newest_ + 1 == 2 * size_ ? size_ : newest_ + 1;

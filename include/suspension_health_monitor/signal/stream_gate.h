@@ -63,10 +63,10 @@ class StreamGate {
   std::optional<double> value_;  // of the last reading
   int equal_in_a_row_ = 0;
   int absurd_in_a_row_ = 0;
-  double finest_step_ = 0.0;             // other than 0
-  RangeEnd upper_{1.0}, lower_{-1.0};    // of all readings that passed, the clipped ones included
-  RunningMean repeated_{kUsualMemory};   // 1 for a reading that equals the one before, both extremes left out
-  RunningMean size_{kUsualMemory};                           // |acceleration|
+  double finest_step_ = 0.0;            // other than 0
+  RangeEnd upper_{1.0}, lower_{-1.0};   // of all readings that passed, the clipped ones included
+  RunningMean repeated_{kUsualMemory};  // 1 for a reading that equals the one before, both extremes left out
+  RunningMean size_{kUsualMemory};      // |acceleration|
   RunningMean mean_{kUsualMemory}, deviation_{kUsualMemory};  // of the acceleration; |acceleration - mean|
   RejectCounts rejected_;
   StreamTiming timing_;

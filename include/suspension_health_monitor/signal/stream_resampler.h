@@ -26,7 +26,7 @@ namespace suspension_health_monitor {
 class StreamResampler {
  public:
   static constexpr int kHalfWidth = WindowSums::kHalfWidth;  ///< [grid periods]; so late is a value
-  static constexpr std::size_t kCapacity = 8192;       ///< readings
+  static constexpr std::size_t kCapacity = 8192;             ///< readings
 
   /// @param period  T of the grid > 0.
   explicit StreamResampler(Stamp period);

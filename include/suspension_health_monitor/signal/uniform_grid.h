@@ -17,9 +17,9 @@ namespace suspension_health_monitor {
 /// Brings the readings of the sensors onto one clock: pairs those whose stamps agree within half a sample, or resamples
 /// all streams (ResampledGrid). With Alignment::kAuto it pairs until the stamps show that this does badly
 /// (AlignmentJudge), and resamples from then on. The result does not depend on the order in which the streams
-/// interleave, as long as none runs more than kMostWaiting readings ahead, so that a replay gives what the live run gave.
-/// A road sensor, if there is one, is waited for, but no longer than kMostRoadLag readings of the others: a strut does
-/// not need it. Cost per reading: O(1) amortised, no allocation.
+/// interleave, as long as none runs more than kMostWaiting readings ahead, so that a replay gives what the live run
+/// gave. A road sensor, if there is one, is waited for, but no longer than kMostRoadLag readings of the others: a strut
+/// does not need it. Cost per reading: O(1) amortised, no allocation.
 class UniformGrid {
  public:
   static constexpr std::size_t kMostWaiting = 4096;
@@ -47,8 +47,8 @@ class UniformGrid {
   bool resamples() const { return resamples_; }
   std::string why() const;
 
-  /// @return that readings of a strut's sensor come every 3/2 T or more, in words: samples are then missing though nothing
-  /// gets lost, as sample_period is too short for this sensor. Empty if they come often enough.
+  /// @return that readings of a strut's sensor come every 3/2 T or more, in words: samples are then missing though
+  /// nothing gets lost, as sample_period is too short for this sensor. Empty if they come often enough.
   std::string whatIsTooSlow() const;
 
   /// @return "paired", "resampled", or "resampled because ...".

@@ -20,10 +20,10 @@ class WindowSums {
  private:
   static constexpr int kLines = 6;  // above frequency 0
 
-  std::array<double, 2 * kLines + 1> cosine_{}, sine_{};                      // sum of g cos(m theta tau), ... sin
-  std::array<double, kLines + 1> filter_cosine_{}, filter_sine_{};            // of q h cos(k theta tau)
-  std::array<double, kLines + 1> weighted_cosine_{}, weighted_sine_{};        // of g x cos(k theta tau)
-  double filtered_ = 0.0;                                                     // of q h x
+  std::array<double, 2 * kLines + 1> cosine_{}, sine_{};                // sum of g cos(m theta tau), ... sin
+  std::array<double, kLines + 1> filter_cosine_{}, filter_sine_{};      // of q h cos(k theta tau)
+  std::array<double, kLines + 1> weighted_cosine_{}, weighted_sine_{};  // of g x cos(k theta tau)
+  double filtered_ = 0.0;                                               // of q h x
 };
 
 }  // namespace suspension_health_monitor

@@ -119,8 +119,8 @@ inline constexpr std::array kSimulationFields{
                                    &SimulationOptions::gyro_noise, 0.0, 1e3},
 };
 
-/// Checks ranges (kSimulationFields), the order of the ramp's ends, that jitter keeps the stamps in order, the number of
-/// hidden effects, and that hidden faults are known and have a motion to act on.
+/// Checks ranges (kSimulationFields), the order of the ramp's ends, that jitter keeps the stamps in order, the number
+/// of hidden effects, and that hidden faults are known and have a motion to act on.
 /// @throws std::invalid_argument  naming option, value and what is allowed.
 void validate(const SimulationOptions& options);
 

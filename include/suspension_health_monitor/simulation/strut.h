@@ -36,7 +36,8 @@ struct Strut {
   std::optional<EndStops> end_stops;
   std::vector<ActiveEffect> hidden;  ///< what the model lacks, at most kMostHiddenEffects
 
-  /// The one place where the simulated force is written:  z'' = b1(t) v + b0 d + stops(d) + sum_j c_j f_j(d, v, t, s_j).
+  /// The one place where the simulated force is written:  z'' = b1(t) v + b0 d + stops(d) + sum_j c_j f_j(d, v, t,
+  /// s_j).
   /// @param travel  d [m], compression positive.
   /// @param travel_rate  v [m/s].
   /// @param t  time since the start of the drive [s].

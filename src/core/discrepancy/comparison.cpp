@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "suspension_health_monitor/discrepancy/held_out.h"
-#include "suspension_health_monitor/discrepancy/noise_floor.h"
 #include "suspension_health_monitor/discrepancy/initial_states.h"
+#include "suspension_health_monitor/discrepancy/noise_floor.h"
 #include "suspension_health_monitor/discrepancy/output_error_fit.h"
 #include "suspension_health_monitor/identification/horizon_selection.h"
 

@@ -12,10 +12,10 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kStructured = 0.2;          // of a mean square; below it, what is left counts as noise
-constexpr double kExplained = 0.5;           // of the structure, or there is no name
-constexpr double kTakenByAnother = 0.3;      // of what is left
-constexpr double kIndistinguishable = 0.02;  // of the mean square, or not significant
+constexpr double kStructured = 0.2;                // of a mean square; below it, what is left counts as noise
+constexpr double kExplained = 0.5;                 // of the structure, or there is no name
+constexpr double kTakenByAnother = 0.3;            // of what is left
+constexpr double kIndistinguishable = 0.02;        // of the mean square, or not significant
 constexpr double kStarted = 0.1, kForward = 0.85;  // of the progress
 
 double square(double x) { return x * x; }
@@ -48,8 +48,8 @@ std::vector<RankedModel> asReported(const std::vector<Judged>& ranking) {
 
 class Search {
  public:
-  Search(const EffectLibrary& candidates, const SearchOptions& options,
-         const std::vector<const DriveRecord*>& records, const EffectSearch::Progress& progress)
+  Search(const EffectLibrary& candidates, const SearchOptions& options, const std::vector<const DriveRecord*>& records,
+         const EffectSearch::Progress& progress)
       : candidates_(candidates), options_(options), records_(records), progress_(progress) {}
 
   std::optional<SearchResult> run(const StrutModel& start);
@@ -187,8 +187,8 @@ std::optional<SearchResult> Search::run(const StrutModel& start) {
   return result;
 }
 
-// A name is given if the model with it leaves noise only; or if it takes most of the structure and no other law of travel
-// and travel rate would take the rest: that comes from elsewhere, or was lost in sampling.
+// A name is given if the model with it leaves noise only; or if it takes most of the structure and no other law of
+// travel and travel rate would take the rest: that comes from elsewhere, or was lost in sampling.
 bool Search::isExplained(const ModelJudge& judge, const Judged& before, const Judged& after, double noise_floor) {
   const double structure = square(before.ranked.held_out_rmse) - square(noise_floor);
   const double left = square(after.ranked.held_out_rmse) - square(noise_floor);
@@ -215,7 +215,8 @@ void Search::conclude(const ModelJudge& judge, const Judged& base, const Judged&
   }
   result.indistinguishable.clear();
   result.suggested_drive.clear();
-  result.verdict = !added.empty() || result.structured_share > kStructured ? Verdict::kUnexplained : Verdict::kNothingMissing;
+  result.verdict =
+      !added.empty() || result.structured_share > kStructured ? Verdict::kUnexplained : Verdict::kNothingMissing;
   if (result.verdict == Verdict::kUnexplained)
     result.suggested_drive = suggestDriveForUnexplained(result.surface_share, powerAtSamplingLimit(records_));
 }

@@ -19,9 +19,9 @@ inline const SampleMask* maskOf(const FitMasks& masks, std::size_t record, std::
 /// What a first run from rest, the effects not acting yet, shows of the drives: rms values.
 struct DriveSizes {
   double travel = 0.0, travel_rate = 0.0;
-  std::vector<double> forces;  ///< of the effects, per unit of their coefficient
-  double acceleration = 0.0;   ///< of the measured z'', what is fitted only
-  double residual = 0.0;       ///< robust, what is fitted only
+  std::vector<double> forces;                   ///< of the effects, per unit of their coefficient
+  double acceleration = 0.0;                    ///< of the measured z'', what is fitted only
+  double residual = 0.0;                        ///< robust, what is fitted only
   std::array<double, kNumBodyChannels> body{};  ///< 0 where a channel is not known
 };
 

@@ -19,7 +19,8 @@ constexpr std::size_t kFewestStretches = 8;
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
 }  // namespace
 
-PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after, double independent) {
+PairedComparison comparePaired(const std::vector<double>& before, const std::vector<double>& after,
+                               double independent) {
   double sum = 0.0, square = 0.0, total = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double difference = before[i] - after[i];
@@ -63,8 +64,7 @@ std::optional<HeldOut> holdOut(const std::vector<const DriveRecord*>& records, d
         square += segment.sprung[k] * segment.sprung[k];
         result.samples_ += 1.0;
         const bool goes_on = !result.stretches_.empty() && result.stretches_.back().segment == segment_index &&
-                             result.stretches_.back().last == k &&
-                             k - result.stretches_.back().first < period;
+                             result.stretches_.back().last == k && k - result.stretches_.back().first < period;
         if (goes_on)
           result.stretches_.back().last = k + 1;
         else

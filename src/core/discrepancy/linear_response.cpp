@@ -65,7 +65,9 @@ LinearResponse::LinearResponse(const std::vector<const DriveRecord*>& records, c
   const double by_travel = kDifference * travel_, by_rate = kDifference * travel_rate_;
   for (std::size_t k = 0; k < motion_.size(); ++k) {
     const StrutMotion& m = motion_[k];
-    const auto at = [&](double d, double v) { return force.force(m.travel + d, m.travel_rate + v, m.time, memory[k].data()); };
+    const auto at = [&](double d, double v) {
+      return force.force(m.travel + d, m.travel_rate + v, m.time, memory[k].data());
+    };
     slope_travel_.push_back((at(by_travel, 0.0) - at(-by_travel, 0.0)) / (2.0 * by_travel));
     slope_rate_.push_back((at(0.0, by_rate) - at(0.0, -by_rate)) / (2.0 * by_rate));
   }
@@ -96,8 +98,7 @@ Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>&
       StrutMotion here = motion[k];
       here.memory = memory;
       force[static_cast<Eigen::Index>(k)] = effect.force(here, shapes.data());
-      if (effect.memory_rate && k + 1 < end)
-        memory = advanceMemory(effect, shapes.data(), here, motion[k + 1], memory);
+      if (effect.memory_rate && k + 1 < end) memory = advanceMemory(effect, shapes.data(), here, motion[k + 1], memory);
     }
   }
   return force;

@@ -9,12 +9,12 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kFalseName = 0.001;       // chance of a false name, before correction for the number of candidates
-constexpr double kWorthHaving = 0.02;      // of the mean square
-constexpr std::size_t kFitted = 4;         // best candidates that are fitted in any case
-constexpr double kPromising = 0.8;         // share of the best candidate's gain that is worth a fit, too
-constexpr double kScreeningError = 1.2;    // by how much screening may overestimate a loss
-constexpr double kScreeningTime = 0.4;     // of a round
+constexpr double kFalseName = 0.001;     // chance of a false name, before correction for the number of candidates
+constexpr double kWorthHaving = 0.02;    // of the mean square
+constexpr std::size_t kFitted = 4;       // best candidates that are fitted in any case
+constexpr double kPromising = 0.8;       // share of the best candidate's gain that is worth a fit, too
+constexpr double kScreeningError = 1.2;  // by how much screening may overestimate a loss
+constexpr double kScreeningTime = 0.4;   // of a round
 
 std::vector<std::string> namesOf(const StrutModel& model) {
   std::vector<std::string> names;
@@ -92,8 +92,8 @@ std::vector<Judged> ModelJudge::screenAll(const Judged& current, const Tick& tic
     const std::string& name = is_force ? candidates_.forces[i].name : candidates_.readings[i - num_forces].name;
     if (has(current.ranked.effects, name)) return;
     if (is_force && current.fit.model.effects.size() >= most_forces_) return;
-    const std::optional<ScreenedModel> screened = is_force ? screening.screen(candidates_.forces[i])
-                                                           : screening.screen(candidates_.readings[i - num_forces]);
+    const std::optional<ScreenedModel> screened =
+        is_force ? screening.screen(candidates_.forces[i]) : screening.screen(candidates_.readings[i - num_forces]);
     if (!screened) return;
     results[i] = asScreened(*screened, current);
     results[i]->added = name;
@@ -139,8 +139,7 @@ std::vector<Judged> ModelJudge::rankAdditions(const Judged& current, const Tick&
       if (judged.ranked.fitted) limit = std::min(limit, kScreeningError * judged.loss);
     wanted.clear();
     for (std::size_t i = 0; i < ranking.size(); ++i)
-      if (!ranking[i].tried && ranking[i].training_gain > least_gain && ranking[i].loss < limit)
-        wanted.push_back(i);
+      if (!ranking[i].tried && ranking[i].training_gain > least_gain && ranking[i].loss < limit) wanted.push_back(i);
   }
   const auto failed = [](const Judged& judged) { return judged.tried && !judged.ranked.fitted; };
   ranking.erase(std::remove_if(ranking.begin(), ranking.end(), failed), ranking.end());

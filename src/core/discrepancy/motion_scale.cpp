@@ -10,14 +10,10 @@ namespace suspension_health_monitor {
 
 double MotionScale::unit(ShapeScale scale) const {
   switch (scale) {
-    case ShapeScale::kTravel:
-      return travel;
-    case ShapeScale::kTravelRate:
-      return travel_rate;
-    case ShapeScale::kTime:
-      return time;
-    case ShapeScale::kNone:
-      break;
+    case ShapeScale::kTravel: return travel;
+    case ShapeScale::kTravelRate: return travel_rate;
+    case ShapeScale::kTime: return time;
+    case ShapeScale::kNone: break;
   }
   return 1.0;
 }

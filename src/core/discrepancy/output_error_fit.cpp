@@ -50,8 +50,7 @@ Eigen::VectorXd standardDeviations(const ceres::Problem& problem, const Paramete
     double* jacobians[2] = {shared.data(), local.data()};
     if (!cost->Evaluate(x.data(), residuals.data(), jacobians)) continue;
     const Eigen::MatrixXd cross = local.transpose() * shared;
-    information += shared.transpose() * shared -
-                   cross.transpose() * (local.transpose() * local).ldlt().solve(cross);
+    information += shared.transpose() * shared - cross.transpose() * (local.transpose() * local).ldlt().solve(cross);
     square += residuals.squaredNorm();
     count += static_cast<double>(residuals.size());
   }
@@ -72,9 +71,9 @@ std::optional<Eigen::VectorXd> solve(const FitRecords& records, const FitMasks& 
   std::size_t index = 0;
   for (std::size_t r = 0; r < records.size(); ++r)
     for (std::size_t s = 0; s < records[r]->segments().size(); ++s, ++index) {
-      problem.AddResidualBlock(new SegmentCost(*records[r], records[r]->segments()[s], maskOf(masks, r, s), parameters,
-                                               start, scales),
-                               nullptr, x.data(), initial[index].data());
+      problem.AddResidualBlock(
+          new SegmentCost(*records[r], records[r]->segments()[s], maskOf(masks, r, s), parameters, start, scales),
+          nullptr, x.data(), initial[index].data());
       ordering->AddElementToGroup(initial[index].data(), 0);
     }
   ordering->AddElementToGroup(x.data(), 1);

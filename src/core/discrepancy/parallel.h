@@ -7,8 +7,8 @@
 
 namespace suspension_health_monitor {
 
-/// Calls work(i) for i = 0 .. count - 1 on several threads, the calling one among them, and tick() on the calling thread
-/// after each of its own items. What tick() throws ends the work early and passes on. work must not throw.
+/// Calls work(i) for i = 0 .. count - 1 on several threads, the calling one among them, and tick() on the calling
+/// thread after each of its own items. What tick() throws ends the work early and passes on. work must not throw.
 template <class Work, class Tick>
 void forEachInParallel(std::size_t count, int threads, const Work& work, const Tick& tick) {
   std::atomic<std::size_t> next{0};

@@ -8,10 +8,10 @@
 
 namespace suspension_health_monitor {
 
-/// A model as a vector of numbers of order 1: b1 and b0 relative to their start, coefficients relative to a force of the
-/// size of the linear one, shapes by their place in their range (logistic in the logarithm): beyond its range many a law
-/// turns into another one that the model has already, and a fit would lose its way there.
-/// Order: b1, b0, coefficient and shapes effect by effect, then the reading's coefficients.
+/// A model as a vector of numbers of order 1: b1 and b0 relative to their start, coefficients relative to a force of
+/// the size of the linear one, shapes by their place in their range (logistic in the logarithm): beyond its range many
+/// a law turns into another one that the model has already, and a fit would lose its way there. Order: b1, b0,
+/// coefficient and shapes effect by effect, then the reading's coefficients.
 class Parameterization {
  public:
   /// @param coefficient_scales  of the effects, then of the reading's [unit of the coefficient].

@@ -110,7 +110,8 @@ ScreenedModel Screening::expect(const Columns& columns, const Projection& projec
   ScreenedModel screened;
   screened.model = changed(projection.common);
   screened.training_gain = projection.gain;
-  screened.residuals = split(residual_ - columns * projection.coefficients - common_ * projection.common, response_.ends());
+  screened.residuals =
+      split(residual_ - columns * projection.coefficients - common_ * projection.common, response_.ends());
   return screened;
 }
 
@@ -150,7 +151,9 @@ double Screening::surfaceGain() const {
   Eigen::MatrixXd columns(rows, kSurfaceNodes * kSurfaceNodes);
   Eigen::VectorXd force(n);
   using Strided = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>;
-  const auto thinned = [&](const Eigen::VectorXd& all) { return Strided(all.data(), rows, Eigen::InnerStride<>(stride)); };
+  const auto thinned = [&](const Eigen::VectorXd& all) {
+    return Strided(all.data(), rows, Eigen::InnerStride<>(stride));
+  };
   for (int i = 0; i < kSurfaceNodes; ++i)
     for (int j = 0; j < kSurfaceNodes; ++j) {
       for (Eigen::Index k = 0; k < n; ++k) {

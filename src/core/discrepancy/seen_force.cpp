@@ -24,26 +24,18 @@ struct Sample {
 
 double valueOf(const StrutMotion& motion, ForceVariable variable) {
   switch (variable) {
-    case ForceVariable::kTravel:
-      return motion.travel;
-    case ForceVariable::kTravelRate:
-      return motion.travel_rate;
-    case ForceVariable::kTime:
-      break;
+    case ForceVariable::kTravel: return motion.travel;
+    case ForceVariable::kTravelRate: return motion.travel_rate;
+    case ForceVariable::kTime: break;
   }
   return motion.time;
 }
 
 void setValue(StrutMotion& motion, ForceVariable variable, double value) {
   switch (variable) {
-    case ForceVariable::kTravel:
-      motion.travel = value;
-      return;
-    case ForceVariable::kTravelRate:
-      motion.travel_rate = value;
-      return;
-    case ForceVariable::kTime:
-      motion.time = value;
+    case ForceVariable::kTravel: motion.travel = value; return;
+    case ForceVariable::kTravelRate: motion.travel_rate = value; return;
+    case ForceVariable::kTime: motion.time = value;
   }
 }
 

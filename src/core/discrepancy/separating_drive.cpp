@@ -20,7 +20,7 @@ constexpr DriveKind kKinds[] = {
     {"short and hard bumps, with the same travel at three times the rate", 1.0, 3.0, 1.0},
     {"a drive three times as long", 1.0, 1.0, 3.0},
 };
-constexpr double kHelps = 2.0;                // times as different as in the drives at hand
+constexpr double kHelps = 2.0;               // times as different as in the drives at hand
 constexpr double kUndersampled = 0.25;       // power at half the sampling rate
 constexpr double kLawOfTravelAndRate = 0.5;  // share of the structure from which on it is one
 
@@ -84,7 +84,8 @@ std::string suggestSeparatingDrive(const LinearResponse& present, const std::vec
 
 std::string suggestDriveForUnexplained(double surface_share, double power_at_limit) {
   if (power_at_limit > kUndersampled)
-    return "The wheel still shakes at half the sampling rate, so that a part of its motion is lost to any model: record "
+    return "The wheel still shakes at half the sampling rate, so that a part of its motion is lost to any model: "
+           "record "
            "at twice the rate.";
   if (surface_share > kLawOfTravelAndRate)
     return "A force that depends on travel and travel rate alone would explain " + percent(surface_share) +

@@ -17,7 +17,8 @@ std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const Mot
   std::vector<std::vector<double>> result{{}};
   for (const ShapeParameter& shape : effect.shapes) {
     const double ratio = shape.max / shape.min;
-    const int count = std::clamp(static_cast<int>(std::lround(std::log(ratio) / std::log(kRatio))), std::min(2, most), most);
+    const int count =
+        std::clamp(static_cast<int>(std::lround(std::log(ratio) / std::log(kRatio))), std::min(2, most), most);
     std::vector<std::vector<double>> longer;
     for (const std::vector<double>& shapes : result)
       for (int i = 0; i < count; ++i) {

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kNoiseShare = 1e-3;  // of the slope's mean square
 
-/// Robust standard deviation of white noise, from the fourth differences: those of white noise have 70 times its variance.
+/// Robust standard deviation of white noise, from the fourth differences: those of white noise have 70 times its
+/// variance.
 double noiseOf(const std::vector<std::vector<double>>& series) {
   std::vector<double> differences;
   for (const std::vector<double>& x : series)

@@ -13,8 +13,8 @@ class SlopeFilter {
   /// @param half_width  m in [2, kWidest].  @param period  T > 0 [s].
   SlopeFilter(int half_width, double period);
 
-  /// @return of m = 2, 4, 8, 12 the narrowest with which noise is less than a thousandth of the slope's mean square. The
-  /// noise is what the fourth differences show: nothing that a series is worth sampling for has such.
+  /// @return of m = 2, 4, 8, 12 the narrowest with which noise is less than a thousandth of the slope's mean square.
+  /// The noise is what the fourth differences show: nothing that a series is worth sampling for has such.
   /// @param series  each with kWidest samples on either side of where slopes are wanted.
   static SlopeFilter fitting(const std::vector<std::vector<double>>& series, double period);
 

@@ -124,8 +124,9 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
 }
 
 void HealthAssessment::follow(const StrutEstimate& ls, const StrutEstimate& la) {
-  agree_ = ls.valid && !apart(ls.damping_to_mass, la.damping_to_mass, ls.damping_to_mass_stddev,
-                              la.damping_to_mass_stddev, kAgreement, kTails) &&
+  agree_ = ls.valid &&
+           !apart(ls.damping_to_mass, la.damping_to_mass, ls.damping_to_mass_stddev, la.damping_to_mass_stddev,
+                  kAgreement, kTails) &&
            !apart(ls.stiffness_to_mass, la.stiffness_to_mass, ls.stiffness_to_mass_stddev, la.stiffness_to_mass_stddev,
                   kAgreement, kTails);
   disagreement_ += ((agree_ ? 0.0 : 1.0) - disagreement_) / (kOutlierMemories * memory_);

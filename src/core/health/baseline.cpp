@@ -6,8 +6,13 @@
 namespace suspension_health_monitor {
 
 Baseline baselineOf(const StrutEstimate& la, Stamp stamp) {
-  return {la.damping_to_mass, la.stiffness_to_mass, la.damping_to_mass_stddev, la.stiffness_to_mass_stddev,
-          true,               stamp,                stamp};
+  return {la.damping_to_mass,
+          la.stiffness_to_mass,
+          la.damping_to_mass_stddev,
+          la.stiffness_to_mass_stddev,
+          true,
+          stamp,
+          stamp};
 }
 
 std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& estimate, double rows) {

@@ -9,8 +9,8 @@ namespace {
 
 /// One corner on a logarithmic scale.
 struct Change {
-  double damping = 0.0, stiffness = 0.0;  // ln(b / reference)
-  double variance = 0.0;                  // of damping - stiffness, correlation neglected
+  double damping = 0.0, stiffness = 0.0;                // ln(b / reference)
+  double variance = 0.0;                                // of damping - stiffness, correlation neglected
   double strut() const { return damping - stiffness; }  // free of the load
 };
 
@@ -70,9 +70,7 @@ Change changeOf(const CornerState& corner, bool from_nominal) {
 
 std::string nameOf(std::size_t corner) { return std::string(kCornerNames[corner]); }
 
-void add(std::string& sentence, const std::string& part) {
-  sentence += (sentence.empty() ? "" : "; ") + part;
-}
+void add(std::string& sentence, const std::string& part) { sentence += (sentence.empty() ? "" : "; ") + part; }
 
 void accuse(CornerComparisonReport& report, std::size_t corner, double damping_deviation, double stiffness_deviation,
             const std::string& reference) {
@@ -105,8 +103,8 @@ Members takeOutDamaged(const Changes& changes, Members members, const CornerComp
         paired ? changes[partner].damping : medianOfOthers(changes, members, worst, damping);
     const double reference_stiffness =
         paired ? changes[partner].stiffness : medianOfOthers(changes, members, worst, stiffness);
-    accuse(report, worst, changes[worst].damping - reference_damping,
-           changes[worst].stiffness - reference_stiffness, "the other corners");
+    accuse(report, worst, changes[worst].damping - reference_damping, changes[worst].stiffness - reference_stiffness,
+           "the other corners");
   }
   return members;
 }
@@ -170,7 +168,8 @@ CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>
     from_nominal = from_nominal && hasNominal(corners[corner]);
   }
   if (valid.size() < 3) {
-    report.sentence = "cannot tell: " + std::to_string(valid.size()) + " of 4 corners have a valid estimate, 3 are needed";
+    report.sentence =
+        "cannot tell: " + std::to_string(valid.size()) + " of 4 corners have a valid estimate, 3 are needed";
     return report;
   }
   report.level = HealthLevel::kOk;
@@ -182,8 +181,7 @@ CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>
   if (from_nominal) {
     for (const std::size_t corner : valid) {
       const Change& change = changes[corner];
-      report.damping_deviation[corner] =
-          std::expm1(change.damping - medianOfOthers(changes, valid, corner, damping));
+      report.damping_deviation[corner] = std::expm1(change.damping - medianOfOthers(changes, valid, corner, damping));
       report.stiffness_deviation[corner] =
           std::expm1(change.stiffness - medianOfOthers(changes, valid, corner, stiffness));
     }

@@ -18,9 +18,9 @@ double autocovariance(double r, double t) {
 }
 
 // Variance of the value now for errors with autocorrelation exp(-t), carried on over a time of 1, against the one that
-// the normal equations give for uncorrelated ones, in continuous time with the memory r: the line has the frequency response
-// (1 + (2 r + 1) s) / (1 + r s)^2, and 1/pi times the integral of its square over 1 + w^2 is [r (2 + r) + (2 r + 1)^2] /
-// [2 r (1 + r)^2].
+// the normal equations give for uncorrelated ones, in continuous time with the memory r: the line has the frequency
+// response (1 + (2 r + 1) s) / (1 + r s)^2, and 1/pi times the integral of its square over 1 + w^2 is [r (2 + r) + (2 r
+// + 1)^2] / [2 r (1 + r)^2].
 double correlatedShare(double r) {
   const double correlated = (r * (2.0 + r) + (2.0 * r + 1.0) * (2.0 * r + 1.0)) / (2.0 * r * (1.0 + r) * (1.0 + r));
   const double uncorrelated = (2.0 + (2.0 + 1.0 / r) / r) / r;
@@ -76,8 +76,8 @@ std::optional<UncertainValue> ParameterTrend::now() const {
   return UncertainValue{line_.level + std::clamp(line_.slope * lag_, -most, most), std::sqrt(varianceAhead(lag_))};
 }
 
-// Normal equations [weight, -age; -age, age_squared + prior] [a; b] = [sum; -sum_age]; the prior of the slope is that of
-// kSlope of the mean per memory.
+// Normal equations [weight, -age; -age, age_squared + prior] [a; b] = [sum; -sum_age]; the prior of the slope is that
+// of kSlope of the mean per memory.
 void ParameterTrend::fit() {
   const double per_slope = memory_ * weight_ / (kSlope * sum_);
   const double of_slope = age_squared_ + correlated_ * per_slope * per_slope;

@@ -7,11 +7,11 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kGravity = 9.80665;      // [m/s^2]
-constexpr double kExplained = 0.5;        // less is not this strut
-constexpr double kCertain = 5.0;          // standard deviations
-constexpr double kMuchLarger = 9.0;       // variance over variance
-constexpr double kInG = 0.15;             // so near 1 is what a sensor of gravity reads that has g for its unit
+constexpr double kGravity = 9.80665;  // [m/s^2]
+constexpr double kExplained = 0.5;    // less is not this strut
+constexpr double kCertain = 5.0;      // standard deviations
+constexpr double kMuchLarger = 9.0;   // variance over variance
+constexpr double kInG = 0.15;         // so near 1 is what a sensor of gravity reads that has g for its unit
 
 bool hasGravity(double mean) { return std::abs(mean) > kGravity / 2.0; }
 
@@ -33,10 +33,12 @@ void SensorCheck::Reading::add(double before, double now, double slow, double qu
   step += quick * ((now - before) * (now - before) - step);
 }
 
-const SensorReport& SensorCheck::look(const CornerSample& previous, const CornerSample& sample,
-                                      const StrutEstimate& la, bool enough_rows) {
+const SensorReport& SensorCheck::look(const CornerSample& previous, const CornerSample& sample, const StrutEstimate& la,
+                                      bool enough_rows) {
   // What a sensor read while it was dead says nothing of its mean: that is learned anew.
-  const auto revives = [](const Reading& reading, double now) { return reading.still == kStill && now != reading.last; };
+  const auto revives = [](const Reading& reading, double now) {
+    return reading.still == kStill && now != reading.last;
+  };
   if (revives(readings_[0], sample.sprung_acceleration) || revives(readings_[1], sample.unsprung_acceleration)) {
     readings_ = {};
     looked_ = 0.0;
@@ -109,16 +111,11 @@ bool SensorCheck::isOff(const Reading& reading) const {
 std::string describe(const SensorReport& report) {
   char text[160];
   switch (report.fault) {
-    case SensorFault::kNone:
-      return {};
-    case SensorFault::kSprungStuck:
-      return "the sprung IMU reads one value while the unsprung one moves: stuck";
-    case SensorFault::kUnsprungStuck:
-      return "the unsprung IMU reads one value while the sprung one moves: stuck";
-    case SensorFault::kSprungGravity:
-      return withMean("sprung", report.mean[0]);
-    case SensorFault::kUnsprungGravity:
-      return withMean("unsprung", report.mean[1]);
+    case SensorFault::kNone: return {};
+    case SensorFault::kSprungStuck: return "the sprung IMU reads one value while the unsprung one moves: stuck";
+    case SensorFault::kUnsprungStuck: return "the unsprung IMU reads one value while the sprung one moves: stuck";
+    case SensorFault::kSprungGravity: return withMean("sprung", report.mean[0]);
+    case SensorFault::kUnsprungGravity: return withMean("unsprung", report.mean[1]);
     case SensorFault::kGravityOnOneSide:
       std::snprintf(text, sizeof text,
                     "mean readings %.2f (sprung) and %.2f m/s^2 (unsprung): only one of the IMUs reads gravity",

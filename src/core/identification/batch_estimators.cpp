@@ -1,10 +1,9 @@
 #include "suspension_health_monitor/identification/batch_estimators.h"
 
+#include <Eigen/QR>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-
-#include <Eigen/QR>
 
 namespace suspension_health_monitor {
 namespace {
@@ -14,8 +13,8 @@ constexpr double kRankTolerance = 1e-12;
 
 void requireSizes(const RegressionRows& rows, const Eigen::VectorXd& weights) {
   if (rows.regressors.rows() != rows.outputs.size() || rows.outputs.size() != weights.size())
-    throw std::invalid_argument("regressors, outputs and weights have " + std::to_string(rows.regressors.rows()) + ", " +
-                                std::to_string(rows.outputs.size()) + " and " + std::to_string(weights.size()) +
+    throw std::invalid_argument("regressors, outputs and weights have " + std::to_string(rows.regressors.rows()) +
+                                ", " + std::to_string(rows.outputs.size()) + " and " + std::to_string(weights.size()) +
                                 " rows, must be equally many");
 }
 

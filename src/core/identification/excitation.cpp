@@ -14,8 +14,8 @@ constexpr double kByChance = 1e-8;        // that noise looks like a strut
 constexpr double kMostGrowth = 4.0;       // of the usual in a block: an outlier does not become it
 constexpr int kFewestRows = 64;           // of a block
 constexpr double kUsualMemories = 10.0;
-constexpr double kMostTimes = 2.0;        // the strut that is known
-constexpr double kOffsetMemory = 0.98;    // forgetting factor of a look
+constexpr double kMostTimes = 2.0;      // the strut that is known
+constexpr double kOffsetMemory = 0.98;  // forgetting factor of a look
 
 std::array<double, kNumStrutParameters> informationOf(const RowMoments& rows) {
   return {rows.damping_information, rows.stiffness_information};

@@ -3,10 +3,7 @@
 namespace suspension_health_monitor {
 
 GeneralRegression::GeneralRegression(int order, const IntegralFilterOptions& options)
-    : order_(order),
-      input_(order, options),
-      output_(order, options),
-      row_{Eigen::VectorXd::Zero(2 * order), 0.0} {}
+    : order_(order), input_(order, options), output_(order, options), row_{Eigen::VectorXd::Zero(2 * order), 0.0} {}
 
 const RegressionRow* GeneralRegression::push(double input, double output) {
   input_.push(input);

@@ -30,9 +30,7 @@ HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule r
   if (!(std::isfinite(period) && period > 0.0))
     throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be above 0");
   switch (rule) {
-    case IntegrationRule::kTrapezoid:
-      end_corrections_ = {-1.0 / 2};
-      break;
+    case IntegrationRule::kTrapezoid: end_corrections_ = {-1.0 / 2}; break;
     case IntegrationRule::kSimpson:
       if (intervals % 2 != 0) refuseIntervals(intervals, "even for integration_rule simpson");
       same_weight_ = 2.0 / 3;

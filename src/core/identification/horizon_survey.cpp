@@ -9,7 +9,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kShortest = 6;       // even, for Simpson's rule, and enough for the cubic one
+constexpr int kShortest = 6;  // even, for Simpson's rule, and enough for the cubic one
 constexpr double kFewestRows = 20;
 
 }  // namespace
@@ -20,8 +20,8 @@ HorizonSurvey::HorizonSurvey(double period, IntegrationRule rule, int longest) :
   for (double exact = kShortest; exact < longest + 0.5; exact *= std::sqrt(2.0)) {
     const int even = 2 * static_cast<int>(std::lround(exact / 2));
     if (!candidates_.empty() && candidates_.back().horizon_samples == even) continue;
-    candidates_.push_back({even, SuspensionRegression({even, period, rule}),
-                           RecursiveLeastSquares(kNumStrutParameters, options)});
+    candidates_.push_back(
+        {even, SuspensionRegression({even, period, rule}), RecursiveLeastSquares(kNumStrutParameters, options)});
   }
 }
 

@@ -176,8 +176,9 @@ double RecursiveInstrumentalLeastAbsolute::update(const RegressionRow& row, cons
     if (++rows_ == options_.start_rows && options_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0)
       equations_.scale(1.0 / meanAbsoluteResidual());
   } else {
-    correct(row, instrument, 1.0 / boundedDivisor(innovation, options_.small_divisor_rule, options_.small_divisor,
-                                                  meanAbsoluteResidual()));
+    correct(
+        row, instrument,
+        1.0 / boundedDivisor(innovation, options_.small_divisor_rule, options_.small_divisor, meanAbsoluteResidual()));
   }
   return innovation;
 }

@@ -9,9 +9,9 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kSlopeMemory = 0.998;  // forgetting factor of a row in eight; a property of the noise, not the strut
-constexpr double kNearZero = 0.2;        // mean absolute residuals
+constexpr double kNearZero = 0.2;       // mean absolute residuals
 constexpr double kFlattest = 0.02;
-constexpr double kMostUnit = 3.0;        // mean |epsilon| over scale; 2 for a normal distribution and the default divisor
+constexpr double kMostUnit = 3.0;  // mean |epsilon| over scale; 2 for a normal distribution and the default divisor
 
 }  // namespace
 
@@ -47,7 +47,8 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
 
 // The weight of the row; every fourth is taken into the means of weights, since neighbours are much alike.
 RowWeight RecursiveLeastAbsolute::weigh(double innovation) {
-  const double smallest = smallestDivisor(absolute_.small_divisor_rule, absolute_.small_divisor, meanAbsoluteResidual());
+  const double smallest =
+      smallestDivisor(absolute_.small_divisor_rule, absolute_.small_divisor, meanAbsoluteResidual());
   const RowWeight weight{1.0 / std::max(std::abs(innovation), smallest), smallest};
   if (scores_.isEveryFourth() && std::isfinite(weight.weight)) {
     const double score = weight.weight * innovation;

@@ -9,17 +9,17 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kMemories = 30.0;       // of the estimate, that the means last
-constexpr double kLongestMemory = 1e5;   // [rows] of an estimate that never forgets
-constexpr int kFirstRows = 100;          // while the estimate comes from its start
-constexpr unsigned kRefreshEvery = 64;   // rows
-constexpr int kStretch = 3;              // windows of lags that it looks at without a break
-constexpr double kEnough = 6000.0;       // rows in the means, to rest between stretches from then on
-constexpr int kRest = 7;                 // stretches
-constexpr double kFading = 2.0;          // the first rows, when the slow mean is still poor, count least
-constexpr double kWhiteRatio = 2.0;      // of variances, before anything is known: the usual horizons give 0.5 to 3
-constexpr double kSmallestShare = 0.4;   // of what uncorrelated scores would give: below, the lags' sum is mostly noise
-constexpr double kFar = 5.0;             // mean sizes of a residual: beyond, a reading is wrong, or many are
+constexpr double kMemories = 30.0;      // of the estimate, that the means last
+constexpr double kLongestMemory = 1e5;  // [rows] of an estimate that never forgets
+constexpr int kFirstRows = 100;         // while the estimate comes from its start
+constexpr unsigned kRefreshEvery = 64;  // rows
+constexpr int kStretch = 3;             // windows of lags that it looks at without a break
+constexpr double kEnough = 6000.0;      // rows in the means, to rest between stretches from then on
+constexpr int kRest = 7;                // stretches
+constexpr double kFading = 2.0;         // the first rows, when the slow mean is still poor, count least
+constexpr double kWhiteRatio = 2.0;     // of variances, before anything is known: the usual horizons give 0.5 to 3
+constexpr double kSmallestShare = 0.4;  // of what uncorrelated scores would give: below, the lags' sum is mostly noise
+constexpr double kFar = 5.0;            // mean sizes of a residual: beyond, a reading is wrong, or many are
 // Whatever lambda, rounding and outliers that have left the window are forgotten after a thousand windows.
 constexpr double kWindows = 1000.0;
 
@@ -134,7 +134,7 @@ bool ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor
 }
 
 void ScoreCovariance::endStretch() {
-  refresh();  // the next turn of it may fall into the rest
+  refresh();                                                // the next turn of it may fall into the rest
   rest_ = (kRest * in_stretch_ / kFewRows + 1) * kFewRows;  // so that the next look comes kFewRows rows after the rest
   interrupt();
 }

@@ -19,9 +19,7 @@ double stillDrift() {
 }  // namespace
 
 VariableForgetting::VariableForgetting(int num_parameters, int correlated_rows, double slow, double fastest)
-    : slow_(slow),
-      fastest_(fastest),
-      gain_(1.0 / std::max(kWindows * (correlated_rows + 1), kFewestRows)) {
+    : slow_(slow), fastest_(fastest), gain_(1.0 / std::max(kWindows * (correlated_rows + 1), kFewestRows)) {
   restart(num_parameters);
 }
 

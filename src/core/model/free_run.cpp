@@ -41,8 +41,7 @@ const std::array<Split, kNumSplits>& splits() {
     std::array<Split, kNumSplits> made;
     for (std::size_t s = 0; s < kNumSplits; ++s) {
       const int steps = 1 << s;
-      for (int i = 0; i < steps; ++i)
-        made[s].emplace_back(static_cast<double>(i) / steps, (i + 1.0) / steps, 1.0);
+      for (int i = 0; i < steps; ++i) made[s].emplace_back(static_cast<double>(i) / steps, (i + 1.0) / steps, 1.0);
     }
     return made;
   }();
@@ -102,10 +101,10 @@ void FreeRun::split(double steps) {
 
 void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
   if (trySetModel(damping_to_mass, stiffness_to_mass)) return;
-  throw std::invalid_argument("damping_to_mass = " + std::to_string(damping_to_mass) +
-                              " [1/s], stiffness_to_mass = " + std::to_string(stiffness_to_mass) +
-                              " [1/s^2]: both must be above 0 and slow enough for sample_period = " +
-                              std::to_string(period_) + " [s]");
+  throw std::invalid_argument(
+      "damping_to_mass = " + std::to_string(damping_to_mass) +
+      " [1/s], stiffness_to_mass = " + std::to_string(stiffness_to_mass) +
+      " [1/s^2]: both must be above 0 and slow enough for sample_period = " + std::to_string(period_) + " [s]");
 }
 
 void FreeRun::setEffects(const std::vector<ActiveEffect>& effects) {
@@ -175,8 +174,7 @@ void FreeRun::advance(double time) {
 }
 
 double FreeRun::predict(double time) {
-  if (!withEffects())
-    return model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
+  if (!withEffects()) return model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
   countTravelFrom(mean_);
   double prediction = offset_ + model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
   for (std::size_t j = 0; j < model_.effects.size(); ++j) {

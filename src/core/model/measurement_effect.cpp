@@ -25,7 +25,8 @@ void delay(double tau, double period, std::vector<double>& predicted) {
   const double shift = std::floor(-tau / period), fraction = -tau / period - shift;  // in samples
   std::array<double, 2 * kReach> weights{};
   double sum = 0.0;
-  for (int i = 0; i < 2 * kReach; ++i) sum += weights[static_cast<std::size_t>(i)] = weightAt(i + 1 - kReach - fraction);
+  for (int i = 0; i < 2 * kReach; ++i)
+    sum += weights[static_cast<std::size_t>(i)] = weightAt(i + 1 - kReach - fraction);
   for (double& weight : weights) weight /= sum;
 
   const std::vector<double> y = predicted;
@@ -36,7 +37,8 @@ void delay(double tau, double period, std::vector<double>& predicted) {
     return k < 0 ? 2.0 * y.front() - value : k > last ? 2.0 * y.back() - value : value;
   };
   // A delay beyond the series' length has no meaning, but a solver may try it.
-  const auto whole = static_cast<long>(std::clamp(shift, -2.0 * static_cast<double>(last), 2.0 * static_cast<double>(last)));
+  const auto whole =
+      static_cast<long>(std::clamp(shift, -2.0 * static_cast<double>(last), 2.0 * static_cast<double>(last)));
   for (long k = 0; k <= last; ++k) {
     const long first = k + whole + 1 - kReach;
     double value = 0.0;
@@ -61,29 +63,46 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
   using C = BodyChannel;
   using Series = std::vector<double>;
   return {
-      {"clock_offset", "y(t - c)", {{"coefficient", "s"}}, "IMU clocks are not synchronised",
+      {"clock_offset",
+       "y(t - c)",
+       {{"coefficient", "s"}},
+       "IMU clocks are not synchronised",
        [](const double* c, const BodyChannels&, double period, Series& predicted) { delay(*c, period, predicted); },
        [](const Sizes& sizes, std::size_t) { return sizes.period * sizes.residual / sizes.y; }},
-      {"accelerometer_bias", "y + c", {{"coefficient", "m/s^2"}}, "offset of a sensor",
+      {"accelerometer_bias",
+       "y + c",
+       {{"coefficient", "m/s^2"}},
+       "offset of a sensor",
        [](const double* c, const BodyChannels&, double, Series& predicted) {
          for (double& y : predicted) y += *c;
        },
        [](const Sizes& sizes, std::size_t) { return sizes.residual; }},
-      {"scale_error", "(1 + c) y", {{"coefficient", "-"}}, "gain of a sensor",
+      {"scale_error",
+       "(1 + c) y",
+       {{"coefficient", "-"}},
+       "gain of a sensor",
        [](const double* c, const BodyChannels&, double, Series& predicted) {
          for (double& y : predicted) y *= 1.0 + *c;
        },
        [](const Sizes& sizes, std::size_t) { return sizes.residual / sizes.y; }},
       // Small angles: turned about y by c_x, the sensor's z axis sees c_x of what happens along x.
-      {"mount_tilt", "y + c_x a_x + c_y a_y", {{"c_x", "rad"}, {"c_y", "rad"}}, "IMU of the body is not level",
+      {"mount_tilt",
+       "y + c_x a_x + c_y a_y",
+       {{"c_x", "rad"}, {"c_y", "rad"}},
+       "IMU of the body is not level",
        [](const double* c, const BodyChannels& body, double, Series& predicted) {
          leak(c[0], body, C::kAccelerationX, predicted);
          leak(c[1], body, C::kAccelerationY, predicted);
        },
-       [](const Sizes& sizes, std::size_t i) { return leakScale(sizes, i == 0 ? C::kAccelerationX : C::kAccelerationY); },
+       [](const Sizes& sizes, std::size_t i) {
+         return leakScale(sizes, i == 0 ? C::kAccelerationX : C::kAccelerationY);
+       },
        {C::kAccelerationX, C::kAccelerationY}},
       // The z component of w' x r, r from the top of the strut to the sensor.
-      {"lever_arm", "y + r_y w_x' - r_x w_y'", {{"r_x", "m"}, {"r_y", "m"}}, "IMU of the body is away from the strut top",
+      {"lever_arm",
+       "y + r_y w_x' - r_x w_y'",
+       {{"r_x", "m"}, {"r_y", "m"}},
+       "IMU of the body is away from the strut top",
        [](const double* r, const BodyChannels& body, double, Series& predicted) {
          leak(-r[0], body, C::kAngularAccelerationY, predicted);
          leak(r[1], body, C::kAngularAccelerationX, predicted);

@@ -71,8 +71,8 @@ std::string toYaml(const StrutModel& model) {
   for (const ActiveMeasurementEffect& active : model.reading) {
     text += "  " + active.effect.name + ":\n";
     for (std::size_t i = 0; i < active.coefficients.size(); ++i)
-      text += line("    ", active.effect.coefficients[i].name, active.coefficients[i],
-                   active.effect.coefficients[i].unit);
+      text +=
+          line("    ", active.effect.coefficients[i].name, active.coefficients[i], active.effect.coefficients[i].unit);
   }
   return text;
 }

@@ -139,8 +139,12 @@ ForceEffect makeUserEffect(const std::string& name, OptionMap values) {
   for (const std::string& text : {settings.unit, settings.finding}) checkText(where, text);
 
   const bool has_memory = !settings.memory_rate.empty();
-  ForceEffect effect{name, "c (" + settings.force + ")", settings.unit, settings.finding,
-                     makeLaw(where + "/force", settings.force, shapes, has_memory), shapes};
+  ForceEffect effect{name,
+                     "c (" + settings.force + ")",
+                     settings.unit,
+                     settings.finding,
+                     makeLaw(where + "/force", settings.force, shapes, has_memory),
+                     shapes};
   checkFinite(where + "/force = \"" + settings.force + '"', effect.force, shapes);
   if (!has_memory) return effect;
   effect.law += ", s' = " + settings.memory_rate;

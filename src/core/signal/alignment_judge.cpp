@@ -34,8 +34,7 @@ void AlignmentJudge::judgeInterruption(Stamp sprung) {
   const std::optional<Stamp> first = std::exchange(interruptions_[oldest_], sprung);
   oldest_ = (oldest_ + 1) % kInterruptions;
   const double longest = kInterruptions * fill_ / std::log(2.0) * toSeconds(period_);
-  if (verdict_ == Verdict::kDoesWell && first && toSeconds(sprung - *first) < longest)
-    verdict_ = Verdict::kInterrupted;
+  if (verdict_ == Verdict::kDoesWell && first && toSeconds(sprung - *first) < longest) verdict_ = Verdict::kInterrupted;
 }
 
 void AlignmentJudge::judgeOutcomes() {
@@ -50,14 +49,11 @@ void AlignmentJudge::judgeOutcomes() {
 
 std::string describe(AlignmentJudge::Verdict verdict) {
   switch (verdict) {
-    case AlignmentJudge::Verdict::kApart:
-      return "the sensors read at different instants";
-    case AlignmentJudge::Verdict::kLoneReadings:
-      return "many readings find no partner: the sensors' rates differ";
+    case AlignmentJudge::Verdict::kApart: return "the sensors read at different instants";
+    case AlignmentJudge::Verdict::kLoneReadings: return "many readings find no partner: the sensors' rates differ";
     case AlignmentJudge::Verdict::kInterrupted:
       return "readings are lost so often that the integral filter would hardly ever be full";
-    case AlignmentJudge::Verdict::kDoesWell:
-      break;
+    case AlignmentJudge::Verdict::kDoesWell: break;
   }
   return "";
 }

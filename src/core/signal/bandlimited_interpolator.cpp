@@ -9,8 +9,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-// Where the energy of a wheel's motion is counts most; near Nyquist's frequency an error is cheaper than the length that
-// would avoid it. Bands from 0, as shares of Nyquist's frequency, and their weights.
+// Where the energy of a wheel's motion is counts most; near Nyquist's frequency an error is cheaper than the length
+// that would avoid it. Bands from 0, as shares of Nyquist's frequency, and their weights.
 struct Band {
   double edge, weight;
 };

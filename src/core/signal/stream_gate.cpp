@@ -8,7 +8,7 @@ namespace {
 
 // A spike of this size takes an estimator with forgetting thousands of rows to forget; no road makes one.
 constexpr double kAbsurdRatio = 1e6;
-constexpr int kMostAbsurd = 3;  // in a row; after that it is how the sensor reads now
+constexpr int kMostAbsurd = 3;             // in a row; after that it is how the sensor reads now
 constexpr double kFewestForAbsurd = 10.0;  // soon: a spike among the first rows would be remembered longest
 
 constexpr double kFewestForUsual = 100.0;

@@ -124,8 +124,8 @@ std::string UniformGrid::whatIsTooSlow() const {
   if (spacing < 1.5 * toSeconds(period_)) return "";
   std::ostringstream text;
   text.precision(4);
-  text << "readings come every " << spacing << " s (" << 1.0 / spacing << " Hz), but sample_period = "
-       << toSeconds(period_) << " [s]";
+  text << "readings come every " << spacing << " s (" << 1.0 / spacing
+       << " Hz), but sample_period = " << toSeconds(period_) << " [s]";
   return text.str();
 }
 

@@ -8,11 +8,11 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kCutoff = 0.5;          // -6 dB [cycles per grid period]
-constexpr double kKaiser = 5.0;          // shape of the window: ripple 1.4e-3
-constexpr double kHighestLine = 0.3;     // [cycles per grid period]
-constexpr double kHighestRidge = 0.1;    // of the highest line, relative to the sum of g; falls with the 6th power
-constexpr int kNodesPerPeriod = 512;     // of the table: h is interpolated to 1e-6
+constexpr double kCutoff = 0.5;        // -6 dB [cycles per grid period]
+constexpr double kKaiser = 5.0;        // shape of the window: ripple 1.4e-3
+constexpr double kHighestLine = 0.3;   // [cycles per grid period]
+constexpr double kHighestRidge = 0.1;  // of the highest line, relative to the sum of g; falls with the 6th power
+constexpr int kNodesPerPeriod = 512;   // of the table: h is interpolated to 1e-6
 
 /// h and the phasor of the first line at one node of the table.
 struct Node {

@@ -28,8 +28,8 @@ SensorFaults SensorFaults::from(const std::vector<ActiveMeasurementEffect>& hidd
 
 double SensorFaults::read(double acceleration, const Sway& sway) const {
   // Away from the strut's top a turning body moves up by (angular acceleration) x (position), z component.
-  const double here = acceleration + sway.angular_acceleration[0] * position[1] -
-                      sway.angular_acceleration[1] * position[0];
+  const double here =
+      acceleration + sway.angular_acceleration[0] * position[1] - sway.angular_acceleration[1] * position[0];
   return (1.0 + gain_error) * (here + tilt[0] * sway.acceleration[0] + tilt[1] * sway.acceleration[1]) + bias;
 }
 
