@@ -12,8 +12,7 @@
 namespace suspension_health_monitor {
 
 /// @param fit  of the rows.
-/// @return information of either parameter over that which noise would give that is as large as what the fit leaves
-/// [-].
+/// @return information of either parameter over that of noise as large as what the fit leaves [-].
 std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, const StrutFit& fit,
                                                      const RegressorNoise& noise);
 
