@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace suspension_health_monitor {
@@ -153,6 +154,47 @@ TEST(HealthAssessment, LevelEndsBelowItsThresholdLessTheHysteresis) {
   EXPECT_EQ(level(-0.301), HealthLevel::kError);
   EXPECT_EQ(level(-0.281), HealthLevel::kError);
   EXPECT_EQ(level(-0.279), HealthLevel::kWarn);
+}
+
+// One standard deviation, of the baseline, of 3 % is more than the 2 %.
+TEST(HealthAssessment, LevelEndsNotBeforeAStandardDeviationBelowItsThreshold) {
+  HealthOptions some = options();
+  some.hysteresis = 0.02;
+  HealthAssessment assessment(some);
+  Baseline baseline = assessment.baseline();
+  baseline.damping_to_mass_stddev = 0.03 * kNominalB1;
+  assessment.setBaseline(baseline);
+  double t = 0.0, change = 0.0;
+  const auto levelAt = [&](double end) {  // slowly, so that the trend does not overshoot
+    for (const double step = (end - change) / 10000.0; std::abs(end - change) > std::abs(step) / 2.0; change += step) {
+      StrutEstimate sure = estimate(change, 0.0);
+      sure.damping_to_mass_stddev = sure.stiffness_to_mass_stddev = 1e-6;
+      update(assessment, at(t += 0.01), sure);
+    }
+    return assessment.report().level;
+  };
+  EXPECT_EQ(levelAt(-0.145), HealthLevel::kOk);
+  EXPECT_EQ(levelAt(-0.155), HealthLevel::kWarn);
+  EXPECT_EQ(levelAt(-0.125), HealthLevel::kWarn);
+  EXPECT_EQ(levelAt(-0.115), HealthLevel::kOk);
+}
+
+// What was certain once is not taken back because the road is poor for a while.
+TEST(HealthAssessment, LevelLastsWhileHalfOfItsSignificanceIsLeft) {
+  HealthAssessment assessment(options());
+  double t = 0.0;
+  const auto levelWith = [&](double relative_stddev) {
+    StrutEstimate vague = estimate(-0.2, 0.0);  // ln 0.8 = -0.223
+    vague.damping_to_mass_stddev = relative_stddev * vague.damping_to_mass;
+    vague.stiffness_to_mass_stddev = 1e-6;
+    for (int k = 0; k < 1000; ++k) update(assessment, at(t += 0.01), vague);
+    return assessment.report().level;
+  };
+  EXPECT_EQ(levelWith(0.06), HealthLevel::kOk);     // 3.7 sigma: not yet
+  EXPECT_EQ(levelWith(0.05), HealthLevel::kWarn);   // 4.5 sigma
+  EXPECT_EQ(levelWith(0.06), HealthLevel::kWarn);   // 3.7 sigma
+  EXPECT_EQ(levelWith(0.10), HealthLevel::kWarn);   // 2.2 sigma
+  EXPECT_EQ(levelWith(0.13), HealthLevel::kStale);  // 1.7 sigma
 }
 
 TEST(HealthAssessment, AChangeThatIsNotSignificantIsNone) {

@@ -23,7 +23,7 @@ struct HealthOptions {
   double stiffness_warn = 0.15;
   double stiffness_error = 0.30;
   double confirm_time = 0.5;          ///< a new level must last this long before it is reported [s]
-  double hysteresis = 0.02;           ///< a level ends this far below its threshold [-]
+  double hysteresis = 0.02;           ///< a level ends this far below its threshold, or a standard deviation [-]
   double min_significance = 4.0;      ///< standard deviations that a change must have to be one
   double payload_range = 0.35;        ///< relative change of the body's mass that may be payload; 0: none
   double learn_time = 60.0;           ///< of valid estimates, when there are no nominal values [s]; 0: never
@@ -65,10 +65,10 @@ struct HealthReport {
 /// - LS and LA that are more than kAgreement standard deviations of LA apart, or of which LS is more than kTails times
 ///   as uncertain, disagree: there are outliers, or was a step. If they do for long, that is reported.
 /// - Payload moves both parameters, damage one (splitChange()).
-/// - A level needs the size and the significance; it ends below the threshold less the hysteresis, and must last for
-///   the confirm time (LevelConfirmation). A change that the error threshold could not prove is kStale, "cannot tell",
-///   as is an estimate that is not valid; never "healthy". A sensor that is at fault makes an error a warning: who
-///   knows.
+/// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation). It ends when
+///   the change is below the threshold by the hysteresis, or a standard deviation if that is more, or has lost half of
+///   the significance. A change that the error threshold could not prove is kStale, "cannot tell", as is an estimate
+///   that is not valid; never "healthy". A sensor that is at fault makes an error a warning: who knows.
 /// - Early warning: EarlyWarning over the changes, one every two memories and horizons.
 /// Cost per update: O(1), no allocation.
 class HealthAssessment {

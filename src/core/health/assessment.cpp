@@ -37,14 +37,17 @@ bool apart(double ls, double la, double ls_stddev, double la_stddev, double most
 // |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.
 double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); }
 
-// Level of one parameter. A level that holds already ends only below its threshold less the hysteresis.
+constexpr double kHeldShare = 0.5;  // of the significance that a level began with
+
+// Level of one parameter. A level that holds already ends below its threshold less the hysteresis, or less a standard
+// deviation if that is more, or when the change has lost half of the significance that it began with.
 HealthLevel levelOf(double change, double stddev, double warn, double error, HealthLevel before,
                     const HealthOptions& options) {
-  const double size = std::abs(change);
-  const bool certain = !(logSize(change) < options.min_significance * stddev);
+  const double size = std::abs(change), significance = logSize(change) / stddev;
   const auto reaches = [&](HealthLevel level, double threshold) {
     const bool holds = before >= level && before != HealthLevel::kStale;
-    return size + 1e-9 >= threshold - (holds ? options.hysteresis : 0.0) && certain;
+    if (significance < options.min_significance * (holds ? kHeldShare : 1.0)) return false;
+    return size + 1e-9 >= threshold - (holds ? std::fmax(options.hysteresis, stddev) : 0.0);
   };
   if (reaches(HealthLevel::kError, error)) return HealthLevel::kError;
   if (reaches(HealthLevel::kWarn, warn)) return HealthLevel::kWarn;
