@@ -61,6 +61,12 @@ class ScoreCovariance {
   /// @param unit  of the inflation from now on, in that of before.
   void restart(double unit);
 
+  /// The estimate is one only now. If it has been more than its first rows till then, the rows before told nothing, as
+  /// those of a vehicle that stands: its slow course, and what was learned against that, are of no use.
+  void beginHere() {
+    if (first_rows_ == 0) restart(1.0);
+  }
+
   void setForgettingFactor(double forgetting_factor);
 
   /// @param slope  rho in (0, 1], see above.
