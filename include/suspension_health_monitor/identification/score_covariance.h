@@ -61,11 +61,9 @@ class ScoreCovariance {
   /// @param unit  of the inflation from now on, in that of before.
   void restart(double unit);
 
-  /// The estimate is one only now. If it has been more than its first rows till then, the rows before told nothing, as
-  /// those of a vehicle that stands: its slow course, and what was learned against that, are of no use.
-  void beginHere() {
-    if (first_rows_ == 0) restart(1.0);
-  }
+  /// The estimate is one only now. If much has been learned by then, it was from rows that told nothing, as those of a
+  /// vehicle that stands: the slow course, and what was learned against it, are of no use.
+  void beginHere();
 
   void setForgettingFactor(double forgetting_factor);
 
