@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "suspension_health_monitor/corner_sample.h"
@@ -63,6 +64,7 @@ class TyreTracker {
  private:
   bool continues(Stamp stamp) const;
   void estimate(const RegressionRow& row);
+  void noteValidity();
   void startNewSeries();
 
   IntegralFilterOptions filter_;
@@ -70,6 +72,7 @@ class TyreTracker {
   int valid_min_rows_;
   double min_rows_, min_explained_;
   bool period_fits_ = true;
+  double invalid_rows_ = std::numeric_limits<double>::infinity();  // in a row, up to the newest; at first no end of them
   MotionJudge motion_;
   TyreRegression regression_;
   RecursiveLeastSquares least_squares_;

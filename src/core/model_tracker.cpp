@@ -145,6 +145,10 @@ void ModelTracker::judgeEstimates(bool moves, ModelReport& report) {
     estimate->valid = estimate->doubt == EstimateDoubt::kNone;
   }
   if (!report.la.valid) return;
+  if (!has_been_valid_) {
+    least_squares_.beginSpread();
+    least_absolute_.beginSpread();
+  }
   has_been_valid_ = true;
   // From the first valid estimate on there is something to hold.
   if (excitation_) excitation_->know({report.la.damping_to_mass, report.la.stiffness_to_mass});

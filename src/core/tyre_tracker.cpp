@@ -5,6 +5,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr double kWindowsOfRest = 3.0;  // without a valid estimate
+
 template <class Estimator>
 void describe(const Estimator& estimator, WheelEstimate& estimate) {
   const Eigen::VectorXd& theta = estimator.parameters();
@@ -75,6 +77,20 @@ void TyreTracker::estimate(const RegressionRow& row) {
   for (WheelEstimate* estimate : {&report_.ls, &report_.la})
     estimate->valid = moves && period_fits_ && estimate->effective_rows >= min_rows_ &&
                       estimate->explained >= min_explained_ && isWheel(*estimate);
+  noteValidity();
+}
+
+// How the estimates scatter was learned in vain while there was nothing to estimate: the vehicle stood.
+void TyreTracker::noteValidity() {
+  if (!report_.la.valid) {
+    invalid_rows_ += 1.0;
+    return;
+  }
+  if (invalid_rows_ > kWindowsOfRest * 2.0 * filter_.horizon_samples) {
+    least_squares_.beginSpread();
+    least_absolute_.beginSpread();
+  }
+  invalid_rows_ = 0.0;
 }
 
 void TyreTracker::startNewSeries() {

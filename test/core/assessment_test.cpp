@@ -263,6 +263,14 @@ TEST(HealthReport, SaysInOneSentenceWhatChanged) {
   EXPECT_EQ(describe(HealthReport{}), "cannot tell: the filter is filling after a start or a gap");
 }
 
+TEST(HealthReport, SaysThatANewLevelIsBeingConfirmed) {
+  HealthAssessment assessment(options());
+  for (double t = 0.0; t <= 2.0; t += 0.02) update(assessment, at(t), StrutEstimate());
+  for (double t = 2.02; t <= 2.5; t += 0.02) update(assessment, at(t), estimate(0.0, 0.0));
+  EXPECT_EQ(assessment.report().level, HealthLevel::kStale);
+  EXPECT_EQ(describe(assessment.report()), "cannot tell yet: a new level must last for health/confirm_time");
+}
+
 // Before "cannot tell" is confirmed, the last judgement stands, with its reasons.
 TEST(HealthReport, KeepsItsReasonsAsLongAsItsLevel) {
   HealthAssessment assessment(options());

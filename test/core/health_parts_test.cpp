@@ -108,6 +108,14 @@ TEST(ParameterTrend, KnowsItsStandardDeviation) {
   }
 }
 
+// Memory and lag are the same where L (1 - lambda) is 9, as with 300 samples and 0.97.
+TEST(ParameterTrend, MeansVaryAlikeWhereMemoryAndLagMeet) {
+  const auto variance = [](double memory) { return ParameterTrend::varianceOfMeans(memory, 2.0, 3.0); };
+  const double beside = (variance(1.9) + variance(2.1)) / 2.0;
+  for (const double off : {0.0, 4e-16, -4e-16, 1e-12, 1e-6, -1e-4, 1e-2})
+    EXPECT_NEAR(variance(2.0 + off), beside, 0.01 * beside) << off;
+}
+
 TEST(FollowedParameter, TakesTheEstimatorThatKnowsItBetter) {
   constexpr UncertainValue kHealthy{3.0, 0.0};
   FollowedParameter outliers(10.0, 2.0);

@@ -17,12 +17,11 @@ using Change = std::function<void(double& sprung, double& unsprung)>;
 
 /// @return what is said of the sensors after a drive of 60 s whose readings are changed.
 /// @param gravity  that both of them read [m/s^2].
-SensorFault faultOf(SimulationOptions options, double gravity, const Change& change) {
+/// @param settings  of the monitor, but for the sample period.
+SensorFault faultOf(SimulationOptions options, double gravity, const Change& change, MonitorOptions settings = {}) {
   options.duration = 60.0;
   options.rate = 100.0;
-  MonitorOptions settings;
   settings.sample_period = 0.01;
-  settings.integration_horizon = 0.6;
   SuspensionMonitor monitor(settings);
   for (const DriveSample& sample : drive(options)) {
     double sprung = gravity + sample.sprung->acceleration, unsprung = gravity + sample.unsprung->acceleration;
@@ -67,6 +66,20 @@ TEST(SensorCheck, SuspectsNothingInHealthyDrives) {
     for (const char* name : {"paper_clean", "paper_outliers", "paper_saturation"})
       EXPECT_EQ(faultOf(scenario(name), gravity, none), SensorFault::kNone) << name << " " << gravity;
   }
+}
+
+// A mean over less than a sample, and over a few, is none.
+TEST(SensorCheck, SuspectsNothingWithAShortWindowOrALongHorizon) {
+  const Change none = [](double&, double&) {};
+  MonitorOptions settings;
+  for (const double window : {0.001, 0.1, 0.3, 1.0, 3.0}) {
+    settings.comparison_window = window;
+    for (const double gravity : {0.0, 9.81})
+      EXPECT_EQ(faultOf(scenario("paper_clean"), gravity, none, settings), SensorFault::kNone) << window;
+  }
+  settings.comparison_window = 1.0;
+  settings.integration_horizon = 3.0;
+  EXPECT_EQ(faultOf(scenario("paper_clean"), 0.0, none, settings), SensorFault::kNone);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "simulated_drive.h"
 #include "suspension_health_monitor/suspension_monitor.h"
@@ -59,6 +60,41 @@ TEST(TyreRegression, EqualsTheIntegralsOfASineInClosedForm) {
     EXPECT_NEAR(row->regressor[kTyreToWheelMass], -e / (omega * omega) * secondDifference(sine, t), 1e-5);
   }
   EXPECT_EQ(rows, 140);
+}
+
+// A rest, before the drive and in it, teaches nothing of how the estimates scatter.
+TEST(TyreTracker, KnowsItsSpreadAfterARest) {
+  MonitorOptions options = neverForgetting();
+  options.forgetting_factor = 0.998;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0.0, 0.024);
+  const auto reportAfter = [&](double driven_before, double rest) {
+    TyreTracker tracker(options);
+    Stamp stamp{};
+    const auto add = [&](double sprung, double unsprung, double road) {
+      stamp += fromSeconds(1.0 / kRate);
+      tracker.add({stamp, sprung, unsprung}, road);
+    };
+    const auto driveFor = [&](double seconds) {
+      for (const DriveSample& sample : drive(roadDrive("golden_car", 0.024, seconds)))
+        add(sample.sprung->acceleration, sample.unsprung->acceleration, sample.road->acceleration);
+    };
+    if (driven_before > 0.0) driveFor(driven_before);
+    for (int k = 0; k < rest * kRate; ++k) {
+      const double sprung = noise(random), unsprung = noise(random);
+      add(sprung, unsprung, noise(random));
+    }
+    driveFor(15.0);
+    return tracker.report();
+  };
+  const TyreReport without = reportAfter(0.0, 0.0);
+  for (const double driven_before : {0.0, 10.0}) {
+    const TyreReport after = reportAfter(driven_before, 10.0);
+    for (const auto estimate : {&TyreReport::ls, &TyreReport::la}) {
+      EXPECT_LT((after.*estimate).damping_to_wheel_mass_stddev, 1.6 * (without.*estimate).damping_to_wheel_mass_stddev);
+      EXPECT_LT((after.*estimate).tyre_to_wheel_mass_stddev, 1.6 * (without.*estimate).tyre_to_wheel_mass_stddev);
+    }
+  }
 }
 
 // Without noise only the integration rule errs, by the fourth power of the sampling time: 90 samples per hop.

@@ -37,7 +37,7 @@ class ParameterTrend {
   void pass();
 
   /// @return variance of the mean of many now(), so many steps apart, over that of uncorrelated ones (1 + 2 sum of the
-  /// correlations), of a trend as in the constructor while the parameter stays; memory != lag.
+  /// correlations), of a trend as in the constructor while the parameter stays.
   static double varianceOfMeans(double memory, double lag, double steps);
 
   /// @return the parameter now; empty before the first value.

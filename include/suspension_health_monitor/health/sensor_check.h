@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -45,8 +46,9 @@ struct SensorReport {
 class SensorCheck {
  public:
   /// @param gravity_tolerance  share of g by which a mean may be off; 0: means are not judged.
-  /// @param memory  in samples looked at.
-  SensorCheck(double gravity_tolerance, double memory) : tolerance_(gravity_tolerance), memory_(memory) {}
+  /// @param memory  in samples looked at; of fewer than kFewestLooked nobody knows a mean.
+  SensorCheck(double gravity_tolerance, double memory)
+      : tolerance_(gravity_tolerance), memory_(std::max(memory, kFewestLooked)) {}
 
   /// @param previous  the sample before `sample`.
   /// @param la  the estimate at the sample.  @param enough_rows  it has as many rows as a valid estimate needs.
@@ -64,6 +66,7 @@ class SensorCheck {
     bool isMotion() const { return step < kWhiteShare * 2.0 * variance; }
   };
 
+  static constexpr double kFewestLooked = 25.0;  // as at the defaults
   static constexpr double kMeanNoise = 0.2;  // of the rms: more than a mean over the memory is off by
   static constexpr double kQuick = 10.0;     // motion is forgotten so much sooner than the mean: else a stop takes long
   static constexpr double kWhiteShare = 0.5;  // of 2 variance, the mean square step of white noise

@@ -67,6 +67,9 @@ class RecursiveEstimator {
   /// The next row does not follow the one before: residuals of both are not correlated.
   void interrupt() { scores_.interrupt(); }
 
+  /// The parameters are worth something from now on: how they scatter is learned from the rows to come.
+  void beginSpread() { scores_.beginHere(); }
+
   /// Holds parameter i from the next row on, or no longer: rows then say nothing of it, and what is known of it is not
   /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
   void hold(int i, bool held);

@@ -61,6 +61,10 @@ class ScoreCovariance {
   /// @param unit  of the inflation from now on, in that of before.
   void restart(double unit);
 
+  /// The estimate is one only now. If much has been learned by then, it was from rows that told nothing, as those of a
+  /// vehicle that stands: the slow course, and what was learned against it, are of no use.
+  void beginHere();
+
   void setForgettingFactor(double forgetting_factor);
 
   /// @param slope  rho in (0, 1], see above.

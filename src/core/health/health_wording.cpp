@@ -36,6 +36,8 @@ std::string describeChanges(const HealthReport& report) {
 std::string describeJudgement(const HealthReport& report) {
   if (report.level == HealthLevel::kStale && report.uncertain)
     return "cannot tell: estimates too uncertain to prove a change (drive on, or on a rougher road)";
+  if (report.level == HealthLevel::kStale && report.estimate_valid)
+    return "cannot tell yet: a new level must last for health/confirm_time";
   if (report.level == HealthLevel::kStale) return "cannot tell: " + std::string(describe(report.doubt));
   const std::string changes = describeChanges(report);
   if (!changes.empty()) return changes;

@@ -7,6 +7,9 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kUncorrelated = 20.0;  // memories or lags apart
+constexpr double kNearOne = 1e-3;       // nearer to 1 the residues of autocovariance() cancel in all their digits
+
+double apartFromOne(double r) { return std::abs(r - 1.0) < kNearOne ? 1.0 + kNearOne : r; }
 
 // Autocovariance of the value now over t, in the units of correlatedShare(), up to a factor: the integral that is named
 // there, with exp(i w t), by the residues at -1 and -1 / r.
@@ -36,10 +39,11 @@ void ParameterTrend::setMemory(double memory, double lag) {
 }
 
 double ParameterTrend::varianceOfMeans(double memory, double lag, double steps) {
+  const double ratio = apartFromOne(memory / lag);
   double sum = 0.0;
   for (double apart = steps; apart < kUncorrelated * std::max(memory, lag); apart += steps)
-    sum += autocovariance(memory / lag, apart / lag);
-  return 1.0 + 2.0 * sum / autocovariance(memory / lag, 0.0);
+    sum += autocovariance(ratio, apart / lag);
+  return 1.0 + 2.0 * sum / autocovariance(ratio, 0.0);
 }
 
 void ParameterTrend::follow(double value, double variance) {

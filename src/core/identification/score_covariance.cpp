@@ -203,6 +203,10 @@ void ScoreCovariance::interrupt() {
   lagged_.setZero();
 }
 
+void ScoreCovariance::beginHere() {
+  if (averaged_ > kFirstRows) restart(1.0);
+}
+
 void ScoreCovariance::restart(double unit) {
   interrupt();
   first_rows_ = kFirstRows;
