@@ -72,7 +72,8 @@ class TyreTracker {
   int valid_min_rows_;
   double min_rows_, min_explained_;
   bool period_fits_ = true;
-  double invalid_rows_ = std::numeric_limits<double>::infinity();  // in a row, up to the newest; at first no end of them
+  double invalid_rows_ =
+      std::numeric_limits<double>::infinity();  // in a row, up to the newest; at first no end of them
   MotionJudge motion_;
   TyreRegression regression_;
   RecursiveLeastSquares least_squares_;

@@ -67,8 +67,8 @@ class SensorCheck {
   };
 
   static constexpr double kFewestLooked = 25.0;  // as at the defaults
-  static constexpr double kMeanNoise = 0.2;  // of the rms: more than a mean over the memory is off by
-  static constexpr double kQuick = 10.0;     // motion is forgotten so much sooner than the mean: else a stop takes long
+  static constexpr double kMeanNoise = 0.2;      // of the rms: more than a mean over the memory is off by
+  static constexpr double kQuick = 10.0;  // motion is forgotten so much sooner than the mean: else a stop takes long
   static constexpr double kWhiteShare = 0.5;  // of 2 variance, the mean square step of white noise
   static constexpr int kStill = 20;           // samples looked at
 
