@@ -14,6 +14,7 @@ enum class EstimateDoubt {
   kNotExcited,           ///< parked: the rows are the sensors' noise; the estimate is held
   kDampingNotExcited,    ///< the same of the damping alone; the stiffness goes on
   kStiffnessNotExcited,  ///< the same of the stiffness alone; the damping goes on
+  kOutsideForce,         ///< something else than the wheel moves the body
   kNotExplained,         ///< the model explains less than valid/min_explained
   kNotAStrut,            ///< b1 or b0 is not above 0
   kNoSpread,             ///< no standard deviation can be told

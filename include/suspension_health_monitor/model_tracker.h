@@ -69,8 +69,14 @@ class ModelTracker {
 
   void startNewSeries(ModelReport& report);
 
+  /// Another drive begins, perhaps of another vehicle: nothing is held any more.
+  void startNewDrive(ModelReport& report);
+
   /// @param fits  false: no estimate is valid from now on, because samples do not come at the sample period.
   void setPeriodFits(bool fits, ModelReport& report);
+
+  /// @param suspected  true: no estimate is valid from now on, because something else than the wheel moves the body.
+  void setOutsideForce(bool suspected, ModelReport& report);
 
   /// From the next row on; the estimates stay.
   /// @param options  of which forgetting_factor and fastest_forgetting_factor count.
@@ -99,6 +105,7 @@ class ModelTracker {
   IntegralFilterOptions filter_;
   int valid_min_rows_;
   bool period_fits_ = true;
+  bool outside_force_ = false;
   double start_rows_, min_rows_;  // of an estimate that is valid, the first time and from then on
   bool has_been_valid_ = false;   // since the effects were set
   double min_explained_;

@@ -195,11 +195,17 @@ void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {
   if (!fits) doubtBoth(report, EstimateDoubt::kWrongPeriod);
 }
 
+void ModelTracker::setOutsideForce(bool suspected, ModelReport& report) {
+  outside_force_ = suspected;
+  if (suspected && report.la.valid) doubtBoth(report, EstimateDoubt::kOutsideForce);
+}
+
 EstimateDoubt ModelTracker::doubt(const StrutEstimate& estimate) const {
   if (!period_fits_) return EstimateDoubt::kWrongPeriod;
   if (std::min(estimate.effective_rows, rows_of_model_) < (has_been_valid_ ? min_rows_ : start_rows_))
     return EstimateDoubt::kFewRows;
   if (excitation_doubt_ != EstimateDoubt::kNone) return excitation_doubt_;
+  if (outside_force_) return EstimateDoubt::kOutsideForce;
   if (!(estimate.explained >= min_explained_)) return EstimateDoubt::kNotExplained;
   if (!(estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0)) return EstimateDoubt::kNotAStrut;
   if (!std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev))
@@ -253,6 +259,14 @@ void ModelTracker::startNewSeries(ModelReport& report) {
   if (excitation_) excitation_->reset();
   report.comparison.predicted.reset();
   doubtBoth(report, EstimateDoubt::kNoRows);
+}
+
+void ModelTracker::startNewDrive(ModelReport& report) {
+  if (excitation_) {
+    excitation_->restart();
+    takeExcitation(report);
+  }
+  startNewSeries(report);
 }
 
 }  // namespace suspension_health_monitor

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 
 #include "suspension_health_monitor/identification/regression_row.h"
 #include "suspension_health_monitor/identification/regressor_noise.h"
@@ -26,8 +27,9 @@ std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, con
 /// - A parameter is held once two blocks, each of a horizon and more, do not tell of it, and its information has fallen
 ///   below a tenth of the usual, that of blocks that told of it over ten memories: readings that no strut explains on
 ///   a road as rough as ever are not rest.
-/// - It is held no longer when the rows since then, up to eight blocks, tell of it and not by chance. No single row
-///   does: a wrong reading is in 2 L + 1 of them.
+/// - It is held no longer when the rows since then, up to eight blocks, tell of it and not by chance, or when eight
+///   blocks in a row have more than a tenth of the usual information: that is no rest, though the strut is not within
+///   twice the one that is known. No single row does: a wrong reading is in 2 L + 1 of them.
 /// A constant of phi_0 is the offset between the sensors and not counted.
 /// Looked at is every eighth row: rows change slowly. Cost per row: O(1) whatever L, no allocation. Free of units.
 class Excitation {
@@ -56,6 +58,9 @@ class Excitation {
   /// Starts a block anew after a gap; what was excited stays so.
   void reset();
 
+  /// As it began: no strut is known, and nothing is held.
+  void restart();
+
  private:
   static constexpr int kMostBlocks = 8;  // that are judged together
 
@@ -63,7 +68,8 @@ class Excitation {
   struct Part {
     double usual = 0.0;   // mean phi_i^2 of the blocks that told of it
     double blocks = 0.0;  // in that mean
-    double excitation;
+    double excitation = std::numeric_limits<double>::quiet_NaN();
+    int rough_blocks = 0;  // in a row, since it is held, that have a tenth of the usual information
     bool excited = true;
 
     void learnUsual(double information, double most_blocks);

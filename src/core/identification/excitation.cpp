@@ -36,7 +36,6 @@ Excitation::Excitation(int horizon_samples, double forgetting_factor, const Regr
       kept_(1.0 - 1.0 / (most_blocks_ * looks_per_block_)),
       noise_(noise),
       offset_(kOffsetMemory) {
-  for (Part& part : parts_) part.excitation = std::numeric_limits<double>::quiet_NaN();
   // Of n outputs of white noise two regressors explain more than x with probability (1 - x)^((n - 2) / 2).
   for (int k = 0; k < kMostBlocks; ++k) {
     const double exponent = 2.0 / ((k + 1) * looks_per_block_ - 2);
@@ -92,6 +91,7 @@ void Excitation::judgeExcited(const RowMoments& recent) {
       part.learnUsual(newest[i] / looks_per_block_, most_blocks_);
     } else if (blocks_ == 2 && mean < kUsualShare * part.usual) {
       part.excited = false;
+      part.rough_blocks = 0;
       is_new = true;
     }
   }
@@ -108,16 +108,27 @@ void Excitation::judgeHeld() {
   const bool tells = fit.rest < (1.0 - least_share_[static_cast<std::size_t>(window_blocks_ - 1)]) * window_.output;
   const auto excitation = excitationOf(window_, fit, noise_);
   const double least = kLeastExcitation * kMostBlocks / window_blocks_;
+  const auto newest = informationOf(block_);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (part.excited) continue;
     part.excitation = excitation[i];
-    part.excited = tells && excitation[i] >= least;
+    const bool is_rough = newest[i] >= kUsualShare * part.usual * looks_per_block_;
+    part.rough_blocks = is_rough ? part.rough_blocks + 1 : 0;
+    part.excited = (tells && excitation[i] >= least) || part.rough_blocks >= kMostBlocks;
   }
   is_held_ = !(parts_[kDampingToMass].excited && parts_[kStiffnessToMass].excited);
   if (window_blocks_ < kMostBlocks && is_held_) return;
   window_ = RowMoments();
   window_blocks_ = 0;
+}
+
+void Excitation::restart() {
+  reset();
+  offset_ = RunningMean(kOffsetMemory);
+  most_.setZero();
+  parts_.fill(Part());
+  is_held_ = false;
 }
 
 void Excitation::reset() {
