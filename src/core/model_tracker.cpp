@@ -115,7 +115,7 @@ void ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
 }
 
 void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
-  rows_of_model_ += 1.0;
+  if (excitation_doubt_ != EstimateDoubt::kNotExcited) rows_of_model_ += 1.0;
   const bool moves = motion_.moves(row.output);
   if (moves) {
     if (excitation_ && spread_phase_ % Excitation::kJudgeEvery == 0 &&
@@ -197,7 +197,9 @@ void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {
 
 void ModelTracker::setOutsideForce(bool suspected, ModelReport& report) {
   outside_force_ = suspected;
-  if (suspected && report.la.valid) doubtBoth(report, EstimateDoubt::kOutsideForce);
+  if (!suspected) return;
+  rows_of_model_ = 0.0;
+  if (report.la.valid) doubtBoth(report, EstimateDoubt::kOutsideForce);
 }
 
 EstimateDoubt ModelTracker::doubt(const StrutEstimate& estimate) const {
