@@ -7,7 +7,6 @@
 #include "suspension_health_monitor/health/baseline.h"
 #include "suspension_health_monitor/health/early_warning.h"
 #include "suspension_health_monitor/health/followed_parameter.h"
-#include "suspension_health_monitor/health/parameter_trend.h"
 #include "suspension_health_monitor/health/strut_change.h"
 
 namespace suspension_health_monitor {
@@ -53,59 +52,6 @@ TEST(SplitChange, NoiseOfOneParameterDoesNotEnterTheOther) {
   EXPECT_NEAR(loaded.damping_stddev, std::hypot(0.01, 0.02), 1e-12);
   EXPECT_NEAR(std::log1p(*loaded.payload), 0.1 * (1.0 - 0.16), 1e-12);  // (2 * 0.02 / 0.1)^2
   EXPECT_FALSE(splitChange(LogChange{-0.2, 0.01}, std::nullopt, 0.35).payload);
-}
-
-// A value that lags a ramp by the lag: the trend is the ramp itself, once it has seen it for some memories.
-TEST(ParameterTrend, FollowsARampWithoutLag) {
-  constexpr double kLag = 20.0, kSlope = 0.001;
-  ParameterTrend trend(20.0, kLag);
-  EXPECT_FALSE(trend.now());
-  for (int k = 0; k < 400; ++k) trend.follow(3.0 + kSlope * (k - kLag), 1e-8);
-  EXPECT_NEAR(trend.now()->value, 3.0 + kSlope * 399, 1e-4);
-  const double stddev = trend.now()->stddev;
-  for (int k = 400; k < 450; ++k) trend.pass();
-  EXPECT_NEAR(trend.now()->value, 3.0 + kSlope * 449, 1e-4);
-  EXPECT_GT(trend.now()->stddev, 3.0 * stddev);  // carried on for 50 steps, and e^-2.5 of the weight left
-}
-
-TEST(ParameterTrend, DoesNotOvershootAStep) {
-  ParameterTrend trend(20.0, 20.0);
-  for (int k = 0; k < 200; ++k) trend.follow(3.0, 1e-4);
-  for (int k = 0; k < 200; ++k) {
-    trend.follow(2.0, 1e-4);
-    ASSERT_NEAR(trend.now()->value, 2.0, 1e-9);
-  }
-}
-
-TEST(ParameterTrend, PoorValuesHardlyCount) {
-  ParameterTrend trend(20.0, 20.0);
-  for (int k = 0; k < 200; ++k) trend.follow(3.0, 1e-4);
-  for (int k = 0; k < 10; ++k) trend.follow(1.0, 1.0);
-  EXPECT_NEAR(trend.now()->value, 3.0, 0.01);
-  trend.follow(std::nan(""), 1e-4);
-  trend.follow(1.0, std::nan(""));
-  EXPECT_NEAR(trend.now()->value, 3.0, 0.01);
-}
-
-// Errors as those of a forgetting estimator: e <- e exp(-1 / lag) + white noise. The values are one lag old, which a
-// parameter that stays does not show. 4000 lags hold about 1000 independent values, which know a variance to 5 %.
-TEST(ParameterTrend, KnowsItsStandardDeviation) {
-  constexpr double kStddev = 0.03;
-  for (const double lag : {10.0, 40.0}) {
-    const double memory = 2.0 * lag, kept = std::exp(-1.0 / lag);
-    std::mt19937 random(5);
-    std::normal_distribution<double> noise(0.0, kStddev * std::sqrt(1.0 - kept * kept));
-    ParameterTrend trend(memory, lag);
-    double error = 0.0, squares = 0.0, said = 0.0;
-    const int steps = static_cast<int>(4000 * lag);
-    for (int k = 0; k < steps; ++k) {
-      error = kept * error + noise(random);
-      trend.follow(3.0 + error, kStddev * kStddev);
-      squares += std::pow(trend.now()->value - 3.0, 2) / steps;
-      said += std::pow(trend.now()->stddev, 2) / steps;
-    }
-    EXPECT_NEAR(std::sqrt(squares / said), 1.0, 0.1) << lag;
-  }
 }
 
 TEST(FollowedParameter, TakesTheEstimatorThatKnowsItBetter) {
