@@ -10,13 +10,12 @@ namespace {
 
 constexpr int kLooks = 8;        // of a block of 64 rows
 constexpr double kNoise = 0.05;  // of psi, where a drive has sqrt(199)
-const Eigen::Vector2d kStrut(3.0, 13.8);
 const std::pair kBoth(true, true), kNone(false, false), kStiffnessOnly(false, true);
 
 // Rows whose regressors and error are orthogonal over every block, so that nothing is by chance.
 class ExactBlocks {
  public:
-  ExactBlocks() { excitation.know(kStrut); }
+  ExactBlocks() { excitation.know(Eigen::Vector2d(3.0, 13.8)); }
 
   /// @return whether the last of these looks has closed a block.
   bool look(double size, double error, int looks = kLooks) {
@@ -24,16 +23,16 @@ class ExactBlocks {
     for (int k = 0; k < looks; ++k) {
       RegressionRow row;
       row.regressor = Eigen::Vector2d(k & 1 ? -size : size, k & 2 ? -size : size);
-      row.output = row.regressor.dot(kStrut) + (k & 4 ? -error : error);
-      closed = excitation.judge(row, kStrut);
+      row.output = row.regressor.dot(theta) + (k & 4 ? -error : error);
+      closed = excitation.judge(row, theta);
     }
     return closed;
   }
 
-  void drive() { look(1.0, kNoise); }
+  void drive(int blocks) { look(1.0, kNoise, blocks * kLooks); }
   void rest() { look(1e-3 * kNoise, kNoise); }
   void driveToRest() {
-    for (int block = 0; block < 4; ++block) drive();
+    drive(4);
     for (int block = 0; block < 2; ++block) rest();
   }
 
@@ -44,7 +43,8 @@ class ExactBlocks {
     return {excitation.excited(kDampingToMass), excitation.excited(kStiffnessToMass)};
   }
 
-  Excitation excitation{30, 0.99, RegressorNoise({30, 0.02, IntegrationRule::kCubic})};
+  const Eigen::VectorXd theta = Eigen::Vector2d(3.0, 13.8);
+  Excitation excitation{30, 0.99, RegressorNoise(IntegralFilterOptions{30, 0.02, IntegrationRule::kCubic})};
 };
 
 // The damping's excitation is 5.75, above 36 / n from seven blocks on; the stiffness' is above it as soon as psi is.
@@ -84,7 +84,7 @@ TEST(ExcitationReset, BeginsABlockAnew) {
 
 TEST(ExcitationReset, OneBlockOfRestOnEitherSideOfAGapHoldsNothing) {
   ExactBlocks rows;
-  for (int block = 0; block < 4; ++block) rows.drive();
+  rows.drive(4);
   rows.rest();
   rows.excitation.reset();
   rows.rest();
@@ -95,8 +95,8 @@ TEST(ExcitationReset, OneBlockOfRestOnEitherSideOfAGapHoldsNothing) {
 
 TEST(ExcitationReset, TheNewestBlockIsJudgedWithoutTheOneBeforeTheGap) {
   ExactBlocks rows, badly;
-  for (ExactBlocks* const either : {&rows, &badly})
-    for (int block = 0; block < 4; ++block) either->drive();
+  rows.drive(4);
+  badly.drive(4);
   rows.excitation.reset();
   rows.driveBadly();
   for (int block = 0; block < 2; ++block) badly.driveBadly();
