@@ -74,10 +74,16 @@ TEST(FollowedParameter, OfTwoCertainChangesTakesTheLarger) {
   EXPECT_NEAR(parameter.changeFrom({3.0, 0.0}, 4.0)->size, std::log(0.8), 0.01);
 }
 
+// Also while they forget for the time being.
 TEST(FollowedParameter, OfEstimatorsThatNeverForgetIsLa) {
-  FollowedParameter parameter(std::numeric_limits<double>::infinity(), 2.0);
-  for (int k = 0; k < 200; ++k) parameter.follow(UncertainValue{2.0, 0.001}, {3.0 - 0.001 * k, 0.1});
-  EXPECT_DOUBLE_EQ(parameter.changeFrom({3.0, 0.0}, 4.0)->size, std::log(2.801 / 3.0));
+  for (const bool forgets_meanwhile : {false, true}) {
+    FollowedParameter parameter(std::numeric_limits<double>::infinity(), 2.0);
+    if (forgets_meanwhile) parameter.setMemory(10.0, 2.0);
+    for (int k = 0; k < 200; ++k) parameter.follow(UncertainValue{2.0, 0.001}, {3.0 - 0.001 * k, 0.1});
+    const LogChange change = *parameter.changeFrom({3.0, 0.0}, 4.0);
+    EXPECT_DOUBLE_EQ(change.size, std::log(2.801 / 3.0));
+    EXPECT_DOUBLE_EQ(change.stddev, 0.1 / 2.801);
+  }
 }
 
 // The mean time between false alarms of a healthy strut is at least the one that was asked for (Lorden's bound),
