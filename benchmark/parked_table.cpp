@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "../test/core/braked_road.h"
 #include "../test/core/paper_drive.h"
 #include "suspension_health_monitor/identification/excitation.h"
 #include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/road.h"
 #include "suspension_health_monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
@@ -135,11 +135,11 @@ class BrakedDrive {
  public:
   static constexpr double kStop = 57.0;  // [s]
 
-  explicit BrakedDrive(double brake) : brake_(brake) {}
+  explicit BrakedDrive(double brake) : wheel_(brakedPaperRoad(kStop, brake)) {}
 
   /// @return what ideal sensors read, 20 ms after the last time.
   Accelerations next() {
-    const Accelerations now{bodyAt(t_, z_, v_), wheelAt(t_).acceleration};
+    const Accelerations now{bodyAt(t_, z_, v_), wheel_(t_).acceleration};
     constexpr double h = 1e-3;
     for (int k = 0; k < 20; ++k) {
       const double a = bodyAt(t_, z_, v_), middle = v_ + 0.5 * h * a;
@@ -152,21 +152,13 @@ class BrakedDrive {
   }
 
  private:
-  // The speed falls like half a cosine.
-  RoadPoint wheelAt(double t) const {
-    const double x = std::clamp(t - kStop, 0.0, brake_), angle = kPi * x / brake_;
-    const double s = std::min(t, kStop) + 0.5 * x + 0.5 * brake_ / kPi * std::sin(angle);
-    const double rate = 0.5 + 0.5 * std::cos(angle), slowing = -0.5 * kPi / brake_ * std::sin(angle);
-    const RoadPoint road = paperRoad(s);
-    return {road.height, road.rate * rate, road.acceleration * rate * rate + road.rate * slowing};
-  }
-
   double bodyAt(double t, double z, double v) const {
-    const RoadPoint wheel = wheelAt(t);
+    const RoadPoint wheel = wheel_(t);
     return kStrut[0] * (wheel.rate - v) + kStrut[1] * (wheel.height - z);
   }
 
-  double brake_, t_ = 0.0, z_ = 0.0, v_ = 0.0;
+  Road wheel_;
+  double t_ = 0.0, z_ = 0.0, v_ = 0.0;
 };
 
 // A drive, a stop, 24 h of nothing but the sensors' noise, then the road again.

@@ -1,6 +1,6 @@
-// Part of builds with sanitizers only. The runtimes of AddressSanitizer and UBSan of gcc are two libraries with a
-// report file each, and a function of the same name to set it. UBSan calls that of AddressSanitizer, which comes first,
-// and its own reports go to stderr, which nobody reads of a node. So its own function is called here, by its library.
+// Part of builds with UBSan only. The runtimes of AddressSanitizer and UBSan of gcc are two libraries with a report
+// file each, and a function of the same name to set it. UBSan calls that of AddressSanitizer, which comes first, and
+// its own reports go to stderr, which nobody reads of a node. So its own function is called here, by its library.
 #include <dlfcn.h>
 
 #include <cstdlib>

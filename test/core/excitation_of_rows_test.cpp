@@ -1,8 +1,10 @@
 // Whether rows tell of either parameter, by rows of noise.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "suspension_health_monitor/identification/excitation.h"
 
@@ -95,10 +97,60 @@ TEST(Excitation, AnOutlierDoesNotMakeTheDriveLookParked) {
   EXPECT_EQ(judged.excited(), std::pair(true, true));
 }
 
-// Two sensors of equal noise, through the filter itself, in blocks long enough for chance to be small.
+// What the filter makes of white noise of both sensors, by its responses to an impulse of either.
+class FilteredNoise {
+ public:
+  explicit FilteredNoise(const IntegralFilterOptions& options) {
+    for (const bool of_body : {true, false}) {
+      SuspensionRegression regression(options);
+      std::vector<Eigen::Vector3d> response;
+      for (int k = 0; k < kSamples; ++k) {
+        const double impulse = k == kSamples / 2 ? 1.0 : 0.0;
+        const RegressionRow* row = regression.push({Stamp{}, of_body ? impulse : 0.0, of_body ? 0.0 : impulse});
+        if (row != nullptr) response.push_back({row->regressor[0], row->regressor[1], row->output});
+      }
+      responses_.push_back(response);
+    }
+  }
+
+  /// @param i  0: phi_1, 1: phi_0, 2: psi.
+  /// @return autocorrelation of it so many looks apart.
+  double correlation(int i, int looks) const { return covariance(i, looks) / covariance(i, 0); }
+
+  /// @return standard deviation of a mean of squares of this many looks, relative.
+  double deviation(int i, int looks) const {
+    double squares = 1.0;
+    for (int apart = 1; apart < kFar; ++apart) squares += 2.0 * std::pow(correlation(i, apart), 2);
+    return std::sqrt(2.0 * squares / looks);
+  }
+
+  /// @return share of the variance that is left when the running mean with this factor a look is subtracted.
+  double withoutMean(int i, double factor) const {
+    double sum = 0.0;  // of the correlations with what the mean remembers
+    for (int apart = 1; apart < kFar; ++apart) sum += std::pow(factor, apart) * correlation(i, apart);
+    return 1.0 - 2.0 * (1.0 - factor) * (1.0 + sum) + (1.0 - factor) / (1.0 + factor) * (1.0 + 2.0 * sum);
+  }
+
+ private:
+  static constexpr int kSamples = 400, kFar = 16;  // looks; rows further apart have nothing in common
+
+  double covariance(int i, int looks) const {
+    double sum = 0.0;
+    const auto apart = static_cast<std::size_t>(looks * Excitation::kJudgeEvery);
+    for (const auto& response : responses_)
+      for (std::size_t k = 0; k + apart < response.size(); ++k) sum += response[k][i] * response[k + apart][i];
+    return sum;
+  }
+
+  std::vector<std::vector<Eigen::Vector3d>> responses_;
+};
+
+// Two sensors of equal noise, through the filter itself, in blocks long enough for chance to be small. Of phi_0 the
+// mean of 50 looks is left out. The bounds are four standard deviations of the ratio of two mean squares.
 TEST(Excitation, OfWhiteNoiseIsOne) {
   const IntegralFilterOptions options{30, 0.02, IntegrationRule::kCubic};
-  constexpr int kBlock = 6400, kBlocks = 100;
+  constexpr int kBlock = 6400, kBlocks = 100, kLooks = kBlock * kBlocks / Excitation::kJudgeEvery;
+  const FilteredNoise filtered(options);
   for (const double unit : {1.0, 1e-5}) {
     SuspensionRegression regression(options);
     Excitation excitation(kBlock, 0.99, RegressorNoise(options));
@@ -113,8 +165,10 @@ TEST(Excitation, OfWhiteNoiseIsOne) {
       damping += excitation.excitation(kDampingToMass) / kBlocks;
       stiffness += excitation.excitation(kStiffnessToMass) / kBlocks;
     }
-    EXPECT_NEAR(damping, 1.0, 0.08) << unit;
-    EXPECT_NEAR(stiffness, 1.0, 0.08) << unit;
+    const double of_psi = filtered.deviation(2, kLooks);
+    EXPECT_NEAR(damping, 1.0, 4.0 * std::hypot(filtered.deviation(0, kLooks), of_psi)) << unit;
+    EXPECT_NEAR(stiffness, filtered.withoutMean(1, 0.98), 4.0 * std::hypot(filtered.deviation(1, kLooks), of_psi))
+        << unit;
   }
 }
 

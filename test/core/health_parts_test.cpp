@@ -7,7 +7,6 @@
 #include "suspension_health_monitor/health/baseline.h"
 #include "suspension_health_monitor/health/early_warning.h"
 #include "suspension_health_monitor/health/followed_parameter.h"
-#include "suspension_health_monitor/health/parameter_trend.h"
 #include "suspension_health_monitor/health/strut_change.h"
 
 namespace suspension_health_monitor {
@@ -55,67 +54,6 @@ TEST(SplitChange, NoiseOfOneParameterDoesNotEnterTheOther) {
   EXPECT_FALSE(splitChange(LogChange{-0.2, 0.01}, std::nullopt, 0.35).payload);
 }
 
-// A value that lags a ramp by the lag: the trend is the ramp itself, once it has seen it for some memories.
-TEST(ParameterTrend, FollowsARampWithoutLag) {
-  constexpr double kLag = 20.0, kSlope = 0.001;
-  ParameterTrend trend(20.0, kLag);
-  EXPECT_FALSE(trend.now());
-  for (int k = 0; k < 400; ++k) trend.follow(3.0 + kSlope * (k - kLag), 1e-8);
-  EXPECT_NEAR(trend.now()->value, 3.0 + kSlope * 399, 1e-4);
-  const double stddev = trend.now()->stddev;
-  for (int k = 400; k < 450; ++k) trend.pass();
-  EXPECT_NEAR(trend.now()->value, 3.0 + kSlope * 449, 1e-4);
-  EXPECT_GT(trend.now()->stddev, 3.0 * stddev);  // carried on for 50 steps, and e^-2.5 of the weight left
-}
-
-TEST(ParameterTrend, DoesNotOvershootAStep) {
-  ParameterTrend trend(20.0, 20.0);
-  for (int k = 0; k < 200; ++k) trend.follow(3.0, 1e-4);
-  for (int k = 0; k < 200; ++k) {
-    trend.follow(2.0, 1e-4);
-    ASSERT_NEAR(trend.now()->value, 2.0, 1e-9);
-  }
-}
-
-TEST(ParameterTrend, PoorValuesHardlyCount) {
-  ParameterTrend trend(20.0, 20.0);
-  for (int k = 0; k < 200; ++k) trend.follow(3.0, 1e-4);
-  for (int k = 0; k < 10; ++k) trend.follow(1.0, 1.0);
-  EXPECT_NEAR(trend.now()->value, 3.0, 0.01);
-  trend.follow(std::nan(""), 1e-4);
-  trend.follow(1.0, std::nan(""));
-  EXPECT_NEAR(trend.now()->value, 3.0, 0.01);
-}
-
-// Errors as those of a forgetting estimator: e <- e exp(-1 / lag) + white noise. The values are one lag old, which a
-// parameter that stays does not show. 4000 lags hold about 1000 independent values, which know a variance to 5 %.
-TEST(ParameterTrend, KnowsItsStandardDeviation) {
-  constexpr double kStddev = 0.03;
-  for (const double lag : {10.0, 40.0}) {
-    const double memory = 2.0 * lag, kept = std::exp(-1.0 / lag);
-    std::mt19937 random(5);
-    std::normal_distribution<double> noise(0.0, kStddev * std::sqrt(1.0 - kept * kept));
-    ParameterTrend trend(memory, lag);
-    double error = 0.0, squares = 0.0, said = 0.0;
-    const int steps = static_cast<int>(4000 * lag);
-    for (int k = 0; k < steps; ++k) {
-      error = kept * error + noise(random);
-      trend.follow(3.0 + error, kStddev * kStddev);
-      squares += std::pow(trend.now()->value - 3.0, 2) / steps;
-      said += std::pow(trend.now()->stddev, 2) / steps;
-    }
-    EXPECT_NEAR(std::sqrt(squares / said), 1.0, 0.1) << lag;
-  }
-}
-
-// Memory and lag are the same where L (1 - lambda) is 9, as with 300 samples and 0.97.
-TEST(ParameterTrend, MeansVaryAlikeWhereMemoryAndLagMeet) {
-  const auto variance = [](double memory) { return ParameterTrend::varianceOfMeans(memory, 2.0, 3.0); };
-  const double beside = (variance(1.9) + variance(2.1)) / 2.0;
-  for (const double off : {0.0, 4e-16, -4e-16, 1e-12, 1e-6, -1e-4, 1e-2})
-    EXPECT_NEAR(variance(2.0 + off), beside, 0.01 * beside) << off;
-}
-
 TEST(FollowedParameter, TakesTheEstimatorThatKnowsItBetter) {
   constexpr UncertainValue kHealthy{3.0, 0.0};
   FollowedParameter outliers(10.0, 2.0);
@@ -136,10 +74,16 @@ TEST(FollowedParameter, OfTwoCertainChangesTakesTheLarger) {
   EXPECT_NEAR(parameter.changeFrom({3.0, 0.0}, 4.0)->size, std::log(0.8), 0.01);
 }
 
+// Also while they forget for the time being.
 TEST(FollowedParameter, OfEstimatorsThatNeverForgetIsLa) {
-  FollowedParameter parameter(std::numeric_limits<double>::infinity(), 2.0);
-  for (int k = 0; k < 200; ++k) parameter.follow(UncertainValue{2.0, 0.001}, {3.0 - 0.001 * k, 0.1});
-  EXPECT_DOUBLE_EQ(parameter.changeFrom({3.0, 0.0}, 4.0)->size, std::log(2.801 / 3.0));
+  for (const bool forgets_meanwhile : {false, true}) {
+    FollowedParameter parameter(std::numeric_limits<double>::infinity(), 2.0);
+    if (forgets_meanwhile) parameter.setMemory(10.0, 2.0);
+    for (int k = 0; k < 200; ++k) parameter.follow(UncertainValue{2.0, 0.001}, {3.0 - 0.001 * k, 0.1});
+    const LogChange change = *parameter.changeFrom({3.0, 0.0}, 4.0);
+    EXPECT_DOUBLE_EQ(change.size, std::log(2.801 / 3.0));
+    EXPECT_DOUBLE_EQ(change.stddev, 0.1 / 2.801);
+  }
 }
 
 // The mean time between false alarms of a healthy strut is at least the one that was asked for (Lorden's bound),

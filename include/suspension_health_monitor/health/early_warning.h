@@ -8,9 +8,9 @@ namespace suspension_health_monitor {
 /// It adds up small changes that no single estimate could prove. h = ln(2 N) for at least N values in the mean between
 /// two false alarms, by G. Lorden (Procedures for reacting to a change in distribution, Annals of Mathematical
 /// Statistics 1971): one sum gives at least exp(h), a sum each way alarms twice as often. Sums of correlated values
-/// scatter as if sigma^2 were 1 + 2 (sum of their correlations) times as large, which then is taken (R. A. Johnson, M.
-/// Bagshaw, The effect of serial correlation on the performance of CUSUM tests, Technometrics 1974). Cost per value:
-/// O(1), no allocation.
+/// scatter as if sigma^2 were 1 + 2 (sum of their correlations) times as large, which then is taken: long sums are a
+/// Wiener process with that variance (R. A. Johnson, M. Bagshaw, The effect of serial correlation on the performance of
+/// CUSUM tests, Technometrics 16 (1974), 103-112). Cost per value: O(1), no allocation.
 class EarlyWarning {
  public:
   /// @param reference  changes below it are of no interest [-].
