@@ -7,6 +7,7 @@
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/discrepancy/running_comparison.h"
 #include "suspension_health_monitor/estimate_validity.h"
+#include "suspension_health_monitor/health/outside_force.h"
 #include "suspension_health_monitor/identification/excitation.h"
 #include "suspension_health_monitor/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/identification/recursive_least_squares.h"
@@ -75,9 +76,6 @@ class ModelTracker {
   /// @param fits  false: no estimate is valid from now on, because samples do not come at the sample period.
   void setPeriodFits(bool fits, ModelReport& report);
 
-  /// @param suspected  true: no estimate is valid from now on, because something else than the wheel moves the body.
-  void setOutsideForce(bool suspected, ModelReport& report);
-
   /// From the next row on; the estimates stay.
   /// @param options  of which forgetting_factor and fastest_forgetting_factor count.
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
@@ -87,6 +85,10 @@ class ModelTracker {
   double forgettingFactor() const { return least_absolute_.forgettingFactor(); }
 
  private:
+  // Rows between models of the free run, of which a new one costs as much as a step of it, and between judgements of
+  // estimates that are valid; samples between looks for a force from outside.
+  static constexpr unsigned kModelEvery = 8;
+
   void estimate(const RegressionRow& row, ModelReport& report);
   void describe(ModelReport& report) const;
   [[gnu::noinline]] void updateSpecially(const RegressionRow& row);
@@ -98,14 +100,16 @@ class ModelTracker {
   [[gnu::noinline]] void takeExcitation(ModelReport& report);
   [[gnu::noinline]] void describeSpreads(ModelReport& report) const;
   EstimateDoubt doubt(const StrutEstimate& estimate) const;
+  static double memoryInLooks(double forgetting_factor) { return 1.0 / (1.0 - forgetting_factor) / kModelEvery; }
   void takeModel(const StrutEstimate& la);
   void fallBack();
+  [[gnu::noinline]] void lookForOutsideForce(const CornerSample& sample, ModelReport& report);
   void compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report);
 
   IntegralFilterOptions filter_;
   int valid_min_rows_;
   bool period_fits_ = true;
-  bool outside_force_ = false;
+  double rows_of_force_ = 0.0;    // to come until what a force from outside did is forgotten
   double start_rows_, min_rows_;  // of an estimate that is valid, the first time and from then on
   bool has_been_valid_ = false;   // since the effects were set
   double min_explained_;
@@ -125,7 +129,8 @@ class ModelTracker {
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
   RunningComparison comparison_;
-  unsigned compared_ = 0;  // samples in it
+  OutsideForce outside_force_;
+  unsigned compared_ = 0;  // samples
 };
 
 }  // namespace suspension_health_monitor

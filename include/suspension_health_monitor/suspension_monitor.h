@@ -7,7 +7,6 @@
 
 #include "suspension_health_monitor/corner_sample.h"
 #include "suspension_health_monitor/health/assessment.h"
-#include "suspension_health_monitor/health/outside_force.h"
 #include "suspension_health_monitor/model_tracker.h"
 #include "suspension_health_monitor/monitor_options.h"
 #include "suspension_health_monitor/signal/mean_spacing.h"
@@ -90,7 +89,6 @@ class SuspensionMonitor {
   void judgeHealth(const CornerSample& sample);
   void countSpacings(Stamp until);
   void judgePeriod(Stamp stamp);
-  void judgeOutsideForce(const CornerSample& sample);
   const ModelTracker& tracker() const { return extended_ ? *extended_ : plain_; }
 
   MonitorOptions options_;
@@ -103,7 +101,6 @@ class SuspensionMonitor {
   std::size_t in_series_ = 0;
   HealthAssessment health_;
   SensorCheck sensors_;
-  OutsideForce outside_force_;
   int until_judged_;  // samples
   MeanSpacing spacing_;
   std::optional<Stamp> first_stamp_, last_stamp_;

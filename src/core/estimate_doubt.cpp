@@ -13,7 +13,8 @@ std::string_view describe(EstimateDoubt doubt) {
     case EstimateDoubt::kDampingNotExcited: return "no excitation of damping, its estimate is held";
     case EstimateDoubt::kStiffnessNotExcited: return "no excitation of stiffness, its estimate is held";
     case EstimateDoubt::kOutsideForce:
-      return "something else than the wheel moves the body: wind, loading, or a sensor that is not on the wheel";
+      return "something else than the wheel moves the body, or did so just now: wind, loading, a sensor that is not on "
+             "the wheel";
     case EstimateDoubt::kNotExplained: return "the model does not explain the measured acceleration";
     case EstimateDoubt::kNotAStrut: return "the estimates are not those of a spring and a damper";
     case EstimateDoubt::kNoSpread: return "the estimates' standard deviation cannot be told";

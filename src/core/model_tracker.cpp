@@ -10,9 +10,11 @@ namespace {
 
 // Standard deviations change slowly, and are the dear part of a description.
 constexpr unsigned kSpreadEvery = 32;  // rows
-// Rows between models of the free run, of which a new one costs as much as a step of it, and between judgements of
-// estimates that are valid; samples between figures of its errors.
-constexpr unsigned kModelEvery = 8;
+// Of that many samples the first gives figures of the free run's errors, and two are looked at for a force from
+// outside: steps of 7 and 9, since a wheel that hops in step with the looks would seem to stand.
+constexpr unsigned kComparedEvery = 16, kLookAgain = 7;
+// Rows of a motion that was not the wheel's count for a seventh then.
+constexpr double kMemoriesToForget = 2.0;
 
 // Every row: inlined, and without a loop for the plain strut.
 template <class Estimator>
@@ -72,7 +74,8 @@ ModelTracker::ModelTracker(const MonitorOptions& options)
       least_squares_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples)),
       least_absolute_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples), options.leastAbsolute()),
       free_run_(*options.sample_period),
-      comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
+      comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)),
+      outside_force_(memoryInLooks(options.forgetting_factor)) {
   if (options.forgetting_rule == "directional")
     excitation_.emplace(filter_.horizon_samples, options.forgetting_factor, noise_);
   setForgetting(options);
@@ -115,7 +118,7 @@ void ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
 }
 
 void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
-  if (excitation_doubt_ != EstimateDoubt::kNotExcited) rows_of_model_ += 1.0;
+  rows_of_model_ += 1.0;
   const bool moves = motion_.moves(row.output);
   if (moves) {
     if (excitation_ && spread_phase_ % Excitation::kJudgeEvery == 0 &&
@@ -138,6 +141,8 @@ void ModelTracker::estimate(const RegressionRow& row, ModelReport& report) {
 }
 
 void ModelTracker::judgeEstimates(bool moves, ModelReport& report) {
+  // Every row: as long as it is above 0, no estimate is valid.
+  if (rows_of_force_ > 0.0 && moves && excitation_doubt_ != EstimateDoubt::kNotExcited) rows_of_force_ -= 1.0;
   report.ls.explained = explained(least_squares_);
   report.la.explained = explained(least_absolute_);
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
@@ -195,19 +200,12 @@ void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {
   if (!fits) doubtBoth(report, EstimateDoubt::kWrongPeriod);
 }
 
-void ModelTracker::setOutsideForce(bool suspected, ModelReport& report) {
-  outside_force_ = suspected;
-  if (!suspected) return;
-  rows_of_model_ = 0.0;
-  if (report.la.valid) doubtBoth(report, EstimateDoubt::kOutsideForce);
-}
-
 EstimateDoubt ModelTracker::doubt(const StrutEstimate& estimate) const {
   if (!period_fits_) return EstimateDoubt::kWrongPeriod;
   if (std::min(estimate.effective_rows, rows_of_model_) < (has_been_valid_ ? min_rows_ : start_rows_))
     return EstimateDoubt::kFewRows;
   if (excitation_doubt_ != EstimateDoubt::kNone) return excitation_doubt_;
-  if (outside_force_) return EstimateDoubt::kOutsideForce;
+  if (rows_of_force_ > 0.0) return EstimateDoubt::kOutsideForce;
   if (!(estimate.explained >= min_explained_)) return EstimateDoubt::kNotExplained;
   if (!(estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0)) return EstimateDoubt::kNotAStrut;
   if (!std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev))
@@ -234,15 +232,25 @@ void ModelTracker::fallBack() {
   for (std::size_t j = 0; j < starts_.size(); ++j) free_run_.setCoefficient(j, starts_[j] = 0.0);
 }
 
+void ModelTracker::lookForOutsideForce(const CornerSample& sample, ModelReport& report) {
+  outside_force_.look(sample, report.la.valid);
+  if (!outside_force_.isSuspected() || excitation_doubt_ == EstimateDoubt::kNotExcited) return;
+  // Before the first valid estimate there is nothing to spoil: until the next look.
+  rows_of_force_ = has_been_valid_ ? kMemoriesToForget * least_absolute_.effectiveRows() : 2.0 * kModelEvery;
+  if (report.la.valid) doubtBoth(report, EstimateDoubt::kOutsideForce);
+}
+
 void ModelTracker::compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report) {
   ComparisonReport& comparison = report.comparison;
   comparison.stamp = sample.stamp;
   comparison.measured = sample.sprung_acceleration;
   comparison.predicted = predicted;
   if (!free_run_.settled()) comparison.predicted.reset();
+  const unsigned phase = compared_++ % kComparedEvery;
+  if (phase == 0 || phase == kLookAgain) lookForOutsideForce(sample, report);
   if (!comparison.predicted) return;
   comparison_.add(comparison.measured, *comparison.predicted);
-  if (compared_++ % kModelEvery == 0) {
+  if (phase == 0) {
     comparison.rmse = comparison.base_rmse = comparison_.rmse();
     comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
   }

@@ -9,6 +9,7 @@ void ModelTracker::setForgetting(const MonitorOptions& options) {
   const double slow = options.forgetting_factor, fastest = options.fastestForgetting(), now = forgettingFactor();
   least_squares_.setForgettingFactor(slow);
   least_absolute_.setForgettingFactor(slow);
+  outside_force_.setMemory(memoryInLooks(slow));
   start_rows_ = fewestRows(valid_min_rows_, slow);
   min_rows_ = fewestRows(valid_min_rows_, fastest);
   if (!options.fastest_forgetting_factor) {

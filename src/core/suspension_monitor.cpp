@@ -19,10 +19,6 @@ const MonitorOptions& checked(const MonitorOptions& options) {
   return options;
 }
 
-double memoryInLooks(const MonitorOptions& options, int rows_per_look) {
-  return 1.0 / (1.0 - options.forgetting_factor) / rows_per_look;
-}
-
 }  // namespace
 
 SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
@@ -33,7 +29,6 @@ SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
       health_(options.health(*options.sample_period)),
       sensors_(options.gravity_tolerance,
                options.comparison_window / *options.sample_period / health_.options().rows_per_update),
-      outside_force_(memoryInLooks(options, health_.options().rows_per_update)),
       until_judged_(health_.options().rows_per_update) {}
 
 void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
@@ -56,7 +51,6 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
 void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
   options_ = checked(options);
   health_.setOptions(options.health(period()));
-  outside_force_.setMemory(memoryInLooks(options, health_.options().rows_per_update));
   plain_.setForgetting(options);
   if (extended_) extended_->setForgetting(options);
 }
@@ -85,7 +79,6 @@ void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
       report_.la.effective_rows >= fewestRows(10 * options_.valid_min_rows, options_.forgetting_factor);
   if (options_.fastest_forgetting_factor) health_.setMemory(report_.la.effective_rows);
   judgePeriod(sample.stamp);
-  judgeOutsideForce(sample);
   health_.setSensors(sensors_.look(previous, sample, report_.la, enough_rows));
   report_.health = health_.update(report_.stamp, report_.ls, report_.la);
 }
@@ -93,12 +86,6 @@ void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
 void SuspensionMonitor::countSpacings(Stamp until) {
   spacing_.countUntil(until, in_series_);
   input_.mean_period = spacing_.mean();
-}
-
-void SuspensionMonitor::judgeOutsideForce(const CornerSample& sample) {
-  outside_force_.look(sample, report_.la.valid);
-  plain_.setOutsideForce(outside_force_.isSuspected(), extended_ ? base_ : report_);
-  if (extended_) extended_->setOutsideForce(outside_force_.isSuspected(), report_);
 }
 
 void SuspensionMonitor::judgePeriod(Stamp stamp) {

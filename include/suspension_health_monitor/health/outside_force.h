@@ -11,8 +11,10 @@ namespace suspension_health_monitor {
 ///
 /// The regression does not see that: any motion of one frequency over a wheel that stands, or follows the body on its
 /// tyre, looks like a strut without damping, b0 = omega^2. But the wheel then moves little. So a force from outside is
-/// suspected while the body's acceleration is more than twice the wheel's, which a healthy strut makes of hardly any
-/// road, and the wheel's is less than a tenth of what it was while the estimates were good, or they never were.
+/// suspected
+/// - while the wheel's acceleration is less than a tenth of what it was while the estimates were good, and the body's
+///   more than sqrt(2) times the wheel's;
+/// - as long as they never were: while the body's is more than three times the wheel's.
 /// Cost per sample looked at: O(1), no allocation. Free of units.
 class OutsideForce {
  public:
@@ -30,7 +32,7 @@ class OutsideForce {
  private:
   enum Mean : std::size_t { kBody, kSquareBody, kWheel, kSquareWheel, kNumMeans };
 
-  static constexpr double kUsualKept = 0.999;  // of the usual, per sample looked at
+  static constexpr double kUsualKept = 0.999;  // of the usual, per look
 
   double variance(Mean value, Mean square) const;
 

@@ -68,6 +68,7 @@ SensorFault SensorCheck::judge(const StrutEstimate& la, bool enough_rows) {
 }
 
 SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
+  if (la.doubt == EstimateDoubt::kNotExcited) return SensorFault::kNone;  // parked: the wheel moves nothing
   const bool is_strut = la.explained >= kExplained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
   if (is_strut) return SensorFault::kNone;
   const bool body_moves = readings_[0].isMotion(), wheel_moves = readings_[1].isMotion();

@@ -134,6 +134,7 @@ void Excitation::restart() {
 void Excitation::reset() {
   block_ = before_ = window_ = RowMoments();
   looks_ = blocks_ = window_blocks_ = 0;
+  for (Part& part : parts_) part.rough_blocks = 0;
 }
 
 }  // namespace suspension_health_monitor

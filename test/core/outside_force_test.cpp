@@ -1,0 +1,138 @@
+#include "suspension_health_monitor/health/outside_force.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "simulated_drive.h"
+#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+// Readings that are looked at, with amplitudes of body and wheel.
+void look(OutsideForce& force, int times, double body, double wheel, bool valid, double unit = 1.0) {
+  for (int k = 0; k < times; ++k)
+    force.look({Stamp{}, 9.81 + unit * body * std::sin(0.7 * k), 9.81 + unit * wheel * std::cos(0.7 * k)}, valid);
+}
+
+// With a memory of 40, of which 20 are looked at: after 200 nothing is left of what was before.
+TEST(OutsideForce, IsABodyThatMovesMoreThanAWheelThatHardlyMoves) {
+  for (const double unit : {1e-3, 1.0, 1e3}) {
+    OutsideForce force(40.0);
+    look(force, 200, 1.0, 1.0, true, unit);
+    EXPECT_FALSE(force.isSuspected()) << unit;
+    look(force, 200, 0.12, 0.09, false, unit);  // 1.33 times
+    EXPECT_FALSE(force.isSuspected()) << unit;
+    look(force, 200, 1.0, 0.12, true, unit);  // more than a tenth of the usual
+    EXPECT_FALSE(force.isSuspected()) << unit;
+    look(force, 200, 0.135, 0.09, true, unit);  // 1.5 times
+    EXPECT_TRUE(force.isSuspected()) << unit;
+    look(force, 200, 1.0, 1.0, true, unit);
+    EXPECT_FALSE(force.isSuspected()) << unit;
+  }
+}
+
+TEST(OutsideForce, IsSuspectedAtTheStartUntilTheWheelHasMoved) {
+  OutsideForce force(40.0);
+  look(force, 200, 3.3, 1.0, true);
+  EXPECT_TRUE(force.isSuspected());
+  look(force, 300, 1.0, 1.0, false);  // not valid: nobody knows what is usual
+  look(force, 200, 3.3, 1.0, true);
+  EXPECT_TRUE(force.isSuspected());
+  look(force, 300, 1.0, 1.0, true);
+  look(force, 200, 3.3, 1.0, true);
+  EXPECT_FALSE(force.isSuspected());
+}
+
+TEST(OutsideForce, IsNotSuspectedOnAnyRoad) {
+  for (const char* vehicle : {"paper", "golden_car", "rover", "ugv"})
+    for (const double damping : {1.0, 0.3}) {
+      SimulationOptions road = scenario("iso_road", 60.0);
+      road.vehicle = vehicle;
+      road.rate = 100.0;
+      road.damping_end_fraction = damping;
+      road.ramp_start = 20.0;
+      road.ramp_end = 20.01;
+      MonitorOptions options;
+      options.sample_period = 1.0 / road.rate;
+      SuspensionMonitor monitor(options);
+      int suspected = 0;
+      for (const DriveSample& sample : drive(road)) {
+        monitor.addSample({sample.stamp, sample.sprung->acceleration, sample.unsprung->acceleration});
+        suspected += monitor.report().la.doubt == EstimateDoubt::kOutsideForce ? 1 : 0;
+      }
+      EXPECT_EQ(suspected, 0) << vehicle << ' ' << damping;
+    }
+}
+
+// A quarter of a golden car whose body is moved by a force per mass, as by wind, at the frequencies where the body,
+// with the wheel on its tyre, looks most like a strut without a damper.
+class RockedCar {
+ public:
+  static constexpr double kRate = 100.0;
+
+  explicit RockedCar(double frequency, double force) : frequency_(frequency), force_(force) {}
+
+  CornerSample next() {
+    constexpr int kSteps = 20;
+    constexpr double h = 1.0 / (kRate * kSteps), kWheelMass = 0.15, kTyre = 653.0;
+    double body = 0.0, wheel = 0.0;
+    for (int step = 0; step < kSteps; ++step, t_ += h) {
+      const double strut = 63.3 * (w_ - z_) + 6.0 * (w_rate_ - z_rate_);
+      body = strut + force_ * std::sin(2.0 * kPi * frequency_ * t_);
+      wheel = -(strut + kTyre * w_) / kWheelMass;
+      z_ += h * (z_rate_ += h * body);
+      w_ += h * (w_rate_ += h * wheel);
+    }
+    return {Stamp{}, body + noise_(engine_), wheel + noise_(engine_)};
+  }
+
+ private:
+  double frequency_, force_;
+  double t_ = 0.0, z_ = 0.0, z_rate_ = 0.0, w_ = 0.0, w_rate_ = 0.0;
+  std::mt19937_64 engine_{8};
+  std::normal_distribution<double> noise_{0.0, 0.024};
+};
+
+TEST(Health, ParkedCarThatTheWindRocksHasNoBrokenStrut) {
+  SimulationOptions road = scenario("iso_road", 60.0);
+  road.vehicle = "golden_car";
+  road.rate = RockedCar::kRate;
+  const std::vector<DriveSample> driven = drive(road);
+  for (const double frequency : {0.8, 1.0, 1.27, 1.5, 2.0})
+    for (const double force : {0.1, 0.3}) {
+      MonitorOptions options;
+      options.sample_period = 1.0 / RockedCar::kRate;
+      options.integration_horizon = 0.3;
+      options.forgetting_factor = 0.995;
+      options.nominal_damping_to_mass = 6.0;
+      options.nominal_stiffness_to_mass = 63.3;
+      SuspensionMonitor monitor(options);
+      Stamp stamp{};
+      int alarms = 0;
+      const auto add = [&](CornerSample sample) {
+        sample.stamp = stamp += fromSeconds(*options.sample_period);
+        monitor.addSample(sample);
+        const HealthLevel level = monitor.report().health.level;
+        alarms += level == HealthLevel::kWarn || level == HealthLevel::kError ? 1 : 0;
+      };
+      const auto driveOn = [&] {
+        for (const DriveSample& sample : driven) add({{}, sample.sprung->acceleration, sample.unsprung->acceleration});
+        EXPECT_EQ(monitor.report().health.level, HealthLevel::kOk) << frequency << ' ' << force;
+      };
+      driveOn();
+      RockedCar car(frequency, force);
+      for (int k = 0; k < 60 * RockedCar::kRate; ++k) add(car.next());
+      EXPECT_EQ(monitor.report().health.level, HealthLevel::kStale) << frequency << ' ' << force;
+      driveOn();
+      EXPECT_EQ(alarms, 0) << frequency << ' ' << force;
+    }
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
