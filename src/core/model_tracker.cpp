@@ -13,6 +13,7 @@ constexpr unsigned kSpreadEvery = 32;  // rows
 // Of that many samples the first gives figures of the free run's errors, and two are looked at for a force from
 // outside: steps of 7 and 9, since a wheel that hops in step with the looks would seem to stand.
 constexpr unsigned kComparedEvery = 16, kLookAgain = 7;
+constexpr double kMostCorrelation = 2.0;  // of LS's scores, against LA's
 // Rows of a motion that was not the wheel's count for a seventh then.
 constexpr double kMemoriesToForget = 2.0;
 
@@ -31,11 +32,13 @@ template <class Estimator>
 }
 
 /// What is random, and what the sensors' noise in the regressors shifts.
-template <class Estimator>
-void describeSpread(const Estimator& estimator, const Eigen::Vector2d& noise_moment, StrutEstimate& estimate) {
+/// @param variance  of parameter i, what is random of it.
+template <class Estimator, class Variance>
+void describeSpread(const Estimator& estimator, const Variance& variance, const Eigen::Vector2d& noise_moment,
+                    StrutEstimate& estimate) {
   const auto stddev = [&](int i) {
     const double shift = estimator.parameterShift(i, noise_moment);
-    return std::sqrt(estimator.parameterVariance(i) + shift * shift);
+    return std::sqrt(variance(i) + shift * shift);
   };
   estimate.damping_to_mass_stddev = stddev(kDampingToMass);
   estimate.stiffness_to_mass_stddev = stddev(kStiffnessToMass);
@@ -191,8 +194,18 @@ void ModelTracker::describeSpreads(ModelReport& report) const {
   const double size = least_absolute_.usualResidual();
   const Eigen::Vector2d strut(report.la.damping_to_mass, report.la.stiffness_to_mass);
   const Eigen::Vector2d moment = noise_.moment(strut, 0.5 * kPi * size * size);
-  describeSpread(least_squares_, moment, report.ls);
-  describeSpread(least_absolute_, moment, report.la);
+  // The rows of one wrong reading are correlated as no others are; LS's scores remember them for minutes, LA's never
+  // see them. So LS's count only as far as its residuals show that it still has such rows: squared, as they are large
+  // in the regressors, too, and have made P small.
+  const double tails = std::max(1.0, least_squares_.meanSquareResidual() / (0.5 * kPi * size * size));
+  describeSpread(
+      least_squares_,
+      [&](int i) {
+        return least_squares_.parameterVariance(i, kMostCorrelation * tails * tails * least_absolute_.correlation(i));
+      },
+      moment, report.ls);
+  describeSpread(
+      least_absolute_, [&](int i) { return least_absolute_.parameterVariance(i); }, moment, report.la);
 }
 
 void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {

@@ -70,6 +70,9 @@ class RecursiveEstimator {
   /// The parameters are worth something from now on: how they scatter is learned from the rows to come.
   void beginSpread() { scores_.beginHere(); }
 
+  /// @return what the residuals' correlation makes of the variance of theta_i (ScoreCovariance::correlation()).
+  double correlation(int i) const { return scores_.correlation(i); }
+
   /// Holds parameter i from the next row on, or no longer: rows then say nothing of it, and what is known of it is not
   /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
   void hold(int i, bool held);
@@ -150,6 +153,11 @@ class RecursiveLeastSquares : public RecursiveEstimator {
   /// @return variance of theta_i: mean(epsilon^2) P_ii times what the residuals' correlation makes of it
   /// (ScoreCovariance).
   double parameterVariance(int i) const { return varianceAt(i, meanSquareResidual()); }
+
+  /// The same, but for a correlation that is said to be at most so large.
+  double parameterVariance(int i, double most_correlation) const {
+    return parameterVariance(i) * std::min(1.0, most_correlation / correlation(i));
+  }
 
   /// @param moment  E[phi e] of a row.
   /// @return what it shifts theta_i by; p >= 2.

@@ -74,6 +74,9 @@ class ScoreCovariance {
   bool isNowAndThen() const { return phase_ % kFewRows == 0; }
   bool isEveryFourth() const { return phase_ % 4 == 0; }
 
+  /// @return what correlation alone makes of a variance, as a multiple of that for residuals that are not correlated.
+  double correlation(int i) const { return ratio_[i]; }
+
   /// @return V_ii / (P_ii scale), with the scale E[(w epsilon)^2] / E[w] of the newest rows: what P is multiplied by to
   /// be the variance for residuals that are not correlated.
   /// @param weight  sum lambda^(k-i).
