@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "../test/core/paper_drive.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
-#include "suspension_health_monitor/simulation/drive_simulator.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -45,7 +45,7 @@ class Feeder {
   static MonitorOptions options(int horizon_samples, std::optional<double> fastest) {
     MonitorOptions options;
     options.sample_period = 0.01;
-    options.horizon_samples = horizon_samples;
+    options.integration_horizon = horizon_samples * *options.sample_period;
     options.fastest_forgetting_factor = fastest;
     return options;
   }

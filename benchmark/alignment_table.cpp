@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "../test/core/mean_estimates.h"
-#include "suspension_health_monitor/signal/uniform_grid.h"
-#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/discrepancy/drive_record.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
-#include "suspension_health_monitor/model/effect_library.h"
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/drive_simulator.h"
-#include "suspension_health_monitor/simulation/random_stream.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/internal/record/motion_scale.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
+#include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 namespace suspension_health_monitor {
 
@@ -40,7 +41,7 @@ inline constexpr const char* kDisturbances[] = {"sine force", "gusts", "bursts",
 /// A drive of the battery: what is hidden in it, and what the search gets to see.
 struct BatteryDrive {
   StrutModel truth;
-  DriveRecord record{1.0, 1};
+  DriveRecord record;
 };
 
 /// Makes drives of 120 s with noise of 0.024 to 0.04 m/s^2 in which every hidden force has 15 % of the linear force's
@@ -54,7 +55,7 @@ class BatteryDriver {
     options_.iso_class = vehicle.iso_class;
     options_.speed = vehicle.speed;
     options_.rate = vehicle.rate;
-    options_.damping_ramp = false;
+    options_.damping_end_fraction = 1.0;
     options_.noise = 0.0;
     options_.seed = seed;
     DriveSimulator simulator(options_);
@@ -100,15 +101,19 @@ class BatteryDriver {
 
   double between(double low, double high) { return low * std::pow(high / low, random_.uniform()); }
 
+  // Of the shapes named here the part of the range in which the drive can show them; of others the middle half.
   std::vector<double> shapesOf(const ForceEffect& effect) {
+    const std::map<std::string, std::pair<double, double>> shown{{"p", {2.0, 4.0}},   {"g", {0.5, 1.5}},
+                                                                 {"vs", {0.03, 0.1}}, {"v0", {0.4, 1.2}},
+                                                                 {"x", {0.15, 1.0}},  {"tau", {0.4, 2.0}}};
+    const MotionScale scale{travel_, travel_rate_, 1.0 / std::sqrt(stiffness())};
     std::vector<double> shapes;
     for (const ShapeParameter& shape : effect.shapes) {
-      if (shape.name == "p") shapes.push_back(between(2.0, 4.0));
-      if (shape.name == "g") shapes.push_back(between(0.5, 1.5) * travel_);
-      if (shape.name == "vs") shapes.push_back(between(0.03, 0.1) * travel_rate_);
-      if (shape.name == "v0") shapes.push_back(between(0.4, 1.2) * travel_rate_);
-      if (shape.name == "x") shapes.push_back(between(0.15, 1.0) * travel_);
-      if (shape.name == "tau") shapes.push_back(between(0.4, 2.0) / std::sqrt(stiffness()));
+      const auto known = shown.find(shape.name);
+      const double quarter = std::pow(shape.max / shape.min, 0.25);
+      const auto [low, high] =
+          known != shown.end() ? known->second : std::pair{shape.min * quarter, shape.max / quarter};
+      shapes.push_back(between(low, high) * scale.unit(shape.scale));
     }
     return shapes;
   }
@@ -160,8 +165,7 @@ class BatteryDriver {
     const int finer = late ? kFiner : 1;
     SimulationOptions options = options_;
     options.rate *= finer;
-    BatteryDrive drive{{plain_.front().truth.damping_to_mass, stiffness(), effects, readings},
-                       DriveRecord(1.0 / options_.rate, 1)};
+    Drive drive;
     DriveSimulator simulator(options);
     std::vector<DriveTruth> truths;
     while (const auto sample = simulator.next()) truths.push_back(sample->truth);
@@ -173,12 +177,12 @@ class BatteryDriver {
         if (reading.effect.name == "scale_error") sprung *= 1.0 + reading.coefficients[0];
         if (reading.effect.name == "accelerometer_bias") sprung += reading.coefficients[0];
       }
-      drive.record.push({fromSeconds(static_cast<double>(i) / options_.rate),
-                         sprung + sensor_noise_ * noise_.gaussian(),
-                         truths[k].unsprung_acceleration + sensor_noise_ * noise_.gaussian()});
+      drive.samples.push_back({fromSeconds(static_cast<double>(i) / options_.rate),
+                               sprung + sensor_noise_ * noise_.gaussian(),
+                               truths[k].unsprung_acceleration + sensor_noise_ * noise_.gaussian()});
     }
-    drive.record.finish();
-    return drive;
+    return {{plain_.front().truth.damping_to_mass, stiffness(), effects, readings},
+            DriveRecord(drive, 1.0 / options_.rate)};
   }
 
   SimulationOptions options_;

@@ -52,7 +52,7 @@ void printTable(int seeds, std::optional<double> fastest) {
     for (const double horizon : kHorizons)
       for (const double forgetting_factor : kForgettingFactors) {
         MonitorOptions options;
-        options.horizon_samples = std::max(5, static_cast<int>(std::lround(horizon * proposed)));
+        options.integration_horizon = std::max(5L, std::lround(horizon * proposed)) / simulation.rate;
         options.forgetting_factor = forgetting_factor;
         options.fastest_forgetting_factor = fastest;
         const Coverages coverages = coverageOf(clean, drive.noise, options, seeds);

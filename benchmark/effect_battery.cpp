@@ -7,9 +7,9 @@
 #include <string>
 
 #include "battery_drives.h"
-#include "suspension_health_monitor/discrepancy/effect_search.h"
-#include "suspension_health_monitor/discrepancy/held_out.h"
-#include "suspension_health_monitor/discrepancy/noise_floor.h"
+#include "suspension_health_monitor/internal/fit/hold_out.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/search/effect_search.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -50,11 +50,11 @@ Outcome judge(const SearchResult& result, const Names& hidden) {
 
 /// What the true model leaves of the held-out samples when it is driven by the measured w'' [m/s^2].
 double floorOf(const BatteryDrive& drive) {
-  const auto held_out = holdOut({&drive.record}, drive.truth.stiffness_to_mass);
+  const auto held_out = splitHoldOut({&drive.record}, drive.truth.stiffness_to_mass);
   std::vector<std::vector<double>> residuals;
   for (const DriveSegment& segment : drive.record.segments()) {
     residuals.emplace_back();
-    if (!runFree(drive.truth, drive.record, segment, {}, residuals.back())) return std::nan("");
+    if (!runFree(drive.truth, segment, {}, residuals.back())) return std::nan("");
     for (std::size_t k = 0; k < segment.size(); ++k) residuals.back()[k] = segment.sprung[k] - residuals.back()[k];
   }
   return held_out->rmse(held_out->stretchErrors(residuals));
@@ -99,18 +99,18 @@ Tally searchIn(const std::string& label, const BatteryDrive& drive, const Names&
   start.effects.clear();
   start.reading.clear();
   const std::clock_t before = std::clock();
-  const auto result = EffectSearch(builtInEffects(), {}).run({&drive.record}, start);
+  const auto result = searchEffects({&drive.record}, start);
   tally.seconds.push_back(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
-  const Outcome outcome = judge(*result, hidden);  // a disturbance has no name, so that a name is a wrong one
+  const Outcome outcome = judge(result, hidden);  // a disturbance has no name, so that a name is a wrong one
   ++tally.outcomes[outcome];
   const double floor = floorOf(drive);
-  if (explainable && outcome == Outcome::kNamed) noteAccuracy(*result, drive, floor, tally);
+  if (explainable && outcome == Outcome::kNamed) noteAccuracy(result, drive, floor, tally);
   std::string groups;
-  for (const Names& group : result->indistinguishable) groups += " {" + join(group) + "}";
+  for (const Names& group : result.indistinguishable) groups += " {" + join(group) + "}";
   std::printf("  %-34s %-46s %-15s base %.4f found %.4f truth %.4f noise %.4f %4.1f s: %s%s\n", label.c_str(),
-              join(hidden).c_str(), kOutcomes[static_cast<int>(outcome)], result->base.held_out_rmse,
-              result->extended ? result->extended->held_out_rmse : result->base.held_out_rmse, floor,
-              result->noise_floor, tally.seconds.back(), join(result->selected).c_str(), groups.c_str());
+              join(hidden).c_str(), kOutcomes[static_cast<int>(outcome)], result.base.held_out_rmse,
+              result.extended ? result.extended->held_out_rmse : result.base.held_out_rmse, floor, result.noise_floor,
+              tally.seconds.back(), join(result.selected).c_str(), groups.c_str());
   std::fflush(stdout);
   return tally;
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../test/core/simulated_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "../test/core/paper_drive.h"
-#include "suspension_health_monitor/identification/horizon_selection.h"
-#include "suspension_health_monitor/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/identification/suspension_regression.h"
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -50,7 +50,7 @@ std::vector<Samples> simulateAll(const Drive& drive) {
     options.vehicle = drive.vehicle;
     options.damping_to_mass = drive.b1;
     options.stiffness_to_mass = drive.b0;
-    options.damping_ramp = false;
+    options.damping_end_fraction = 1.0;
     options.rate = drive.rate;
     options.noise = drive.noise;
     options.duration = kPeriodsPerDrive * 2.0 * kPi / std::sqrt(drive.b0);

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -44,7 +45,7 @@ class Corner {
     const StrutEstimate& la = monitor_.report().la;
     std::printf("  b1 %.4f of %.1f 1/s, b0 %.3f of %.0f 1/s^2, %llu samples\n", la.damping_to_mass, damping_,
                 la.stiffness_to_mass, stiffness_, static_cast<unsigned long long>(monitor_.input().samples));
-    return la.valid && std::abs(la.damping_to_mass / damping_ - 1.0) < 0.1 &&
+    return la.valid() && std::abs(la.damping_to_mass / damping_ - 1.0) < 0.1 &&
            std::abs(la.stiffness_to_mass / stiffness_ - 1.0) < 0.1;
   }
 

@@ -11,9 +11,9 @@
 
 #include "../test/core/braked_road.h"
 #include "../test/core/paper_drive.h"
-#include "suspension_health_monitor/identification/excitation.h"
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/identification/excitation.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -41,17 +41,17 @@ std::vector<Saying> sayings(long samples, const Readings& read, int blocks) {
   const IntegralFilterOptions filter{30, 0.02, IntegrationRule::kCubic};
   const RegressorNoise noise(filter);
   SuspensionRegression regression(filter);
-  RunningMean offset(0.98);
+  RunningMean offset(0.9975);
   RowMoments rows;
   std::vector<Saying> all;
-  for (long k = 0, looks = 0; k < samples; ++k) {
+  for (long k = 0, count = 0; k < samples; ++k) {
     const auto [sprung, unsprung] = read(k);
     const RegressionRow* row = regression.push({Stamp{}, sprung, unsprung});
-    if (row == nullptr || k % Excitation::kJudgeEvery != 0) continue;
+    if (row == nullptr) continue;
     offset.add(row->regressor[kStiffnessToMass]);
     if (k < 500) continue;
     rows.add(row->regressor[kDampingToMass], row->regressor[kStiffnessToMass] - offset.mean(), row->output);
-    if (++looks % (8 * blocks) != 0) continue;
+    if (++count % (64 * blocks) != 0) continue;
     all.push_back(sayingOf(rows, noise));
     rows = RowMoments();
   }
@@ -83,7 +83,7 @@ void printSaying(const std::string& name, bool driven, long samples, const Readi
 
 void printDriven(const std::string& name, double b1, double b0, double smoother, double noise) {
   SimulationOptions options;
-  options.damping_ramp = false;
+  options.damping_end_fraction = 1.0;
   options.duration = 600.0;
   options.noise = 0.0;
   options.damping_to_mass = b1;
@@ -162,11 +162,11 @@ class BrakedDrive {
 };
 
 // A drive, a stop, 24 h of nothing but the sensors' noise, then the road again.
-void printParked(const char* rule, double brake, double body_noise, double wheel_noise) {
+void printParked(bool forgets_unexcited, double brake, double body_noise, double wheel_noise) {
   constexpr long kDay = 24L * 3600 * 50, kSecond = 50;
   MonitorOptions options;
   options.sample_period = 0.02;
-  options.forgetting_rule = rule;
+  options.estimators.forgets_unexcited = forgets_unexcited;
   SuspensionMonitor monitor(options);
   Stamp stamp{};
   std::mt19937_64 engine(7);
@@ -183,10 +183,11 @@ void printParked(const char* rule, double brake, double body_noise, double wheel
   for (long k = 0; k < kDay; ++k) day = add({0.0, 0.0});
   for (long k = 0; k < kSecond; ++k) soon = add(next_drive.next());
   for (long k = 0; k < 9 * kSecond; ++k) next = add(next_drive.next());
-  std::printf("| %s | %.1f s | %g, %g | %.2f, %.2f | %.1f, %.1f | %.3f, %.3f | %.2f, %.1f; %.2f, %.1f |\n", rule, brake,
-              body_noise, wheel_noise, stop.damping_to_mass, day.damping_to_mass, stop.stiffness_to_mass,
-              day.stiffness_to_mass, stop.damping_to_mass_stddev, day.damping_to_mass_stddev, soon.damping_to_mass,
-              soon.stiffness_to_mass, next.damping_to_mass, next.stiffness_to_mass);
+  std::printf("| %s | %.1f s | %g, %g | %.2f, %.2f | %.1f, %.1f | %.3f, %.3f | %.2f, %.1f; %.2f, %.1f |\n",
+              forgets_unexcited ? "exponential" : "directional", brake, body_noise, wheel_noise, stop.damping_to_mass,
+              day.damping_to_mass, stop.stiffness_to_mass, day.stiffness_to_mass, stop.damping_to_mass_stddev,
+              day.damping_to_mass_stddev, soon.damping_to_mass, soon.stiffness_to_mass, next.damping_to_mass,
+              next.stiffness_to_mass);
   std::fflush(stdout);
 }
 
@@ -194,12 +195,12 @@ void printParkedTable() {
   std::printf(
       "| rule | stop within | noise of body, wheel [m/s^2] | b1 at the stop, after the day [1/s] | b0 [1/s^2] "
       "| stddev of b1 [1/s] | b1, b0 1 s, 10 s into the next drive |\n|---|---|---|---|---|---|---|\n");
-  for (const double brake : {3.0, 0.3}) printParked("exponential", brake, 0.024, 0.024);
-  for (const double brake : {3.0, 0.3}) printParked("directional", brake, 0.024, 0.024);
-  printParked("directional", 3.0, 0.024, 0.072);
-  printParked("directional", 3.0, 0.072, 0.024);
-  printParked("directional", 3.0, 0.002, 0.002);
-  printParked("directional", 3.0, 0.1, 0.1);
+  for (const double brake : {3.0, 0.3}) printParked(true, brake, 0.024, 0.024);
+  for (const double brake : {3.0, 0.3}) printParked(false, brake, 0.024, 0.024);
+  printParked(false, 3.0, 0.024, 0.072);
+  printParked(false, 3.0, 0.072, 0.024);
+  printParked(false, 3.0, 0.002, 0.002);
+  printParked(false, 3.0, 0.1, 0.1);
 }
 
 }  // namespace

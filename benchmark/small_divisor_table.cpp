@@ -14,11 +14,17 @@ constexpr const char* kScenarios[] = {"paper_clean", "paper_outliers", "paper_sa
 constexpr double kForgettingFactors[] = {0.98, 0.985, 0.99, 0.995};
 
 struct Divisor {
-  const char* rule;
+  const char* name;
+  SmallDivisor rule;
   double value;
 };
-constexpr Divisor kDivisors[] = {{"absolute", 1e-8}, {"relative", 0.05}, {"relative", 0.1}, {"relative", 0.15},
-                                 {"relative", 0.2},  {"relative", 0.3},  {"relative", 0.5}, {"relative", 1.0}};
+constexpr double kRelative[] = {0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0};
+
+std::vector<Divisor> divisors() {
+  std::vector<Divisor> result{{"absolute", SmallDivisor::kAbsolute, 1e-8}};
+  for (const double share : kRelative) result.push_back({"relative", SmallDivisor::kRelative, share});
+  return result;
+}
 
 struct Setting {
   std::string name;
@@ -28,14 +34,14 @@ struct Setting {
 std::vector<Setting> settings() {
   std::vector<Setting> result{{"all settings of the paper", paperOptions()}};
   for (const double forgetting_factor : kForgettingFactors) {
-    for (const Divisor& divisor : kDivisors) {
+    for (const Divisor& divisor : divisors()) {
       MonitorOptions options;
       options.sample_period = 0.02;
       options.forgetting_factor = forgetting_factor;
-      options.la_small_divisor_rule = divisor.rule;
-      options.la_small_divisor = divisor.value;
+      options.estimators.least_absolute.small_divisor_rule = divisor.rule;
+      options.estimators.least_absolute.small_divisor = divisor.value;
       char name[64];
-      std::snprintf(name, sizeof name, "%g, %s %g", forgetting_factor, divisor.rule, divisor.value);
+      std::snprintf(name, sizeof name, "%g, %s %g", forgetting_factor, divisor.name, divisor.value);
       result.push_back({name, options});
     }
   }

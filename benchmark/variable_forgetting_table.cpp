@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../test/core/simulated_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -49,8 +49,7 @@ std::vector<DriveSample> driven(const Case& road, int seed, bool step) {
   options.noise = road.noise;
   options.duration = kDuration;
   options.seed = seed;
-  options.damping_ramp = step;
-  options.damping_end_fraction = 0.8;
+  options.damping_end_fraction = step ? 0.8 : 1.0;
   options.ramp_start = kStepAt;
   options.ramp_end = kStepAt + 1.0 / road.rate;
   return drive(options);
@@ -76,7 +75,7 @@ struct Course {
 Course follow(const std::vector<DriveSample>& drive, const Case& road, std::optional<double> fastest, double until) {
   MonitorOptions options;
   options.sample_period = 1.0 / road.rate;
-  options.horizon_samples = road.horizon;
+  options.integration_horizon = road.horizon / road.rate;
   options.forgetting_factor = road.slow;
   options.fastest_forgetting_factor = fastest;
   SuspensionMonitor monitor(options);

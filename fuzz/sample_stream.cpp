@@ -8,8 +8,9 @@
 
 #include "entry_points.h"
 #include "fuzz_bytes.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -23,23 +24,23 @@ void require(bool holds, const char* law) {
 MonitorOptions takeOptions(FuzzBytes& bytes) {
   constexpr std::array kPeriods{1e-5, 1e-3, 0.005, 0.02, 0.1, 10.0};
   constexpr std::array kForgetting{0.9, 0.98, 0.99, 0.999, 1.0};
-  constexpr std::array kRules{"trapezoid", "simpson", "cubic"};
+  constexpr std::array kRules{IntegrationRule::kTrapezoid, IntegrationRule::kSimpson, IntegrationRule::kCubic};
   MonitorOptions options;
   options.sample_period = kPeriods[bytes.choose(kPeriods.size())];
-  options.horizon_samples = 1 + static_cast<int>(bytes.choose(60));
-  options.integration_rule = kRules[bytes.choose(kRules.size())];
+  options.integration_horizon = static_cast<double>(1 + bytes.choose(60)) * *options.sample_period;
+  EstimatorOptions& estimators = options.estimators;
+  estimators.rule = kRules[bytes.choose(kRules.size())];
   options.forgetting_factor = kForgetting[bytes.choose(kForgetting.size())];
   const auto flags = bytes.take<std::uint8_t>();
-  if ((flags & 1U) != 0) options.initial_variance_rule = "absolute";
-  if ((flags & 2U) != 0) options.la_small_divisor_rule = "absolute";
-  if ((flags & 4U) != 0) options.la_small_divisor = 0.0;
-  if ((flags & 8U) != 0) options.la_scale_covariance_at_start = false;
+  if ((flags & 1U) != 0) estimators.recursive.initial_variance_rule = InitialVariance::kAbsolute;
+  if ((flags & 2U) != 0) estimators.least_absolute.small_divisor_rule = SmallDivisor::kAbsolute;
+  if ((flags & 4U) != 0) estimators.least_absolute.small_divisor = 0.0;
+  if ((flags & 8U) != 0) estimators.least_absolute.scale_covariance_at_start = false;
   if ((flags & 16U) != 0) options.nominal_damping_to_mass = 3.0;
   if ((flags & 32U) != 0) options.nominal_stiffness_to_mass = 13.8;
-  if ((flags & 64U) != 0) options.initial_variance = 1e15;
-  options.la_start_rows = (flags & 128U) != 0 ? 1 : 150;
-  options.valid_min_rows = 2 + static_cast<int>(bytes.choose(60));
-  if (options.valid_min_rows % 2 != 0) options.fastest_forgetting_factor = 0.9;
+  if ((flags & 64U) != 0) estimators.recursive.initial_variance = 1e15;
+  if ((flags & 128U) != 0) estimators.least_absolute.start_rows = 1;
+  if (bytes.choose(60) % 2 != 0) options.fastest_forgetting_factor = 0.9;
   return options;
 }
 
@@ -161,7 +162,7 @@ class Stream {
   }
 
   static void check(const StrutEstimate& estimate) {
-    if (!estimate.valid) return;
+    if (!estimate.valid()) return;
     require(std::isfinite(estimate.damping_to_mass) && std::isfinite(estimate.stiffness_to_mass),
             "a valid estimate is finite");
     require(estimate.damping_to_mass_stddev >= 0.0 && estimate.stiffness_to_mass_stddev >= 0.0,

@@ -6,10 +6,10 @@
 #include "entry_points.h"
 #include "ros/shell_options.h"
 #include "ros/yaml_settings.h"
-#include "suspension_health_monitor/model/effect_library.h"
-#include "suspension_health_monitor/model/model_settings.h"
-#include "suspension_health_monitor/model/user_effects.h"
-#include "suspension_health_monitor/simulation/scenario.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
+#include "suspension_health_monitor/internal/model/user_effects.h"
+#include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {
 namespace {

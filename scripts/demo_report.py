@@ -11,8 +11,7 @@ import time
 
 from report import hidden_effect
 from report.accuracy import find_program, seed_medians
-from report.experiments import (DURATION, EXPERIMENTS, REAL_TIME_FACTORS, RunFailed, paper_drive, read_settings,
-                                run_drives)
+from report.experiments import DURATION, EXPERIMENTS, RunFailed, paper_drive, read_settings, run_drives
 from report.page import page, write_whole
 from report.progress import Progress
 from report.recording import IncompleteRecording, read_recording, require_complete
@@ -34,44 +33,25 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def read_complete(scenario, bag, settings):
-    """The recording, with every row from the first regression row on. @throws IncompleteRecording"""
-    recording = read_recording(bag)
-    require_complete(recording, scenario, settings.first_row, DURATION, settings.period)
-    return recording
-
-
 def hidden_bag(options):
     return options.output.resolve() / f"{hidden_effect.NAME}.bag"
 
 
 def drive_and_read(options, settings):
-    """{scenario: Recording} of all experiments; what misses rows runs again, slower.
-
-    The drive with a hidden effect runs beside them the first time. @throws IncompleteRecording
-    """
+    """{scenario: Recording} of all experiments, each with every row from the first regression row on; the drive with a
+    hidden effect runs beside them. @throws IncompleteRecording"""
     work = options.work.resolve()
-    beside = [hidden_effect.drive(hidden_bag(options), options.seed, work)]
     bags = {each.scenario: options.output.resolve() / f"{each.scenario}.bag" for each in EXPERIMENTS}
+    drives = [*(paper_drive(scenario, bag, options.seed) for scenario, bag in bags.items()),
+              hidden_effect.drive(hidden_bag(options), options.seed, work)]
+    print(f"== driving {len(drives)} drives through the nodelets, side by side, as fast as they go", flush=True)
+    with Progress("driving") as progress:
+        run_drives(drives, work, progress)
     recordings = {}
-    for factor in REAL_TIME_FACTORS:
-        due = [scenario for scenario in bags if scenario not in recordings]
-        drives = [paper_drive(scenario, bags[scenario], options.seed, factor) for scenario in due] + beside
-        beside = []
-        print(f"== driving {len(drives)} drives through the nodelets, side by side, up to {factor:g} times faster than "
-              "the wall clock", flush=True)
-        with Progress("driving") as progress:
-            run_drives(drives, work, progress)
-        failures = []
-        for scenario in due:
-            try:
-                recordings[scenario] = read_complete(scenario, bags[scenario], settings)
-            except IncompleteRecording as error:
-                print(f"   {error}", flush=True)
-                failures.append(error)
-        if not failures:
-            return {scenario: recordings[scenario] for scenario in bags}
-    raise failures[0]
+    for scenario, bag in bags.items():
+        recordings[scenario] = read_recording(bag)
+        require_complete(recordings[scenario], scenario, settings.first_row, DURATION, settings.period)
+    return recordings
 
 
 def medians(options, recordings):

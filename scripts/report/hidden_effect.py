@@ -7,12 +7,11 @@ import subprocess
 import yaml
 
 from .accuracy import find_program
-from .experiments import START_AND_END, Drive, RunFailed
+from .experiments import Drive, RunFailed
 from .page import Section
 from .table import Column, Table
 
 DURATION = 60.0  # [s]
-REAL_TIME_FACTOR = 6.0  # slower than the others: twice their rate
 NAME = "hidden_effect"
 EFFECT = "coulomb_friction"
 SIZES = {"coefficient": 0.35, "vs": 0.02}  # [m/s^2], [m/s]
@@ -34,8 +33,8 @@ def drive(bag, seed, folder):
     settings = folder / "simulator.yaml"
     settings.write_text(yaml.safe_dump(SETTINGS))
     arguments = ("scenario:=iso_road", f"simulator_config:={settings}", f"seed:={seed}", f"duration:={DURATION:g}",
-                 f"real_time_factor:={REAL_TIME_FACTOR:g}", "record_topics:=/sprung/imu /unsprung/imu")
-    return Drive(NAME, "simulation.launch", arguments, DURATION / REAL_TIME_FACTOR + START_AND_END, bag)
+                 "record_topics:=/sprung/imu /unsprung/imu")
+    return Drive(NAME, "simulation.launch", arguments, bag)
 
 
 def search(bag, output, folder):

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_options.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +8,36 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kDefaultHorizon = 0.6;    // [s], the paper's
-constexpr int kMostSamples = 100000;       // as of horizon_samples
+constexpr int kMostSamples = 100000;       // of a horizon: more is a wrong unit
 constexpr int kUpdatesPerTwoHorizons = 3;  // of health: rows within a horizon share most of their samples
 
 }  // namespace
 
+MonitorOptions MonitorOptions::of(const std::string& preset) {
+  MonitorOptions options;
+  options.preset = preset;
+  if (preset != "paper") return options;
+  options.integration_horizon = kDefaultHorizon;          // L = 30 at its T = 0.02 s
+  options.forgetting_factor = 0.98;                       // lambda, memory of 50 rows
+  options.estimators.rule = IntegrationRule::kTrapezoid;  // Eq. (9)
+  options.estimators.forgets_unexcited = true;
+  options.estimators.recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
+  options.estimators.recursive.initial_variance_rule = InitialVariance::kAbsolute;
+  options.estimators.least_absolute = {150, SmallDivisor::kAbsolute, 1e-8, false};  // k0, eps_min: section 3.2
+  return options;
+}
+
+MonitorOptions MonitorOptions::takeFrom(OptionMap& values) {
+  MonitorOptions given;
+  OptionMap copy = values;
+  takeOptions(copy, kMonitorFields, given);
+  MonitorOptions options = of(given.preset);
+  takeOptions(values, kMonitorFields, options);
+  return options;
+}
+
 void MonitorOptions::validate() const {
   suspension_health_monitor::validate(*this, kMonitorFields);
-  if (integration_horizon && horizon_samples)
-    throw std::invalid_argument("integration_horizon and horizon_samples are both given, must be one of them");
   if (fastest_forgetting_factor && *fastest_forgetting_factor > forgetting_factor)
     throw std::invalid_argument("fastest_forgetting_factor = " + std::to_string(*fastest_forgetting_factor) +
                                 ", must be at most forgetting_factor = " + std::to_string(forgetting_factor));
@@ -25,7 +46,6 @@ void MonitorOptions::validate() const {
 }
 
 int MonitorOptions::horizonSamples(double period) const {
-  if (horizon_samples) return *horizon_samples;
   const double horizon = integration_horizon.value_or(kDefaultHorizon);
   if (horizon / period > kMostSamples)
     throw std::invalid_argument("integration_horizon = " + std::to_string(horizon) + " [s], must be at most " +
@@ -35,11 +55,10 @@ int MonitorOptions::horizonSamples(double period) const {
 }
 
 IntegralFilterOptions MonitorOptions::filter(double period) const {
-  const IntegralFilterOptions filter{horizonSamples(period), period, integrationRule(integration_rule)};
+  const IntegralFilterOptions filter{horizonSamples(period), period, estimators.rule};
   try {
     HorizonIntegral(filter.horizon_samples, filter.period, filter.rule);
   } catch (const std::invalid_argument& error) {
-    if (horizon_samples) throw;  // the user's own words
     throw std::invalid_argument(
         "integration_horizon = " + std::to_string(integration_horizon.value_or(kDefaultHorizon)) +
         " [s] with sample_period = " + std::to_string(period) + " [s] makes " + error.what());
@@ -48,25 +67,17 @@ IntegralFilterOptions MonitorOptions::filter(double period) const {
 }
 
 IntegralFilterOptions MonitorOptions::tyreFilter(double period) const {
-  MonitorOptions options = *this;
   constexpr double kShare = 1.0 / 8.0;
   constexpr int kFewestSamples = 5;
-  const double horizon = tyre_horizon.value_or(kShare * horizonSamples(period) * period);
-  options.integration_horizon.reset();
-  options.horizon_samples = std::max(kFewestSamples, static_cast<int>(std::lround(horizon / period)));
-  if (options.integration_rule == "simpson" && *options.horizon_samples % 2 != 0) ++*options.horizon_samples;
-  return options.filter(period);
+  const auto samples = static_cast<int>(std::lround(kShare * horizonSamples(period)));
+  return {std::max(kFewestSamples, samples), period, estimators.rule};
 }
 
 RecursiveOptions MonitorOptions::recursive(int correlated_rows) const {
-  return {forgetting_factor, initial_variance,
-          initial_variance_rule == "relative" ? InitialVariance::kRelative : InitialVariance::kAbsolute,
-          correlated_rows};
-}
-
-LeastAbsoluteOptions MonitorOptions::leastAbsolute() const {
-  return {la_start_rows, la_small_divisor_rule == "relative" ? SmallDivisor::kRelative : SmallDivisor::kAbsolute,
-          la_small_divisor, la_scale_covariance_at_start};
+  RecursiveOptions recursive = estimators.recursive;
+  recursive.forgetting_factor = forgetting_factor;
+  recursive.correlated_rows = correlated_rows;
+  return recursive;
 }
 
 HealthOptions MonitorOptions::health(double period) const {
@@ -78,12 +89,8 @@ HealthOptions MonitorOptions::health(double period) const {
   health.stiffness_warn = stiffness_warn;
   health.stiffness_error = stiffness_error;
   health.confirm_time = confirm_time;
-  health.hysteresis = hysteresis;
-  health.min_significance = min_significance;
   health.payload_range = payload_range;
   health.learn_time = learn_time;
-  health.early_change = early_change;
-  health.false_alarm_interval = false_alarm_interval;
   health.gravity_tolerance = gravity_tolerance;
   health.forgetting_factor = forgetting_factor;
   health.horizon_samples = horizonSamples(period);

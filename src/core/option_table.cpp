@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/option_table.h"
+#include "suspension_health_monitor/internal/option_table.h"
 
 #include <boost/lexical_cast/try_lexical_convert.hpp>
 #include <cmath>
@@ -8,6 +8,26 @@
 
 namespace suspension_health_monitor {
 namespace {
+
+/// Names that were options once, separated by spaces, and what serves instead.
+struct FormerOptions {
+  std::string_view names, instead;
+};
+
+constexpr FormerOptions kFormerOptions[] = {
+    {"integration_rule forgetting_rule initial_variance initial_variance_rule la/start_rows la/small_divisor_rule "
+     "la/small_divisor la/scale_covariance_at_start",
+     "preset: paper has the paper's value"},
+    {"horizon_samples", "integration_horizon gives the horizon in seconds"},
+    {"tyre/integration_horizon", "it is an eighth of integration_horizon"},
+    {"hardware_id", "it is the name of the node"},
+    {"damping_ramp", "damping_end_fraction: 1 makes a healthy drive"},
+    {"sprung_rate", "it is rate; that of the other sensor is unsprung_rate"},
+    {"valid/min_rows valid/min_explained health/hysteresis health/min_significance health/early_change "
+     "health/false_alarm_interval expected_rate/tolerance queue_size diagnose/threads significance ramp_start "
+     "ramp_end noise_distribution gyro_noise wait_for_subscribers",
+     "its default always holds"},
+};
 
 std::string format(double value) {
   std::ostringstream out;
@@ -40,9 +60,8 @@ std::string allowedText(const option_table::Bound& option) {
     for (const char letter : option.choices) words += letter == ' ' ? std::string(", ") : std::string(1, letter);
     return words;
   }
-  const bool whole =
-      std::holds_alternative<int*>(option.member) || std::holds_alternative<std::optional<int>*>(option.member);
-  return std::string(whole ? "a whole number " : "") + "in [" + format(option.min) + ", " + format(option.max) + "]";
+  const char* const whole = std::holds_alternative<int*>(option.member) ? "a whole number " : "";
+  return whole + ("in [" + format(option.min)) + ", " + format(option.max) + "]";
 }
 
 [[noreturn]] void refuse(const option_table::Bound& option, const OptionValue& value) {
@@ -91,7 +110,6 @@ struct Assigner {
   bool operator()(std::string* target) const { return copy(target, asText(value)); }
   bool operator()(int* target) const { return copy(target, asWhole(value)); }
   bool operator()(double* target) const { return copy(target, asNumber(value)); }
-  bool operator()(std::optional<int>* target) const { return copy(target, asWhole(value)); }
   bool operator()(std::optional<double>* target) const { return copy(target, asNumber(value)); }
 
   template <class Target, class Source>
@@ -120,44 +138,37 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 namespace option_table {
 
+std::optional<OptionValue> valueOf(const Bound& option) {
+  struct Reader {
+    std::optional<OptionValue> operator()(const bool* b) const { return *b; }
+    std::optional<OptionValue> operator()(const int* i) const { return *i; }
+    std::optional<OptionValue> operator()(const double* d) const { return *d; }
+    std::optional<OptionValue> operator()(const std::string* s) const { return *s; }
+    std::optional<OptionValue> operator()(const std::optional<double>* d) const { return *d; }
+  };
+  return std::visit(Reader{}, option.member);
+}
+
 void assign(const Bound& option, const OptionValue& value) {
   if (!std::visit(Assigner{value}, option.member)) refuse(option, value);
 }
 
 void check(const Bound& option) {
-  const auto checkNumber = [&](double number, const OptionValue& value) {
-    if (!(number >= option.min && number <= option.max)) refuse(option, value);
-  };
-  struct Checker {
-    const Bound& option;
-    const decltype(checkNumber)& number;
-    void operator()(const bool*) const {}
-    void operator()(const std::string* s) const {
-      if (!option.choices.empty() && !isChoice(option.choices, *s)) refuse(option, *s);
-    }
-    void operator()(const int* i) const { number(*i, *i); }
-    void operator()(const double* d) const { number(*d, *d); }
-    void operator()(const std::optional<int>* i) const {
-      if (*i) number(**i, **i);
-    }
-    void operator()(const std::optional<double>* d) const {
-      if (*d) number(**d, **d);
-    }
-  };
-  std::visit(Checker{option, checkNumber}, option.member);
+  const std::optional<OptionValue> value = valueOf(option);
+  if (!value) return;
+  if (const auto* text = std::get_if<std::string>(&*value)) {
+    if (!option.choices.empty() && !isChoice(option.choices, *text)) refuse(option, *value);
+  } else if (const std::optional<double> number = asNumber(*value)) {
+    if (!(*number >= option.min && *number <= option.max)) refuse(option, *value);
+  }
 }
 
 OptionDescription describe(const Bound& option) {
-  struct Formatter {
-    std::string operator()(const bool* b) const { return *b ? "true" : "false"; }
-    std::string operator()(const std::string* s) const { return s->empty() ? "\"\"" : *s; }
-    std::string operator()(const int* i) const { return std::to_string(*i); }
-    std::string operator()(const double* d) const { return format(*d); }
-    std::string operator()(const std::optional<int>* i) const { return *i ? std::to_string(**i) : "none"; }
-    std::string operator()(const std::optional<double>* d) const { return *d ? format(**d) : "none"; }
-  };
-  return {std::string(option.name), std::string(option.unit), std::string(option.help), allowedText(option),
-          std::visit(Formatter{}, option.member)};
+  const std::optional<OptionValue> value = valueOf(option);
+  const auto* text = value ? std::get_if<std::string>(&*value) : nullptr;
+  const bool has_words = text != nullptr && !text->empty();
+  return {std::string(option.group), std::string(option.name), std::string(option.unit),
+          std::string(option.help),  allowedText(option),      has_words ? *text : value ? format(*value) : "none"};
 }
 
 }  // namespace option_table
@@ -165,15 +176,28 @@ OptionDescription describe(const Bound& option) {
 void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>& known) {
   if (values.empty()) return;
   const std::string& name = values.begin()->first;
+  for (const FormerOptions& former : kFormerOptions)
+    if (isChoice(former.names, name))
+      throw std::invalid_argument(name + " is no option any more: " + std::string(former.instead));
   std::string message = "unknown option " + name + " = " + format(values.begin()->second);
-  const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-    return editDistance(name, a.name) < editDistance(name, b.name);
-  });
-  const auto isNear = [&](const std::string& other) {  // at least half of the letters are the same
-    return 2 * editDistance(name, other) <= std::max(name.size(), other.size());
+  const auto difference = [&](const OptionDescription& other) {  // share of the letters
+    return static_cast<double>(editDistance(name, other.name)) /
+           static_cast<double>(std::max(name.size(), other.name.size()));
   };
-  if (nearest != known.end() && isNear(nearest->name)) message += "; the nearest known name is " + nearest->name;
+  const auto nearest = std::min_element(known.begin(), known.end(),
+                                        [&](const auto& a, const auto& b) { return difference(a) < difference(b); });
+  if (nearest != known.end() && difference(*nearest) <= 0.5) message += "; the nearest known name is " + nearest->name;
   throw std::invalid_argument(message);
+}
+
+std::vector<OptionDescription> inGroups(const std::vector<std::string>& groups, std::vector<OptionDescription> first,
+                                        const std::vector<OptionDescription>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  const auto place = [&](const OptionDescription& option) {
+    return std::find(groups.begin(), groups.end(), option.group);
+  };
+  std::stable_sort(first.begin(), first.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  return first;
 }
 
 }  // namespace suspension_health_monitor

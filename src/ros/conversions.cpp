@@ -37,7 +37,7 @@ ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, co
     msg.effect_stddevs.push_back(estimate.coefficient_stddevs[j]);
   }
   msg.effective_rows = estimate.effective_rows;
-  msg.valid = estimate.valid;
+  msg.valid = estimate.valid();
   return msg;
 }
 

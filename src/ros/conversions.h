@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/simulation/drive_simulator.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
 

@@ -38,7 +38,7 @@ void CornersNodelet::onInit() {
   thread_->run([this] {  // there, so that no callback comes before all is set up
     comparison_ = private_node_.advertise<CornerComparison>("comparison", 10, true);
     updater_.emplace(node_, private_node_, getName());
-    updater_->setHardwareID(options_.hardware_id);
+    updater_->setHardwareID(getName().substr(getName().find_first_not_of('/')));
     updater_->add("Corners", [this](diagnostic_updater::DiagnosticStatusWrapper& status) { describe(status); });
     subscribe();
     tick_ = node_.createWallTimer(kTick, [this](const ros::WallTimerEvent&) { onTick(); });
@@ -60,7 +60,7 @@ void CornersNodelet::subscribe() {
 
 void CornersNodelet::onTick() {
   const ros::WallTime time = ros::WallTime::now();
-  const bool changed = confirm(compareCorners(states(), {options_.threshold, options_.significance}), time);
+  const bool changed = confirm(compareCorners(states(), {options_.threshold}), time);
   if (!changed && time - published_ < kPublishing) return;
   published_ = time;
   publishComparison();

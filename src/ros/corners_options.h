@@ -3,18 +3,16 @@
 #include <array>
 #include <string>
 
-#include "suspension_health_monitor/health/corner_comparison.h"
-#include "suspension_health_monitor/option_table.h"
+#include "suspension_health_monitor/internal/health/corner_comparison.h"
+#include "suspension_health_monitor/internal/option_table.h"
 
 namespace suspension_health_monitor {
 
 /// Settings of CornersNodelet.
 struct CornersOptions {
   double threshold = CornerComparisonOptions{}.threshold;
-  double significance = CornerComparisonOptions{}.significance;
   double confirm_time = 1.0;
   double timeout = 2.0;
-  std::string hardware_id = "vehicle";
 
   /// @throws std::invalid_argument  naming an unknown name, or a value that is wrong and what is allowed.
   static CornersOptions fromValues(OptionMap values);
@@ -22,15 +20,12 @@ struct CornersOptions {
 
 using CornersField = OptionField<CornersOptions>;
 inline constexpr std::array kCornersFields{
-    CornersField{"threshold", "-", "deviation of a corner from the others that counts", &CornersOptions::threshold,
-                 0.001, 0.9},
-    CornersField{"significance", "-", "and how many of its standard deviations it must be",
-                 &CornersOptions::significance, 0.0, 100.0},
-    CornersField{"confirm_time", "s", "new verdicts must last this long before they are reported",
+    CornersField{"corners", "threshold", "-", "deviation of a corner from the others that counts",
+                 &CornersOptions::threshold, 0.001, 0.9},
+    CornersField{"corners", "confirm_time", "s", "new verdicts must last this long before they are reported",
                  &CornersOptions::confirm_time, 0.0, 3600.0},
-    CornersField{"timeout", "s", "wall time after which a corner that has gone silent no longer counts",
+    CornersField{"corners", "timeout", "s", "wall time after which a corner that has gone silent no longer counts",
                  &CornersOptions::timeout, 0.1, 3600.0},
-    CornersField{"hardware_id", "-", "name of the vehicle in /diagnostics", &CornersOptions::hardware_id},
 };
 
 inline CornersOptions CornersOptions::fromValues(OptionMap values) {

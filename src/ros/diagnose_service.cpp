@@ -43,8 +43,8 @@ class Running {
 }  // namespace
 
 DiagnoseService::DiagnoseService(const ros::NodeHandle& private_node, ros::CallbackQueueInterface& nodelet_queue,
-                                 Nodelet nodelet, const SearchOptions& options)
-    : nodelet_queue_(nodelet_queue), nodelet_(std::move(nodelet)), options_(options), spinner_(kThreads, &queue_) {
+                                 Nodelet nodelet)
+    : nodelet_queue_(nodelet_queue), nodelet_(std::move(nodelet)), spinner_(kThreads, &queue_) {
   ros::NodeHandle node(private_node);
   node.setCallbackQueue(&queue_);
   server_ = node.advertiseService("diagnose", &DiagnoseService::onDiagnose, this);
@@ -75,13 +75,14 @@ bool DiagnoseService::onDiagnose(DiagnoseRequest& request, DiagnoseResponse& res
 }
 
 DiagnoseResponse DiagnoseService::answer(double window) {
-  // Of this thread and those that it starts: on a busy machine the samples go first. Without effect if it fails.
+  // A low priority for this thread and those that it starts, so that on a busy machine the samples go first. If it
+  // cannot be had, the search works all the same.
   setpriority(PRIO_PROCESS, 0, kNiceness);
-  const auto task = inNodelet<SearchTask>([give = nodelet_.give, window] { return give(window); });
-  const auto diagnosis =
-      std::make_shared<const Diagnosis>(searchEffects(task, options_, [this](double) { stopIfAsked(); }));
+  auto task = inNodelet<SearchTask>([give = nodelet_.give, window] { return give(window); });
+  task.options.progress = [this](double) { stopIfAsked(); };
+  const auto diagnosis = std::make_shared<const Diagnosis>(searchEffects(task));
   inNodelet<void>([take = nodelet_.take, diagnosis] { take(*diagnosis); });
-  return toResponse(diagnosis->result);
+  return toResponse(*diagnosis);
 }
 
 // The work owns all that it touches, as nobody may wait for it any more when it is done.

@@ -25,8 +25,7 @@ class DiagnoseService {
   };
 
   /// @param nodelet_queue  where the nodelet's callbacks come from; outlives this object.
-  DiagnoseService(const ros::NodeHandle& private_node, ros::CallbackQueueInterface& nodelet_queue, Nodelet nodelet,
-                  const SearchOptions& options);
+  DiagnoseService(const ros::NodeHandle& private_node, ros::CallbackQueueInterface& nodelet_queue, Nodelet nodelet);
 
   /// Ends a search that runs; its caller gets an error.
   ~DiagnoseService();
@@ -43,7 +42,6 @@ class DiagnoseService {
 
   ros::CallbackQueueInterface& nodelet_queue_;
   Nodelet nodelet_;
-  SearchOptions options_;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> running_{false};
   ros::CallbackQueue queue_;

@@ -7,8 +7,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-// ROS cannot stamp before 0; only a clock that is set wrong on purpose gets there.
-ros::Time stampAt(Stamp stamp) { return toRosTime(std::max(stamp, Stamp::zero())); }
+// ROS means by stamp 0 that there is none, so a drive that starts there is stamped a nanosecond later. Nothing can be
+// stamped before; only a clock that is set wrong on purpose gets there.
+ros::Time stampAt(Stamp stamp) { return std::max(toRosTime(std::max(stamp, Stamp::zero())), ros::TIME_MIN); }
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulator_options.h"
-#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
 

@@ -12,9 +12,11 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kEndOfRange = 0.999;  // share of it; the largest number of a 12 bit sensor is 0.9995
+// The share of a sensor's range at which a reading counts as clipped. It is below the largest number that a sensor of
+// 12 bits can send, which is 0.9995 of its range.
+constexpr double kEndOfRange = 0.999;
 
-// An axis that does not contribute may read NaN.
+// Axes with a zero in the direction are left out of the sum, since a sensor may read NaN on an axis that it lacks.
 double along(const std::array<double, 3>& direction, const geometry_msgs::Vector3& v) {
   double sum = 0.0;
   if (direction[0] != 0.0) sum += direction[0] * v.x;
@@ -23,7 +25,7 @@ double along(const std::array<double, 3>& direction, const geometry_msgs::Vector
   return sum;
 }
 
-// tf2 knows no frames with a slash in front, some drivers still do.
+// Some drivers still put a slash in front of the frame's name, as tf1 did; tf2 does not find such a name.
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
@@ -33,8 +35,8 @@ std::string withoutSlash(const std::string& frame) {
 ImuMount::ImuMount(const std::string& axis, const std::string& target_frame, const std::optional<double>& range,
                    const tf2::BufferCore* transforms)
     : axes_{}, target_frame_(withoutSlash(target_frame)), range_(range), transforms_(transforms) {
-  // The other two axes in turn, so that they and the upward one are right-handed; turned over, the second changes
-  // sides.
+  // The two axes across the strut follow the upward one in the order x, y, z, which makes the three right-handed. If
+  // the upward one has a minus, one of the two must have it as well for them to stay so.
   const auto up = static_cast<std::size_t>(axis.back() - 'x');
   const double sign = axis.front() == '-' ? -1.0 : 1.0;
   axes_[0][(up + 1) % 3] = 1.0;

@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "shell_options.h"
-#include "suspension_health_monitor/discrepancy/body_motion.h"
-#include "suspension_health_monitor/signal/alignment.h"
-#include "suspension_health_monitor/signal/reject_reason.h"
+#include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
+#include "suspension_health_monitor/internal/signal/reject_reason.h"
 
 namespace suspension_health_monitor {
 
@@ -19,7 +19,7 @@ namespace suspension_health_monitor {
 /// Without a target frame the axes are those of the IMU; with one those of that frame, and a static transform says how
 /// the IMU is turned against it. Only the rotation counts; that an IMU sits away from the strut top is what the effect
 /// lever_arm is for.
-/// Not for two threads at a time. No lock once the transform is known.
+/// Not for two threads at a time. Once the transform is known, it is not looked up again, which would take a lock.
 class ImuMount {
  public:
   /// @param axis  one of kAxisNames: what points up along the strut.
@@ -49,8 +49,9 @@ class ImuMount {
   bool findTransform(const std::string& frame);
   bool isClipped(const geometry_msgs::Vector3& acceleration) const;
 
-  std::array<Direction, 3> axes_;        // across (two) and up, in the target frame, or in the IMU itself
-  std::array<Direction, 3> directions_;  // the same in the IMU
+  // Two directions across the strut and the one up along it:
+  std::array<Direction, 3> axes_;        // in the target frame; without one, in the IMU itself
+  std::array<Direction, 3> directions_;  // in the IMU
   std::string target_frame_;
   std::optional<double> range_;
   const tf2::BufferCore* transforms_;

@@ -57,8 +57,8 @@ void ImuPipeline::keepSamples(double span) {
   recent_body_.emplace(capacity);
 }
 
-DriveSamples ImuPipeline::newestSamples(double span) const {
-  return recent_ ? recent_->newest(fromSeconds(span)) : DriveSamples{};
+std::vector<CornerSample> ImuPipeline::newestSamples(double span) const {
+  return recent_ ? recent_->newest(fromSeconds(span)) : std::vector<CornerSample>{};
 }
 
 std::vector<BodyMotion> ImuPipeline::newestBodyMotion(double span) const {

@@ -8,13 +8,12 @@
 
 #include "shell_options.h"
 #include "strut_sensors.h"
-#include "suspension_health_monitor/discrepancy/body_motion.h"
-#include "suspension_health_monitor/discrepancy/search_drives.h"
-#include "suspension_health_monitor/signal/period_measurement.h"
-#include "suspension_health_monitor/signal/recent_samples.h"
-#include "suspension_health_monitor/signal/uniform_grid.h"
-#include "suspension_health_monitor/suspension_monitor.h"
-#include "suspension_health_monitor/tyre_tracker.h"
+#include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
+#include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/signal/recent_samples.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 
@@ -47,7 +46,7 @@ class ImuPipeline {
   static constexpr std::size_t kMostKept = 4000000;  // 64 bytes each
 
   /// @return the samples kept that are at most `span` [s] older than the newest one, in the order of time.
-  DriveSamples newestSamples(double span) const;
+  std::vector<CornerSample> newestSamples(double span) const;
 
   /// @return likewise what else the body's IMU measured.
   std::vector<BodyMotion> newestBodyMotion(double span) const;

@@ -9,7 +9,8 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr std::array<const char*, 2> kSideNames{"sprung", "unsprung"};
-constexpr double kShownLag = 0.0005;  // [s]
+constexpr double kShownLag = 0.0005;    // [s] half of the last digit that is shown
+constexpr double kRateTolerance = 0.1;  // share of the expected rate: drivers keep theirs to a few percent
 
 }  // namespace
 
@@ -87,7 +88,8 @@ void InputDiagnostics::describeStream(Side side, const ImuPipeline& pipeline, St
   if (const std::optional<Arrivals>& arrivals = arrivals_[index]) {
     const double lag = arrivals->lag.mean();
     status.addf(name + " lag [s]", "%.3f", std::max(lag, 0.0));
-    // A little in simulation, where the clock ticks more coarsely than the sensors; else clocks are not synchronised.
+    // Stamps ahead of the clock are normal in a simulation, by as much as its clock ticks more coarsely than its
+    // sensors read. On a robot they mean that the clocks are not synchronised.
     if (lag <= -kShownLag) status.addf(name + " ahead of the clock [s]", "%.3f", -lag);
     if (options_.max_lag && lag > *options_.max_lag)
       status.mergeSummaryf(DiagnosticStatus::WARN, "%s IMU is %.3g s late", name.c_str(), lag);
@@ -100,7 +102,7 @@ void InputDiagnostics::describeStream(Side side, const ImuPipeline& pipeline, St
   status.add(name + " lost", timing.lost());
   status.add(name + " rejected", pipeline.grid()->gate(side).rejected().total());
   const std::optional<double>& expected = side == Side::kSprung ? options_.sprung_rate : options_.unsprung_rate;
-  if (expected && rate > 0.0 && std::abs(rate / *expected - 1.0) > options_.rate_tolerance)
+  if (expected && rate > 0.0 && std::abs(rate / *expected - 1.0) > kRateTolerance)
     status.mergeSummaryf(DiagnosticStatus::WARN, "%s IMU comes at %.4g Hz, expected %.4g", name.c_str(), rate,
                          *expected);
 }
@@ -124,8 +126,8 @@ void InputDiagnostics::describeTransforms(const ImuPipeline& pipeline, Status& s
                                                        options_.target_frame + " (/tf_static)");
 }
 
-// Silent by the clock that stamps the data and by the wall clock: the one stands still while a simulation is paused,
-// the other runs ahead of a replay that is slower than life.
+// An IMU counts as silent when it is so by the clock that stamps the data and by the wall clock. The first alone stands
+// still while a simulation is paused; the second alone would call a replay silent that is slower than life.
 void InputDiagnostics::describeSilence(Status& status) const {
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     const std::optional<Arrivals>& arrivals = arrivals_[i];

@@ -1,5 +1,6 @@
 #include "live_baseline.h"
 
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <locale>
@@ -40,7 +41,8 @@ double needed(const std::optional<double>& value, const char* name) {
   return *value;
 }
 
-// A baseline that is not known to half its value can prove nothing.
+// What a file holds may be less certain than what save() accepts now, since other thresholds may have held then; but a
+// value that is not known to half of itself can prove nothing.
 void checkStddev(double stddev, double value, const char* name) {
   if (!(stddev <= 0.5 * value))
     throw std::invalid_argument(std::string(name) + "_stddev = " + std::to_string(stddev) +
@@ -59,6 +61,15 @@ Baseline toBaseline(const BaselineSettings& settings) {
   baseline.from = fromSeconds(settings.learned_from.value_or(0.0));
   baseline.to = fromSeconds(settings.learned_to.value_or(0.0));
   return baseline;
+}
+
+// Damage as large as its error threshold must be significant against a baseline: else it could never be proved.
+void checkCertain(const char* name, double value, double stddev, double error, double min_significance) {
+  if (stddev / value * min_significance <= std::log1p(error)) return;
+  std::ostringstream text;
+  text << std::setprecision(3) << "too uncertain to judge by: " << name << " = " << value << " +- " << stddev
+       << ", so that damage of " << 100.0 * error << " % would not be significant; drive on, or on a rougher road";
+  throw std::runtime_error(text.str());
 }
 
 }  // namespace
@@ -107,10 +118,16 @@ std::string LiveBaseline::keepLearned(const SuspensionMonitor& monitor) {
 }
 
 void LiveBaseline::save(const SuspensionMonitor* monitor) {
-  if (monitor == nullptr || !monitor->report().la.valid)
+  if (monitor == nullptr || !monitor->report().la.valid())
     throw std::runtime_error("nothing to save: the monitor has no valid estimate");
   if (path_.empty()) throw std::runtime_error("no file to write to: set the parameter baseline_file");
-  const Baseline present = baselineOf(monitor->report().la, monitor->report().stamp);
+  const StrutEstimate& la = monitor->report().la;
+  const MonitorOptions& options = monitor->options();
+  checkCertain("damping_to_mass", la.damping_to_mass, la.damping_to_mass_stddev, options.damping_error,
+               HealthOptions{}.min_significance);
+  checkCertain("stiffness_to_mass", la.stiffness_to_mass, la.stiffness_to_mass_stddev, options.stiffness_error,
+               HealthOptions{}.min_significance);
+  const Baseline present = baselineOf(la, monitor->report().stamp);
   write(present, *monitor);
   known_ = present;
 }

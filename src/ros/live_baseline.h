@@ -4,7 +4,7 @@
 #include <string>
 
 #include "shell_options.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 
@@ -26,7 +26,8 @@ class LiveBaseline {
 
   /// Takes LA's valid estimate as the baseline and writes it to the file.
   /// @param monitor  nullptr: none yet.
-  /// @throws std::runtime_error  if there is no valid estimate, no file is given, or it cannot be written.
+  /// @throws std::runtime_error  if there is no valid estimate or a too uncertain one to prove damage by, if no file is
+  ///         given, or it cannot be written.
   void save(const SuspensionMonitor* monitor);
 
  private:

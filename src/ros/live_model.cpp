@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "model_file.h"
-#include "search_words.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
-#include "suspension_health_monitor/model/model_settings.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 #include "whole_file.h"
 
 namespace suspension_health_monitor {
@@ -43,10 +43,10 @@ const ActiveEffect* find(const std::vector<ActiveEffect>& effects, const std::st
 }
 
 /// As the final fit has the effect, else as it was fitted alone.
-const ActiveEffect* find(const SearchResult& result, const std::string& name) {
-  if (result.final_fit)
-    if (const ActiveEffect* active = find(result.final_fit->model.effects, name)) return active;
-  for (const RankedModel& ranked : result.ranking)
+const ActiveEffect* find(const Diagnosis& found, const std::string& name) {
+  if (const ActiveEffect* active = found.final_fit ? find(found.final_fit->model.effects, name) : nullptr)
+    return active;
+  for (const RankedModel& ranked : found.ranking)
     if (const ActiveEffect* active = find(ranked.model.effects, name)) return active;
   return nullptr;
 }
@@ -77,7 +77,7 @@ LiveModel::LiveModel(const ShellOptions& options) : model_file_(options.model_fi
 }
 
 const ActiveEffect* LiveModel::known(const std::string& name) const {
-  const ActiveEffect* active = diagnosis_ ? find(diagnosis_->result, name) : nullptr;
+  const ActiveEffect* active = diagnosis_ ? find(*diagnosis_, name) : nullptr;
   if (active == nullptr && loaded_) active = find(loaded_->effects, name);
   return active != nullptr ? active : find(effects_, name);
 }
@@ -142,7 +142,7 @@ std::vector<std::string> LiveModel::remarks() const {
 std::vector<std::string> LiveModel::missing() const {
   std::vector<std::string> names;
   if (!diagnosis_) return names;
-  for (const std::string& name : diagnosis_->result.selected)
+  for (const std::string& name : diagnosis_->selected)
     if (find(effects_, name) == nullptr) names.push_back(name);
   return names;
 }

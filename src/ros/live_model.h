@@ -8,7 +8,7 @@
 
 #include "diagnosis.h"
 #include "shell_options.h"
-#include "suspension_health_monitor/discrepancy/motion_scale.h"
+#include "suspension_health_monitor/internal/record/motion_scale.h"
 
 namespace suspension_health_monitor {
 

@@ -4,7 +4,6 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <type_traits>
 
 #include "parameters.h"
 
@@ -12,57 +11,35 @@ namespace suspension_health_monitor {
 namespace {
 
 using dynamic_reconfigure::ConfigTools;
+using option_table::Bound;
 
-/// Calls visit(field, pointer to the int or double member) for every live setting of a table.
-template <class Options, std::size_t N, class Visit>
-void forEachLive(const std::array<OptionField<Options>, N>& fields, const Visit& visit) {
-  for (const OptionField<Options>& field : fields) {
-    if (std::find(kLiveSettings.begin(), kLiveSettings.end(), field.name) == kLiveSettings.end()) continue;
-    std::visit(
-        [&](auto member) {
-          using Value = std::decay_t<decltype(std::declval<Options&>().*member)>;
-          if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, double>) visit(field, member);
-        },
-        field.member);
-  }
+/// The live settings among all options.
+std::vector<Bound> bindLive(PipelineOptions& options) {
+  std::vector<Bound> live;
+  const auto add = [&](const auto& fields, auto& group) {
+    for (const auto& field : fields)
+      if (std::find(kLiveSettings.begin(), kLiveSettings.end(), field.name) != kLiveSettings.end())
+        live.push_back(option_table::bind(field, group));
+  };
+  add(kMonitorFields, options.monitor);
+  add(kShellFields, options.shell);
+  return live;
 }
 
-/// Options in which every live setting is at one end of its range.
-template <class Options, std::size_t N>
-Options atEnd(const std::array<OptionField<Options>, N>& fields, bool largest) {
-  Options options;
-  forEachLive(fields, [&](const auto& field, auto member) {
-    using Value = std::decay_t<decltype(options.*member)>;
-    options.*member = static_cast<Value>(largest ? field.max : field.min);
-  });
-  return options;
-}
-
-LiveSettings ends(bool largest) {
-  PipelineOptions options;
-  options.monitor = atEnd(kMonitorFields, largest);
-  options.shell = atEnd(kShellFields, largest);
-  return LiveSettings(options);
-}
-
-template <class Options, std::size_t N>
-void describe(const std::array<OptionField<Options>, N>& fields, dynamic_reconfigure::Group& group) {
-  forEachLive(fields, [&](const auto& field, auto member) {
-    using Value = std::decay_t<decltype(std::declval<Options&>().*member)>;
-    dynamic_reconfigure::ParamDescription description;
-    description.name = std::string(field.name);
-    description.type = std::is_same_v<Value, int> ? "int" : "double";
-    description.description = '[' + std::string(field.unit) + "] " + std::string(field.help);
-    group.parameters.push_back(std::move(description));
-  });
-}
+bool isWhole(const Bound& option) { return std::holds_alternative<int*>(option.member); }
 
 dynamic_reconfigure::ConfigDescription describeAll() {
   dynamic_reconfigure::ConfigDescription description;
   description.groups.resize(1);
   description.groups.front().name = "Default";
-  describe(kMonitorFields, description.groups.front());
-  describe(kShellFields, description.groups.front());
+  PipelineOptions options;
+  for (const Bound& option : bindLive(options)) {
+    dynamic_reconfigure::ParamDescription parameter;
+    parameter.name = std::string(option.name);
+    parameter.type = isWhole(option) ? "int" : "double";
+    parameter.description = '[' + std::string(option.unit) + "] " + std::string(option.help);
+    description.groups.front().parameters.push_back(std::move(parameter));
+  }
   LiveSettings::__getMin__().__toMessage__(description.min);
   LiveSettings::__getMax__().__toMessage__(description.max);
   LiveSettings::__getDefault__().__toMessage__(description.dflt);
@@ -71,11 +48,21 @@ dynamic_reconfigure::ConfigDescription describeAll() {
 
 }  // namespace
 
-LiveSettings::LiveSettings(const PipelineOptions& options) {
-  forEachLive(kMonitorFields,
-              [&](const auto& field, auto member) { values_[std::string(field.name)] = options.monitor.*member; });
-  forEachLive(kShellFields,
-              [&](const auto& field, auto member) { values_[std::string(field.name)] = options.shell.*member; });
+LiveSettings::LiveSettings(PipelineOptions options) {
+  for (const Bound& option : bindLive(options)) values_[std::string(option.name)] = *option_table::valueOf(option);
+}
+
+LiveSettings LiveSettings::ends(double Bound::*end) {
+  LiveSettings settings;
+  PipelineOptions options;
+  for (const Bound& option : bindLive(options)) {
+    OptionValue& value = settings.values_[std::string(option.name)];
+    if (isWhole(option))
+      value = static_cast<int>(option.*end);
+    else
+      value = option.*end;
+  }
+  return settings;
 }
 
 PipelineOptions LiveSettings::appliedTo(PipelineOptions options) const {
@@ -92,12 +79,12 @@ const dynamic_reconfigure::ConfigDescription& LiveSettings::__getDescriptionMess
 }
 
 const LiveSettings& LiveSettings::__getMin__() {
-  static const LiveSettings settings = ends(false);
+  static const LiveSettings settings = ends(&Bound::min);
   return settings;
 }
 
 const LiveSettings& LiveSettings::__getMax__() {
-  static const LiveSettings settings = ends(true);
+  static const LiveSettings settings = ends(&Bound::max);
   return settings;
 }
 

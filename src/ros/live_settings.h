@@ -22,7 +22,7 @@ inline constexpr std::array<std::string_view, 7> kLiveSettings{
 class LiveSettings {
  public:
   LiveSettings() : LiveSettings(PipelineOptions{}) {}
-  explicit LiveSettings(const PipelineOptions& options);
+  explicit LiveSettings(PipelineOptions options);
 
   /// @return the options with these settings.
   /// @throws std::invalid_argument  naming option, value and what is allowed.
@@ -42,6 +42,9 @@ class LiveSettings {
   std::uint32_t __level__(const LiveSettings&) const { return 0; }
 
  private:
+  /// @return every setting at that end of its range.
+  static LiveSettings ends(double option_table::Bound::*end);
+
   OptionMap values_;  // of kLiveSettings; int or double
 };
 

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "suspension_health_monitor/model/model_settings.h"
-#include "suspension_health_monitor/model/user_effects.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
+#include "suspension_health_monitor/internal/model/user_effects.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {

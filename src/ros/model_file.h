@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "suspension_health_monitor/model/effect_library.h"
-#include "suspension_health_monitor/model/strut_model.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 

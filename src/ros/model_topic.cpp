@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "conversions.h"
-#include "suspension_health_monitor/model/model_settings.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
 
 void ModelTopic::change(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor,
                         const std::string& frame) {
-  has_estimate_ = monitor != nullptr && monitor->report().la.valid;
+  has_estimate_ = monitor != nullptr && monitor->report().la.valid();
   auto message = boost::make_shared<ModelInUse>();
   message->header.frame_id = frame;
   if (monitor != nullptr) message->header.stamp = toRosTime(monitor->report().stamp);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/model/strut_model.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 
@@ -23,7 +23,7 @@ class ModelTopic {
 
   /// To be called with every report: publishes the first valid estimate of a model.
   void note(const SuspensionMonitor& monitor, const std::string& frame) {
-    if (!has_estimate_ && monitor.report().la.valid) change(monitor.effects(), &monitor, frame);
+    if (!has_estimate_ && monitor.report().la.valid()) change(monitor.effects(), &monitor, frame);
   }
 
  private:

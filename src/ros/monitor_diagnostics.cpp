@@ -1,6 +1,7 @@
 #include "monitor_diagnostics.h"
 
-#include "search_words.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 #include "tyre_output.h"
 
 namespace suspension_health_monitor {
@@ -13,7 +14,7 @@ void addEstimate(diagnostic_updater::DiagnosticStatusWrapper& status, const std:
   status.addf(name + " damping_to_mass [1/s]", "%.4g", estimate.damping_to_mass);
   status.addf(name + " stiffness_to_mass [1/s^2]", "%.5g", estimate.stiffness_to_mass);
   status.addf(name + " explained [%]", "%.1f", 100.0 * estimate.explained);
-  status.add(name + " valid", estimate.valid);
+  status.add(name + " valid", estimate.valid());
 }
 
 void addJudgement(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
@@ -28,7 +29,7 @@ MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::N
                                        const std::string& name, const ShellOptions& options,
                                        const std::array<ros::Subscriber, 2>& imu, const LiveModel& model)
     : input_timeout_(options.input_timeout), input_(options, imu), model_(model), updater_(node, private_node, name) {
-  updater_.setHardwareID(options.hardware_id);
+  updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Input", [this](Status& status) { input_.describe(*pipeline_, status); });
   updater_.add("Health", this, &MonitorDiagnostics::describeHealth);
   updater_.add("Model", this, &MonitorDiagnostics::describeModel);
@@ -70,8 +71,8 @@ void MonitorDiagnostics::describeHealth(Status& status) {
   status.add("sensor fault", describe(report.health.sensor));
 }
 
-// A level is one of the newest readings; once they are old, nobody knows it. A clock that stands still makes nothing
-// old.
+// A level describes the newest readings; once they are old, nobody knows it any more. Age is measured by the clock that
+// stamps the data, so that a simulation that is paused makes nothing old.
 void MonitorDiagnostics::describeSilence(const SuspensionMonitor& monitor, Status& status) {
   const ros::Time now = ros::Time::now();
   const std::uint64_t samples = monitor.input().samples;
@@ -103,15 +104,14 @@ void MonitorDiagnostics::describeModel(Status& status) {
 void MonitorDiagnostics::describeDiagnosis(Status& status) const {
   const std::optional<Diagnosis>& diagnosis = model_.diagnosis();
   if (!diagnosis) return;
-  const SearchResult& result = diagnosis->result;
   if (const std::vector<std::string> missing = model_.missing(); !missing.empty())
     status.mergeSummary(DiagnosticStatus::WARN, "the last diagnosis found, not in the model: " + join(missing, ", "));
-  if (result.verdict == Verdict::kUnexplained)
+  if (diagnosis->verdict == Verdict::kUnexplained)
     status.mergeSummary(DiagnosticStatus::WARN, "the last diagnosis: something is missing that no effect explains");
-  status.add("diagnosed", nameOf(result.verdict));
-  status.add("diagnosed effects", join(result.selected, ", "));
-  status.addf("diagnosed structured share [%]", "%.1f", 100.0 * result.structured_share);
-  status.addf("diagnosed noise floor [m/s^2]", "%.4g", result.noise_floor);
+  status.add("diagnosed", nameOf(diagnosis->verdict));
+  status.add("diagnosed effects", join(diagnosis->selected, ", "));
+  status.addf("diagnosed structured share [%]", "%.1f", 100.0 * diagnosis->structured_share);
+  status.addf("diagnosed noise floor [m/s^2]", "%.4g", diagnosis->noise_floor);
   status.addf("diagnosed from stamp [s]", "%.3f", toSeconds(diagnosis->from));
   status.addf("diagnosed to stamp [s]", "%.3f", toSeconds(diagnosis->to));
 }

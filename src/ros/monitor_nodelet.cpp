@@ -9,6 +9,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr std::uint32_t kQueueSize = 100000;  // messages of either IMU that may wait: 100 s at 1 kHz, some 50 MB
+
 LiveModel::Shapes shapesOf(const SetEffectsRequest& request) {
   if (request.shape_names.size() != request.shape_values.size())
     throw std::invalid_argument(std::to_string(request.shape_values.size()) + " shape_values, must be as many as " +
@@ -45,14 +47,13 @@ void MonitorNodelet::onInit() {
 }
 
 void MonitorNodelet::start() {
-  const auto queue_size = static_cast<std::uint32_t>(options_.shell.queue_size);
-  ls_ = private_node_.advertise<ParameterEstimate>("ls", queue_size);
-  la_ = private_node_.advertise<ParameterEstimate>("la", queue_size);
-  comparison_ = private_node_.advertise<ModelComparison>("comparison", queue_size);
-  health_ = private_node_.advertise<SuspensionHealth>("health", queue_size);
+  ls_ = private_node_.advertise<ParameterEstimate>("ls", kQueueSize);
+  la_ = private_node_.advertise<ParameterEstimate>("la", kQueueSize);
+  comparison_ = private_node_.advertise<ModelComparison>("comparison", kQueueSize);
+  health_ = private_node_.advertise<SuspensionHealth>("health", kQueueSize);
   if (!options_.shell.target_frame.empty())
-    static_transforms_ = node_.subscribe("/tf_static", queue_size, &MonitorNodelet::onTransforms, this);
-  if (options_.shell.tyre) tyre_.emplace(private_node_, queue_size);
+    static_transforms_ = node_.subscribe("/tf_static", kQueueSize, &MonitorNodelet::onTransforms, this);
+  if (options_.shell.tyre) tyre_.emplace(private_node_, kQueueSize);
   model_topic_.emplace(private_node_);
   publishModel();
   subscribe();
@@ -74,12 +75,9 @@ void MonitorNodelet::advertiseServices() {
                private_node_.advertiseService("set_effects", &MonitorNodelet::onSetEffects, this),
                private_node_.advertiseService("save_model", &MonitorNodelet::onSaveModel, this),
                private_node_.advertiseService("save_baseline", &MonitorNodelet::onSaveBaseline, this)};
-  SearchOptions search;
-  search.threads = options_.shell.diagnose_threads;
   diagnose_.emplace(private_node_, thread_->queue(),
                     DiagnoseService::Nodelet{[this](double window) { return giveSamples(window); },
-                                             [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); }},
-                    search);
+                                             [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); }});
   reconfigure_.emplace(private_node_);  // writes down the parameters as they were given, and defaults
   reconfigure_->setCallback([this](LiveSettings& settings, std::uint32_t) { onReconfigure(settings); });
 }
@@ -101,10 +99,9 @@ void MonitorNodelet::publishModel() {
 }
 
 void MonitorNodelet::subscribe() {
-  const auto queue_size = static_cast<std::uint32_t>(options_.shell.queue_size);
   const auto listen = [&](Side side, const char* topic) {
     return node_.subscribe<sensor_msgs::Imu>(
-        topic, queue_size, [this, side](const sensor_msgs::ImuConstPtr& imu) { onImu(side, imu); }, nullptr,
+        topic, kQueueSize, [this, side](const sensor_msgs::ImuConstPtr& imu) { onImu(side, imu); }, nullptr,
         ros::TransportHints().tcpNoDelay());
   };
   imu_ = {listen(Side::kSprung, "sprung/imu"), listen(Side::kUnsprung, "unsprung/imu")};
@@ -194,7 +191,7 @@ std::optional<MotionScale> MonitorNodelet::motionScaleNow() const {
 bool MonitorNodelet::onSaveModel(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   const SuspensionMonitor* monitor = pipeline_->monitor();
   try {
-    if (monitor == nullptr || !monitor->report().la.valid)
+    if (monitor == nullptr || !monitor->report().la.valid())
       throw std::runtime_error("nothing to save: the monitor has no valid estimate");
     const StrutEstimate& la = monitor->report().la;
     model_->save({la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}});
@@ -234,11 +231,14 @@ SearchTask MonitorNodelet::giveSamples(double window) const {
   const SuspensionMonitor* monitor = pipeline_->monitor();
   if (monitor == nullptr) throw std::runtime_error("the sample period is still being measured: drive on");
   const double span = window > 0.0 ? window : kept;
-  SearchTask task{
-      pipeline_->newestSamples(span), pipeline_->newestBodyMotion(span), monitor->options(), model_->library(), {}};
+  SearchTask task;
+  task.drive = {pipeline_->newestSamples(span), pipeline_->newestBodyMotion(span)};
+  task.options.sample_period = monitor->period();
+  task.options.horizon_samples = monitor->options().filter(monitor->period()).horizon_samples;
+  task.options.candidates = model_->library();
   const StrutEstimate& la = monitor->report().la;
-  if (!model_->effects().empty() && la.valid)
-    task.model = StrutModel{la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}};
+  if (!model_->effects().empty() && la.valid())
+    task.options.model = StrutModel{la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}};
   return task;
 }
 

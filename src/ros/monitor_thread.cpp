@@ -10,7 +10,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::chrono::microseconds kRest(500);
-const ros::WallDuration kLongestWait(0.1);  // for a callback, before it looks whether it is to end
+const ros::WallDuration kLongestWait(0.1);  // for a callback, before the thread looks whether it is to end
 
 }  // namespace
 

@@ -27,6 +27,10 @@ class MonitorThread {
 
   ros::CallbackQueue& queue() { return queue_; }
 
+  /// @return whether no callback waits or runs: what was published in this process before has been taken in by all whom
+  ///         this thread serves, and so has what they published in turn.
+  bool isIdle() { return queue_.isEmpty(); }
+
   /// @return this node handle, with its callbacks coming from this thread.
   ros::NodeHandle serve(ros::NodeHandle node) {
     node.setCallbackQueue(&queue_);

@@ -11,8 +11,9 @@
 namespace suspension_health_monitor {
 
 /// Has work done by the thread of a callback queue.
-/// @param owner  to take it out again by, CallbackQueueInterface::removeByID(); its future then throws
-/// std::future_error.
+/// @param owner  identifies the work, should it be taken out again before it is done:
+/// CallbackQueueInterface::removeByID()
+///        makes its future throw std::future_error.
 /// @return what the work returns or throws.
 template <class Result>
 std::future<Result> addWork(ros::CallbackQueueInterface& queue, std::function<Result()> work, std::uint64_t owner) {

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/discrepancy/effect_search.h"
-#include "suspension_health_monitor/monitor_options.h"
-#include "suspension_health_monitor/signal/alignment.h"
+#include "suspension_health_monitor/internal/monitor_options.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
 
 namespace suspension_health_monitor {
 
@@ -19,76 +18,70 @@ struct ShellOptions {
   std::optional<double> sprung_range;
   std::optional<double> unsprung_range;
   std::string alignment = "auto";
-  bool tyre = false;
-  std::string road_axis = "z";
   double input_timeout = 2.0;
   std::optional<double> max_lag;
   std::optional<double> sprung_rate;
   std::optional<double> unsprung_rate;
-  double rate_tolerance = 0.1;
-  int queue_size = 1000;
-  int publish_every = 1;
-  std::string hardware_id = "suspension";
   std::string effects;
   std::string model_file;
   std::string effects_file;
-  std::string baseline_file;
   double diagnose_window = 120.0;
-  int diagnose_threads = SearchOptions{}.threads;
+  std::string baseline_file;
+  bool tyre = false;
+  std::string road_axis = "z";
+  int publish_every = 1;
 };
 
 inline constexpr std::string_view kAxisNames = "x y z -x -y -z";
 
 using ShellField = OptionField<ShellOptions>;
 inline constexpr std::array kShellFields{
-    ShellField{"sprung_axis", "-", "axis of the body IMU (or of target_frame) that points up along the strut",
+    ShellField{"input", "sprung_axis", "-", "axis of the body IMU (or of target_frame) that points up along the strut",
                &ShellOptions::sprung_axis, 0, 0, kAxisNames},
-    ShellField{"unsprung_axis", "-",
-               "axis of the wheel carrier IMU (or of target_frame) that points up along the strut",
-               &ShellOptions::unsprung_axis, 0, 0, kAxisNames},
-    ShellField{"target_frame", "-",
+    ShellField{"input", "unsprung_axis", "-", "the same axis of the wheel carrier IMU", &ShellOptions::unsprung_axis, 0,
+               0, kAxisNames},
+    ShellField{"input", "target_frame", "-",
                "frame whose axes sprung_axis and unsprung_axis name, by static transforms; empty: the IMUs' own axes",
                &ShellOptions::target_frame},
-    ShellField{"sprung_range", "m/s^2", "range of the body IMU: readings at its end are clipped and kept out",
+    ShellField{"input", "sprung_range", "m/s^2", "range of the body IMU: readings at its end are clipped and kept out",
                &ShellOptions::sprung_range, 1e-6, 1e6},
-    ShellField{"unsprung_range", "m/s^2", "range of the wheel carrier IMU, likewise", &ShellOptions::unsprung_range,
-               1e-6, 1e6},
-    ShellField{"alignment", "-",
+    ShellField{"input", "unsprung_range", "m/s^2", "range of the wheel carrier IMU, likewise",
+               &ShellOptions::unsprung_range, 1e-6, 1e6},
+    ShellField{"input", "alignment", "-",
                "readings paired by stamp, resampled onto a grid, or auto: paired until that does badly",
                &ShellOptions::alignment, 0, 0, kAlignmentNames},
-    ShellField{"tyre/enabled", "-", "listen to road/imu, an IMU where the tyre touches the road, and identify the tyre",
-               &ShellOptions::tyre},
-    ShellField{"tyre/road_axis", "-", "axis of the road's IMU (or of target_frame) that points up along the strut",
-               &ShellOptions::road_axis, 0, 0, kAxisNames},
-    ShellField{"input_timeout", "s",
+    ShellField{"input", "input_timeout", "s",
                "silence of an IMU, by the clock and by the wall clock, that is reported as an error",
                &ShellOptions::input_timeout, 0.01, 3600.0},
-    ShellField{"max_lag", "s", "mean lag of an IMU's messages behind their stamps that is warned of",
+    ShellField{"input", "max_lag", "s", "mean lag of an IMU's messages behind their stamps that is warned of",
                &ShellOptions::max_lag, 0.0, 3600.0},
-    ShellField{"expected_rate/sprung", "Hz",
-               "rate of the body IMU; one that is off by more than the tolerance is warned of",
-               &ShellOptions::sprung_rate, 0.1, 1e6},
-    ShellField{"expected_rate/unsprung", "Hz", "rate of the wheel carrier IMU, likewise", &ShellOptions::unsprung_rate,
-               0.1, 1e6},
-    ShellField{"expected_rate/tolerance", "-", "share of the expected rate", &ShellOptions::rate_tolerance, 0.001, 1.0},
-    ShellField{"queue_size", "-", "messages of either IMU that may wait for the monitor", &ShellOptions::queue_size, 1,
-               1000000},
-    ShellField{"publish_every", "-", "publish after every n-th sample", &ShellOptions::publish_every, 1, 1000000},
-    ShellField{"hardware_id", "-", "name of the strut in /diagnostics", &ShellOptions::hardware_id},
-    ShellField{"effects", "-", "names of effects in the model from the start: a list, or a text with commas",
+    ShellField{"input", "expected_rate/sprung", "Hz",
+               "rate of the body IMU; one that is off by more than 10 % is warned of", &ShellOptions::sprung_rate, 0.1,
+               1e6},
+    ShellField{"input", "expected_rate/unsprung", "Hz", "rate of the wheel carrier IMU, likewise",
+               &ShellOptions::unsprung_rate, 0.1, 1e6},
+    ShellField{"model", "effects", "-", "names of effects in the model from the start: a list, or a text with commas",
                &ShellOptions::effects},
-    ShellField{"model_file", "-", "YAML file with the model: its effects are in from the start, ~save_model writes it",
+    ShellField{"model", "model_file", "-",
+               "YAML file with the model: its effects are in from the start, ~save_model writes it",
                &ShellOptions::model_file},
-    ShellField{"effects_file", "-", "YAML file with laws of your own, beside the catalogue",
+    ShellField{"model", "effects_file", "-", "YAML file with laws of your own, beside the catalogue",
                &ShellOptions::effects_file},
+    ShellField{"model", "diagnose/window", "s",
+               "newest part of the drive that is kept for ~diagnose, at most 4 million samples",
+               &ShellOptions::diagnose_window, 0.01, 1e6},
     ShellField{
-        "baseline_file", "-",
+        "health", "baseline_file", "-",
         "YAML file with the healthy strut: loaded if it is there, else written once learned, and by ~save_baseline",
         &ShellOptions::baseline_file},
-    ShellField{"diagnose/window", "s", "newest part of the drive that is kept for ~diagnose, at most 4 million samples",
-               &ShellOptions::diagnose_window, 0.01, 1e6},
-    ShellField{"diagnose/threads", "-", "processor cores that ~diagnose may use", &ShellOptions::diagnose_threads, 1,
-               1024},
+    ShellField{"tyre", "tyre/enabled", "-",
+               "listen to road/imu, an IMU where the tyre touches the road, and identify the tyre",
+               &ShellOptions::tyre},
+    ShellField{"tyre", "tyre/road_axis", "-",
+               "axis of the road's IMU (or of target_frame) that points up along the strut", &ShellOptions::road_axis,
+               0, 0, kAxisNames},
+    ShellField{"output", "publish_every", "-", "publish after every n-th sample", &ShellOptions::publish_every, 1,
+               1000000},
 };
 
 /// What config/monitor.yaml can set.
@@ -100,7 +93,7 @@ struct PipelineOptions {
   /// @throws std::invalid_argument  naming an unknown name, or a value that is wrong and what is allowed.
   static PipelineOptions fromValues(OptionMap values) {
     PipelineOptions options;
-    takeOptions(values, kMonitorFields, options.monitor);
+    options.monitor = MonitorOptions::takeFrom(values);
     takeOptions(values, kShellFields, options.shell);
     refuseUnknown(values, describe());
     options.monitor.validate();
@@ -116,11 +109,10 @@ struct PipelineOptions {
     return options;
   }
 
-  /// @return every option that fromValues() understands.
+  /// @return every option that fromValues() understands, by group.
   static std::vector<OptionDescription> describe() {
-    std::vector<OptionDescription> all = describeOptions(kMonitorFields);
-    for (OptionDescription& option : describeOptions(kShellFields)) all.push_back(std::move(option));
-    return all;
+    return inGroups({"input", "estimation", "model", "health", "tyre", "output"}, describeOptions(kShellFields),
+                    describeOptions(kMonitorFields));
   }
 };
 

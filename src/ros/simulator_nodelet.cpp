@@ -7,15 +7,18 @@
 
 #include "conversions.h"
 #include "parameters.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 1000;
-constexpr double kLeadSamples = 200.0;  // how far the drive may run ahead of the monitor that sets the pace
+constexpr int kLeadSamples = 200;  // how far the drive may run ahead of the monitors; fewer than their queues hold
 constexpr std::chrono::milliseconds kPoll{1};
-constexpr double kLongestSleep = 0.05;  // [s], so that unloading the nodelet need not wait for a slow drive
-constexpr std::chrono::milliseconds kLongestWaitForPace{500};
+constexpr std::chrono::milliseconds kPollMaster{50};
+constexpr double kLongestSleep = 0.05;         // [s], so that unloading the nodelet need not wait for a slow drive
+constexpr std::chrono::seconds kPatience{10};  // until the log says what the drive waits for
+constexpr std::chrono::milliseconds kSendingTime{500};
 
 }  // namespace
 
@@ -29,29 +32,34 @@ void SimulatorNodelet::onInit() {
   ros::NodeHandle& node = getMTNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
   SimulatorOptions options;
-  startOrRefuse(private_node, [&] { options = SimulatorOptions::fromValues(readParameters(private_node)); });
+  startOrRefuse(private_node, [&] {
+    options = SimulatorOptions::fromValues(readParameters(private_node));
+    if (!options.publishing.record.empty())
+      recorder_.emplace(node, options.publishing.record, options.publishing.record_topics);
+  });
+  if (node.resolveName("pace") != node.resolveName("pace", false))  // remapped to somebody's estimates
+    pace_ = node.subscribe<ParameterEstimate>("pace", kQueueSize, [this](const ParameterEstimateConstPtr& estimate) {
+      paced_until_ = estimate->header.stamp.toSec();
+    });
   sprung_ = node.advertise<sensor_msgs::Imu>("sprung/imu", kQueueSize);
   unsprung_ = node.advertise<sensor_msgs::Imu>("unsprung/imu", kQueueSize);
   if (options.publishing.road_imu) road_ = node.advertise<sensor_msgs::Imu>("road/imu", kQueueSize);
   truth_ = private_node.advertise<SimulationTruth>("truth", kQueueSize);
   if (options.publishing.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize);
-  pace_ = node.subscribe<ParameterEstimate>("pace", kQueueSize, [this](const ParameterEstimateConstPtr& estimate) {
-    paced_until_ = estimate->header.stamp.toSec();
-  });
-  thread_ = std::thread(&SimulatorNodelet::drive, this, options);
+  thread_ = std::thread([this, options] { drive(options); });
 }
 
-void SimulatorNodelet::drive(SimulatorOptions options) {
-  waitForStart(options.publishing);
+void SimulatorNodelet::drive(const SimulatorOptions& options) {
   try {
+    waitForStart();
     publishDrive(options);
-    if (!running_ || !ros::ok()) return;
-    NODELET_INFO("drive of %g s finished", options.drive.duration);
-  } catch (const std::invalid_argument& error) {  // a strut that cannot be simulated
+    if (goesOn()) NODELET_INFO("drive of %g s finished", options.drive.duration);
+  } catch (const std::invalid_argument& error) {  // a strut that cannot be simulated, a topic that cannot be recorded
     NODELET_ERROR("%s", error.what());
   }
-  if (!options.publishing.shutdown_at_end) return;
-  std::this_thread::sleep_for(kLongestWaitForPace);  // the last messages are still on their way
+  closeRecording();
+  if (!goesOn() || !options.publishing.shutdown_at_end) return;
+  std::this_thread::sleep_for(kSendingTime);  // the last messages are on their way to other processes
   ros::requestShutdown();
 }
 
@@ -59,26 +67,57 @@ void SimulatorNodelet::publishDrive(const SimulatorOptions& options) {
   const bool from_now = !options.publishing.publish_clock && options.publishing.start_time == 0.0;
   const Stamp start = from_now ? toStamp(ros::Time::now()) : fromSeconds(options.publishing.start_time);
   const Clock::time_point wall_start = Clock::now();
+  paced_until_ = toSeconds(start);
   DriveMessageSource source(options, start);
-  while (running_ && ros::ok()) {
+  for (int published = 1; goesOn(); ++published) {
     const std::optional<DriveMessages> messages = source.next();
     if (!messages) break;
     waitForTurn(options, toRosTime(start), messages->time, wall_start);
     publish(*messages, options.publishing.publish_clock);
+    if (published % kLeadSamples == 0) waitForMonitors();
   }
 }
 
-void SimulatorNodelet::waitForStart(const PublishingOptions& options) const {
-  const auto wanted = [this] { return running_ && ros::ok(); };
-  while (options.wait_for_subscribers && wanted() &&
-         (sprung_.getNumSubscribers() == 0 || unsprung_.getNumSubscribers() == 0))
-    std::this_thread::sleep_for(kPoll);
-  const Clock::time_point start = Clock::now();
-  while (wanted() && std::chrono::duration<double>(Clock::now() - start).count() < options.start_delay) {
-    // rosbag record keeps only 100 messages per topic until it has seen a clock that is not 0
-    if (options.publish_clock) publishClock(toRosTime(fromSeconds(options.start_time)));
-    std::this_thread::sleep_for(kPoll);
+void SimulatorNodelet::closeRecording() {
+  if (!recorder_) return;
+  waitForMonitors();
+  try {
+    const std::size_t count = recorder_->commit();
+    NODELET_INFO("%zu messages recorded", count);
+  } catch (const std::runtime_error& error) {
+    NODELET_ERROR("%s", error.what());
   }
+  recorder_.reset();
+}
+
+void SimulatorNodelet::waitForStart() {
+  const auto has_subscribers = [this] { return sprung_.getNumSubscribers() > 0 && unsprung_.getNumSubscribers() > 0; };
+  while (goesOn() && !has_subscribers()) std::this_thread::sleep_for(kPoll);
+  const auto paces = [this] { return pace_.getNumPublishers() > 0 || publishedTopics().count(pace_.getTopic()) == 0; };
+  while (goesOn() && !paces()) std::this_thread::sleep_for(kPollMaster);
+  if (recorder_) waitForRecording();
+}
+
+// A monitor advertises its estimates before it subscribes to the IMUs, both in one go of the thread that serves it:
+// once that is idle, both are done.
+void SimulatorNodelet::waitForRecording() {
+  Clock::time_point asked = Clock::now();
+  while (goesOn()) {
+    const std::vector<std::string> missing =
+        recorder_->connect({sprung_.getTopic(), unsprung_.getTopic(), road_.getTopic(), truth_.getTopic()});
+    if (missing.empty()) break;
+    if (Clock::now() - asked > kPatience) {
+      NODELET_WARN("the drive waits for what is to be recorded: nobody publishes %s", join(missing, ", ").c_str());
+      asked = Clock::now();
+    }
+    std::this_thread::sleep_for(kPollMaster);
+  }
+  waitForMonitors();
+}
+
+// Until the monitors of this process have taken in what was published, and the recorder what they made of it.
+void SimulatorNodelet::waitForMonitors() const {
+  while (goesOn() && !monitors_->isIdle()) std::this_thread::sleep_for(kPoll);
 }
 
 void SimulatorNodelet::waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now,
@@ -87,34 +126,39 @@ void SimulatorNodelet::waitForTurn(const SimulatorOptions& options, ros::Time st
   if (factor > 0.0) {
     const double due = (now - start).toSec() / factor;  // wall seconds since the start
     const auto left = [&] { return due - std::chrono::duration<double>(Clock::now() - wall_start).count(); };
-    while (running_ && ros::ok() && left() > 0.0)
+    while (goesOn() && left() > 0.0)
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left(), kLongestSleep)));
-    return;
   }
-  if (pace_.getNumPublishers() == 0 || pace_is_lost_) return;
-  const double lead = kLeadSamples / fasterRate(options.drive);
-  const Clock::time_point give_up = Clock::now() + kLongestWaitForPace;
-  while (running_ && ros::ok() && now.toSec() - std::max(paced_until_.load(), start.toSec()) > lead &&
-         Clock::now() < give_up)
-    std::this_thread::sleep_for(kPoll);
-  if (Clock::now() < give_up) return;
-  pace_is_lost_ = true;
-  NODELET_WARN("%s sets no pace (is publish_every above %g?): going on without it", pace_.getTopic().c_str(),
-               kLeadSamples);
+  if (pace_.getNumPublishers() > 0) waitForPace(now, kLeadSamples / fasterRate(options.drive));
 }
 
-void SimulatorNodelet::publishClock(ros::Time now) const {
-  rosgraph_msgs::Clock clock;
-  clock.clock = std::max(now, ros::TIME_MIN);  // 0 means that there is no clock yet
-  clock_.publish(clock);
+void SimulatorNodelet::waitForPace(ros::Time now, double lead) {
+  const Clock::time_point asked = Clock::now();
+  while (goesOn() && now.toSec() - paced_until_ > lead) {
+    std::this_thread::sleep_for(kPoll);
+    if (Clock::now() - asked < kPatience) continue;
+    NODELET_WARN("%s sets no pace (is publish_every above %d?): the drive goes on for %g s", pace_.getTopic().c_str(),
+                 kLeadSamples, lead);
+    paced_until_ = now.toSec();
+  }
+}
+
+template <class Message>
+void SimulatorNodelet::publish(const ros::Publisher& publisher, const ros::Time& time, const Message& message) {
+  publisher.publish(boost::make_shared<const Message>(message));
+  if (recorder_) recorder_->record(publisher.getTopic(), time, message);
 }
 
 void SimulatorNodelet::publish(const DriveMessages& messages, bool publish_clock) {
-  if (publish_clock) publishClock(messages.time);
-  if (messages.sprung) sprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.sprung));
-  if (messages.unsprung) unsprung_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.unsprung));
-  if (messages.road) road_.publish(boost::make_shared<const sensor_msgs::Imu>(*messages.road));
-  truth_.publish(boost::make_shared<const SimulationTruth>(messages.truth));
+  if (publish_clock) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = std::max(messages.time, ros::TIME_MIN);  // 0 means that there is no clock yet
+    clock_.publish(clock);
+  }
+  if (messages.sprung) publish(sprung_, messages.time, *messages.sprung);
+  if (messages.unsprung) publish(unsprung_, messages.time, *messages.unsprung);
+  if (messages.road) publish(road_, messages.time, *messages.road);
+  publish(truth_, messages.time, messages.truth);
 }
 
 }  // namespace suspension_health_monitor

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "model_file.h"
-#include "suspension_health_monitor/model/effect_settings.h"
-#include "suspension_health_monitor/option_table.h"
-#include "suspension_health_monitor/simulation/scenario.h"
+#include "suspension_health_monitor/internal/model/effect_settings.h"
+#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {
 
@@ -19,35 +19,40 @@ struct PublishingOptions {
   double start_time = 0.0;
   double real_time_factor = 1.0;
   bool publish_clock = false;
-  bool wait_for_subscribers = true;
-  double start_delay = 0.0;
   bool shutdown_at_end = false;
+  std::string record;
+  std::string record_topics = "/monitor/ls /monitor/la /monitor/comparison /monitor/health /simulator/truth";
   std::string effects_file;
   std::string hidden;
 };
 
 using PublishingField = OptionField<PublishingOptions>;
 inline constexpr std::array kPublishingFields{
-    PublishingField{"gravity", "m/s^2", "what both IMUs read on z at rest (REP 145)", &PublishingOptions::gravity,
-                    -100.0, 100.0},
-    PublishingField{"road_imu", "-", "a third IMU where the tyre touches the road, on road/imu; of vehicles on a tyre",
-                    &PublishingOptions::road_imu},
-    PublishingField{"start_time", "s", "stamp at the start of the drive; live without publish_clock it is now",
-                    &PublishingOptions::start_time, 0.0, 4e9},
-    PublishingField{"real_time_factor", "-", "drive seconds per wall second; 0: as fast as subscribers keep up",
-                    &PublishingOptions::real_time_factor, 0.0, 1e6},
-    PublishingField{"publish_clock", "-", "drive /clock, for nodes with use_sim_time",
-                    &PublishingOptions::publish_clock},
-    PublishingField{"wait_for_subscribers", "-", "start when both IMU topics have a subscriber",
-                    &PublishingOptions::wait_for_subscribers},
-    PublishingField{"start_delay", "s", "wall time between that and the first message, for recorders to connect",
-                    &PublishingOptions::start_delay, 0.0, 3600.0},
-    PublishingField{"shutdown_at_end", "-", "shut the node or the nodelet manager down after the drive",
-                    &PublishingOptions::shutdown_at_end},
-    PublishingField{"effects_file", "-", "YAML file with laws of your own, to hide as effects/NAME/...",
-                    &PublishingOptions::effects_file},
-    PublishingField{"hidden", "-", "the same in one text: NAME=COEFFICIENT[,SHAPE=VALUE]..., the next after ';'",
+    PublishingField{"hidden", "hidden", "-",
+                    "effects in the strut: NAME=COEFFICIENT[,SHAPE=VALUE]..., the next after ';'",
                     &PublishingOptions::hidden},
+    PublishingField{"hidden", "effects_file", "-", "YAML file with laws of your own, to hide",
+                    &PublishingOptions::effects_file},
+    PublishingField{"sensors", "gravity", "m/s^2", "what both IMUs read on z at rest (REP 145)",
+                    &PublishingOptions::gravity, -100.0, 100.0},
+    PublishingField{"sensors", "road_imu", "-",
+                    "a third IMU where the tyre touches the road, on road/imu; of vehicles on a tyre",
+                    &PublishingOptions::road_imu},
+    PublishingField{"playing", "start_time", "s",
+                    "stamp at the start of the drive; live without publish_clock it is now",
+                    &PublishingOptions::start_time, 0.0, 4e9},
+    PublishingField{"playing", "real_time_factor", "-",
+                    "drive seconds per wall second; 0: as fast as subscribers keep up",
+                    &PublishingOptions::real_time_factor, 0.0, 1e6},
+    PublishingField{"playing", "publish_clock", "-", "drive /clock, for nodes with use_sim_time",
+                    &PublishingOptions::publish_clock},
+    PublishingField{"playing", "record", "-", "bag to record the drive into, every message of it; empty: none",
+                    &PublishingOptions::record},
+    PublishingField{"playing", "record_topics", "-",
+                    "what to record, with spaces; the drive begins once all are published",
+                    &PublishingOptions::record_topics},
+    PublishingField{"playing", "shutdown_at_end", "-", "shut the node or the nodelet manager down after the drive",
+                    &PublishingOptions::shutdown_at_end},
 };
 
 /// What config/simulator.yaml can set.
@@ -82,11 +87,10 @@ struct SimulatorOptions {
     }
   }
 
-  /// @return every option that fromValues() understands.
+  /// @return every option that fromValues() understands, by group.
   static std::vector<OptionDescription> describe() {
-    std::vector<OptionDescription> all = describeOptions(kSimulationFields);
-    for (OptionDescription& option : describeOptions(kPublishingFields)) all.push_back(std::move(option));
-    return all;
+    return inGroups({"drive", "sensors", "hidden", "playing"}, describeOptions(kSimulationFields),
+                    describeOptions(kPublishingFields));
   }
 };
 

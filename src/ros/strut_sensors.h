@@ -8,7 +8,7 @@
 
 #include "imu_mount.h"
 #include "shell_options.h"
-#include "suspension_health_monitor/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 

@@ -25,7 +25,7 @@ boost::shared_ptr<const TyreEstimate> toMsg(const WheelEstimate& estimate, const
   msg->wheel_hop_frequency = estimate.wheelHopFrequency();
   msg->mass_ratio = massRatio(strut, estimate).value_or(kUnknown);
   msg->effective_rows = estimate.effective_rows;
-  msg->valid = estimate.valid;
+  msg->valid = estimate.valid();
   return msg;
 }
 
@@ -46,7 +46,7 @@ void describeTyre(const ImuPipeline& pipeline, diagnostic_updater::DiagnosticSta
     return;
   }
   const WheelEstimate& la = pipeline.tyre()->report().la;
-  if (la.valid)
+  if (la.valid())
     status.summary(DiagnosticStatus::OK, "wheel and tyre are known");
   else if (!pipeline.grid()->roadAcceleration())
     status.summary(DiagnosticStatus::WARN, "the road's IMU is silent");

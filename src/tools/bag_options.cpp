@@ -54,7 +54,7 @@ BagOptions readBagOptions(const po::variables_map& values) {
   if (!options.pipeline.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
   MonitorOptions& monitor = options.pipeline.monitor;
   options.period_measured = !monitor.sample_period;
-  options.horizon_measured = !monitor.integration_horizon && !monitor.horizon_samples;
+  options.horizon_measured = !monitor.integration_horizon;
   if (!options.period_measured) requireFittingPeriod(bags, *monitor.sample_period);
   if (options.period_measured || options.horizon_measured) measureOpenSettings(bags, options.pipeline);
   return options;

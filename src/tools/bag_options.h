@@ -6,8 +6,8 @@
 
 #include "../ros/shell_options.h"
 #include "imu_bags.h"
-#include "suspension_health_monitor/model/effect_library.h"
-#include "suspension_health_monitor/model/strut_model.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 

@@ -6,8 +6,8 @@
 #include "../ros/shell_options.h"
 #include "../ros/strut_sensors.h"
 #include "imu_bags.h"
-#include "suspension_health_monitor/corner_sample.h"
-#include "suspension_health_monitor/discrepancy/body_motion.h"
+#include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/internal/corner_sample.h"
 
 namespace suspension_health_monitor {
 

@@ -5,7 +5,6 @@
 #include "command.h"
 #include "comparison_report.h"
 #include "drives.h"
-#include "errors.h"
 #include "interruption.h"
 #include "progress.h"
 #include "separate_files.h"
@@ -25,26 +24,23 @@ void compare(const Arguments& arguments) {
   std::optional<TextFile> json;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
 
-  const BagDrives drives = readDrives(options, models.model);
-  const MonitorOptions& monitor = options.pipeline.monitor;
-  ComparisonOptions comparing;
+  CompareOptions comparing;
+  takeSettings(options, models, comparing);
   comparing.fit = !models.model;
-  comparing.horizon_samples = monitor.filter(*monitor.sample_period).horizon_samples;
-  std::optional<Comparison> comparison;
+  const std::vector<Drive> drives = readDrives(options);
+  Comparison comparison;
   {
     Progress progress("comparing", 1.0);
-    comparison = compareModel(pointersTo(drives.records), drives.start, comparing, [&](double share) {
+    comparing.progress = [&](double share) {
       Interruption::check();
       progress.update(share);
-    });
+    };
+    comparison = compare(drives, comparing);
   }
-  if (!comparison)
-    throw TooLittleError(
-        "the drives are too short or too calm to compare a model with, or the model is not stable on "
-        "them");
-  printComparison(*comparison);
+  requireEnough(comparison.shortcoming, comparison.reason);
+  printComparison(comparison);
   if (!json) return;
-  std::fprintf(json->stream(), "%s\n", toJson(*comparison).dump(2).c_str());
+  std::fprintf(json->stream(), "%s\n", toJson(comparison).dump(2).c_str());
   json->commit();
 }
 

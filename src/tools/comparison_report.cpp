@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model_numbers.h"
-#include "suspension_health_monitor/discrepancy/readable_unit.h"
+#include "suspension_health_monitor/internal/wording/readable_unit.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -20,15 +20,13 @@ constexpr double kSure = 3.0;  // standard errors, for a mark in the map
 void printModel(const Comparison& comparison) {
   const StrutModel& model = comparison.model;
   std::printf("model (%s): damping/mass %.5g 1/s, stiffness/mass %.5g 1/s^2",
-              comparison.stddev.size() > 0 ? "fitted" : "as given", model.damping_to_mass, model.stiffness_to_mass);
-  visit(
-      model,
-      [](const std::string& name, double value, const std::string& unit) {
-        std::printf(", %s %.5g %s", name.c_str(), value, unit.c_str());
-      },
-      [](const std::string&, const ShapeParameter& shape, double value) {
-        std::printf(" (%s %.5g %s)", shape.name.c_str(), value, shape.unit.c_str());
-      });
+              !comparison.stddev.empty() ? "fitted" : "as given", model.damping_to_mass, model.stiffness_to_mass);
+  for (const ModelNumber& number : numbersOf(model)) {
+    if (number.kind == ModelNumber::Kind::kCoefficient)
+      std::printf(", %s %.5g %s", number.name.c_str(), number.value, number.unit.c_str());
+    if (number.kind == ModelNumber::Kind::kShape)
+      std::printf(" (%s %.5g %s)", number.symbol.c_str(), number.value, number.unit.c_str());
+  }
   std::printf("\n\n");
 }
 
@@ -175,7 +173,7 @@ void printComparison(const Comparison& comparison) {
 }
 
 json toJson(const Comparison& comparison) {
-  json model{{"parameters", parametersOf(comparison.model)}, {"fitted", comparison.stddev.size() > 0}};
+  json model{{"parameters", parametersOf(comparison.model)}, {"fitted", !comparison.stddev.empty()}};
   addNumbers(comparison.model, model);
   json free_run{
       {"rmse", comparison.free_run.rmse}, {"fit_percent", comparison.free_run.fit_percent}, {"held_out_rmse", nullptr}};

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "suspension_health_monitor/discrepancy/comparison.h"
+#include "suspension_health_monitor/compare.h"
 
 namespace suspension_health_monitor {
 

@@ -5,14 +5,12 @@
 #include "bag_options.h"
 #include "command.h"
 #include "drives.h"
-#include "errors.h"
 #include "interruption.h"
 #include "progress.h"
 #include "report_page.h"
 #include "search_report.h"
 #include "separate_files.h"
-#include "suspension_health_monitor/discrepancy/body_motion.h"
-#include "suspension_health_monitor/model/model_settings.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -25,19 +23,22 @@ std::string fileName(const std::string& path) {
 }
 
 /// The page for people; what the search found is compared with the drives before and after.
-void report(ReportPage& page, const SearchResult& search, const EffectLibrary& library,
-            const std::vector<const DriveRecord*>& drives, const std::vector<std::string>& paths) {
-  const std::optional<Comparison> before = compareModel(drives, search.base.model);
-  if (!before) throw TooLittleError("the drives hold too little for a report");
+void report(ReportPage& page, const Diagnosis& found, const std::vector<Drive>& drives, const DiagnoseOptions& options,
+            const std::vector<std::string>& paths) {
+  CompareOptions comparing;
+  comparing.sample_period = options.sample_period;
+  comparing.model = found.base.model;
+  const Comparison before = compare(drives, comparing);
+  requireEnough(before.shortcoming, before.reason);
   std::optional<Comparison> after;
-  if (search.final_fit) {
-    ComparisonOptions as_found;
-    as_found.fit = false;
-    after = compareModel(drives, search.final_fit->model, as_found);
+  if (found.final_fit) {
+    comparing.model = found.final_fit->model;
+    comparing.fit = false;
+    after = compare(drives, comparing);
   }
   std::vector<std::string> names;
   for (const std::string& path : paths) names.push_back(fileName(path));
-  page.write({search, library, drives, names, *before, after ? &*after : nullptr});
+  page.write({found, options.candidates, *options.sample_period, names, before, after && *after ? &*after : nullptr});
 }
 
 }  // namespace
@@ -57,7 +58,7 @@ void diagnose(const Arguments& arguments) {
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
-  ModelOptions models = readModelOptions(*values);
+  const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values);
   const Interruption interruption;
   std::optional<TextFile> json, model;
@@ -66,35 +67,33 @@ void diagnose(const Arguments& arguments) {
   if (values->count("output") != 0) model.emplace((*values)["output"].as<std::string>());
   if (values->count("report") != 0) page.emplace((*values)["report"].as<std::string>());
 
-  const BagDrives drives = readDrives(options, models.model);
-  const std::vector<const DriveRecord*> records = pointersTo(drives.records);
-  const std::vector<UntestableEffect> untestable = takeUntestable(models.library, records);
-  SearchOptions search;
-  search.threads = threads;
+  DiagnoseOptions searching;
+  takeSettings(options, models, searching);
+  searching.candidates = models.library;
+  searching.threads = threads;
+  const std::vector<Drive> drives = readDrives(options);
   Progress progress("fitting", 1.0);
-  const std::optional<SearchResult> result =
-      EffectSearch(models.library, search).run(records, drives.start, [&](double share) {
-        Interruption::check();
-        progress.update(share);
-      });
-  if (!result)
-    throw TooLittleError("the drives are too short to hold a part of them out, or no stable model fits them");
+  searching.progress = [&](double share) {
+    Interruption::check();
+    progress.update(share);
+  };
+  const Diagnosis found = diagnose(drives, searching);
+  requireEnough(found.shortcoming, found.reason);
 
-  printSearch(*result);
-  for (const UntestableEffect& effect : untestable)
-    std::printf("not tried: %s, %s\n", effect.name.c_str(), effect.reason.c_str());
+  printSearch(found);
+  for (const auto& [name, reason] : found.not_tried) std::printf("not tried: %s, %s\n", name.c_str(), reason.c_str());
   if (json) {
-    nlohmann::json whole = toJson(*result);
+    nlohmann::json whole = toJson(found);
     whole["not_tried"] = nlohmann::json::object();
-    for (const UntestableEffect& effect : untestable) whole["not_tried"][effect.name] = effect.reason;
+    for (const auto& [name, reason] : found.not_tried) whole["not_tried"][name] = reason;
     std::fprintf(json->stream(), "%s\n", whole.dump(2).c_str());
     json->commit();
   }
   if (model) {
-    std::fputs(toYaml(result->final_fit ? result->final_fit->model : result->base.model).c_str(), model->stream());
+    std::fputs(toYaml(found.model()).c_str(), model->stream());
     model->commit();
   }
-  if (page) report(*page, *result, models.library, records, options.bags.paths);
+  if (page) report(*page, found, drives, searching, options.bags.paths);
 }
 
 }  // namespace suspension_health_monitor

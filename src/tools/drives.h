@@ -1,22 +1,25 @@
 #pragma once
 
-#include <deque>
-#include <optional>
+#include <vector>
 
 #include "bag_options.h"
-#include "suspension_health_monitor/discrepancy/search_drives.h"
+#include "suspension_health_monitor/drive.h"
 
 namespace suspension_health_monitor {
 
-/// Drives from bags, ready for free runs.
-struct BagDrives {
-  StrutModel start;                 ///< a damped spring: the model given, or a rough one
-  std::deque<DriveRecord> records;  ///< one per bag
-};
+/// Reads bags as drives, one each: both accelerations and what else the body's IMU measures.
+/// @throws InputError, TooLittleError  as readSamples().
+std::vector<Drive> readDrives(const BagOptions& options);
 
-/// @param model  where to start; without it b1 and b0 by least squares over all bags.
-/// @throws InputError, TooLittleError  as readSamples(), if the drives show no damped spring, and if the body's IMU
-/// does not measure what the model needs.
-BagDrives readDrives(const BagOptions& options, const std::optional<StrutModel>& model);
+/// Takes the settings of the command line over that the options of diagnose() and compare() share.
+template <class Options>
+void takeSettings(const BagOptions& bags, const ModelOptions& models, Options& options) {
+  options.sample_period = bags.pipeline.monitor.sample_period;
+  options.horizon_samples = bags.pipeline.monitor.filter(*options.sample_period).horizon_samples;
+  options.model = models.model;
+}
+
+/// @throws InputError, TooLittleError  in words for people, if a diagnosis or comparison has a shortcoming.
+void requireEnough(Shortcoming shortcoming, const std::string& reason);
 
 }  // namespace suspension_health_monitor

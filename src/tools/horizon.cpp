@@ -4,7 +4,7 @@
 
 #include "../ros/whole_file.h"
 #include "command.h"
-#include "suspension_health_monitor/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "../ros/imu_pipeline.h"
 #include "../ros/live_model.h"
+#include "../ros/strut_sensors.h"
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "bag_samples.h"
@@ -15,6 +15,7 @@
 #include "identify_verdict.h"
 #include "interruption.h"
 #include "separate_files.h"
+#include "suspension_health_monitor/internal/drive_identification.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -93,7 +94,7 @@ class Digest {
   std::size_t stride_ = 1;
 };
 
-nlohmann::json toJson(const StrutEstimate& estimate) {
+nlohmann::json toJson(const IdentifiedStrut& estimate) {
   return {{"damping_to_mass", estimate.damping_to_mass},
           {"stiffness_to_mass", estimate.stiffness_to_mass},
           {"damping_to_mass_stddev", estimate.damping_to_mass_stddev},
@@ -111,73 +112,71 @@ nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut)
                       {"stiffness_to_wheel_mass_stddev", estimate.stiffness_to_wheel_mass_stddev},
                       {"tyre_to_wheel_mass_stddev", estimate.tyre_to_wheel_mass_stddev},
                       {"wheel_hop_frequency", estimate.wheelHopFrequency()},
-                      {"valid", estimate.valid}};
+                      {"valid", estimate.valid()}};
   if (const auto ratio = massRatio(strut, estimate)) json["mass_ratio"] = *ratio;
   return json;
 }
 
-void writeJson(std::FILE* out, const ImuPipeline& pipeline) {
-  const SuspensionMonitor& monitor = *pipeline.monitor();
+void writeJson(std::FILE* out, const DriveIdentification& identification, const IdentifyResult& found,
+               const RejectCounts& counts) {
+  const SuspensionMonitor& monitor = identification.monitor();
   nlohmann::json rejected = nlohmann::json::object();
-  const RejectCounts counts = pipeline.rejected();
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     rejected[std::string(kRejectReasonNames[i])] = counts.count(static_cast<RejectReason>(i));
-  nlohmann::json result{{"samples", monitor.input().samples},
-                        {"rows", monitor.input().rows},
-                        {"gaps", monitor.input().gaps},
-                        {"clock_jumps", monitor.input().restarts},
-                        {"alignment", pipeline.grid()->describeAlignment()},
-                        {"bridged", pipeline.grid()->bridged()},
+  nlohmann::json result{{"samples", found.samples},
+                        {"rows", found.rows},
+                        {"gaps", found.gaps},
+                        {"clock_jumps", found.clock_jumps},
+                        {"alignment", identification.grid().describeAlignment()},
+                        {"bridged", identification.grid().bridged()},
                         {"rejected", rejected},
-                        {"sample_period", monitor.period()},
+                        {"sample_period", found.sample_period},
                         {"mean_period", monitor.input().mean_period},
-                        {"warnings", nlohmann::json::array()},
-                        {"horizon_samples", monitor.horizonSamples()},
-                        {"ls", toJson(monitor.report().ls)},
-                        {"la", toJson(monitor.report().la)}};
-  if (const auto warning = periodWarning(monitor)) result["warnings"].push_back(*warning);
-  if (const TyreTracker* tyre = pipeline.tyre())
+                        {"warnings", found.warnings},
+                        {"horizon_samples", found.horizon_samples},
+                        {"ls", toJson(found.ls)},
+                        {"la", toJson(found.la)},
+                        {"iv", toJson(found.iv)}};
+  if (const TyreTracker* tyre = identification.tyre())
     result["tyre"] = {{"ls", toJson(tyre->report().ls, monitor.report().ls)},
                       {"la", toJson(tyre->report().la, monitor.report().la)}};
   std::fprintf(out, "%s\n", result.dump(2).c_str());
 }
 
-void printInput(const ImuPipeline& pipeline, const BagOptions& options) {
-  const SuspensionMonitor& monitor = *pipeline.monitor();
+void printInput(const DriveIdentification& identification, const BagOptions& options, const RejectCounts& rejected) {
+  const SuspensionMonitor& monitor = identification.monitor();
   const InputStatus& input = monitor.input();
   std::printf("sample period %.6g s%s, horizon %d samples = %.4g s%s\n", monitor.period(),
               options.period_measured ? " (measured)" : "", monitor.horizonSamples(),
               monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
   std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
               input.rows, input.gaps, input.restarts);
-  if (pipeline.grid()->resamples()) std::printf(", bridged %" PRIu64, pipeline.grid()->bridged());
-  const RejectCounts rejected = pipeline.rejected();
+  if (identification.grid().resamples()) std::printf(", bridged %" PRIu64, identification.grid().bridged());
   if (rejected.total() == 0) std::printf(", rejected 0");
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
       std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
-  std::printf("\nreadings %s\n\n", pipeline.grid()->describeAlignment().c_str());
+  std::printf("\nreadings %s\n\n", identification.grid().describeAlignment().c_str());
 }
 
-void checkEnough(const ImuPipeline& pipeline) {
-  const SuspensionMonitor* monitor = pipeline.monitor();
-  if (monitor != nullptr && monitor->input().rows > 0) return;
-  std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed";
-  if (monitor != nullptr)
-    message += " (" + std::to_string(2 * monitor->horizonSamples() + 1) +
-               " samples; usable samples in all: " + std::to_string(monitor->input().samples) +
-               ", gaps: " + std::to_string(monitor->input().gaps) + ")";
-  const std::string slow = pipeline.grid() != nullptr ? pipeline.grid()->whatIsTooSlow() : "";
+void checkEnough(const DriveIdentification& identification, const RejectCounts& rejected) {
+  const SuspensionMonitor& monitor = identification.monitor();
+  if (monitor.input().rows > 0) return;
+  std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed (" +
+                        std::to_string(2 * monitor.horizonSamples() + 1) +
+                        " samples; usable samples in all: " + std::to_string(monitor.input().samples) +
+                        ", gaps: " + std::to_string(monitor.input().gaps) + ")";
+  const std::string slow = identification.grid().whatIsTooSlow();
   if (!slow.empty()) message += "; " + slow;
-  throw TooLittleError(message + describeRejected(pipeline.rejected()));
+  throw TooLittleError(message + describeRejected(rejected));
 }
 
-std::string suspicions(const ImuPipeline& pipeline) {
-  const SensorReport& sensor = pipeline.monitor()->report().health.sensor;
+std::string suspicions(const DriveIdentification& identification) {
+  const SensorReport& sensor = identification.monitor().report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated) return "; " + describe(sensor);
-  const StrutEstimate& la = pipeline.monitor()->report().la;
+  const StrutEstimate& la = identification.monitor().report().la;
   constexpr double kCertain = 5.0;  // standard deviations
-  return describeSuspicions(*pipeline.grid(), la.damping_to_mass < -kCertain * la.damping_to_mass_stddev);
+  return describeSuspicions(identification.grid(), la.damping_to_mass < -kCertain * la.damping_to_mass_stddev);
 }
 
 }  // namespace
@@ -199,37 +198,50 @@ void identify(const Arguments& arguments) {
   RowTable table(csv ? csv->stream() : nullptr);
   Digest digest;
   bool ever_valid = false;
-  ImuPipeline pipeline(
-      options.pipeline,
-      [&](const MonitorReport& report) {
-        table.add(report);
-        if (!report.has_row) return;
-        ever_valid = ever_valid || report.la.valid || report.ls.valid;
-        digest.add(report);
-      },
-      options.bags.transforms.get());
-  pipeline.setEffects(model.effects());
+  const PipelineOptions& pipeline = options.pipeline;
+  DriveIdentification identification(pipeline.monitor, pipeline.grid(*pipeline.monitor.sample_period),
+                                     [&](const MonitorReport& report) {
+                                       table.add(report);
+                                       if (!report.has_row) return;
+                                       ever_valid = ever_valid || report.la.valid() || report.ls.valid();
+                                       digest.add(report);
+                                     });
+  identification.setEffects(model.effects());
+  StrutSensors sensors(pipeline.shell, options.bags.transforms.get());  // its readings; the grid is another
   readImuMessages(options.bags, [&](Side side, const sensor_msgs::Imu& imu) {
-    pipeline.push(side, imu);
+    if (const auto reading = sensors.read(side, imu))
+      identification.push(reading->side, reading->stamp, reading->acceleration);
     return true;
   });
-  checkEnough(pipeline);
+  RejectCounts rejected = sensors.rejected();
+  rejected += identification.rejected();
+  checkEnough(identification, rejected);
   table.finish();
 
-  if (json) writeJson(json->stream(), pipeline);
+  const IdentifyResult result = identification.result();
+  if (json) writeJson(json->stream(), identification, result, rejected);
   if (json) json->commit();
   if (csv) csv->commit();
-  printInput(pipeline, options);
+  const SuspensionMonitor& monitor = identification.monitor();
+  printInput(identification, options, rejected);
   printTable(digest.reports());
-  std::printf("\nat the end, over the last %.0f rows:\n", pipeline.monitor()->report().la.effective_rows);
-  printResult("LS", pipeline.monitor()->report().ls, options.pipeline.monitor.sprung_mass);
-  printResult("LA", pipeline.monitor()->report().la, options.pipeline.monitor.sprung_mass);
-  if (const TyreTracker* tyre = pipeline.tyre()) {
-    printTyre("LS", tyre->report().ls, pipeline.monitor()->report().ls);
-    printTyre("LA", tyre->report().la, pipeline.monitor()->report().la);
+  std::printf("\nat the end, over the last %.0f rows:\n", result.la.rows);
+  const std::optional<double>& mass = pipeline.monitor.sprung_mass;
+  printResult("LS", result.ls, mass);
+  printResult("LA", result.la, mass);
+  if (const TyreTracker* tyre = identification.tyre()) {
+    printTyre("LS", tyre->report().ls, monitor.report().ls);
+    printTyre("LA", tyre->report().la, monitor.report().la);
   }
-  if (const auto reason = whyNotValid(*pipeline.monitor(), ever_valid))
-    throw TooLittleError(*reason + (ever_valid ? "" : suspicions(pipeline) + describeRejected(pipeline.rejected())));
+  if (model.effects().empty()) {
+    std::printf("over the whole drive, by instrumental variables:\n");
+    printResult("IV", result.iv, mass);
+  }
+  const auto reason = whyNotValid(monitor, ever_valid);
+  if (!reason)
+    for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
+  if (reason)
+    throw TooLittleError(*reason + (ever_valid ? "" : suspicions(identification) + describeRejected(rejected)));
 }
 
 }  // namespace suspension_health_monitor

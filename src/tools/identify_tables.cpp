@@ -17,7 +17,7 @@ std::string cell(int width, int precision, double value) {
 }
 
 // A negative stiffness has no frequency.
-std::string describeOscillation(const StrutEstimate& estimate) {
+std::string describeOscillation(const IdentifiedStrut& estimate) {
   if (!(estimate.stiffness_to_mass > 0.0)) return "no natural frequency";
   return cell(0, 3, estimate.naturalFrequency()) + " Hz, damping ratio " + cell(0, 3, estimate.dampingRatio());
 }
@@ -37,11 +37,11 @@ void printTable(const std::vector<MonitorReport>& reports) {
                 cell(9, 4, report.ls.damping_to_mass).c_str(), cell(9, 4, report.la.damping_to_mass).c_str(),
                 cell(11, 4, report.ls.stiffness_to_mass).c_str(), cell(10, 4, report.la.stiffness_to_mass).c_str(),
                 cell(12, 4, report.comparison.rmse).c_str(), cell(8, 1, report.comparison.fit_percent).c_str(),
-                report.la.valid ? "yes" : "no");
+                report.la.valid() ? "yes" : "no");
 }
 
-void printResult(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
-  const std::string doubt = estimate.valid ? "" : "  NOT VALID: " + std::string(describe(estimate.doubt));
+void printResult(const char* name, const IdentifiedStrut& estimate, const std::optional<double>& mass) {
+  const std::string doubt = estimate.valid ? "" : "  NOT VALID: " + estimate.reason;
   if (std::isnan(estimate.damping_to_mass)) {
     std::printf("%s: nothing is known%s\n", name, doubt.c_str());
     return;
@@ -56,7 +56,7 @@ void printResult(const char* name, const StrutEstimate& estimate, const std::opt
 }
 
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut) {
-  const char* const doubt = estimate.valid ? "" : "  NOT VALID: too little or too poor excitation";
+  const char* const doubt = estimate.valid() ? "" : "  NOT VALID: too little or too poor excitation";
   if (std::isnan(estimate.damping_to_wheel_mass)) {
     std::printf("%s: nothing is known of the wheel%s\n", name, doubt);
     return;

@@ -3,8 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/suspension_monitor.h"
-#include "suspension_health_monitor/tyre_tracker.h"
+#include "suspension_health_monitor/identify.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 
 namespace suspension_health_monitor {
 
@@ -12,7 +13,7 @@ namespace suspension_health_monitor {
 void printTable(const std::vector<MonitorReport>& reports);
 
 /// @param name  of the estimator.  @param mass  of the body [kg], for damping and stiffness in SI.
-void printResult(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass);
+void printResult(const char* name, const IdentifiedStrut& estimate, const std::optional<double>& mass);
 
 /// @param strut  by the same estimator.
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);

@@ -1,6 +1,6 @@
 #include "identify_verdict.h"
 
-#include <cstdio>
+#include "suspension_health_monitor/internal/drive_identification.h"
 
 namespace suspension_health_monitor {
 
@@ -14,18 +14,8 @@ bool isHeld(EstimateDoubt doubt) {
 
 }  // namespace
 
-std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
-  if (monitor.input().period_fits) return std::nullopt;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "stamps come every %.6g s, but sample_period = %.6g [s]: no estimate is valid; leave sample_period out "
-                "to have it measured",
-                monitor.input().mean_period, monitor.period());
-  return text;
-}
-
 std::optional<std::string> whyNotValid(const SuspensionMonitor& monitor, bool was_valid) {
-  if (monitor.report().ls.valid || monitor.report().la.valid) return std::nullopt;
+  if (monitor.report().ls.valid() || monitor.report().la.valid()) return std::nullopt;
   if (auto warning = periodWarning(monitor)) return warning;
   if (was_valid && isHeld(monitor.report().la.doubt)) return std::nullopt;
   if (!was_valid) return "no estimate was ever valid: too short, too little motion, or not the two sides of one strut";

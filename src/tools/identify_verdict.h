@@ -3,12 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
-
-/// @return what is wrong with the stamps for the sample period that was given, in words; nothing: they fit.
-std::optional<std::string> periodWarning(const SuspensionMonitor& monitor);
 
 /// @param was_valid  an estimate was valid at some time.
 /// @return why neither LS nor LA is valid at the end of the drive, in words; nothing: one of them is, or both

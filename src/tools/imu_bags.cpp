@@ -51,17 +51,31 @@ Sides findSides(const BagFile& file, const std::vector<std::string>& topics) {
   return sides;
 }
 
+/// Which recording times [ns] are read.
 struct Range {
-  std::uint64_t first = 0;  // recording time [ns]
-  std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t first = 0, last = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t interval = 0, length = 0;  // of the stretches from `first` on; 0: all
+
+  bool contains(std::uint64_t time) const {
+    return time >= first && time <= last && (interval == 0 || (time - first) % interval < length);
+  }
+  bool overlaps(const BagChunk& chunk) const {
+    if (chunk.end < first || chunk.start > last) return false;
+    const std::uint64_t start = std::max(chunk.start, first);
+    return contains(start) || (interval != 0 && (start - first) / interval != (chunk.end - first) / interval);
+  }
 };
 
 Range toRange(const ImuBags& bags, std::uint64_t beginning) {
   constexpr double kFarFuture = 1e9;  // [s]
-  const auto after = [&](double seconds) { return beginning + static_cast<std::uint64_t>(1e9 * seconds); };
+  const auto nanoseconds = [](double seconds) { return static_cast<std::uint64_t>(1e9 * seconds); };
   Range range;
-  if (bags.start > 0.0) range.first = after(std::min(bags.start, kFarFuture));
-  if (bags.end < kFarFuture) range.last = after(bags.end);
+  range.first = beginning + nanoseconds(std::min(bags.start, kFarFuture));
+  if (bags.end < kFarFuture) range.last = beginning + nanoseconds(bags.end);
+  if (bags.stretches) {
+    range.interval = std::max<std::uint64_t>(1, nanoseconds(bags.stretches->interval));
+    range.length = nanoseconds(bags.stretches->length);
+  }
   return range;
 }
 
@@ -114,7 +128,7 @@ class Delivery {
     Interruption::check();
     const auto side = sides_.find(message.connection);
     if (side == sides_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
-    if (!side->second || message.time < range_.first || message.time > range_.last) return true;
+    if (!side->second || !range_.contains(message.time)) return true;
     ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(const_cast<char*>(message.body.data())),
                                        static_cast<std::uint32_t>(message.body.size()));
     try {
@@ -144,7 +158,7 @@ bool readBag(BagFile& file, const ImuBags& bags, const Take& take) {
   double done = 0.0;
   for (const BagChunk& chunk : chunks) {
     progress.update(++done);
-    if (chunk.end < range.first || chunk.start > range.last) continue;
+    if (!range.overlaps(chunk)) continue;
     if (!delivery.deliverBefore(chunk.start)) return false;
     delivery.open(chunk);
   }
@@ -152,6 +166,23 @@ bool readBag(BagFile& file, const ImuBags& bags, const Take& take) {
 }
 
 }  // namespace
+
+double duration(const ImuBags& bags) {
+  double sum = 0.0;
+  for (const std::string& path : bags.paths) {
+    const BagFile file(path);
+    const std::vector<BagChunk>& chunks = file.chunks();
+    if (chunks.empty()) continue;
+    std::uint64_t first = std::numeric_limits<std::uint64_t>::max(), last = 0;
+    for (const BagChunk& chunk : chunks) {
+      first = std::min(first, chunk.start);
+      last = std::max(last, chunk.end);
+    }
+    const double end = std::min(1e-9 * static_cast<double>(last - first), bags.end);
+    sum += std::max(0.0, end - bags.start);
+  }
+  return sum;
+}
 
 void readImuMessages(const ImuBags& bags, const Take& take) {
   for (const std::string& path : bags.paths) {

@@ -7,10 +7,11 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 
@@ -21,7 +22,17 @@ struct ImuBags {
   double start = 0.0;               ///< seconds after the beginning of each bag
   double end = std::numeric_limits<double>::infinity();
   std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted
+
+  /// Of each part only stretches of `length` seconds, one after every `interval` seconds: a sample of the whole.
+  struct Stretches {
+    double interval = 0.0, length = 0.0;
+  };
+  std::optional<Stretches> stretches;
 };
+
+/// @return time that the bags span, the part of each that is to be read, by their tables of contents [s].
+/// @throws InputError  as readImuMessages().
+double duration(const ImuBags& bags);
 
 /// @return the static transforms (/tf_static) of all bags.
 /// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.

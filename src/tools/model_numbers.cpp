@@ -10,11 +10,10 @@ json parametersOf(const StrutModel& model) {
 
 void addNumbers(const StrutModel& model, json& into) {
   json coefficients = json::object(), shapes = json::object();
-  visit(
-      model, [&](const std::string& name, double value, const std::string&) { coefficients[name] = value; },
-      [&](const std::string& name, const ShapeParameter& shape, double value) {
-        shapes[name + "/" + shape.name] = value;
-      });
+  for (const ModelNumber& number : numbersOf(model)) {
+    if (number.kind == ModelNumber::Kind::kCoefficient) coefficients[number.name] = number.value;
+    if (number.kind == ModelNumber::Kind::kShape) shapes[number.name] = number.value;
+  }
   into["coefficients"] = coefficients;
   into["shapes"] = shapes;
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/option_table.h"
+#include "suspension_health_monitor/internal/option_table.h"
 
 namespace suspension_health_monitor {
 

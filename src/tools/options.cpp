@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "../ros/corners_options.h"
@@ -18,6 +21,26 @@ std::vector<OptionDescription> optionsOf(const std::string& of) {
   throw std::invalid_argument("options of " + of + ", must be monitor, simulator or corners");
 }
 
+using Cells = std::array<std::string, 5>;
+
+/// One table with columns as wide as their longest cell, so that it can be read on a terminal, too.
+void print(const std::vector<Cells>& rows) {
+  Cells line;
+  std::array<int, std::tuple_size_v<Cells>> widths{};
+  for (std::size_t i = 0; i + 1 < widths.size(); ++i) {
+    for (const Cells& row : rows) widths[i] = std::max(widths[i], static_cast<int>(row[i].size()));
+    line[i].assign(static_cast<std::size_t>(widths[i]), '-');
+  }
+  line.back() = "---";
+  const auto printRow = [&](const Cells& row) {
+    for (std::size_t i = 0; i < row.size(); ++i) std::printf("| %-*s ", widths[i], row[i].c_str());
+    std::printf("|\n");
+  };
+  printRow(rows.front());
+  printRow(line);
+  std::for_each(rows.begin() + 1, rows.end(), printRow);
+}
+
 }  // namespace
 
 void options(const Arguments& arguments) {
@@ -27,10 +50,14 @@ void options(const Arguments& arguments) {
   const auto values = parse(arguments, "options [monitor|simulator|corners]", description, "of");
   if (!values) return;
   const std::vector<OptionDescription> all = optionsOf((*values)["of"].as<std::string>());
-  std::printf("| name | default | unit | allowed | meaning |\n|---|---|---|---|---|\n");
-  for (const OptionDescription& option : all)
-    std::printf("| `%s` | %s | %s | %s | %s |\n", option.name.c_str(), option.default_value.c_str(),
-                option.unit.c_str(), option.allowed.c_str(), option.help.c_str());
+  for (auto option = all.begin(); option != all.end();) {
+    const std::string& group = option->group;
+    std::vector<Cells> rows{{group, "default", "unit", "allowed", "meaning"}};
+    for (; option != all.end() && option->group == group; ++option)
+      rows.push_back({'`' + option->name + '`', option->default_value, option->unit, option->allowed, option->help});
+    if (group != all.front().group) std::printf("\n");
+    print(rows);
+  }
 }
 
 }  // namespace suspension_health_monitor

@@ -3,16 +3,12 @@
 #include <cstdio>
 #include <string>
 
-#include "suspension_health_monitor/model/model_settings.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using nlohmann::json;
-
-const StrutModel& modelOf(const SearchResult& search) {
-  return search.final_fit ? search.final_fit->model : search.base.model;
-}
 
 /// A word as a shell takes it.
 std::string quoted(const std::string& word) {
@@ -55,14 +51,15 @@ json addingJson(const ReportContent& content) {
   };
   add("Write the file", tool + "diagnose" + bags + " -o model.yaml");
   add("Judge the model on another drive", tool + "compare another_drive.bag --model model.yaml");
-  if (!modelOf(content.search).effects.empty())
+  const StrutModel& model = content.found.model();
+  if (!model.effects.empty())
     add("Live: add it to a running monitor and watch the error fall",
-        "rosservice call /monitor/set_effects \"" + settingOf(modelOf(content.search)) +
+        "rosservice call /monitor/set_effects \"" + settingOf(model) +
             "\"\nrqt_plot /monitor/comparison/base_rmse /monitor/comparison/rmse");
   add("Live from the start: name the file in your copy of monitor.yaml",
       "model_file: /path/to/model.yaml\n\nroslaunch suspension_health_monitor monitor.launch "
       "config:=$PWD/my_strut.yaml");
-  return {{"model_file", toYaml(modelOf(content.search))}, {"commands", commands}};
+  return {{"model_file", toYaml(model)}, {"commands", commands}};
 }
 
 }  // namespace suspension_health_monitor

@@ -22,16 +22,16 @@ using nlohmann::json;
 std::string sourceOf(const ReportContent& content) {
   std::string text;
   double duration = 0.0;
-  for (const DriveRecord* drive : content.drives)
-    duration += static_cast<double>(drive->numSamples()) * drive->period();
+  for (const ComparedSegment& segment : content.before.segments)
+    duration += static_cast<double>(segment.size()) * content.period;
   for (const std::string& name : content.drive_names) text += (text.empty() ? "" : ", ") + name;
   char size[64];
-  std::snprintf(size, sizeof size, ": %.4g s at %.4g Hz", duration, 1.0 / content.drives.front()->period());
+  std::snprintf(size, sizeof size, ": %.4g s at %.4g Hz", duration, 1.0 / content.period);
   return text + size;
 }
 
 json findingsOf(const ReportContent& content) {
-  json findings{{"search", toJson(content.search)},        {"source", sourceOf(content)},
+  json findings{{"search", toJson(content.found)},         {"source", sourceOf(content)},
                 {"effects", effectsJson(content.library)}, {"parameters", parametersJson(content)},
                 {"drives", drivesJson(content)},           {"before", viewsJson(content.before)},
                 {"forces", forcesJson(content)},           {"adding", addingJson(content)}};

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "../ros/whole_file.h"
-#include "suspension_health_monitor/discrepancy/comparison.h"
-#include "suspension_health_monitor/discrepancy/effect_search.h"
+#include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/diagnose.h"
 
 namespace suspension_health_monitor {
 
 /// All that the page of a search is made of.
 struct ReportContent {
-  const SearchResult& search;
-  const EffectLibrary& library;  ///< the candidates of the search
-  const std::vector<const DriveRecord*>& drives;
+  const Diagnosis& found;
+  const EffectLibrary& library;          ///< the candidates of the search
+  double period;                         ///< of the samples [s]
   std::vector<std::string> drive_names;  ///< one per drive
   const Comparison& before;              ///< the model as it is, fitted to all samples
   const Comparison* after = nullptr;     ///< with the effects found; none if there are none

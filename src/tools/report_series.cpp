@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "suspension_health_monitor/discrepancy/held_out.h"
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -82,23 +81,6 @@ json stretchJson(const ComparedSegment& before, const ComparedSegment* after, st
   return {{"start", before.start}, {"period", period}, {"values", values}};
 }
 
-/// [from, to] of what was held out, in the time of the drive.
-json heldOutSpans(const DriveRecord& drive, const std::vector<SampleMask>& masks) {
-  json spans = json::array();
-  for (std::size_t i = 0; i < masks.size(); ++i) {
-    const SampleMask& mask = masks[i];
-    const auto time = [&](std::size_t k) {
-      return drive.segments()[i].start + static_cast<double>(k) * drive.period();
-    };
-    for (std::size_t k = 0; k < mask.size();) {
-      const std::size_t first = k;
-      while (k < mask.size() && mask[k] == mask[first]) ++k;
-      if (mask[first] == 0) spans.push_back({time(first), time(k - 1)});
-    }
-  }
-  return spans;
-}
-
 /// Middle of the span with the largest mean square residual of a segment, and that mean square.
 std::pair<double, double> worstSpan(const ComparedSegment& segment, double span) {
   const auto width = std::min(segment.size(), static_cast<std::size_t>(std::max(1.0, span / segment.period)));
@@ -115,12 +97,11 @@ std::pair<double, double> worstSpan(const ComparedSegment& segment, double span)
 }  // namespace
 
 json drivesJson(const ReportContent& content) {
-  const double stiffness = content.search.base.model.stiffness_to_mass;
-  const std::optional<HeldOut> held_out = holdOut(content.drives, stiffness);
+  const double stiffness = content.found.base.model.stiffness_to_mass;
   const double span = kPeriodsInView * 2.0 * kPi / std::sqrt(stiffness);
   const std::size_t range = thinning(content);
   json drives = json::array();
-  for (std::size_t r = 0; r < content.drives.size(); ++r) {
+  for (std::size_t r = 0; r < content.drive_names.size(); ++r) {
     std::pair<double, double> worst{0.0, -1.0};
     double duration = 0.0;
     json stretches = json::array();
@@ -139,7 +120,7 @@ json drivesJson(const ReportContent& content) {
          {"view_span", span},
          {"view_centre", worst.first},
          {"stretches", stretches},
-         {"held_out", held_out ? heldOutSpans(*content.drives[r], held_out->training[r]) : json::array()}});
+         {"held_out", content.before.held_out.empty() ? json::array() : json(content.before.held_out[r])}});
   }
   return drives;
 }

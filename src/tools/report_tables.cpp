@@ -3,51 +3,31 @@
 #include <string>
 #include <vector>
 
-#include "model_numbers.h"
-
 namespace suspension_health_monitor {
 namespace {
 
 using nlohmann::json;
 
-json number(double value, const Eigen::VectorXd& stddevs, Eigen::Index i) {
-  json result{{"value", value}};
-  if (i < stddevs.size()) result["stddev"] = stddevs[i];
-  return result;
-}
-
-json row(const std::string& symbol, const std::string& title, const std::string& unit) {
-  return {{"symbol", symbol}, {"title", title}, {"unit", unit}};
-}
-
-/// Every number of a model in the order of its standard deviations: its row, without values.
-json rowsOf(const StrutModel& model) {
-  json rows = json::array({row("b₁", "damping / mass", "1/s"), row("b₀", "stiffness / mass", "1/s^2")});
-  visit(
-      model,
-      [&](const std::string& name, double, const std::string& unit) { rows.push_back(row("c", "of " + name, unit)); },
-      [&](const std::string& name, const ShapeParameter& shape, double) {
-        rows.push_back(row(shape.name, "of " + name, shape.unit));
-      });
-  return rows;
-}
-
-std::vector<double> valuesOf(const StrutModel& model) {
-  std::vector<double> values{model.damping_to_mass, model.stiffness_to_mass};
-  visit(
-      model, [&](const std::string&, double value, const std::string&) { values.push_back(value); },
-      [&](const std::string&, const ShapeParameter&, double value) { values.push_back(value); });
-  return values;
+/// The row of one number, without values.
+json rowOf(const ModelNumber& number) {
+  if (number.symbol == "b1") return {{"symbol", "b₁"}, {"title", "damping / mass"}, {"unit", number.unit}};
+  if (number.symbol == "b0") return {{"symbol", "b₀"}, {"title", "stiffness / mass"}, {"unit", number.unit}};
+  const bool is_shape = number.kind == ModelNumber::Kind::kShape;
+  return {
+      {"symbol", number.symbol}, {"title", "of " + (is_shape ? number.effect : number.name)}, {"unit", number.unit}};
 }
 
 /// Puts a model's numbers under `when` into the rows of the same symbol and title.
-void fill(json& rows, const char* when, const StrutModel& model, const Eigen::VectorXd& stddevs) {
-  const std::vector<double> values = valuesOf(model);
-  const json own = rowsOf(model);
-  for (std::size_t i = 0; i < values.size(); ++i)
+void fill(json& rows, const char* when, const StrutModel& model, const std::vector<double>& stddevs) {
+  const std::vector<ModelNumber> numbers = numbersOf(model);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const json own = rowOf(numbers[i]);
     for (json& line : rows)
-      if (line["symbol"] == own[i]["symbol"] && line["title"] == own[i]["title"])
-        line[when] = number(values[i], stddevs, static_cast<Eigen::Index>(i));
+      if (line["symbol"] == own["symbol"] && line["title"] == own["title"]) {
+        line[when] = {{"value", numbers[i].value}};
+        if (i < stddevs.size()) line[when]["stddev"] = stddevs[i];
+      }
+  }
 }
 
 }  // namespace
@@ -74,10 +54,10 @@ json effectsJson(const EffectLibrary& library) {
 
 json parametersJson(const ReportContent& content) {
   const Comparison& before = content.before;
-  const bool extended = content.after != nullptr && content.search.final_fit;
-  json rows = rowsOf(extended ? content.search.final_fit->model : before.model);
+  json rows = json::array();
+  for (const ModelNumber& number : numbersOf(content.found.model())) rows.push_back(rowOf(number));
   fill(rows, "before", before.model, before.stddev);
-  if (extended) fill(rows, "after", content.search.final_fit->model, content.search.final_fit->stddev);
+  if (content.found.final_fit) fill(rows, "after", content.found.final_fit->model, content.found.final_fit->stddev);
   return rows;
 }
 

@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "suspension_health_monitor/discrepancy/seen_force.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -80,9 +78,9 @@ json correlationOf(const ResidualCorrelation& correlation) {
           {"within", correlation.within},          {"share_outside", correlation.share_outside}};
 }
 
-json branchOf(const SeenForce& force, const std::vector<SeenForceBin>& bins, const char* name) {
+json branchOf(const PartialResidual& force, const std::vector<PartialResidualBin>& bins, const char* name) {
   json points = json::array(), law_x = json::array(), law = json::array();
-  for (const SeenForceBin& bin : bins) {
+  for (const PartialResidualBin& bin : bins) {
     points.push_back({{"x", shortened(bin.at)},
                       {"y", shortened(bin.mean)},
                       {"low", shortened(bin.mean - bin.deviation)},
@@ -104,13 +102,13 @@ json branchOf(const SeenForce& force, const std::vector<SeenForceBin>& bins, con
 }
 
 /// @param value  of a bin: what was seen, or the law.
-json gridMap(const SeenForce& force, double SeenForceBin::*value) {
-  const SeenForceGrid& grid = force.grid;
+json gridMap(const PartialResidual& force, double PartialResidualBin::*value) {
+  const PartialResidualGrid& grid = force.grid;
   json map = emptyMap(force.variables[0], force.variables[1], grid.first_edges, grid.second_edges);
   json means = json::array(), counts = json::array();
   for (std::size_t j = 0; j + 1 < grid.second_edges.size(); ++j) {
     json mean = json::array(), count = json::array();
-    for (const std::vector<SeenForceBin>& column : grid.cells) {
+    for (const std::vector<PartialResidualBin>& column : grid.cells) {
       mean.push_back(column[j].count > 0 ? json(shortened(column[j].*value)) : json());
       count.push_back(column[j].count);
     }
@@ -121,11 +119,11 @@ json gridMap(const SeenForce& force, double SeenForceBin::*value) {
   return map;
 }
 
-json forceJson(const SeenForce& force) {
+json forceJson(const PartialResidual& force) {
   json result{{"effect", force.effect.effect.name}, {"law", force.effect.effect.law}};
   if (force.variables.size() == 2) {
-    result["seen"] = gridMap(force, &SeenForceBin::mean);
-    result["by_law"] = gridMap(force, &SeenForceBin::law);
+    result["seen"] = gridMap(force, &PartialResidualBin::mean);
+    result["by_law"] = gridMap(force, &PartialResidualBin::law);
     return result;
   }
   result["x"] = axisOf(force.variables.front());
@@ -150,10 +148,9 @@ json viewsJson(const Comparison& comparison) {
 
 json forcesJson(const ReportContent& content) {
   json forces = json::array();
-  if (content.after == nullptr || !content.search.final_fit) return forces;
-  const ModelFit& fit = *content.search.final_fit;
-  for (const SeenForce& force : seeForces(content.drives, fit.model, fit.initial)) {
-    const std::vector<std::string>& added = content.search.selected;
+  if (content.after == nullptr) return forces;
+  for (const PartialResidual& force : content.after->forces) {
+    const std::vector<std::string>& added = content.found.selected;
     if (std::find(added.begin(), added.end(), force.effect.effect.name) != added.end())
       forces.push_back(forceJson(force));
   }

@@ -2,8 +2,9 @@
 
 #include <string>
 
-#include "../ros/search_words.h"
 #include "model_numbers.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -12,55 +13,55 @@ using nlohmann::json;
 
 constexpr std::size_t kShownCandidates = 8;
 
-json standardDeviations(const ModelFit& fit) {
-  json result{{"damping_to_mass", fit.stddev[0]}, {"stiffness_to_mass", fit.stddev[1]}};
-  Eigen::Index i = 2;
-  visit(
-      fit.model, [&](const std::string& name, double, const std::string&) { result[name] = fit.stddev[i++]; },
-      [&](const std::string& name, const ShapeParameter& shape, double) {
-        result[name + "/" + shape.name] = fit.stddev[i++];
-      });
+json standardDeviations(const FittedModel& fit) {
+  json result = json::object();
+  auto stddev = fit.stddev.begin();
+  for (const ModelNumber& number : numbersOf(fit.model)) result[number.name] = *stddev++;
   return result;
+}
+
+void printFit(const FittedModel& fit) {
+  auto stddev = fit.stddev.begin();
+  for (const ModelNumber& number : numbersOf(fit.model)) {
+    if (number.kind == ModelNumber::Kind::kStrut)
+      std::printf("  %-15s", number.symbol == "b1" ? "damping/mass" : "stiffness/mass");
+    else if (number.kind == ModelNumber::Kind::kShape)
+      std::printf("    %s =", number.symbol.c_str());
+    else
+      std::printf("  %s  c =", number.name.c_str());
+    std::printf(" %.5g +- %.2g %s\n", number.value, *stddev++, number.unit.c_str());
+  }
+  if (!fit.all_samples)
+    std::printf("  The fit to all samples failed: these are the numbers of the fit to two thirds of them.\n");
 }
 
 }  // namespace
 
-void printSearch(const SearchResult& result) {
-  std::printf("%s\n", sentence(result).c_str());
-  for (const std::vector<std::string>& group : result.indistinguishable)
+void printSearch(const Diagnosis& found) {
+  std::printf("%s\n", found.summary.c_str());
+  for (const std::vector<std::string>& group : found.indistinguishable)
     std::printf("These drives cannot tell apart: %s.\n", join(group, ", ").c_str());
-  if (!result.suggested_drive.empty()) std::printf("%s\n", result.suggested_drive.c_str());
+  if (!found.suggested_drive.empty()) std::printf("%s\n", found.suggested_drive.c_str());
   std::printf("\nmodel as it is: held-out rmse %.4g m/s^2, fit %.1f %%, noise floor about %.4g m/s^2\n",
-              result.base.held_out_rmse, result.base_fit_percent, result.noise_floor);
+              found.base.held_out_rmse, found.base_fit_percent, found.noise_floor);
   std::printf("\nadded alone                    held-out rmse   error removed   significant\n");
   bool all_fitted = true;
-  for (std::size_t i = 0; i < std::min(kShownCandidates, result.ranking.size()); ++i) {
-    const RankedModel& ranked = result.ranking[i];
+  for (std::size_t i = 0; i < std::min(kShownCandidates, found.ranking.size()); ++i) {
+    const RankedModel& ranked = found.ranking[i];
     all_fitted = all_fitted && ranked.fitted;
     std::printf("%-30s %c%12.4g %14.1f %%   %s\n", join(ranked.effects, " + ").c_str(), ranked.fitted ? ' ' : '~',
                 ranked.held_out_rmse, ranked.error_removed_percent, ranked.significant ? "yes" : "no");
   }
   if (!all_fitted) std::printf("~ by the linear response only: far behind, not fitted\n");
-  if (!result.extended || !result.final_fit) return;
-  std::printf("\nwith %s: held-out rmse %.4g m/s^2, fit %.1f %%\n", join(result.selected, " and ").c_str(),
-              result.extended->held_out_rmse, result.extended_fit_percent);
-  const ModelFit& fit = *result.final_fit;
-  std::printf("  damping/mass    %.5g +- %.2g 1/s\n  stiffness/mass  %.5g +- %.2g 1/s^2\n", fit.model.damping_to_mass,
-              fit.stddev[0], fit.model.stiffness_to_mass, fit.stddev[1]);
-  Eigen::Index i = 2;
-  visit(
-      fit.model,
-      [&](const std::string& name, double value, const std::string& unit) {
-        std::printf("  %s  c = %.5g +- %.2g %s\n", name.c_str(), value, fit.stddev[i++], unit.c_str());
-      },
-      [&](const std::string&, const ShapeParameter& shape, double value) {
-        std::printf("    %s = %.5g +- %.2g %s\n", shape.name.c_str(), value, fit.stddev[i++], shape.unit.c_str());
-      });
+  if (!found.extended) return;
+  std::printf("\nwith %s: held-out rmse %.4g m/s^2, fit %.1f %%\n", join(found.selected, " and ").c_str(),
+              found.extended->held_out_rmse, found.extended_fit_percent);
+  printFit(*found.final_fit);
 }
 
-json toJson(const SearchResult& result) {
+json toJson(const Diagnosis& found) {
   json ranking = json::array();
-  for (const RankedModel& ranked : result.ranking) {
+  for (const RankedModel& ranked : found.ranking) {
     json row{{"effects", ranked.effects},
              {"held_out_rmse", ranked.held_out_rmse},
              {"error_removed_percent", ranked.error_removed_percent},
@@ -69,24 +70,25 @@ json toJson(const SearchResult& result) {
     addNumbers(ranked.model, row);
     ranking.push_back(row);
   }
-  json whole{{"verdict", nameOf(result.verdict)},
+  json whole{{"verdict", nameOf(found.verdict)},
              {"base",
-              {{"held_out_rmse", result.base.held_out_rmse},
-               {"fit_percent", result.base_fit_percent},
-               {"parameters", parametersOf(result.base.model)}}},
-             {"noise_floor", result.noise_floor},
-             {"structured_share", result.structured_share},
-             {"surface_share", result.surface_share},
-             {"suggested_drive", result.suggested_drive},
+              {{"held_out_rmse", found.base.held_out_rmse},
+               {"fit_percent", found.base_fit_percent},
+               {"parameters", parametersOf(found.base.model)}}},
+             {"noise_floor", found.noise_floor},
+             {"structured_share", found.structured_share},
+             {"surface_share", found.surface_share},
+             {"suggested_drive", found.suggested_drive},
              {"ranking", ranking},
-             {"selected", result.selected},
-             {"indistinguishable", result.indistinguishable}};
-  if (result.extended && result.final_fit) {
-    json extended{{"held_out_rmse", result.extended->held_out_rmse},
-                  {"fit_percent", result.extended_fit_percent},
-                  {"parameters", parametersOf(result.final_fit->model)},
-                  {"stddevs", standardDeviations(*result.final_fit)}};
-    addNumbers(result.final_fit->model, extended);
+             {"selected", found.selected},
+             {"indistinguishable", found.indistinguishable}};
+  if (found.extended) {
+    json extended{{"held_out_rmse", found.extended->held_out_rmse},
+                  {"fit_percent", found.extended_fit_percent},
+                  {"parameters", parametersOf(found.final_fit->model)},
+                  {"fitted_to_all_samples", found.final_fit->all_samples},
+                  {"stddevs", standardDeviations(*found.final_fit)}};
+    addNumbers(found.final_fit->model, extended);
     whole["extended"] = extended;
   }
   return whole;

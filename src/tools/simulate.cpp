@@ -1,11 +1,7 @@
-#include <rosbag/bag.h>
-
 #include <array>
-#include <memory>
-#include <stdexcept>
 
 #include "../ros/drive_messages.h"
-#include "../ros/whole_file.h"
+#include "../ros/whole_bag.h"
 #include "command.h"
 #include "interruption.h"
 #include "option_sources.h"
@@ -20,39 +16,24 @@ namespace po = boost::program_options;
 /// Options that have a flag of their own, besides --set NAME=VALUE.
 constexpr std::array kFlags{"scenario", "vehicle", "seed", "duration", "rate"};
 
-void writeDrive(const SimulatorOptions& options, rosbag::Bag& bag) {
+void writeBag(const SimulatorOptions& options, const std::string& path) {
+  const Interruption interruption;
+  WholeBag bag(path);
   DriveMessageSource drive(options, fromSeconds(options.publishing.start_time));
   Progress progress("simulating", options.drive.duration);
-  bag.setCompression(rosbag::compression::LZ4);
   while (const std::optional<DriveMessages> messages = drive.next()) {
-    const ros::Time recorded = std::max(messages->time, ros::TIME_MIN);  // a bag cannot hold time 0
-    if (messages->sprung) bag.write("/sprung/imu", recorded, *messages->sprung);
-    if (messages->unsprung) bag.write("/unsprung/imu", recorded, *messages->unsprung);
-    if (messages->road) bag.write("/road/imu", recorded, *messages->road);
-    bag.write("/simulator/truth", recorded, messages->truth);
+    if (messages->sprung) bag.write("/sprung/imu", messages->time, *messages->sprung);
+    if (messages->unsprung) bag.write("/unsprung/imu", messages->time, *messages->unsprung);
+    if (messages->road) bag.write("/road/imu", messages->time, *messages->road);
+    bag.write("/simulator/truth", messages->time, messages->truth);
     progress.update(messages->time.toSec() - options.publishing.start_time);
     Interruption::check();
   }
-  bag.close();
-}
-
-void writeBag(const SimulatorOptions& options, const std::string& path) {
-  const Interruption interruption;
-  WholeFile file(path);
-  auto bag = std::make_unique<rosbag::Bag>();
-  try {
-    bag->open(file.temporaryPath(), rosbag::bagmode::Write);
-    writeDrive(options, *bag);
-  } catch (const rosbag::BagException& error) {
-    // Its destructor would write on, throw, and so end the program.
-    [[maybe_unused]] static const rosbag::Bag* const abandoned = bag.release();
-    throw std::runtime_error(path + ": cannot be written: " + error.what());
-  }
-  file.commit();
+  bag.commit();
 }
 
 std::string describeRates(const SimulationOptions& drive) {
-  const double sprung = drive.sprung_rate.value_or(drive.rate), unsprung = drive.unsprung_rate.value_or(drive.rate);
+  const double sprung = drive.rate, unsprung = drive.unsprung_rate.value_or(drive.rate);
   char text[80];
   if (sprung == unsprung)
     std::snprintf(text, sizeof text, "%g Hz", sprung);

@@ -1,5 +1,6 @@
 #include "survey.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
@@ -9,25 +10,24 @@
 #include "../ros/conversions.h"
 #include "bag_samples.h"
 #include "errors.h"
-#include "suspension_health_monitor/identification/horizon_survey.h"
-#include "suspension_health_monitor/signal/continuity.h"
-#include "suspension_health_monitor/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/signal/continuity.h"
+#include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/signal/stream_resampler.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-// Long enough to meet some road, short enough to cost little beside the reading itself.
-constexpr std::size_t kSurveyedMessages = 100000;
+constexpr std::size_t kMessagesForPeriod = 20000;  // the mean of n spacings has 1/n of a stamp's jitter
 constexpr std::size_t kFewestSpacings = 10;
 constexpr std::size_t kCheckedMessages = 2000;
-constexpr double kMostFilled = 10.0;  // samples made of one reading
+constexpr double kMostFilled = StreamResampler::kSlowest;  // samples made of one reading
 
-// The horizon is surveyed in blocks: the first ones all, later ones now and then, so that a drive that begins parked is
-// surveyed on the road, too. What stands still weighs little beside what moves.
-constexpr std::size_t kBlock = 5000;  // [samples]
-constexpr std::size_t kFirstBlocks = 8;
-constexpr std::size_t kEveryBlock = 8;
-constexpr int kLongestHorizon = 4096;  // [samples]
+// A horizon is proposed from stretches that lie all over the drive: it may begin parked, or be rough for a short time
+// only. What stands still weighs little beside what moves. So many samples are surveyed at least, and this share.
+constexpr double kFewestSurveyed = 40000.0;
+constexpr double kSurveyedShare = 0.2;
+constexpr int kStretch = 2500;  // [samples]
 
 // @param count  messages to look at; becomes those that there were.
 std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
@@ -41,7 +41,7 @@ std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
 }
 
 double measurePeriod(const ImuBags& bags) {
-  std::size_t count = kSurveyedMessages;
+  std::size_t count = kMessagesForPeriod;
   const std::optional<double> period = stampSpacing(bags, count);
   if (!period)
     throw TooLittleError("the sample period cannot be measured: fewer than " + std::to_string(kFewestSpacings) +
@@ -56,35 +56,60 @@ double measurePeriod(const ImuBags& bags) {
   return *period;
 }
 
-int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
-  const double period = *options.monitor.sample_period;
-  HorizonSurvey survey(period, integrationRule(options.monitor.integration_rule), kLongestHorizon);
+/// What a survey came across.
+struct Surveyed {
+  StrutSensors sensors;
+  std::size_t samples, gaps;
+  RejectCounts too_soon;
+};
+
+Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOptions& options) {
+  const Stamp period = fromSeconds(*options.monitor.sample_period);
   std::optional<Stamp> last;
   std::size_t count = 0, gaps = 0;
   RejectCounts too_soon;
-  const StrutSensors sensors = readSamples(bags, options, [&](const CornerSample& sample) {
-    const Continuity follows = last ? continuity(sample.stamp - *last, fromSeconds(period)) : Continuity::kGap;
-    const std::size_t block = count++ / kBlock;
-    const bool surveyed = block < kFirstBlocks || block % kEveryBlock == 0;
-    const bool continues = follows == Continuity::kContinues || follows == Continuity::kTooSoon;
-    if (!continues && last) ++gaps;
-    if (follows == Continuity::kTooSoon) too_soon.add(RejectReason::kTooSoon);
-    if (!continues || !surveyed) survey.interrupt();
-    if (follows != Continuity::kTooSoon && surveyed) survey.push(sample);
+  StrutSensors sensors = readSamples(bags, options, [&](const CornerSample& sample) {
+    const Continuity follows = last ? continuity(sample.stamp - *last, period) : Continuity::kContinues;
+    const bool is_extra = follows == Continuity::kTooSoon;
+    if (follows == Continuity::kGap || follows == Continuity::kClockJumped) {
+      ++gaps;
+      survey.interrupt();
+    }
+    if (is_extra) too_soon.add(RejectReason::kTooSoon);
+    if (!is_extra) survey.push(sample);
     last = sample.stamp;
+    ++count;
     return true;
   });
-  const std::optional<int> samples = survey.horizonSamples();
-  if (!samples) {
-    RejectCounts rejected = sensors.rejected();
-    rejected += too_soon;
-    throw TooLittleError(
-        "no horizon can be proposed: " +
-        std::string(count == 0 ? "no pair of readings can be used" : "the data show no damped spring") + " (samples " +
-        std::to_string(count) + ", gaps " + std::to_string(gaps) + describeRejected(rejected) + ")" +
-        describeSuspicions(*sensors.grid(), survey.dampingIsNegative()) +
-        "; give integration_horizon (--set integration_horizon=0.6) to look at them all the same");
+  return {std::move(sensors), count, gaps, too_soon};
+}
+
+[[noreturn]] void refuse(const Surveyed& surveyed, const HorizonSurvey& survey) {
+  RejectCounts rejected = surveyed.sensors.rejected();
+  rejected += surveyed.too_soon;
+  throw TooLittleError(
+      "no horizon can be proposed: " +
+      std::string(surveyed.samples == 0 ? "no pair of readings can be used" : "the data show no damped spring") +
+      " (samples " + std::to_string(surveyed.samples) + ", gaps " + std::to_string(surveyed.gaps) +
+      describeRejected(rejected) + ")" + describeSuspicions(*surveyed.sensors.grid(), survey.dampingIsNegative()) +
+      "; give integration_horizon (--set integration_horizon=0.6) to look at them all the same");
+}
+
+int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
+  const double period = *options.monitor.sample_period;
+  const IntegrationRule rule = options.monitor.estimators.rule;
+  const double share = std::max(kSurveyedShare, kFewestSurveyed * period / duration(bags));
+  if (share < 1.0) {
+    ImuBags stretches = bags;
+    stretches.stretches = ImuBags::Stretches{kStretch * period / share, kStretch * period};
+    HorizonSurvey survey(period, rule, kStretch / 2);
+    readInto(survey, stretches, options);
+    if (survey.isClear()) return *survey.horizonSamples();
   }
+  HorizonSurvey survey(period, rule, HorizonSurvey::kLongest);
+  const Surveyed surveyed = readInto(survey, bags, options);
+  const std::optional<int> samples = survey.horizonSamples();
+  if (!samples) refuse(surveyed, survey);
   return *samples;
 }
 
@@ -93,8 +118,8 @@ int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
 void measureOpenSettings(const ImuBags& bags, PipelineOptions& options) {
   MonitorOptions& monitor = options.monitor;
   if (!monitor.sample_period) monitor.sample_period = measurePeriod(bags);
-  if (!monitor.integration_horizon && !monitor.horizon_samples)
-    monitor.horizon_samples = proposeHorizonSamples(bags, options);
+  if (!monitor.integration_horizon)
+    monitor.integration_horizon = proposeHorizonSamples(bags, options) * *monitor.sample_period;
 }
 
 void requireFittingPeriod(const ImuBags& bags, double sample_period) {

@@ -5,8 +5,9 @@
 
 namespace suspension_health_monitor {
 
-/// Measures what the settings leave open from the beginning of the bags: sample_period as the median spacing of the
-/// stamps, the horizon by matching the filter to the strut (horizon_survey.h).
+/// Measures what the settings leave open: sample_period as the mean spacing of the stamps at the beginning of the bags,
+/// the horizon by matching the filter to the strut (horizon_survey.h) in stretches that lie all over the drive, or, if
+/// these show no strut clearly, in all of it.
 /// @throws InputError  as readImuMessages().  @throws TooLittleError  if there are too few messages to tell.
 void measureOpenSettings(const ImuBags& bags, PipelineOptions& options);
 

@@ -15,7 +15,7 @@ def find_browser():
     for name in NAMES:
         path = shutil.which(name)
         if path and subprocess.run([path, "--version"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                   timeout=60).returncode == 0:
+                                   timeout=600).returncode == 0:
             return path
     return None
 
@@ -78,7 +78,7 @@ def shown(path, profile):
                "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}", "--window-size=1200,900",
                "--virtual-time-budget=5000", "--dump-dom", path.as_uri()]
     environment = {**os.environ, "HOME": str(profile)}
-    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", timeout=120,
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", timeout=600,
                             env=environment)
     assert result.returncode == 0, result.stderr
     return Reader(result.stdout).root

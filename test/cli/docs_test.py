@@ -32,7 +32,7 @@ def files():
 @functools.lru_cache(maxsize=None)
 def words_of_code():
     """All words of the code and its interfaces."""
-    folders = ("include", "src", "msg", "config", "launch", "fuzz")
+    folders = ("include", "src", "msg", "config", "launch", "fuzz", "test/core/reference")
     text = " ".join((REPOSITORY / file).read_text(errors="replace") for file in files() if file.startswith(folders))
     return set(re.findall(r"\w+", text))
 

@@ -12,7 +12,7 @@ import imu_bag
 
 README = imu_bag.REPOSITORY / "README.md"
 EFFECT = "quadratic_damping"
-TIMEOUT = 60.0  # [s]
+TIMEOUT = 600.0  # [s] of wall time, after which it counts as stuck
 
 
 def commands():
@@ -53,7 +53,7 @@ class Terminal:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGINT)
             try:
-                process.wait(20.0)
+                process.wait(TIMEOUT)
             except subprocess.TimeoutExpired:
                 os.killpg(process.pid, signal.SIGKILL)
                 process.wait()

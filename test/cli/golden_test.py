@@ -26,8 +26,8 @@ RECORDINGS = {
 }
 
 
-def identify(program, folder, *bags):
-    program.succeed("identify", *bags, "--config", conftest.PAPER_SETTINGS, "--csv", folder / "estimates.csv")
+def identify(program, folder, *bags, settings=("--config", conftest.PAPER_SETTINGS)):
+    program.succeed("identify", *bags, *settings, "--csv", folder / "estimates.csv")
     return imu_bag.read_table(folder / "estimates.csv")
 
 
@@ -42,6 +42,13 @@ def test_estimates_equal_the_reference(program, tmp_path, recording):
         np.testing.assert_allclose(estimates[ls], REFERENCE[ls], rtol=1e-6)
         np.testing.assert_allclose(estimates[la][:SENSITIVE], REFERENCE[la][:SENSITIVE], rtol=1e-6)
         np.testing.assert_allclose(estimates[la], REFERENCE[la], rtol=2e-4)
+
+
+def test_the_preset_alone_is_the_paper(program, tmp_path, paper_bag):
+    file, one_line = (identify(program, tmp_path, paper_bag, **settings)
+                      for settings in ({}, {"settings": ("--set", "preset=paper")}))
+    for name, column in file.items():
+        np.testing.assert_array_equal(one_line[name], column)
 
 
 def test_a_drive_in_two_bags_is_one_drive(program, tmp_path, paper_bag):

@@ -6,7 +6,9 @@ import re
 import subprocess
 
 import pytest
+import yaml
 
+import conftest
 import imu_bag
 
 OPTIONS = {
@@ -50,15 +52,27 @@ def test_readme_has_the_table_of_settings(program, of):
     assert found.group(1) == program.succeed("options", of)
 
 
-@pytest.mark.parametrize("of", ["monitor", "simulator"])
-def test_table_of_settings_is_complete(program, of):
-    """Every name of the shipped file is in the table, and every table line is whole."""
+def flat(settings, prefix=""):
+    """Values by full name: nested names joined with '/'."""
+    return {full: value for name, nested in settings.items()
+            for full, value in (flat(nested, f"{prefix}{name}/") if isinstance(nested, dict)
+                                else {prefix + name: nested}).items()}
+
+
+@pytest.mark.parametrize("of, count", [("monitor", 35), ("simulator", 30)])
+def test_shipped_settings_show_every_option_with_its_default(program, of, count):
+    """The commented ones, too; of those that have no default an example."""
     lines = program.succeed("options", of).splitlines()
-    assert all(re.fullmatch(r"\|( [^|]+ \|){5}", line) for line in lines if not line.startswith("|---"))
-    names = {line.split("`")[1] for line in lines[2:]}
-    settings = (imu_bag.REPOSITORY / f"config/{of}.yaml").read_text()
-    written = set(re.findall(r"^(?:# )? *(\w+): +[^#\s]", settings, re.MULTILINE))
-    assert written == {name.split("/")[-1] for name in names}
+    assert all(re.fullmatch(r"\|( [^|]+ \|){5}", line) for line in lines if line)
+    rows = [[cell.strip(" `") for cell in line.split("|")[1:-1]] for line in lines if line.startswith("| `")]
+    defaults = {row[0]: row[1] for row in rows}
+    assert len(rows) == len(defaults) == count
+    text = (imu_bag.REPOSITORY / f"config/{of}.yaml").read_text()
+    shown = flat(yaml.safe_load(re.sub(r"^# ( *\w+:( .*)?)$", r"\1", text, flags=re.MULTILINE)))
+    assert set(shown) == set(defaults)
+    for name, value in shown.items():
+        if defaults[name] not in ("none", '""'):
+            assert value == yaml.safe_load(defaults[name]), name
 
 
 def test_identify_prints_a_table(program, paper_bag):
@@ -83,8 +97,9 @@ def test_identify_prints_a_table(program, paper_bag):
 
 def test_mass_gives_damping_and_stiffness(program, paper_bag):
     text = program.succeed("identify", paper_bag, "--set", "sprung_mass=50")
-    b1, b0 = map(float, re.search(r"LA: damping/mass (\S+) .*stiffness/mass (\S+) ", text).groups())
-    damping, stiffness = map(float, re.search(r"damping (\S+) N s/m, stiffness (\S+) N/m\s*\Z", text).groups())
+    b1, b0 = map(float, re.search(r"^LA: damping/mass (\S+) .*stiffness/mass (\S+) ", text, re.MULTILINE).groups())
+    damping, stiffness = map(float, re.search(r"^LA: .*\n +damping (\S+) N s/m, stiffness (\S+) N/m$", text,
+                                              re.MULTILINE).groups())
     assert (damping, stiffness) == pytest.approx((50 * b1, 50 * b0), rel=1e-3)
 
 
@@ -101,7 +116,7 @@ def test_progress_bar_only_on_a_terminal(program, paper_bag):
     except OSError as error:
         pytest.skip(f"no terminal to be had on this machine: {error}")
     result = subprocess.run([program.path, "identify", paper_bag], stdout=subprocess.PIPE, stderr=device,
-                            encoding="utf-8", timeout=60, check=True)
+                            encoding="utf-8", timeout=conftest.HANGS, check=True)
     os.close(device)
     shown = os.read(terminal, 100_000).decode()
     os.close(terminal)

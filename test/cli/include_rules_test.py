@@ -9,11 +9,15 @@ ROS_INCLUDE = re.compile(
     r'^\s*#\s*include\s*[<"](ros|nodelet|pluginlib|rosbag|rosgraph_msgs|sensor_msgs|std_msgs|std_srvs'
     r'|diagnostic_\w+|message_filters|tf2\w*|dynamic_reconfigure)/')
 GENERATED_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]suspension_health_monitor/[A-Z]\w*\.h[>"]')
-SIMULATION_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]suspension_health_monitor/simulation/')
+SIMULATION_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]suspension_health_monitor/(?:internal/)?simulation/')
+
+INTERNAL_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"](suspension_health_monitor/internal/|\.\.|(?:\w+/)*src/)')
+REFERENCE_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"](?:.*/)?reference/')
 
 LIBRARY = sorted(path for folder in ("include", "src/core") for path in (REPOSITORY / folder).rglob("*")
                  if path.suffix in (".h", ".cpp"))
 ESTIMATION = [path for path in LIBRARY if "simulation" not in path.parent.parts]
+PUBLIC = sorted([*(REPOSITORY / "include" / "suspension_health_monitor").glob("*.h"), *(REPOSITORY / "example").glob("*")])
 
 
 def name(path):
@@ -33,7 +37,8 @@ def test_library_has_files():
     ("#include <ros/ros.h>", ROS_INCLUDE), ('#include "sensor_msgs/Imu.h"', ROS_INCLUDE),
     ("# include <tf2_ros/buffer.h>", ROS_INCLUDE), ("#include <diagnostic_updater/publisher.h>", ROS_INCLUDE),
     ("#include <suspension_health_monitor/SuspensionHealth.h>", GENERATED_INCLUDE),
-    ('#include "suspension_health_monitor/simulation/road.h"', SIMULATION_INCLUDE)])
+    ('#include "suspension_health_monitor/internal/simulation/road.h"', SIMULATION_INCLUDE),
+    ('#include "suspension_health_monitor/internal/pi.h"', INTERNAL_INCLUDE)])
 def test_rule_sees_a_forbidden_include(include, pattern):
     assert pattern.match(include)
 
@@ -47,3 +52,18 @@ def test_library_includes_no_ros(path):
 @pytest.mark.parametrize("path", ESTIMATION, ids=name)
 def test_estimation_includes_no_simulation(path):
     assert includes(path, SIMULATION_INCLUDE) == []
+
+
+@pytest.mark.parametrize("path", PUBLIC, ids=name)
+def test_public_headers_and_examples_include_nothing_internal(path):
+    assert includes(path, INTERNAL_INCLUDE) == []
+
+
+def test_few_headers_are_public():
+    assert len([path for path in PUBLIC if path.suffix == ".h"]) <= 12
+
+
+@pytest.mark.parametrize("path", sorted(path for folder in ("include", "src") for path in (REPOSITORY / folder).rglob("*")
+                                        if path.suffix in (".h", ".cpp")), ids=name)
+def test_product_includes_no_reference(path):
+    assert includes(path, REFERENCE_INCLUDE) == []

@@ -1,11 +1,14 @@
 """kill -9 at any moment: every file is as it was or whole, and the next run clears away what was left."""
 import fcntl
+import os
 import random
 import signal
 import subprocess
 import time
 
 import pytest
+
+import conftest
 
 KILLS = 20
 OLD = b"what was there before"
@@ -28,26 +31,33 @@ def commands(bag):
     }
 
 
+def start(program, arguments, folder):
+    return subprocess.Popen([program.path, *map(str, arguments)], cwd=folder, stdout=subprocess.DEVNULL,
+                            stderr=subprocess.DEVNULL)
+
+
 @pytest.mark.parametrize("name", ["simulate", "identify", "compare"])
 def test_killed_at_any_moment(program, long_bag, tmp_path, name):
     arguments, files = commands(long_bag)[name]
     whole = {}
     for round_number in range(2):  # the first reads the program from the disk
-        begin = time.monotonic()
-        subprocess.run([program.path, *map(str, arguments)], cwd=tmp_path, check=True, capture_output=True, timeout=60)
-        duration = time.monotonic() - begin
+        process = start(program, arguments, tmp_path)
+        _, process.returncode, used = os.wait4(process.pid, 0)
+        assert process.returncode == 0
+        duration = used.ru_utime + used.ru_stime
         whole[round_number] = {file: (tmp_path / file).read_bytes() for file in files}
     assert whole[0] == whole[1], "a run can be repeated: otherwise this test could not tell"
     chance = random.Random(SEED)
     unfinished = kills = 0
-    for _ in range(4 * KILLS):  # a run may be faster than the one that was measured
+    for _ in range(4 * KILLS):  # a run may take less than the one that was measured
         if kills == KILLS:
             break
         for file in files:
             (tmp_path / file).write_bytes(OLD)
-        process = subprocess.Popen([program.path, *map(str, arguments)], cwd=tmp_path, stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
-        time.sleep(chance.uniform(0.0, 1.1 * duration))
+        process = start(program, arguments, tmp_path)
+        moment = chance.uniform(0.0, 1.1 * duration)
+        while process.poll() is None and conftest.processor_time(process.pid) < moment:
+            time.sleep(0.0005)
         process.kill()
         kills += process.wait() == -signal.SIGKILL
         for file in files:
@@ -57,7 +67,7 @@ def test_killed_at_any_moment(program, long_bag, tmp_path, name):
         unfinished += bool(parts)
     assert kills == KILLS
     assert unfinished > 0, "some were killed while writing"
-    subprocess.run([program.path, *map(str, arguments)], cwd=tmp_path, check=True, capture_output=True, timeout=60)
+    assert start(program, arguments, tmp_path).wait(conftest.HANGS) == 0
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == whole[0]
 
 

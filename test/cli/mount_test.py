@@ -11,7 +11,7 @@ from tf2_msgs.msg import TFMessage
 import imu_bag
 
 PITCH = math.radians(5.0)
-SETTINGS = ["--set", "sample_period=0.02", "--set", "horizon_samples=30", "--set", "target_frame=strut"]
+SETTINGS = ["--set", "sample_period=0.02", "--set", "integration_horizon=0.6", "--set", "target_frame=strut"]
 
 
 @pytest.fixture(scope="module")

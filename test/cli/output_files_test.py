@@ -82,7 +82,7 @@ def test_what_is_no_regular_file_is_written_to_and_stays(program, paper_bag, tmp
     reader = threading.Thread(target=lambda: received.append(pipe.read_text()), daemon=True)
     reader.start()
     program.succeed("identify", paper_bag, *SETTINGS, "--json", pipe)
-    reader.join(timeout=10)
+    reader.join(timeout=conftest.HANGS)
     assert json.loads(received[0])["rows"] == 1941
     assert stat.S_ISFIFO(pipe.stat().st_mode)
 

@@ -17,7 +17,7 @@ DRIVES = {
     "rover": ["--scenario", "iso_road", "--vehicle", "rover", "--rate", "100", "--duration", "60"],
     "ugv": ["--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100", "--duration", "60"],
     "paper on a road": ["--scenario", "iso_road", "--vehicle", "paper", "--rate", "100", "--duration", "60"],
-    "other strut": ["--set", "damping_to_mass=1.5", "--set", "stiffness_to_mass=40", "--set", "damping_ramp=false"],
+    "other strut": ["--set", "damping_to_mass=1.5", "--set", "stiffness_to_mass=40", "--set", "damping_end_fraction=1"],
 }
 NAMES = ("damping_to_mass", "stiffness_to_mass")
 

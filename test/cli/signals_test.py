@@ -6,6 +6,8 @@ import time
 
 import pytest
 
+import conftest
+
 LONG = ["simulate", "--duration", "100000", "-o", "out.bag"]
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 
@@ -27,12 +29,16 @@ def start(program, folder, arguments, **handling):
                             preexec_fn=set_up)
 
 
-def wait_for_growth(folder):
-    """Until the unfinished bag is being written."""
-    deadline = time.monotonic() + 20.0
-    while not any(path.stat().st_size > 100_000 for path in folder.iterdir() if ".part" in path.name):
+def wait_until(predicate):
+    deadline = time.monotonic() + conftest.HANGS
+    while not predicate():
         assert time.monotonic() < deadline
-        time.sleep(0.01)
+        time.sleep(0.002)
+
+
+def wait_for_growth(folder, size=100_000):
+    """Until the unfinished bag has that many bytes."""
+    wait_until(lambda: any(path.stat().st_size > size for path in folder.iterdir() if ".part" in path.name))
 
 
 @pytest.mark.parametrize("number", SIGNALS)
@@ -41,7 +47,7 @@ def test_a_signal_leaves_no_part_of_the_bag(program, tmp_path, number):
     process = start(program, tmp_path, LONG)
     wait_for_growth(tmp_path)
     process.send_signal(number)
-    assert process.communicate(timeout=20) == (b"", b"")
+    assert process.communicate(timeout=conftest.HANGS) == (b"", b"")
     assert process.returncode == -number, "whoever waits for it sees what ended it"
     assert [path.name for path in tmp_path.iterdir()] == ["out.bag"]
     assert (tmp_path / "out.bag").read_bytes() == b"here first"
@@ -51,25 +57,23 @@ def test_a_signal_that_the_parent_ignores_stays_ignored(program, tmp_path):
     process = start(program, tmp_path, LONG, SIGHUP=signal.SIG_IGN)
     wait_for_growth(tmp_path)
     process.send_signal(signal.SIGHUP)
-    time.sleep(0.3)
+    wait_for_growth(tmp_path, 2 * sum(path.stat().st_size for path in tmp_path.iterdir()))
     assert process.poll() is None
     process.terminate()
-    assert process.wait(timeout=20) == -signal.SIGTERM
+    assert process.wait(timeout=conftest.HANGS) == -signal.SIGTERM
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("command, files, after", [  # [s]: while it reads the bag, and while it computes
+@pytest.mark.parametrize("command, files, after", [  # [s] of processor time: while it reads the bag, while it computes
     ("identify", ["--csv", "rows.csv", "--json", "result.json"], 0.0),
     ("compare", ["--json", "result.json"], 0.0), ("compare", ["--json", "result.json"], 0.5),
     ("diagnose", ["--json", "result.json", "-o", "model.yaml"], 0.5)])
 def test_a_signal_leaves_no_part_of_the_results(program, long_bag, tmp_path, command, files, after):
     process = start(program, tmp_path, [command, long_bag, *files])
-    deadline = time.monotonic() + 20.0
-    while not os.listdir(tmp_path):
-        assert time.monotonic() < deadline
-        time.sleep(0.002)
-    time.sleep(after)
+    wait_until(lambda: os.listdir(tmp_path))
+    begun = conftest.processor_time(process.pid)
+    wait_until(lambda: conftest.processor_time(process.pid) >= begun + after)
     process.terminate()
-    assert process.communicate(timeout=20) == (b"", b"")
+    assert process.communicate(timeout=conftest.HANGS) == (b"", b"")
     assert process.returncode == -signal.SIGTERM
     assert os.listdir(tmp_path) == []

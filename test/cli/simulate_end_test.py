@@ -24,7 +24,7 @@ def test_unknown_effect_lists_faults_of_the_reading_too(program, tmp_path):
 
 
 def test_two_rates_are_both_told(program, tmp_path):
-    told = program.succeed("simulate", "--duration", "2", "--set", "sprung_rate=1000", "--set", "unsprung_rate=50",
+    told = program.succeed("simulate", "--duration", "2", "--rate", "1000", "--set", "unsprung_rate=50",
                            "-o", tmp_path / "drive.bag")
     assert "1000 Hz (sprung) and 50 Hz (unsprung)" in told
     assert "at 40 Hz," in program.succeed("simulate", "--duration", "2", "--rate", "40", "-o", tmp_path / "drive.bag")

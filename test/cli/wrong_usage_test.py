@@ -25,12 +25,16 @@ SETTINGS = {
     "forgetting_factor=": ["forgetting_factor", '""', "in [0.9, 1]"],
     "forgetting_factor= 0.98": ["forgetting_factor", '" 0.98"', "in [0.9, 1]"],
     "forgeting_factor=0.98": ["forgeting_factor", "nearest", " forgetting_factor"],
-    "small_divisor=0.1": ["small_divisor", "nearest", "la/small_divisor"],
-    "horizon_samples=20.5": ["horizon_samples", "20.5", "whole number"],
-    "horizon_samples=3": ["horizon_samples", "3", "at least 5", "cubic"],
-    "horizon_samples=99999999999": ["horizon_samples", "whole number in [1, 100000]"],
-    "integration_rule=romberg": ["integration_rule", "romberg", "trapezoid, simpson, cubic"],
-    "la/scale_covariance_at_start=maybe": ["la/scale_covariance_at_start", "maybe", "true or false"],
+    "payload_range=0.1": ["payload_range", "nearest", "health/payload_range"],
+    "publish_every=20.5": ["publish_every", "20.5", "whole number"],
+    "publish_every=99999999999": ["publish_every", "whole number in [1, 1000000]"],
+    "integration_horizon=0.06": ["integration_horizon = 0.06", "at least 5", "cubic"],
+    "integration_horizon=9999": ["integration_horizon = 9999", "100000 samples"],
+    "preset=papers": ["preset", "papers", "default, paper"],
+    "tyre/enabled=maybe": ["tyre/enabled", "maybe", "true or false"],
+    "integration_rule=trapezoid": ["integration_rule is no option any more", "preset: paper"],
+    "la/small_divisor=0.1": ["la/small_divisor is no option any more", "preset: paper"],
+    "horizon_samples=30": ["horizon_samples is no option any more", "integration_horizon"],
     "sprung_axis=up": ["sprung_axis", "up", "x, y, z, -x, -y, -z"],
     "sample_period=0": ["sample_period = 0", "in [1e-05, 10]"],
     "forgetting_factor": ["--set forgetting_factor", "NAME=VALUE"],
@@ -38,7 +42,7 @@ SETTINGS = {
 }
 
 FILES = {
-    "unknown name": ("la:\n  start_row: 10\n", ["la/start_row", "nearest", "la/start_rows"]),
+    "unknown name": ("health:\n  confirm_tme: 1\n", ["health/confirm_tme", "nearest", "health/confirm_time"]),
     "below a node's name": ("monitor:\n  forgetting_factor: 0.98\n", ["monitor/forgetting_factor", "nearest"]),
     "out of range": ("forgetting_factor: 1.2\n", ["forgetting_factor = ", "1.2", "in [0.9, 1]"]),
     "wrong type": ("forgetting_factor: high\n", ["forgetting_factor", "high", "in [0.9, 1]"]),
@@ -51,10 +55,10 @@ FILES = {
     "only a word": ("hello\n", ["{file}: line 1", "plain value"]),
     "given twice": ("forgetting_factor: 0.98\nforgetting_factor: 0.97\n", ["{file}: line 2", "forgetting_factor",
                                                                           "twice"]),
-    "unclosed bracket": ("sample_period: 0.02\nla: [1, 2\n", ["{file}: line 3"]),
-    "tab": ("la:\n\tstart_rows: 10\n", ["{file}: line 2"]),
+    "unclosed bracket": ("sample_period: 0.02\nhealth: [1, 2\n", ["{file}: line 3"]),
+    "tab": ("health:\n\tconfirm_time: 1\n", ["{file}: line 2"]),
     "tree for a name": ("? {a: b}\n: 1\n", ["{file}: line 1"]),
-    "alias within itself": ("la: &la\n  more: *la\n", ["{file}: line 1", "plain value"]),
+    "alias within itself": ("health: &health\n  more: *health\n", ["{file}: line 1", "plain value"]),
     "binary": ("\x01\x02\x7f\x00", ["{file}: line 1"]),
 }
 
@@ -84,10 +88,10 @@ def test_settings_file_that_cannot_be_read(program, paper_bag, tmp_path, name): 
     program.refuse(2, ["identify", paper_bag, "--config", path], [path, "must be a YAML file"], tmp_path)
 
 
-def test_settings_that_exclude_each_other(program, paper_bag, tmp_path):
-    arguments = ["--set", "horizon_samples=30", "--set", "integration_horizon=0.6"]
-    program.refuse(2, ["identify", paper_bag, *arguments], ["horizon_samples", "integration_horizon", "one of them"],
-                   tmp_path)
+def test_settings_that_contradict_each_other(program, paper_bag, tmp_path):
+    arguments = ["--set", "forgetting_factor=0.98", "--set", "fastest_forgetting_factor=0.99"]
+    program.refuse(2, ["identify", paper_bag, *arguments],
+                   ["fastest_forgetting_factor", "at most forgetting_factor"], tmp_path)
 
 
 def test_set_overrides_the_file(program, paper_bag):
@@ -104,7 +108,8 @@ def test_set_overrides_the_file(program, paper_bag):
     (["--duration", "-1"], ["duration = -1", "in [0, "]),
     (["--rate", "0"], ["rate = 0", "in [0.1, "]),
     (["--rate", "fast"], ["rate", "fast", "in [0.1, "]),
-    (["--set", "ramp_end=10"], ["ramp_end = 10", "ramp_start = 40"]),
+    (["--set", "stamp_jitter=0.02"], ["stamp_jitter = 0.02", "one sample period"]),
+    (["--set", "damping_ramp=false"], ["damping_ramp is no option any more", "damping_end_fraction: 1"]),
     (["--set", "sede=1"], ["sede", "nearest", "seed"]),
     (["stray.bag"], ["positional"])])
 def test_wrong_simulation(program, tmp_path, arguments, words):

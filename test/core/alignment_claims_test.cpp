@@ -5,7 +5,7 @@
 
 #include "mean_estimates.h"
 #include "simulated_drive.h"
-#include "suspension_health_monitor/signal/alignment.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
 
 namespace suspension_health_monitor {
 namespace {

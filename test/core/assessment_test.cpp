@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/assessment.h"
+#include "suspension_health_monitor/internal/health/assessment.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ StrutEstimate estimate(double damping_change, double stiffness_change) {
   StrutEstimate result;
   result.damping_to_mass = kNominalB1 * (1.0 + damping_change);
   result.stiffness_to_mass = kNominalB0 * (1.0 + stiffness_change);
-  result.valid = true;
+  result.doubt = EstimateDoubt::kNone;
   return result;
 }
 
@@ -99,7 +99,7 @@ TEST(HealthAssessment, JudgesOnlyWhatHasANominalValue) {
 
 TEST(HealthAssessment, EstimateThatIsNotValidIsStaleNeverHealthy) {
   StrutEstimate invalid = estimate(0.0, 0.0);
-  invalid.valid = false;
+  invalid.doubt = EstimateDoubt::kNoRows;
   const HealthReport report = judged(invalid);
   EXPECT_EQ(report.level, HealthLevel::kStale);
   EXPECT_FALSE(report.damping_change);
@@ -277,7 +277,7 @@ TEST(HealthReport, KeepsItsReasonsAsLongAsItsLevel) {
   update(assessment, at(0.0), estimate(-0.4, 0.0));
   update(assessment, at(1.0), estimate(-0.4, 0.0));
   StrutEstimate invalid = estimate(-0.4, 0.0);
-  invalid.valid = false;
+  invalid.doubt = EstimateDoubt::kNoRows;
   const HealthReport unconfirmed = update(assessment, at(1.5), invalid);
   EXPECT_EQ(unconfirmed.level, HealthLevel::kError);
   EXPECT_EQ(unconfirmed.damping_level, HealthLevel::kError);

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/bandlimited_interpolator.h"
+#include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {

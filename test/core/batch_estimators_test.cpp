@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/batch_estimators.h"
+#include "reference/batch_estimators.h"
 
 #include <gtest/gtest.h>
 

@@ -5,22 +5,21 @@
 #include <vector>
 
 #include "simulated_drive.h"
-#include "suspension_health_monitor/discrepancy/body_motion.h"
+#include "suspension_health_monitor/internal/record/untestable_effects.h"
 
 namespace suspension_health_monitor {
 
 /// A simulated drive with all that its body's IMU measures.
 inline DriveRecord recordedWithBody(const SimulationOptions& options) {
-  DriveRecord record(1.0 / options.rate, 1);
-  std::vector<BodyMotion> motion;
+  Drive record_drive;
   for (const DriveSample& sample : drive(options)) {
-    if (sample.sprung) motion.push_back({sample.sprung->stamp, sample.body.acceleration, sample.body.angular_rate});
+    if (sample.sprung)
+      record_drive.body.push_back({sample.sprung->stamp, sample.body.acceleration, sample.body.angular_rate});
     if (sample.sprung && sample.unsprung)
-      record.push({sample.sprung->stamp, sample.sprung->acceleration, sample.unsprung->acceleration});
+      record_drive.samples.push_back(
+          {sample.sprung->stamp, sample.sprung->acceleration, sample.unsprung->acceleration});
   }
-  record.finish();
-  record.addBodyMotion(motion);
-  return record;
+  return DriveRecord(record_drive, 1.0 / options.rate);
 }
 
 inline ActiveMeasurementEffect fault(const std::string& name, std::vector<double> coefficients) {
@@ -35,7 +34,7 @@ inline SimulationOptions swayingDrive(const std::string& vehicle, int seed, doub
   options.rate = 100.0;
   options.duration = duration;
   options.noise = 0.03;
-  options.noise_distribution = "gaussian";
+  options.gaussian_noise = true;
   options.seed = seed;
   options.body_acceleration = 1.0;
   options.body_rate = 0.1;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/road.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/simulation/road.h"
 
 namespace suspension_health_monitor {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simulated_drive.h"
-#include "suspension_health_monitor/signal/stream_gate.h"
+#include "suspension_health_monitor/internal/signal/stream_gate.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/continuity.h"
+#include "suspension_health_monitor/internal/signal/continuity.h"
 
 #include <gtest/gtest.h>
 

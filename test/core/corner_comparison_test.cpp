@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/corner_comparison.h"
+#include "suspension_health_monitor/internal/health/corner_comparison.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/discrepancy/drive_record.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +18,12 @@ double wheel(int k) { return 9.81 + 2.0 * std::sin(kOmega * k * kPeriod); }
 
 // Pushes samples 0 .. 399 as `change` leaves them; false leaves one out.
 DriveRecord changed(const std::function<bool(int, CornerSample&)>& change) {
-  DriveRecord record(kPeriod, 1);
+  Drive record_drive;
   for (int k = 0; k < 400; ++k) {
     CornerSample sample{std::chrono::hours(400000) + fromSeconds(k * kPeriod), body(k), wheel(k)};
-    if (change(k, sample)) record.push(sample);
+    if (change(k, sample)) record_drive.samples.push_back(sample);
   }
-  record.finish();
+  const DriveRecord record(record_drive, kPeriod, 1);
   return record;
 }
 
@@ -101,19 +101,19 @@ TEST(DriveRecord, AFewEqualReadingsAreNotStuckOnes) {
 }
 
 TEST(DriveRecord, RepeatedStampsAreIgnored) {
-  DriveRecord record(kPeriod, 1);
+  Drive record_drive;
   for (int k = 0; k < 400; ++k)
     for (int again = 0; again < 2; ++again)
-      record.push({fromSeconds(k * kPeriod), again ? 100.0 : body(k), again ? 100.0 : wheel(k)});
-  record.finish();
+      record_drive.samples.push_back({fromSeconds(k * kPeriod), again ? 100.0 : body(k), again ? 100.0 : wheel(k)});
+  const DriveRecord record(record_drive, kPeriod, 1);
   ASSERT_EQ(record.segments().size(), 1u);
   EXPECT_EQ(record.numSamples(), 400u - 2 * kEnd);
   EXPECT_NEAR(record.gravity(), 9.81, 1e-12);
 }
 
 TEST(DriveRecord, AnEmptyDriveHasNoSegments) {
-  DriveRecord record(kPeriod, 1);
-  record.finish();
+  Drive record_drive;
+  const DriveRecord record(record_drive, kPeriod, 1);
   EXPECT_TRUE(record.segments().empty());
   EXPECT_EQ(record.numSamples(), 0u);
 }

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "simulated_drive.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -74,7 +74,7 @@ Eigen::Vector2d steadyAccelerations(const RoadDrivenForm& form, double t) {
 TEST(DriveSimulator, SettlesToTheTransferFunctionOfTheFullForm) {
   SimulationOptions options = scenario("paper_clean", 40.0);
   options.vehicle = "ugv";
-  options.damping_ramp = false;
+  options.damping_end_fraction = 1.0;
   const RoadDrivenForm form = roadDrivenForm(makeScenario(options).vehicle);
   for (const DriveSample& sample : drive(options)) {
     const double t = toSeconds(sample.stamp);
@@ -117,12 +117,11 @@ TEST(DriveSimulator, DampingFallsAlongThePapersRamp) {
   }
 }
 
-TEST(DriveSimulator, DampingRampFalseIsAHealthyDrive) {
+TEST(DriveSimulator, DampingOfWhichAllIsLeftIsAHealthyDrive) {
   for (const char* name : {"paper_saturation", "iso_road"}) {
     SimulationOptions options = scenario(name, 110.0);
     options.rate = 1.0;
-    options.damping_end_fraction = 0.5;
-    options.damping_ramp = false;
+    options.damping_end_fraction = 1.0;
     EXPECT_DOUBLE_EQ(drive(options).back().truth.damping_to_mass, makeScenario(options).vehicle.dampingToMass());
   }
 }
@@ -261,7 +260,7 @@ TEST(DriveSimulator, SameOptionsGiveIdenticalSamples) {
   SimulationOptions options = scenario("iso_road", 5.0);
   options.dropout = 0.1;
   options.stamp_jitter = 0.005;
-  options.noise_distribution = "gaussian";
+  options.gaussian_noise = true;
   const std::vector<DriveSample> first = drive(options), second = drive(options);
   for (std::size_t i = 0; i < first.size(); ++i) {
     ASSERT_EQ(first[i].sprung.has_value(), second[i].sprung.has_value());

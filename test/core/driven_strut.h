@@ -7,8 +7,8 @@
 #include <random>
 
 #include "monitor_settings.h"
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 

@@ -2,7 +2,8 @@
 
 #include "monitor_settings.h"
 #include "paper_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -19,7 +20,7 @@ TEST(EarlySpike, IsKeptOut) {
       if (sample) monitor.addSample(*sample);
     }
     EXPECT_EQ(grid.rejected().count(RejectReason::kAbsurd), 1u);
-    EXPECT_TRUE(monitor.report().ls.valid && monitor.report().la.valid);
+    EXPECT_TRUE(monitor.report().ls.valid() && monitor.report().la.valid());
     EXPECT_NEAR(monitor.report().la.damping_to_mass, kPaperB1, 0.3);
   }
 }

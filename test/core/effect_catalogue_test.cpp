@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/model/effect_catalogue.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/model/measurement_effect.h"
+#include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -10,23 +10,24 @@
 
 #include "hidden_effect.h"
 #include "recorded_drive.h"
-#include "suspension_health_monitor/discrepancy/effect_search.h"
-#include "suspension_health_monitor/discrepancy/search_drives.h"
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/random_stream.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/search/effect_search.h"
+#include "suspension_health_monitor/internal/simulation/random_stream.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 SearchResult search(const DriveRecord& record, const StrutModel& start) {
-  const auto result = EffectSearch(builtInEffects(), {}).run({&record}, start);
+  SearchResult result = searchEffects({&record}, start);
   EXPECT_TRUE(result);
-  return result.value_or(SearchResult{});
+  result.suggested_drive = suggestionOf(result);
+  return result;
 }
 
 SearchResult searchInPaperDrive(const std::string& name, bool ramp, int seed) {
   SimulationOptions options = scenario(name, 120.0);
-  options.damping_ramp = ramp;
+  if (!ramp) options.damping_end_fraction = 1.0;
   options.seed = seed;
   return search(recorded(options), {2.7, 14.5, {}, {}});
 }
@@ -62,13 +63,13 @@ class Oscillator {
 
   DriveRecord drive(double noise) {
     RandomStream random(4, RandomPurpose::kSprungNoise);
-    DriveRecord record(kPeriod, 2);
+    Drive record_drive;
     for (int k = 0; k < 6000; ++k) {
-      record.push({fromSeconds(k * kPeriod), force(travel_, rate_) + noise * random.gaussian(),
-                   wheel(k * kPeriod) + noise * random.gaussian()});
+      record_drive.samples.push_back({fromSeconds(k * kPeriod), force(travel_, rate_) + noise * random.gaussian(),
+                                      wheel(k * kPeriod) + noise * random.gaussian()});
       for (int i = 0; i < kSteps; ++i) step(k * kPeriod + i * kStep);
     }
-    record.finish();
+    const DriveRecord record(record_drive, kPeriod, 2);
     return record;
   }
 
@@ -126,7 +127,7 @@ TEST(EffectSearch, ReconsidersTheFirstEffectWhenTheSecondIsKnown) {
 
 TEST(EffectSearch, SuggestsTheDriveThatSeparatesAGroup) {
   SimulationOptions options = scenario("paper_clean", 120.0);
-  options.damping_ramp = false;
+  options.damping_end_fraction = 1.0;
   options.hidden = {hiddenEffect(options, "quadratic_damping", {}, 0.15)};
   const SearchResult result = search(recorded(options), {3.3, 13.0, {}, {}});
   ASSERT_EQ(result.indistinguishable.size(), 1u);
@@ -150,7 +151,9 @@ TEST(EffectSearch, EndsWithWhatItsProgressThrows) {
   const auto stop = [&](double) {
     if (++calls == 3) throw std::runtime_error("enough");
   };
-  EXPECT_THROW(EffectSearch(builtInEffects(), {2, 3}).run({&record}, {6.6, 60.0, {}, {}}, stop), std::runtime_error);
+  DiagnoseOptions options;
+  options.progress = stop;
+  EXPECT_THROW(searchEffects({&record}, {6.6, 60.0, {}, {}}, options), std::runtime_error);
   EXPECT_EQ(calls, 3);
 }
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/discrepancy/effect_search.h"
+#include "suspension_health_monitor/internal/search/effect_search.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,8 @@
 
 #include "hidden_effect.h"
 #include "recorded_drive.h"
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -20,10 +21,11 @@ using Names = std::vector<std::string>;
 constexpr double kNoise = 0.03;  // [m/s^2]
 
 SearchResult search(const DriveRecord& record) {
-  const EffectSearch search(builtInEffects(), {2, 2});
-  std::optional<SearchResult> result = search.run({&record}, {6.6, 60.0, {}, {}});
+  DiagnoseOptions options;
+  options.most_effects = 2;
+  SearchResult result = searchEffects({&record}, {6.6, 60.0, {}, {}}, options);
   EXPECT_TRUE(result);
-  return result.value_or(SearchResult{});
+  return result;
 }
 
 SimulationOptions driveWith(const std::vector<std::pair<std::string, std::vector<double>>>& hidden) {
@@ -38,7 +40,7 @@ SimulationOptions driveWith(const std::vector<std::pair<std::string, std::vector
 double leftByTheTruth(const SimulationOptions& options, const DriveRecord& record) {
   const DriveSegment& segment = record.segments().front();
   std::vector<double> predicted;
-  EXPECT_TRUE(runFree({6.0, 63.3, options.hidden, {}}, record, segment, {}, predicted));
+  EXPECT_TRUE(runFree({6.0, 63.3, options.hidden, {}}, segment, {}, predicted));
   constexpr std::size_t settled = 300;
   double square = 0.0;
   for (std::size_t k = settled; k < predicted.size(); ++k) square += std::pow(segment.sprung[k] - predicted[k], 2);
@@ -97,13 +99,13 @@ TEST(EffectSearch, TwoEffectsAreBothNamed) {
 
 // A force on the body from elsewhere, an engine or a load that swings: the body moves by it, the wheel hardly.
 SearchResult searchWithDisturbance(double (*force)(double t)) {
-  DriveRecord record(0.01, 1);
+  Drive record_drive;
   const double b1 = 6.0, b0 = 63.3;
   double z = 0.0, z_rate = 0.0;  // what the force adds to the body's motion: z'' = F/M - b1 z' - b0 z
   for (const DriveSample& sample : drive(carDrive(120.0, kNoise))) {
     const double t = toSeconds(sample.stamp);
     const double added = force(t) - b1 * z_rate - b0 * z;
-    record.push({sample.stamp, sample.sprung->acceleration + added, sample.unsprung->acceleration});
+    record_drive.samples.push_back({sample.stamp, sample.sprung->acceleration + added, sample.unsprung->acceleration});
     constexpr int steps = 50;
     for (int i = 0; i < steps; ++i) {
       const double h = 0.01 / steps;
@@ -111,7 +113,7 @@ SearchResult searchWithDisturbance(double (*force)(double t)) {
       z += h * z_rate;
     }
   }
-  record.finish();
+  const DriveRecord record(record_drive, 0.01, 1);
   return search(record);
 }
 
@@ -131,15 +133,38 @@ TEST(EffectSearch, AForceFromElsewhereStaysUnexplained) {
 TEST(EffectSearch, ReportsItsProgressUpToOne) {
   const DriveRecord record = recorded(carDrive(30.0, kNoise));
   std::vector<double> shares;
-  const EffectSearch search({{findEffect(forceEffects(), "asymmetric_spring")}, {}}, {1, 1});
-  ASSERT_TRUE(search.run({&record}, {6.6, 60.0, {}, {}}, [&](double share) { shares.push_back(share); }));
+  DiagnoseOptions options;
+  options.candidates = {{findEffect(forceEffects(), "asymmetric_spring")}, {}};
+  options.threads = options.most_effects = 1;
+  options.progress = [&](double share) { shares.push_back(share); };
+  ASSERT_TRUE(searchEffects({&record}, {6.6, 60.0, {}, {}}, options));
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_EQ(shares.back(), 1.0);
 }
 
 TEST(EffectSearch, ADriveThatIsTooShortHasNoResult) {
   const DriveRecord record = recorded(carDrive(3.0, kNoise));
-  EXPECT_FALSE(EffectSearch({forceEffects(), {}}, {1, 1}).run({&record}, {6.0, 63.3, {}, {}}));
+  EXPECT_EQ(searchEffects({&record}, {6.0, 63.3, {}, {}}).shortcoming, Shortcoming::kTooShort);
+  EXPECT_EQ(searchEffects({}, {6.0, 63.3, {}, {}}).shortcoming, Shortcoming::kTooShort);
+}
+
+// The law breaks once the choice is made, as a solver may at the edge of stability.
+TEST(EffectSearch, AFinalFitThatFailsLeavesTheModelThatWasJudged) {
+  const DriveRecord record = recorded(driveWith({{"asymmetric_spring", {}}}));
+  bool broken = false;
+  DiagnoseOptions options;
+  options.candidates = {
+      {{"breaking_spring", "c |d|", "1/s^2", "a spring",
+        [&](const StrutMotion& m, const double*) { return broken ? std::nan("") : std::abs(m.travel); }}},
+      {}};
+  options.threads = options.most_effects = 1;
+  options.progress = [&](double share) { broken = share > 0.1 + 0.85 - 1e-9; };
+  const SearchResult result = searchEffects({&record}, {6.6, 60.0, {}, {}}, options);
+  ASSERT_EQ(result.verdict, Verdict::kEffectFound);
+  ASSERT_TRUE(result.extended && result.final_fit);
+  EXPECT_FALSE(result.final_fit->all_samples);
+  EXPECT_EQ(result.final_fit->model.effects.at(0).coefficient, result.extended->model.effects.at(0).coefficient);
+  EXPECT_EQ(result.final_fit->stddev.size(), numbersOf(result.model()).size());
 }
 
 }  // namespace

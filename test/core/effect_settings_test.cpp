@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/model/effect_settings.h"
+#include "suspension_health_monitor/internal/model/effect_settings.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
 namespace {

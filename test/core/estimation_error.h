@@ -7,7 +7,7 @@
 
 #include "monitor_settings.h"
 #include "simulated_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/identification/excitation.h"
+#include "suspension_health_monitor/internal/identification/excitation.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -37,19 +37,19 @@ class NoiseRows {
   std::normal_distribution<double> normal_;
 };
 
-constexpr int kLooksOfTenBlocks = 80;  // of 64 rows
+constexpr int kRowsOfTenBlocks = 640;
 
 /// What is judged of noise rows, from a drive on that is worth being held.
 struct Judged {
   explicit Judged(bool knows = true, double unit = 1.0) : rows(unit) {
     if (knows) excitation.know({kB1, kB0});
-    look(1.0, 1.0, 0.5);
+    add(1.0, 1.0, 0.5);
   }
 
-  void judge(const RegressionRow& row) { excitation.judge(row, rows.theta); }
+  void add(const RegressionRow& row) { excitation.add(row, rows.theta, row.output); }
 
-  void look(double damping, double stiffness, double error) {
-    for (int k = 0; k < kLooksOfTenBlocks; ++k) judge(rows.next(damping, stiffness, error));
+  void add(double damping, double stiffness, double error) {
+    for (int k = 0; k < kRowsOfTenBlocks; ++k) add(rows.next(damping, stiffness, error));
   }
 
   std::pair<bool, bool> excited() const {
@@ -66,34 +66,34 @@ TEST(Excitation, OfEachParameterIsJudgedByItsOwnRegressor) {
   for (const double unit : {1.0, 1e-6, 1e6}) {
     Judged judged(true, unit);
     EXPECT_EQ(judged.excited(), both) << unit;
-    judged.look(0.01, 1.0, 0.5);
+    judged.add(0.01, 1.0, 0.5);
     EXPECT_EQ(judged.excited(), std::pair(false, true)) << unit;
-    judged.look(1.0, 0.01, 0.5);
+    judged.add(1.0, 0.01, 0.5);
     EXPECT_EQ(judged.excited(), std::pair(true, false)) << unit;
-    judged.look(0.01, 0.01, 0.5);
+    judged.add(0.01, 0.01, 0.5);
     EXPECT_EQ(judged.excited(), std::pair(false, false)) << unit;
-    judged.look(1.0, 1.0, 0.5);
+    judged.add(1.0, 1.0, 0.5);
     EXPECT_EQ(judged.excited(), both) << unit;
   }
 }
 
 TEST(Excitation, ASmootherRoadThatIsClearOfTheNoiseGoesOnCounting) {
   Judged judged;
-  judged.look(0.01, 0.01, 0.003);
+  judged.add(0.01, 0.01, 0.003);
   EXPECT_EQ(judged.excited(), std::pair(true, true));
 }
 
 TEST(Excitation, ARoughRoadThatTheModelDoesNotExplainGoesOnCounting) {
   Judged judged;
-  judged.look(1.0, 1.0, 1000.0);
+  judged.add(1.0, 1.0, 1000.0);
   EXPECT_EQ(judged.excited(), std::pair(true, true));
 }
 
 // A spike is no road: what comes after it is measured by what was before.
 TEST(Excitation, AnOutlierDoesNotMakeTheDriveLookParked) {
   Judged judged;
-  judged.judge(judged.rows.next(1e9, 1e9, 0.5));
-  judged.look(1.0, 1.0, 100.0);  // thrown off
+  judged.add(judged.rows.next(1e9, 1e9, 0.5));
+  judged.add(1.0, 1.0, 100.0);  // thrown off
   EXPECT_EQ(judged.excited(), std::pair(true, true));
 }
 
@@ -114,17 +114,17 @@ class FilteredNoise {
   }
 
   /// @param i  0: phi_1, 1: phi_0, 2: psi.
-  /// @return autocorrelation of it so many looks apart.
-  double correlation(int i, int looks) const { return covariance(i, looks) / covariance(i, 0); }
+  /// @return autocorrelation of it so many rows apart.
+  double correlation(int i, int rows) const { return covariance(i, rows) / covariance(i, 0); }
 
-  /// @return standard deviation of a mean of squares of this many looks, relative.
-  double deviation(int i, int looks) const {
+  /// @return standard deviation of a mean of squares of this many rows, relative.
+  double deviation(int i, int rows) const {
     double squares = 1.0;
     for (int apart = 1; apart < kFar; ++apart) squares += 2.0 * std::pow(correlation(i, apart), 2);
-    return std::sqrt(2.0 * squares / looks);
+    return std::sqrt(2.0 * squares / rows);
   }
 
-  /// @return share of the variance that is left when the running mean with this factor a look is subtracted.
+  /// @return share of the variance that is left when the running mean with this factor a row is subtracted.
   double withoutMean(int i, double factor) const {
     double sum = 0.0;  // of the correlations with what the mean remembers
     for (int apart = 1; apart < kFar; ++apart) sum += std::pow(factor, apart) * correlation(i, apart);
@@ -132,11 +132,11 @@ class FilteredNoise {
   }
 
  private:
-  static constexpr int kSamples = 400, kFar = 16;  // looks; rows further apart have nothing in common
+  static constexpr int kSamples = 400, kFar = 128;  // rows further apart have nothing in common
 
-  double covariance(int i, int looks) const {
+  double covariance(int i, int rows) const {
     double sum = 0.0;
-    const auto apart = static_cast<std::size_t>(looks * Excitation::kJudgeEvery);
+    const auto apart = static_cast<std::size_t>(rows);
     for (const auto& response : responses_)
       for (std::size_t k = 0; k + apart < response.size(); ++k) sum += response[k][i] * response[k + apart][i];
     return sum;
@@ -146,10 +146,10 @@ class FilteredNoise {
 };
 
 // Two sensors of equal noise, through the filter itself, in blocks long enough for chance to be small. Of phi_0 the
-// mean of 50 looks is left out. The bounds are four standard deviations of the ratio of two mean squares.
+// mean of 400 rows is left out. The bounds are four standard deviations of the ratio of two mean squares.
 TEST(Excitation, OfWhiteNoiseIsOne) {
   const IntegralFilterOptions options{30, 0.02, IntegrationRule::kCubic};
-  constexpr int kBlock = 6400, kBlocks = 100, kLooks = kBlock * kBlocks / Excitation::kJudgeEvery;
+  constexpr int kBlock = 6400, kBlocks = 100, kRows = kBlock * kBlocks;
   const FilteredNoise filtered(options);
   for (const double unit : {1.0, 1e-5}) {
     SuspensionRegression regression(options);
@@ -160,31 +160,30 @@ TEST(Excitation, OfWhiteNoiseIsOne) {
     double damping = 0.0, stiffness = 0.0;
     for (int k = 0; k < kBlock * kBlocks; ++k) {
       const RegressionRow* row = regression.push({Stamp{}, noise(engine), noise(engine)});
-      if (row == nullptr || k % Excitation::kJudgeEvery != 0) continue;
-      if (!excitation.judge(*row, Eigen::Vector2d(kB1, kB0))) continue;
+      if (row == nullptr || !excitation.add(*row, Eigen::Vector2d(kB1, kB0), 0.0)) continue;
       damping += excitation.excitation(kDampingToMass) / kBlocks;
       stiffness += excitation.excitation(kStiffnessToMass) / kBlocks;
     }
-    const double of_psi = filtered.deviation(2, kLooks);
-    EXPECT_NEAR(damping, 1.0, 4.0 * std::hypot(filtered.deviation(0, kLooks), of_psi)) << unit;
-    EXPECT_NEAR(stiffness, filtered.withoutMean(1, 0.98), 4.0 * std::hypot(filtered.deviation(1, kLooks), of_psi))
+    const double of_psi = filtered.deviation(2, kRows);
+    EXPECT_NEAR(damping, 1.0, 4.0 * std::hypot(filtered.deviation(0, kRows), of_psi)) << unit;
+    EXPECT_NEAR(stiffness, filtered.withoutMean(1, 0.9975), 4.0 * std::hypot(filtered.deviation(1, kRows), of_psi))
         << unit;
   }
 }
 
 TEST(Excitation, BeforeThereIsAnythingToHoldEverythingCounts) {
   Judged judged(false);
-  judged.look(1e-6, 1e-6, 0.5);
+  judged.add(1e-6, 1e-6, 0.5);
   EXPECT_EQ(judged.excited(), std::pair(true, true));
 }
 
 // The constant is what two sensors of different offset leave in the twice integrated difference.
 TEST(Excitation, AConstantOfTheStiffnessRegressorIsNone) {
   Judged judged;
-  for (int k = 0; k < 5 * kLooksOfTenBlocks; ++k) {
+  for (int k = 0; k < 5 * kRowsOfTenBlocks; ++k) {
     RegressionRow row = judged.rows.next(0.001, 0.001, 0.5);
     row.regressor[kStiffnessToMass] += 5.0;
-    judged.judge(row);
+    judged.add(row);
   }
   EXPECT_EQ(judged.excited(), std::pair(false, false));
 }

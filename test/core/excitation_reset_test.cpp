@@ -3,12 +3,12 @@
 
 #include <utility>
 
-#include "suspension_health_monitor/identification/excitation.h"
+#include "suspension_health_monitor/internal/identification/excitation.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kLooks = 8;        // of a block of 64 rows
+constexpr int kRows = 64;        // of a block
 constexpr double kNoise = 0.05;  // of psi, where a drive has sqrt(199)
 const std::pair kBoth(true, true), kNone(false, false), kStiffnessOnly(false, true);
 
@@ -17,27 +17,27 @@ class ExactBlocks {
  public:
   ExactBlocks() { excitation.know(Eigen::Vector2d(3.0, 13.8)); }
 
-  /// @return whether the last of these looks has closed a block.
-  bool look(double size, double error, int looks = kLooks) {
+  /// @return whether the last of these rows has closed a block.
+  bool add(double size, double error, int rows = kRows) {
     bool closed = false;
-    for (int k = 0; k < looks; ++k) {
+    for (int k = 0; k < rows; ++k) {
       RegressionRow row;
       row.regressor = Eigen::Vector2d(k & 1 ? -size : size, k & 2 ? -size : size);
       row.output = row.regressor.dot(theta) + (k & 4 ? -error : error);
-      closed = excitation.judge(row, theta);
+      closed = excitation.add(row, theta, row.output);
     }
     return closed;
   }
 
-  void drive(int blocks) { look(1.0, kNoise, blocks * kLooks); }
-  void rest() { look(1e-3 * kNoise, kNoise); }
+  void drive(int blocks) { add(1.0, kNoise, blocks * kRows); }
+  void rest() { add(1e-3 * kNoise, kNoise); }
   void driveToRest() {
     drive(4);
     for (int block = 0; block < 2; ++block) rest();
   }
 
-  /// The model explains 199 of 199 + 5^2 of psi^2: enough of three blocks on, by 1 - 1e-8^(2 / (8 n - 2)).
-  void driveBadly() { look(1.0, 5.0); }
+  /// The model explains 199 of 199 + 5^2 of psi^2.
+  void driveBadly() { add(1.0, 5.0); }
 
   std::pair<bool, bool> excited() const {
     return {excitation.excited(kDampingToMass), excitation.excited(kStiffnessToMass)};
@@ -59,26 +59,26 @@ void expectReleaseByBlocksSinceNow(ExactBlocks& rows, int stiffness_after, const
 TEST(ExcitationReset, HoldsOnWithTheBlocksAfterItOnly) {
   ExactBlocks without;
   without.driveToRest();
-  expectReleaseByBlocksSinceNow(without, 3, "no gap");
+  expectReleaseByBlocksSinceNow(without, 1, "no gap");
   for (const double error : {5.0, 50.0})  // as those that come, or such as no strut explains
     for (int before = 0; before <= 6; ++before) {
       ExactBlocks rows;
       rows.driveToRest();
-      for (int block = 0; block < before; ++block) rows.look(1.0, error);
+      for (int block = 0; block < before; ++block) rows.add(1.0, error);
       const auto excited = rows.excited();
       rows.excitation.reset();
       EXPECT_EQ(rows.excited(), excited) << error << ' ' << before;
-      expectReleaseByBlocksSinceNow(rows, excited == kNone ? 3 : 0, "gap");
+      expectReleaseByBlocksSinceNow(rows, excited == kNone ? 1 : 0, "gap");
     }
 }
 
 TEST(ExcitationReset, BeginsABlockAnew) {
   ExactBlocks rows;
   rows.driveToRest();
-  rows.look(1.0, kNoise, kLooks - 1);  // one more would release both
+  rows.add(1.0, kNoise, kRows - 1);  // one more would release both
   rows.excitation.reset();
-  EXPECT_FALSE(rows.look(1e-3 * kNoise, kNoise, kLooks - 1));
-  EXPECT_TRUE(rows.look(1e-3 * kNoise, kNoise, 1));
+  EXPECT_FALSE(rows.add(1e-3 * kNoise, kNoise, kRows - 1));
+  EXPECT_TRUE(rows.add(1e-3 * kNoise, kNoise, 1));
   EXPECT_EQ(rows.excited(), kNone);
 }
 

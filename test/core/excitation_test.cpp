@@ -1,5 +1,5 @@
 // Forgetting only where there is information: parked for a day, driven on.
-#include "suspension_health_monitor/identification/excitation.h"
+#include "suspension_health_monitor/internal/identification/excitation.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "driven_strut.h"
 #include "monitor_settings.h"
 #include "paper_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -26,7 +26,7 @@ void expectTrue(const StrutEstimate& estimate) {
 TEST(Excitation, OfAParkedVehicleIsNoneSoThatADayChangesNothingAndTheNextDriveIsRightAtOnce) {
   DrivenStrut strut(liveOptions());
   strut.drive(2000, roadBetween(0.0, 1e9));
-  ASSERT_TRUE(strut.la().valid);
+  ASSERT_TRUE(strut.la().valid());
   strut.drive(500, roadBetween(-1e9, strut.time() + 3.0));  // it stops within 3 s and rests
   const StrutEstimate ls = strut.ls(), la = strut.la();
   EXPECT_EQ(la.doubt, EstimateDoubt::kNotExcited);
@@ -39,13 +39,13 @@ TEST(Excitation, OfAParkedVehicleIsNoneSoThatADayChangesNothingAndTheNextDriveIs
   EXPECT_NEAR(strut.ls().damping_to_mass, ls.damping_to_mass, ls.damping_to_mass_stddev);
   EXPECT_NEAR(strut.ls().stiffness_to_mass, ls.stiffness_to_mass, ls.stiffness_to_mass_stddev);
   EXPECT_LT(strut.la().damping_to_mass_stddev, 2.0 * la.damping_to_mass_stddev);
-  EXPECT_FALSE(strut.la().valid);
+  EXPECT_FALSE(strut.la().valid());
   const auto road = roadBetween(strut.time(), 1e9);
   for (int k = 0; k < 40; ++k) {  // 20 s
     strut.drive(25, road);
     expectTrue(strut.la());
   }
-  EXPECT_TRUE(strut.la().valid);
+  EXPECT_TRUE(strut.la().valid());
   EXPECT_EQ(strut.la().doubt, EstimateDoubt::kNone);
 }
 
@@ -56,7 +56,7 @@ TEST(Excitation, HoursAfterAStopOnThePapersRoadTheEstimatesAreWhatTheyWere) {
     const auto road = [wheel = brakedPaperRoad(57.0, brake)](double t) { return wheel(t).height; };
     strut.drive(static_cast<int>((57.0 + brake) / kPeriod), road);
     const StrutEstimate stop = strut.la();
-    ASSERT_TRUE(stop.valid) << brake;
+    ASSERT_TRUE(stop.valid()) << brake;
     strut.drive(500, road);
     EXPECT_EQ(strut.la().doubt, EstimateDoubt::kNotExcited) << brake;
     constexpr int kHours = 1000000;
@@ -107,7 +107,7 @@ TEST(Excitation, StopAndGoEveryTenSeconds) {
     const auto road = roadBetween(start, start + 10.0);
     strut.drive(250, road);
     strut.drive(150, road);
-    EXPECT_TRUE(strut.la().valid) << k;
+    EXPECT_TRUE(strut.la().valid()) << k;
     expectTrue(strut.la());
     strut.drive(100, road);
   }
@@ -116,7 +116,7 @@ TEST(Excitation, StopAndGoEveryTenSeconds) {
 // A drive of the strut b1, b0 on the paper's road, `smoother` times as smooth.
 void follow(SuspensionMonitor& monitor, Stamp& stamp, double b1, double b0, double smoother, int& held) {
   SimulationOptions options;
-  options.damping_ramp = false;
+  options.damping_end_fraction = 1.0;
   options.damping_to_mass = b1;
   options.stiffness_to_mass = b0;
   options.duration = 60.0;
@@ -164,7 +164,7 @@ TEST(Excitation, OfALightlyDampedStrutOnASmootherRoadGoesOn) {
 
 TEST(Excitation, ExponentialForgettingLosesTheParkedStrut) {
   MonitorOptions options = liveOptions();
-  options.forgetting_rule = "exponential";
+  options.estimators.forgets_unexcited = true;
   DrivenStrut strut(options);
   strut.drive(2000, roadBetween(0.0, 1e9));
   strut.drive(500, roadBetween(-1e9, strut.time() + 3.0));

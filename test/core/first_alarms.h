@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "paper_free_run.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
-#include "suspension_health_monitor/model/free_run.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/model/free_run.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/model/free_run.h"
+#include "suspension_health_monitor/internal/model/free_run.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "paper_free_run.h"
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {

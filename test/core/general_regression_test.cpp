@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/general_regression.h"
+#include "reference/general_regression.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "paper_drive.h"
 #include "random_rows.h"
-#include "suspension_health_monitor/identification/batch_estimators.h"
+#include "reference/batch_estimators.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -8,7 +8,7 @@
 #include "first_alarms.h"
 #include "monitor_settings.h"
 #include "paper_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -30,7 +30,8 @@ HealthReport healthAfter(const std::vector<CornerSample>& drive, const MonitorOp
 // 1 % of a parameter that falls by 0.55 % a second moves the time by 2 s: doc/health.md has more drives. Of
 // paper_outliers a second without readings ends a second before the warning is due: 5 s of readings are 6 s there.
 TEST(Health, WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp) {
-  for (const auto& [scenario, warn_within] : {std::pair("paper_clean", 5.0), std::pair("paper_outliers", 6.0)})
+  for (const auto& [scenario, warn_within] : {std::pair("paper_clean", 5.0), std::pair("paper_outliers", 6.0)}) {
+    double earlier = 0.0;  // [s], of the early notice before the warning
     for (int seed = 1; seed <= 15; ++seed) {
       SimulationOptions drive;
       drive.scenario = scenario;
@@ -39,9 +40,12 @@ TEST(Health, WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp) {
       ASSERT_TRUE(first.early && first.warn && first.error) << scenario << ' ' << seed;
       EXPECT_NEAR(*first.warn, 67.0, warn_within) << scenario << ' ' << seed;
       EXPECT_NEAR(*first.error, 94.0, 5.0) << scenario << ' ' << seed;
-      EXPECT_LT(*first.early, *first.warn) << scenario << ' ' << seed;
+      EXPECT_LE(*first.early, *first.warn) << scenario << ' ' << seed;
       EXPECT_GT(*first.early, 40.0) << scenario << ' ' << seed;
+      earlier += *first.warn - *first.early;
     }
+    EXPECT_GT(earlier / 15, 4.0) << scenario;
+  }
 }
 
 // With the paper's settings a standard deviation of the change is up to 4 %, twice the hysteresis. Once in 30 drives is
@@ -151,7 +155,7 @@ TEST(Health, DoesNotLearnAStrutThatIsWearingOut) {
 
 TEST(Health, TellsPayloadFromWear) {
   SimulationOptions loaded;
-  loaded.damping_ramp = false;
+  loaded.damping_end_fraction = 1.0;
   loaded.duration = 60.0;
   loaded.damping_to_mass = kPaperB1 / 1.3;
   loaded.stiffness_to_mass = kPaperB0 / 1.3;

@@ -4,10 +4,10 @@
 #include <limits>
 #include <random>
 
-#include "suspension_health_monitor/health/baseline.h"
-#include "suspension_health_monitor/health/early_warning.h"
-#include "suspension_health_monitor/health/followed_parameter.h"
-#include "suspension_health_monitor/health/strut_change.h"
+#include "suspension_health_monitor/internal/health/baseline.h"
+#include "suspension_health_monitor/internal/health/early_warning.h"
+#include "suspension_health_monitor/internal/health/followed_parameter.h"
+#include "suspension_health_monitor/internal/health/strut_change.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -148,7 +148,7 @@ StrutEstimate estimate(double b1, double b0) {
   result.stiffness_to_mass = b0;
   result.damping_to_mass_stddev = 0.02;
   result.stiffness_to_mass_stddev = 0.1;
-  result.valid = true;
+  result.doubt = EstimateDoubt::kNone;
   return result;
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "paper_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 
@@ -22,7 +22,7 @@ DayCounts healthyDay(const MonitorOptions& options, double hours, unsigned seed,
   constexpr double kSampling = 0.02;
   SimulationOptions drive;
   drive.scenario = "paper_saturation";
-  drive.damping_ramp = false;
+  drive.damping_end_fraction = 1.0;
   drive.noise = 0.0;
   drive.duration = 120.0;
   const std::vector<CornerSample> clean = simulate(drive);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simulated_drive.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
 
@@ -33,7 +33,7 @@ inline SimulationOptions carDrive(double duration, double noise, int seed = 1) {
   options.vehicle = "golden_car";
   options.rate = 100.0;
   options.noise = noise;
-  options.noise_distribution = "gaussian";
+  options.gaussian_noise = true;
   options.seed = seed;
   return options;
 }

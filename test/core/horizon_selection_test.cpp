@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "paper_drive.h"
-#include "suspension_health_monitor/identification/linear_integral_filter.h"
-#include "suspension_health_monitor/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,9 +1,11 @@
-#include "suspension_health_monitor/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/identification/horizon_survey.h"
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "paper_drive.h"
-#include "suspension_health_monitor/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -53,6 +55,31 @@ TEST(HorizonSurvey, GivesNothingBeforeItHasSeenAStrut) {
   EXPECT_FALSE(survey.horizonSamples());
   for (int k = 0; k < 1000; ++k) survey.push({k * std::chrono::milliseconds(20), 9.81, 9.81});  // parked
   EXPECT_FALSE(survey.horizonSamples());
+}
+
+TEST(HorizonSurvey, IsClearOnAStrutWhoseHorizonIsAmongThoseTried) {
+  HorizonSurvey survey(0.005, IntegrationRule::kCubic, 400), too_short(0.005, IntegrationRule::kCubic, 10);
+  EXPECT_FALSE(survey.isClear());
+  for (const CornerSample& sample : simulate(roadDrive())) {
+    survey.push(sample);
+    too_short.push(sample);
+  }
+  EXPECT_TRUE(survey.isClear());
+  EXPECT_FALSE(too_short.isClear());
+}
+
+// Parked, sensor noise alone may look like a strut.
+TEST(HorizonSurvey, IsNotClearOnNoise) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> noise(0.0, 0.024);
+    HorizonSurvey survey(0.005, IntegrationRule::kCubic, 400);
+    for (int k = 0; k < 5000; ++k) {
+      const double body = noise(engine), wheel = noise(engine);
+      survey.push({k * std::chrono::milliseconds(5), 9.81 + body, 9.81 + wheel});
+    }
+    EXPECT_FALSE(survey.isClear()) << seed;
+  }
 }
 
 // So small that squares vanish: parameters that are no numbers are passed over.

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "simulated_drive.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
 namespace {

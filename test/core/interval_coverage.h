@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/identification/horizon_survey.h"
-#include "suspension_health_monitor/simulation/drive_simulator.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
 
@@ -49,7 +49,7 @@ struct CleanDrive {
 
 inline CleanDrive cleanDrive(SimulationOptions options) {
   options.noise = 0.0;
-  options.damping_ramp = false;
+  options.damping_end_fraction = 1.0;
   DriveSimulator simulator(options);
   CleanDrive drive{{}, 1.0 / options.rate, 0.0, 0.0};
   while (const auto sample = simulator.next()) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "suspension_health_monitor/identification/regressor_noise.h"
-#include "suspension_health_monitor/identification/score_covariance.h"
+#include "suspension_health_monitor/internal/identification/regressor_noise.h"
+#include "suspension_health_monitor/internal/identification/score_covariance.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -23,7 +23,7 @@ TEST(IntervalCoverage, OfEstimatesAndTheirStandardDeviationsIs95Percent) {
     const int proposed = proposedHorizon(drive, 0.03);
     for (const double horizon : {0.6, 1.0, 1.6}) {
       MonitorOptions options;
-      options.horizon_samples = static_cast<int>(std::lround(horizon * proposed));
+      options.integration_horizon = horizon * proposed / simulation.rate;
       all += coverageOf(drive, 0.03, options, 12);
     }
   }
@@ -75,8 +75,8 @@ void expectSquaredTriangle(const RowWeight& weight, int wrong_in_a_thousand) {
     scores.add(row, truth, weight, row.output);
   }
   const double expected = (2.0 * kWindow * kWindow + 1.0) / (3.0 * kWindow);
-  // 1 / (1 + lambda) of it, since an estimate that forgets rests on sum lambda^2i; an eighth of the rows is looked at,
-  // in which windows of 10 rows repeat each other: about 400000 / 80 products, each as large as the sum itself.
+  // 1 / (1 + lambda) of it, since an estimate that forgets rests on sum lambda^2i. Of 400 000 rows there are 25 000
+  // blocks, the newest 10 000 of which count, each as large as the sum itself: 2 %.
   EXPECT_NEAR(2.0 * scores.inflation(0, 1e4), expected, 0.1 * expected);
 }
 
@@ -87,7 +87,7 @@ TEST(ScoreCovariance, RowsThatStandOutTeachNothing) {
   expectSquaredTriangle({1e-3, 1e3}, 10);  // weighted as LA's rows, but for a divisor that no residual exceeds
 }
 
-// Whatever the window and the stretches and rests that it makes.
+// Whatever the window.
 TEST(ScoreCovariance, GoesOnLearning) {
   for (int window = 0; window <= 20; ++window) {
     CorrelatedRows rows(10);
@@ -102,7 +102,7 @@ TEST(ScoreCovariance, GoesOnLearning) {
     };
     const double before = learn(20000);
     EXPECT_NE(learn(20000), before) << window;
-    scores.restart(1.0);
+    scores.restart();
     const double anew = learn(20000);
     EXPECT_NE(learn(20000), anew) << window;
   }

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/linear_integral_filter.h"
+#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "paper_drive.h"
-#include "suspension_health_monitor/identification/batch_estimators.h"
+#include "reference/batch_estimators.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -251,13 +251,6 @@ TEST(LinearIntegralFilter, RefusesWrongOptionsByNameAndValue) {
   EXPECT_NE(refusal({}, 0).find("n = 0"), std::string::npos);
   EXPECT_NE(refusal({}, 2, 3).find("r = 3"), std::string::npos);
   EXPECT_EQ(refusal({5, 0.02, IntegrationRule::kCubic}), "");
-}
-
-TEST(LinearIntegralFilter, KnowsItsRulesByName) {
-  EXPECT_EQ(integrationRule("trapezoid"), IntegrationRule::kTrapezoid);
-  EXPECT_EQ(integrationRule("simpson"), IntegrationRule::kSimpson);
-  EXPECT_EQ(integrationRule("cubic"), IntegrationRule::kCubic);
-  EXPECT_THROW(integrationRule("spline"), std::invalid_argument);
 }
 
 }  // namespace

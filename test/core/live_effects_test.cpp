@@ -9,7 +9,7 @@
 
 #include "hidden_effect.h"
 #include "paper_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -85,7 +85,7 @@ void expectRecovered(const HiddenDrive& drive) {
   addAll(monitor, drive.samples);
   const double truth = drive.effect.coefficient;
   for (const StrutEstimate& estimate : {monitor.report().ls, monitor.report().la}) {
-    EXPECT_TRUE(estimate.valid);
+    EXPECT_TRUE(estimate.valid());
     ASSERT_EQ(estimate.num_effects, 1u);
     EXPECT_NEAR(estimate.coefficients[0], truth, 0.12 * truth);
     EXPECT_GT(estimate.coefficient_stddevs[0], 0.001 * truth);
@@ -113,7 +113,7 @@ TEST(LiveEffects, DriftIsRecoveredWithALongMemory) {
   monitor.setEffects({drive.unknown()});
   addAll(monitor, drive.samples);
   const StrutEstimate& la = monitor.report().la;
-  EXPECT_TRUE(la.valid);
+  EXPECT_TRUE(la.valid());
   EXPECT_NEAR(la.coefficients[0], drive.effect.coefficient, 0.1 * drive.effect.coefficient);
   const double damping_at_the_end = kCarB1 + 120.0 * drive.effect.coefficient;
   EXPECT_NEAR(la.damping_to_mass + 120.0 * la.coefficients[0], damping_at_the_end, 0.03 * damping_at_the_end);
@@ -153,7 +153,7 @@ TEST(LiveEffects, EstimatesCarryOver) {
   EXPECT_EQ(after.stiffness_to_mass, before.stiffness_to_mass);
   EXPECT_NEAR(after.stiffness_to_mass_stddev / before.stiffness_to_mass_stddev, 1.0, 0.1);
   EXPECT_EQ(after.coefficients[0], 1.5);
-  EXPECT_FALSE(after.valid);
+  EXPECT_FALSE(after.valid());
 
   const Stamp again = drive.samples.back().stamp + std::chrono::milliseconds(10);
   addAll(monitor, drive.samples, again);
@@ -201,7 +201,7 @@ TEST(LiveEffects, GapEmptiesFilterAndFreeRunAndTheModelIsKept) {
   monitor.setEffects({drive.unknown()});
   addAll(monitor, drive.samples);
   const StrutEstimate before = monitor.report().la;
-  ASSERT_TRUE(before.valid);
+  ASSERT_TRUE(before.valid());
   const Stamp later = drive.samples.back().stamp + std::chrono::seconds(3);
   for (std::size_t k = 0; k < 1000; ++k) {
     CornerSample sample = drive.samples[k];
@@ -212,10 +212,10 @@ TEST(LiveEffects, GapEmptiesFilterAndFreeRunAndTheModelIsKept) {
     ASSERT_EQ(monitor.report().has_row && report != nullptr, k >= 2 * kDelay - 1 + 2 * kHorizon) << k;
     if (report == nullptr || report->has_row) continue;
     ASSERT_EQ(report->la.coefficients[0], before.coefficients[0]);
-    ASSERT_FALSE(report->la.valid);
+    ASSERT_FALSE(report->la.valid());
     ASSERT_FALSE(report->comparison.predicted);
   }
-  EXPECT_TRUE(monitor.report().la.valid);
+  EXPECT_TRUE(monitor.report().la.valid());
   EXPECT_EQ(monitor.input().gaps, 1u);
 }
 
@@ -234,7 +234,7 @@ TEST(LiveEffects, CentimetresForMetresChangeTheUnitsOnly) {
     centimetres.addSample(sample);
   }
   const MonitorReport &m = metres.report(), &cm = centimetres.report();
-  ASSERT_TRUE(m.la.valid && cm.la.valid);
+  ASSERT_TRUE(m.la.valid() && cm.la.valid());
   for (const auto& [a, b] : {std::pair(cm.ls, m.ls), std::pair(cm.la, m.la)}) {
     EXPECT_NEAR(a.damping_to_mass / b.damping_to_mass, 1.0, 1e-7);
     EXPECT_NEAR(a.stiffness_to_mass / b.stiffness_to_mass, 1.0, 1e-7);
@@ -257,10 +257,10 @@ TEST(LiveEffects, ParkedVehicleIsSurvived) {
     stamp += std::chrono::milliseconds(10);
     const MonitorReport& report = *monitor.addSample({stamp, 9.81 + noise(engine), 9.81 + noise(engine)});
     ASSERT_TRUE(std::isfinite(report.la.coefficients[0]) && std::isfinite(report.la.coefficient_stddevs[1])) << k;
-    ASSERT_FALSE(k > 1000 && report.la.valid) << k;
+    ASSERT_FALSE(k > 1000 && report.la.valid()) << k;
   }
   addAll(monitor, drive.samples, stamp + std::chrono::milliseconds(10), 9.81);
-  EXPECT_TRUE(monitor.report().la.valid);
+  EXPECT_TRUE(monitor.report().la.valid());
   EXPECT_NEAR(monitor.report().la.damping_to_mass, kCarB1, 0.1 * kCarB1);
   EXPECT_NEAR(monitor.report().la.coefficients[0], drive.effect.coefficient, 0.3 * drive.effect.coefficient);
   EXPECT_LT(monitor.report().comparison.rmse, 1.5 * kNoise);
@@ -277,7 +277,7 @@ TEST(LiveEffects, MonitorComesBackFromARunaway) {
     ASSERT_TRUE(std::isfinite(report->la.coefficients[0]));
     ASSERT_TRUE(std::isfinite(report->la.damping_to_mass));
   }
-  EXPECT_TRUE(monitor.report().la.valid);
+  EXPECT_TRUE(monitor.report().la.valid());
   EXPECT_NEAR(monitor.report().la.coefficients[0], drive.effect.coefficient, 0.3 * drive.effect.coefficient);
 }
 

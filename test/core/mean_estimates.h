@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "suspension_health_monitor/signal/uniform_grid.h"
-#include "suspension_health_monitor/simulation/drive_simulator.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
 
@@ -38,7 +38,7 @@ inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignmen
       mean.la_stiffness += report->la.stiffness_to_mass;
       mean.ls_damping += report->ls.damping_to_mass;
       mean.ls_stiffness += report->ls.stiffness_to_mass;
-      mean.valid += report->la.valid ? 1.0 : 0.0;
+      mean.valid += report->la.valid() ? 1.0 : 0.0;
       count += 1.0;
     }
   };

@@ -1,5 +1,5 @@
 // The mean spacing of samples, against time over spacings and against its forgetting.
-#include "suspension_health_monitor/signal/mean_spacing.h"
+#include "suspension_health_monitor/internal/signal/mean_spacing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/model/model_settings.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "monitor_settings.h"
 #include "paper_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -29,7 +29,7 @@ void expectNear(const StrutEstimate& actual, const StrutEstimate& expected, doub
   near(actual.damping_to_mass_stddev, expected.damping_to_mass_stddev);
   near(actual.stiffness_to_mass_stddev, expected.stiffness_to_mass_stddev);
   ASSERT_NEAR(actual.explained, expected.explained, relative_tolerance);
-  ASSERT_EQ(actual.valid, expected.valid);
+  ASSERT_EQ(actual.doubt, expected.doubt);
 }
 
 void expectSameEstimates(const std::string& scenario, const Sensors& sensors) {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_options.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "monitor_settings.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -28,32 +28,43 @@ void expectWords(const std::string& message, const std::string& words) {
   EXPECT_NE(message.find(words), std::string::npos) << "got: \"" << message << '"';
 }
 
-TEST(MonitorOptions, HorizonMayBeGivenInSecondsOrInSamples) {
+TEST(MonitorOptions, HorizonIsTheNearestNumberOfSamples) {
   MonitorOptions options;
-  EXPECT_EQ(options.horizonSamples(0.02), 30);  // 0.6 s if neither is given
+  EXPECT_EQ(options.horizonSamples(0.02), 30);  // 0.6 s if it is left out
   EXPECT_EQ(options.horizonSamples(0.005), 120);
   options.integration_horizon = 0.4;
   EXPECT_EQ(options.horizonSamples(0.02), 20);
-  EXPECT_EQ(options.horizonSamples(0.03), 13);  // the nearest
-  options.integration_horizon.reset();
-  options.horizon_samples = 17;
-  EXPECT_EQ(options.horizonSamples(0.02), 17);
-  EXPECT_EQ(options.horizonSamples(0.01), 17);
+  EXPECT_EQ(options.horizonSamples(0.03), 13);
+  for (const double period : {1e-4, 1.0 / 333.0, 0.07, 1.0})  // what a number of samples makes of it
+    for (const int samples : {5, 33, 1001}) {
+      options.integration_horizon = samples * period;
+      EXPECT_EQ(options.horizonSamples(period), samples);
+    }
 }
 
-TEST(MonitorOptions, MonitorUsesTheHorizonInEitherForm) {
-  MonitorOptions in_seconds = liveOptions(), in_samples = liveOptions();
-  in_seconds.integration_horizon = 0.4;
-  in_samples.horizon_samples = 20;
-  SuspensionMonitor a(in_seconds), b(in_samples);
-  EXPECT_EQ(a.horizonSamples(), 20);
+TEST(MonitorOptions, MonitorUsesTheHorizon) {
+  MonitorOptions options = liveOptions();
+  options.integration_horizon = 0.4;
+  SuspensionMonitor monitor(options);
+  EXPECT_EQ(monitor.horizonSamples(), 20);
   for (int k = 0; k < 60; ++k) {
     const CornerSample sample{k * std::chrono::milliseconds(20), 1.0 * (k * k % 7), 1.0 * (k * k % 5)};
-    EXPECT_EQ(a.addSample(sample)->has_row, k >= 40);
-    EXPECT_EQ(b.addSample(sample)->has_row, k >= 40);
-    if (k < 40) continue;
-    EXPECT_EQ(a.report().ls.damping_to_mass, b.report().ls.damping_to_mass);
+    EXPECT_EQ(monitor.addSample(sample)->has_row, k >= 40);
   }
+}
+
+TEST(MonitorOptions, PresetGivesWhatIsNotGiven) {
+  OptionMap nothing, one_line{{"preset", "paper"}}, with_factor{{"preset", "paper"}, {"forgetting_factor", 0.97}};
+  EXPECT_EQ(MonitorOptions::takeFrom(nothing).forgetting_factor, MonitorOptions{}.forgetting_factor);
+  const MonitorOptions paper = MonitorOptions::takeFrom(one_line), other = MonitorOptions::takeFrom(with_factor);
+  EXPECT_EQ(paper.preset, "paper");
+  EXPECT_EQ(paper.forgetting_factor, 0.98);
+  EXPECT_EQ(paper.integration_horizon, 0.6);
+  EXPECT_TRUE(paper.estimators.forgets_unexcited);
+  EXPECT_EQ(other.forgetting_factor, 0.97);
+  EXPECT_EQ(other.estimators.rule, IntegrationRule::kTrapezoid);
+  OptionMap wrong{{"preset", "papier"}};
+  EXPECT_THROW(MonitorOptions::takeFrom(wrong), std::invalid_argument);
 }
 
 TEST(MonitorOptions, SettingsReachTheEstimators) {
@@ -102,21 +113,21 @@ TEST(MonitorOptions, AreRefusedByNameAndValue) {
   expectWords(complaint([](MonitorOptions& o) { o.forgetting_factor = 1.2; }),
               "forgetting_factor = 1.2 [-], must be in");
   expectWords(complaint([](MonitorOptions& o) { o.forgetting_factor = std::nan(""); }), "forgetting_factor = nan");
-  expectWords(complaint([](MonitorOptions& o) { o.integration_rule = "euler"; }), "integration_rule = \"euler\"");
-  expectWords(complaint([](MonitorOptions& o) { o.la_small_divisor_rule = "absolute relative"; }),
-              "la/small_divisor_rule = \"absolute relative\"");
-  expectWords(complaint([](MonitorOptions& o) { o.la_start_rows = 0; }), "la/start_rows = 0");
+  expectWords(complaint([](MonitorOptions& o) { o.preset = "default paper"; }), "preset = \"default paper\"");
+  expectWords(complaint([](MonitorOptions& o) { o.estimators.least_absolute.start_rows = 0; }), "start_rows = 0");
   expectWords(complaint([](MonitorOptions& o) { o.sprung_mass = 0.0; }), "sprung_mass = 0 [kg]");
 }
 
 TEST(MonitorOptions, ThatContradictEachOtherAreRefused) {
-  expectWords(complaint([](MonitorOptions& o) { o.integration_horizon = 0.6, o.horizon_samples = 30; }),
-              "integration_horizon and horizon_samples are both given");
   expectWords(complaint([](MonitorOptions& o) { o.stiffness_error = 0.1; }), "health/stiffness_error = 0.1");
-  expectWords(complaint([](MonitorOptions& o) { o.integration_rule = "simpson", o.horizon_samples = 31; }),
+  expectWords(complaint([](MonitorOptions& o) {
+                o.estimators.rule = IntegrationRule::kSimpson;
+                o.integration_horizon = 0.62;
+              }),
               "horizon_samples = 31, must be even");
-  expectWords(complaint([](MonitorOptions& o) { o.horizon_samples = 4; }), "horizon_samples = 4, must be at least 5");
-  expectWords(complaint([](MonitorOptions& o) { o.integration_horizon = 0.05; }), "must be at least 5");
+  const std::string message = complaint([](MonitorOptions& o) { o.integration_horizon = 0.08; });
+  expectWords(message, "integration_horizon = 0.08");
+  expectWords(message, "horizon_samples = 4, must be at least 5");
 }
 
 TEST(MonitorOptions, HorizonOfTooManySamplesIsRefusedNotShortened) {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "suspension_health_monitor/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_options.h"
 
 namespace suspension_health_monitor {
 
@@ -23,18 +23,8 @@ inline MonitorOptions optionsWith(double slow, std::optional<double> fastest) {
 
 /// Section 3.2 and 4 of the paper, as in config/paper.yaml.
 inline MonitorOptions paperOptions() {
-  MonitorOptions options;
+  MonitorOptions options = MonitorOptions::of("paper");
   options.sample_period = 0.02;
-  options.horizon_samples = 30;
-  options.integration_rule = "trapezoid";
-  options.forgetting_factor = 0.98;
-  options.forgetting_rule = "exponential";
-  options.initial_variance = 1e5;
-  options.initial_variance_rule = "absolute";
-  options.la_start_rows = 150;
-  options.la_small_divisor_rule = "absolute";
-  options.la_small_divisor = 1e-8;
-  options.la_scale_covariance_at_start = false;
   return options;
 }
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/option_table.h"
+#include "suspension_health_monitor/internal/option_table.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/monitor_options.h"
-#include "suspension_health_monitor/simulation/scenario.h"
+#include "suspension_health_monitor/internal/monitor_options.h"
+#include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -21,18 +21,16 @@ struct Sample {
   double gain = 0.5;
   std::string mode = "fast";
   std::string label = "any";
-  std::optional<int> limit;
   std::optional<double> mass;
 };
 
 constexpr std::array kSampleFields{
-    OptionField<Sample>{"flag", "-", "a switch", &Sample::flag},
-    OptionField<Sample>{"count", "-", "a whole number", &Sample::count, -2, 2147483647},
-    OptionField<Sample>{"gain", "V/m", "a number", &Sample::gain, 1e-9, 2.0},
-    OptionField<Sample>{"mode", "-", "a choice", &Sample::mode, 0, 0, "slow fast 17"},
-    OptionField<Sample>{"label", "-", "a text", &Sample::label},
-    OptionField<Sample>{"group/limit", "-", "a whole number or none", &Sample::limit, 1, 10},
-    OptionField<Sample>{"mass", "kg", "a number or none", &Sample::mass, 0.0, 1e6},
+    OptionField<Sample>{"first", "flag", "-", "a switch", &Sample::flag},
+    OptionField<Sample>{"first", "count", "-", "a whole number", &Sample::count, -2, 2147483647},
+    OptionField<Sample>{"first", "gain", "V/m", "a number", &Sample::gain, 1e-9, 2.0},
+    OptionField<Sample>{"first", "mode", "-", "a choice", &Sample::mode, 0, 0, "slow fast 17"},
+    OptionField<Sample>{"second", "label", "-", "a text", &Sample::label},
+    OptionField<Sample>{"first", "group/mass", "kg", "a number or none", &Sample::mass, 0.0, 1e6},
 };
 
 Sample taken(const std::string& name, const OptionValue& value) {
@@ -58,20 +56,18 @@ TEST(OptionTable, TakesEveryKindOfMember) {
   EXPECT_EQ(taken("gain", 0.25).gain, 0.25);
   EXPECT_EQ(taken("mode", std::string("slow")).mode, "slow");
   EXPECT_EQ(taken("label", std::string("left front")).label, "left front");
-  EXPECT_EQ(taken("group/limit", 4).limit, 4);
-  EXPECT_EQ(taken("mass", 12.5).mass, 12.5);
+  EXPECT_EQ(taken("group/mass", 12.5).mass, 12.5);
 }
 
 TEST(OptionTable, TakesNumbersInWhateverWayTheyAreWritten) {
   EXPECT_EQ(taken("gain", 1).gain, 1.0);
   EXPECT_EQ(taken("gain", std::string("1e-8")).gain, 1e-8);
   EXPECT_EQ(taken("gain", std::string("0.5")).gain, 0.5);
-  EXPECT_EQ(taken("mass", std::string("1e3")).mass, 1000.0);
+  EXPECT_EQ(taken("group/mass", std::string("1e3")).mass, 1000.0);
   EXPECT_EQ(taken("count", 30.0).count, 30);
   EXPECT_EQ(taken("count", -2.0).count, -2);
   EXPECT_EQ(taken("count", std::string("30.0")).count, 30);
   EXPECT_EQ(taken("count", std::string("30")).count, 30);
-  EXPECT_EQ(taken("group/limit", std::string("1e1")).limit, 10);
   EXPECT_TRUE(taken("flag", std::string("true")).flag);
   EXPECT_FALSE(taken("flag", std::string("False")).flag);
   EXPECT_EQ(taken("mode", 17).mode, "17");
@@ -95,7 +91,7 @@ TEST(OptionTable, RefusesTheWrongType) {
   EXPECT_NE(complaint("gain", std::string("0,5")), "");
   EXPECT_NE(complaint("mode", true), "");
   EXPECT_NE(complaint("label", 0.5), "");
-  EXPECT_NE(complaint("mass", std::string("none")), "");
+  EXPECT_NE(complaint("group/mass", std::string("none")), "");
 }
 
 TEST(OptionTable, RefusesWhatIsOutsideTheRange) {
@@ -104,15 +100,13 @@ TEST(OptionTable, RefusesWhatIsOutsideTheRange) {
   EXPECT_EQ(complaint("gain", 1e-9), "");
   EXPECT_NE(complaint("gain", 0.0), "");
   EXPECT_NE(complaint("count", -3), "");
-  EXPECT_NE(complaint("group/limit", 11), "");
-  EXPECT_NE(complaint("group/limit", 0), "");
-  EXPECT_NE(complaint("mass", -1e-300), "");
+  EXPECT_NE(complaint("group/mass", -1e-300), "");
   for (const char* word : {"", " ", "medium", "fas", "Fast", "slow fast", "fast "})
     EXPECT_NE(complaint("mode", std::string(word)), "") << word;
 }
 
 TEST(OptionTable, RefusesNaNAndInfinity) {
-  for (const char* name : {"gain", "mass", "count", "group/limit"}) {
+  for (const char* name : {"gain", "group/mass", "count"}) {
     EXPECT_NE(complaint(name, std::nan("")), "") << name;
     EXPECT_NE(complaint(name, -std::numeric_limits<double>::infinity()), "") << name;
     EXPECT_NE(complaint(name, std::string("nan")), "") << name;
@@ -123,8 +117,7 @@ TEST(OptionTable, RefusesNaNAndInfinity) {
 TEST(OptionTable, MessageHasNameValueUnitAndWhatIsAllowed) {
   EXPECT_EQ(complaint("gain", 2.5), "gain = 2.5 [V/m], must be in [1e-09, 2]: a number");
   EXPECT_EQ(complaint("gain", true), "gain = true [V/m], must be in [1e-09, 2]: a number");
-  EXPECT_EQ(complaint("group/limit", 0),
-            "group/limit = 0 [-], must be a whole number in [1, 10]: a whole number or none");
+  EXPECT_EQ(complaint("count", -3), "count = -3 [-], must be a whole number in [-2, 2147483647]: a whole number");
   EXPECT_EQ(complaint("flag", 1), "flag = 1 [-], must be true or false: a switch");
   EXPECT_EQ(complaint("mode", std::string("medium")), "mode = \"medium\" [-], must be one of slow, fast, 17: a choice");
   EXPECT_EQ(complaint("label", 0.5), "label = 0.5 [-], must be any text: a text");
@@ -138,7 +131,7 @@ TEST(OptionTable, MessageHasNameValueUnitAndWhatIsAllowed) {
 TEST(OptionTable, LeavesOptionsUnchangedWhenItRefusesOne) {
   Sample options;
   options.gain = 1.25;
-  OptionMap values{{"flag", true}, {"gain", 0.75}, {"mass", -1.0}};
+  OptionMap values{{"flag", true}, {"gain", 0.75}, {"group/mass", -1.0}};
   EXPECT_THROW(takeOptions(values, kSampleFields, options), std::invalid_argument);
   EXPECT_FALSE(options.flag);
   EXPECT_EQ(options.gain, 1.25);
@@ -164,7 +157,7 @@ TEST(OptionTable, ProposesTheNearestNameForAMisspeltKey) {
   };
   EXPECT_EQ(proposal("forgeting_factor"),
             "unknown option forgeting_factor = 0.75; the nearest known name is forgetting_factor");
-  EXPECT_NE(proposal("la/smal_divisor").find("is la/small_divisor"), std::string::npos);
+  EXPECT_NE(proposal("health/payload_rang").find("is health/payload_range"), std::string::npos);
   EXPECT_NE(proposal("sample_perido").find("is sample_period"), std::string::npos);
   EXPECT_NE(proposal("sprungmass").find("is sprung_mass"), std::string::npos);
   for (const char* far_from_all : {"foo", "x", "health", "zzzzzzzzzzzz"})
@@ -179,17 +172,39 @@ TEST(OptionTable, ValidateFindsWhatWasSetDirectly) {
   options.gain = std::nan("");
   EXPECT_THROW(validate(options, kSampleFields), std::invalid_argument);
   options.gain = 1.0;
-  options.limit = 11;
+  options.mass = -1.0;
   EXPECT_THROW(validate(options, kSampleFields), std::invalid_argument);
 }
 
 TEST(OptionTable, DescribesDefaultsAsTheyWouldBeWritten) {
   const std::vector<OptionDescription> rows = describeOptions(kSampleFields);
-  const std::vector<std::string> defaults{"false", "3", "0.5", "fast", "any", "none", "none"};
+  const std::vector<std::string> defaults{"false", "3", "0.5", "fast", "any", "none"};
   ASSERT_EQ(rows.size(), defaults.size());
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i].default_value, defaults[i]) << rows[i].name;
   EXPECT_EQ(rows[2].unit, "V/m");
-  EXPECT_EQ(rows[5].allowed, "a whole number in [1, 10]");
+  EXPECT_EQ(rows[1].allowed, "a whole number in [-2, 2147483647]");
+}
+
+TEST(OptionTable, ShowsGroupAfterGroupInTheOrderOfTheTable) {
+  constexpr std::array kMore{OptionField<Sample>{"second", "more", "-", "a switch", &Sample::flag}};
+  std::string names;
+  for (const auto& row : inGroups({"second", "first"}, describeOptions(kSampleFields), describeOptions(kMore)))
+    names += row.name + ' ';
+  EXPECT_EQ(names, "label more flag count gain mode group/mass ");
+}
+
+TEST(OptionTable, SaysWhatServesInsteadOfAFormerOption) {
+  const auto refusal = [](const std::string& key) -> std::string {
+    try {
+      refuseUnknown({{key, 1}}, describeOptions(kMonitorFields));
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal("integration_rule"), "integration_rule is no option any more: preset: paper has the paper's value");
+  EXPECT_NE(refusal("la/small_divisor").find("preset: paper"), std::string::npos);
+  EXPECT_NE(refusal("horizon_samples").find("integration_horizon"), std::string::npos);
 }
 
 // What every shipped table must keep. A default taken by its own description must give itself: text, range and type
@@ -201,6 +216,7 @@ void expectSound(const std::array<OptionField<Options>, N>& fields) {
   for (const OptionDescription& row : describeOptions(fields)) {
     SCOPED_TRACE(row.name);
     EXPECT_FALSE(row.name.empty());
+    EXPECT_FALSE(row.group.empty());
     EXPECT_TRUE(names.insert(row.name).second) << "twice";
     EXPECT_FALSE(row.help.empty());
     EXPECT_FALSE(row.unit.empty());

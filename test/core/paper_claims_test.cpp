@@ -13,8 +13,8 @@ constexpr int kNumSeeds = 20;
 
 MonitorOptions liveOptionsWithThePapersDivisor() {
   MonitorOptions options = liveOptions();
-  options.la_small_divisor_rule = "absolute";
-  options.la_small_divisor = 1e-8;
+  options.estimators.least_absolute.small_divisor_rule = SmallDivisor::kAbsolute;
+  options.estimators.least_absolute.small_divisor = 1e-8;
   return options;
 }
 
@@ -70,9 +70,9 @@ TEST(PaperClaims, EndStopsThrowLeastSquaresOffAndLeaveLeastAbsoluteAlone) {
 TEST(PaperClaims, LiveDefaultsAreThoseOfTheTable) {
   const MonitorOptions options;
   EXPECT_EQ(options.forgetting_factor, 0.99);
-  EXPECT_EQ(options.la_small_divisor_rule, "relative");
-  EXPECT_EQ(options.la_small_divisor, 0.2);
-  EXPECT_EQ(options.integration_rule, "cubic");
+  EXPECT_EQ(options.leastAbsolute().small_divisor_rule, SmallDivisor::kRelative);
+  EXPECT_EQ(options.leastAbsolute().small_divisor, 0.2);
+  EXPECT_EQ(options.estimators.rule, IntegrationRule::kCubic);
 }
 
 }  // namespace

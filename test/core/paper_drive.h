@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "suspension_health_monitor/corner_sample.h"
-#include "suspension_health_monitor/identification/batch_estimators.h"
-#include "suspension_health_monitor/identification/suspension_regression.h"
-#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "reference/batch_estimators.h"
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
 
@@ -24,7 +24,7 @@ inline std::vector<CornerSample> simulate(const SimulationOptions& options) {
 /// The paper's road and sampling, strut healthy throughout.
 inline std::vector<CornerSample> healthyPaperDrive(double duration, double noise, int seed = 1) {
   SimulationOptions options;
-  options.damping_ramp = false;
+  options.damping_end_fraction = 1.0;
   options.duration = duration;
   options.noise = noise;
   options.seed = seed;

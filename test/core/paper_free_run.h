@@ -1,7 +1,7 @@
 #pragma once
 
 #include "paper_drive.h"
-#include "suspension_health_monitor/model/free_run.h"
+#include "suspension_health_monitor/internal/model/free_run.h"
 
 namespace suspension_health_monitor {
 

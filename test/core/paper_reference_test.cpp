@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "csv.h"
-#include "suspension_health_monitor/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,5 +1,5 @@
 // The trend of a parameter: a straight line of discounted least squares, against sums over all values.
-#include "suspension_health_monitor/health/parameter_trend.h"
+#include "suspension_health_monitor/internal/health/parameter_trend.h"
 
 #include <gtest/gtest.h>
 

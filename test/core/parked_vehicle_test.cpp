@@ -9,7 +9,7 @@
 
 #include "monitor_settings.h"
 #include "paper_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -43,7 +43,7 @@ class ParkedVehicle : public testing::Test {
         ASSERT_TRUE(std::isfinite(estimate.damping_to_mass_stddev)) << k;
         ASSERT_TRUE(std::isfinite(estimate.stiffness_to_mass_stddev)) << k;
         ASSERT_TRUE(std::isfinite(estimate.explained)) << k;
-        ASSERT_FALSE(k > 500 && estimate.valid) << k;
+        ASSERT_FALSE(k > 500 && estimate.valid()) << k;
       }
     }
     EXPECT_EQ(monitor_.report().health.level, HealthLevel::kStale);
@@ -52,7 +52,7 @@ class ParkedVehicle : public testing::Test {
   void expectRecovery() {
     driveFor(1000);  // 20 s, ten memories
     for (const StrutEstimate& estimate : {monitor_.report().ls, monitor_.report().la}) {
-      EXPECT_TRUE(estimate.valid);
+      EXPECT_TRUE(estimate.valid());
       EXPECT_NEAR(estimate.damping_to_mass, kPaperB1, 0.15);
       EXPECT_NEAR(estimate.stiffness_to_mass, kPaperB0, 0.4);
     }
@@ -108,7 +108,7 @@ TEST_F(ParkedVehicle, WithTheWheelsSensorStuck) {
 
 TEST_F(ParkedVehicle, WithBothSensorsDead) {
   driveFor(1000);
-  ASSERT_TRUE(monitor_.report().la.valid);
+  ASSERT_TRUE(monitor_.report().la.valid());
   expectParkingIsSurvived([] { return Readings{0.0, 0.0}; });
 }
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/model/quarter_car.h"
+#include "suspension_health_monitor/internal/model/quarter_car.h"
 
 #include <gtest/gtest.h>
 

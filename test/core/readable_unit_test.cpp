@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/discrepancy/readable_unit.h"
+#include "suspension_health_monitor/internal/wording/readable_unit.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "body_drive.h"
-#include "suspension_health_monitor/discrepancy/effect_search.h"
+#include "suspension_health_monitor/internal/search/effect_search.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -14,9 +14,12 @@ using Names = std::vector<std::string>;
 
 SearchResult search(const DriveRecord& record, EffectLibrary library = builtInEffects()) {
   takeUntestable(library, {&record});
-  std::optional<SearchResult> result = EffectSearch(library, {2, 2}).run({&record}, {4.4, 44.0, {}, {}});
+  DiagnoseOptions options;
+  options.candidates = std::move(library);
+  options.most_effects = 2;
+  SearchResult result = searchEffects({&record}, {4.4, 44.0, {}, {}}, options);
   EXPECT_TRUE(result);
-  return result.value_or(SearchResult{});
+  return result;
 }
 
 /// @param tolerance  of the coefficients, in their unit.
@@ -51,10 +54,10 @@ TEST(ReadingSearch, NothingIsProposedWhereTheBodySwaysAndNothingIsHidden) {
 TEST(ReadingSearch, WithoutTheChannelsTheFaultHasNoName) {
   SimulationOptions options = swayingDrive("ugv", 4);
   options.hidden_faults = {fault("lever_arm", {-0.15, 0.3})};
-  DriveRecord record(0.01, 1);
+  Drive record_drive;
   for (const DriveSample& sample : drive(options))
-    record.push({sample.stamp, sample.sprung->acceleration, sample.unsprung->acceleration});
-  record.finish();
+    record_drive.samples.push_back({sample.stamp, sample.sprung->acceleration, sample.unsprung->acceleration});
+  const DriveRecord record(record_drive, 0.01, 1);
   const SearchResult result = search(record);
   EXPECT_EQ(result.verdict, Verdict::kUnexplained);
   EXPECT_TRUE(result.selected.empty());

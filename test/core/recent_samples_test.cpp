@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/recent_samples.h"
+#include "suspension_health_monitor/internal/signal/recent_samples.h"
 
 #include <gtest/gtest.h>
 

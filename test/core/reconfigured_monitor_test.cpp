@@ -6,8 +6,8 @@
 
 #include "monitor_settings.h"
 #include "paper_drive.h"
-#include "suspension_health_monitor/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -52,7 +52,7 @@ TEST(ReconfiguredMonitor, EstimatesGoOnFromWhereTheyAre) {
   monitor.reconfigure(options);
   const MonitorReport* after = monitor.addSample(samples[1500]);
   ASSERT_NE(after, nullptr);
-  EXPECT_TRUE(after->ls.valid && after->la.valid);
+  EXPECT_TRUE(after->ls.valid() && after->la.valid());
   // The first row after the change has a gain that differs by no more than the factors do, 0.8 %.
   const StrutEstimate& la = left_alone.report().la;
   EXPECT_NEAR(after->la.damping_to_mass, la.damping_to_mass, 0.01 * la.damping_to_mass_stddev);

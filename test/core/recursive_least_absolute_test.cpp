@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 
 #include <gtest/gtest.h>
 

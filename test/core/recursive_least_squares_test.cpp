@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 
 #include <gtest/gtest.h>
 
@@ -131,6 +131,21 @@ TEST(RecursiveLeastSquares, ReturnsTheInnovationBeforeTheUpdateAndCountsRows) {
   EXPECT_NEAR(estimator.meanAbsoluteResidual(), (0.5 * 6.0 + 2.0) / 1.5, 1e-8);
   EXPECT_NEAR(estimator.meanSquareResidual(), (0.5 * 36.0 + 4.0) / 1.5, 1e-7);
   EXPECT_NEAR(estimator.meanAbsoluteOutput(), (0.5 * 6.0 + 5.0) / 1.5, 1e-12);
+}
+
+TEST(RecursiveLeastSquares, ExplainedIsWhatTheRowsLeaveOfTheOutput) {
+  RecursiveOptions options;
+  options.forgetting_factor = 1.0;
+  RecursiveLeastSquares estimator(1, options);
+  EXPECT_EQ(estimator.explained(), 0.0);
+  double residuals = 0.0, outputs = 0.0;
+  for (int k = 0; k < 100; ++k) {
+    const RegressionRow row{Eigen::VectorXd::Constant(1, std::sin(0.3 * k + 1.0)), 3.0 * std::sin(0.3 * k + 1.0) + 0.1};
+    residuals += std::abs(row.output - row.regressor[0] * estimator.parameters()[0]);
+    outputs += std::abs(row.output);
+    estimator.update(row);
+  }
+  EXPECT_NEAR(estimator.explained(), 1.0 - residuals / outputs, 1e-12);
 }
 
 TEST(RecursiveLeastSquares, RefusesWrongOptions) {

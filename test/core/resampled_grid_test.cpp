@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/resampled_grid.h"
+#include "suspension_health_monitor/internal/signal/resampled_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "interleaved.h"
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/discrepancy/residual_views.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,8 +5,10 @@
 #include <numeric>
 #include <random>
 
-#include "suspension_health_monitor/discrepancy/where_it_fails.h"
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/compare/failure_regions.h"
+#include "suspension_health_monitor/internal/compare/residual_analysis.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/wording/failure_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -49,6 +49,13 @@ ResidualViews viewsOf(const ComparedSegment& segment, const ExpectedNoise& noise
   const auto views = viewResidual({segment}, noise);
   EXPECT_TRUE(views);
   return views.value_or(ResidualViews{});
+}
+
+std::vector<FailureRegion> failuresIn(const ComparedSegment& segment) {
+  const ResidualViews views = viewsOf(segment);
+  std::vector<FailureRegion> where = findFailures(views, kCar);
+  describeFailures(views, kCar.floor, where);
+  return where;
 }
 
 TEST(ResidualViews, EverySampleIsInOneBinOfEveryView) {
@@ -171,39 +178,39 @@ TEST(ResidualViews, TooLittleIsNothing) {
   EXPECT_TRUE(viewResidual({segmentWith(kNothing, kNoise, 1, 64)}, kCar));
 }
 
-TEST(WhereItFails, NoiseNamesNothingInAnyView) {
+TEST(FindFailures, NoiseNamesNothingInAnyView) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
-    const std::vector<FailureRegion> where = whereItFails(viewsOf(segmentWith(kNothing, kNoise, seed)), kCar);
+    const std::vector<FailureRegion> where = failuresIn(segmentWith(kNothing, kNoise, seed));
     ASSERT_EQ(where.size(), 1u) << seed << where[0].sentence;
     EXPECT_EQ(where[0].view, FailureView::kNone) << where[0].sentence;
     EXPECT_NEAR(where[0].rmse, kNoise, 0.05 * kNoise);
   }
 }
 
-TEST(WhereItFails, AnOffsetIsASensors) {
+TEST(FindFailures, AnOffsetIsASensors) {
   ComparedSegment segment = segmentWith(kNothing);
   for (double& y : segment.measured) y -= 0.2;
-  const std::vector<FailureRegion> where = whereItFails(viewsOf(segment), kCar);
+  const std::vector<FailureRegion> where = failuresIn(segment);
   ASSERT_EQ(where.size(), 1u);
   EXPECT_EQ(where[0].view, FailureView::kOffset);
   EXPECT_NEAR(where[0].mean, -0.2, 0.005);
   EXPECT_NE(where[0].sentence.find("0.2 m/s^2 less"), std::string::npos) << where[0].sentence;
 }
 
-TEST(WhereItFails, ANoisyMinuteIsNamedByItsTime) {
+TEST(FindFailures, ANoisyMinuteIsNamedByItsTime) {
   ComparedSegment segment = segmentWith(kNothing);
   const ComparedSegment other = segmentWith(kNothing, kNoise, 99);
   for (std::size_t k = 6000; k < 8000; ++k) segment.measured[k] += 2.0 * (other.measured[k] - other.predicted[k]);
-  const std::vector<FailureRegion> where = whereItFails(viewsOf(segment), kCar);
+  const std::vector<FailureRegion> where = failuresIn(segment);
   EXPECT_EQ(where[0].view, FailureView::kTime);
   EXPECT_NEAR(where[0].from, 60.0, 5.01);
   EXPECT_NEAR(where[0].to, 80.0, 5.01);
   EXPECT_GT(where[0].rmse, 1.9 * where[0].rmse_elsewhere);
 }
 
-TEST(WhereItFails, ATremorIsNamedByItsFrequency) {
-  const auto where = whereItFails(
-      viewsOf(segmentWith([](double t, double, double) { return 0.1 * std::sin(2.0 * kPi * 11.0 * t); })), kCar);
+TEST(FindFailures, ATremorIsNamedByItsFrequency) {
+  const auto where =
+      failuresIn(segmentWith([](double t, double, double) { return 0.1 * std::sin(2.0 * kPi * 11.0 * t); }));
   const auto found = std::find_if(where.begin(), where.end(),
                                   [](const FailureRegion& region) { return region.view == FailureView::kFrequency; });
   ASSERT_NE(found, where.end());

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/simulation/road.h"
+#include "suspension_health_monitor/internal/simulation/road.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "braked_road.h"
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/iso_road.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/simulation/iso_road.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,5 +1,5 @@
 // The best strut within bounds, from second moments of rows, against a search of the bounds.
-#include "suspension_health_monitor/identification/row_moments.h"
+#include "suspension_health_monitor/internal/identification/row_moments.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/discrepancy/running_comparison.h"
+#include "suspension_health_monitor/internal/identification/running_comparison.h"
 
 #include <gtest/gtest.h>
 

@@ -12,18 +12,16 @@
 #include <vector>
 
 #include "paper_drive.h"
-#include "suspension_health_monitor/identification/auxiliary_instruments.h"
-#include "suspension_health_monitor/identification/general_regression.h"
-#include "suspension_health_monitor/identification/instrumental_variables.h"
-#include "suspension_health_monitor/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/identification/suspension_regression.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
-#include "suspension_health_monitor/model/strut_integrator.h"
-#include "suspension_health_monitor/model/user_effects.h"
-#include "suspension_health_monitor/signal/uniform_grid.h"
-#include "suspension_health_monitor/suspension_monitor.h"
-#include "suspension_health_monitor/tyre_tracker.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/identification/instrumental_variables.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/model/strut_integrator.h"
+#include "suspension_health_monitor/internal/model/user_effects.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace {
 std::atomic<long> num_allocations{0};
@@ -68,33 +66,6 @@ TEST(SamplePath, AllocatesNothingInTheStrutRegressionWithBothEstimators) {
             }),
             0);
   EXPECT_GT(ls.effectiveRows(), 40.0);
-}
-
-TEST(SamplePath, AllocatesNothingInTheGeneralRegression) {
-  GeneralRegression regression(3, {});
-  RecursiveLeastSquares ls(6, {});
-  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
-              if (const RegressionRow* row = regression.push(sample.unsprung_acceleration, sample.sprung_acceleration))
-                ls.update(*row);
-            }),
-            0);
-}
-
-TEST(SamplePath, AllocatesNothingInInstrumentalVariables) {
-  SuspensionRegression regression({});
-  AuxiliaryInstruments auxiliary({});
-  auxiliary.setModel(kPaperB1, kPaperB0);
-  RecursiveInstrumentalVariables ls(2, 0.98);
-  RecursiveInstrumentalLeastAbsolute la(2, 0.98, {});
-  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
-              const RegressionRow* row = regression.push(sample);
-              const Eigen::VectorXd* instrument = auxiliary.push(sample.unsprung_acceleration);
-              if (row == nullptr || instrument == nullptr) return;
-              ls.update(*row, *instrument);
-              la.update(*row, *instrument);
-            }),
-            0);
-  EXPECT_GT(la.effectiveRows(), 40.0);
 }
 
 TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {

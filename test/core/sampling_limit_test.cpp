@@ -1,12 +1,12 @@
-#include "suspension_health_monitor/discrepancy/sampling_limit.h"
+#include "suspension_health_monitor/internal/record/sampling_limit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "recorded_drive.h"
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/random_stream.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 namespace suspension_health_monitor {
 namespace {

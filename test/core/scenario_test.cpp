@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/simulation/scenario.h"
+#include "suspension_health_monitor/internal/simulation/scenario.h"
 
 #include <gtest/gtest.h>
 
@@ -72,12 +72,12 @@ TEST(SimulationOptions, AreRefusedByNameAndValue) {
 TEST(SimulationOptions, DefaultsAreValidAndValuesAreTakenByName) {
   SimulationOptions options;
   EXPECT_NO_THROW(validate(options));
-  OptionMap values{{"scenario", "iso_road"}, {"seed", 7}, {"damping_ramp", false}, {"speed", 3}};
+  OptionMap values{{"scenario", "iso_road"}, {"seed", 7}, {"damping_end_fraction", 1}, {"speed", 3}};
   takeOptions(values, kSimulationFields, options);
   EXPECT_TRUE(values.empty());
   EXPECT_EQ(options.scenario, "iso_road");
   EXPECT_EQ(options.seed, 7);
-  EXPECT_FALSE(options.damping_ramp);
+  EXPECT_DOUBLE_EQ(*options.damping_end_fraction, 1.0);
   EXPECT_DOUBLE_EQ(*options.speed, 3.0);
 }
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/discrepancy/screening.h"
+#include "suspension_health_monitor/internal/search/screening.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 #include "hidden_effect.h"
 #include "recorded_drive.h"
-#include "suspension_health_monitor/discrepancy/linear_response.h"
-#include "suspension_health_monitor/discrepancy/motion_scale.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/fit/linear_response.h"
+#include "suspension_health_monitor/internal/record/motion_scale.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -32,7 +32,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(square / static_cast<double>(values.size()));
 }
 
-ModelFit fitOf(const DriveRecord& record, const std::vector<std::vector<SampleMask>>& masks = {}) {
+ModelFit fitOf(const DriveRecord& record, const std::vector<SampleMask>& masks = {}) {
   const auto fit = fitOutputError({&record}, masks, {kB1, kB0, {}, {}});
   EXPECT_TRUE(fit);
   return fit.value_or(ModelFit{});
@@ -54,9 +54,9 @@ TEST_P(EveryForceEffect, RespondsAsTheFreeRunDoesToASmallCoefficient) {
   const double small = 1e-4 * rms(segment.sprung) / std::sqrt(force.squaredNorm() / static_cast<double>(force.size()));
   model.effects = {{effect, small, middleShapes(effect)}};
   std::vector<double> with, against;  // the same steps in both: a memory may ask for more of them than the plain strut
-  ASSERT_TRUE(runFree(model, record, segment, fit.initial[0], with));
+  ASSERT_TRUE(runFree(model, segment, fit.initial[0], with));
   model.effects[0].coefficient = -small;
-  ASSERT_TRUE(runFree(model, record, segment, fit.initial[0], against));
+  ASSERT_TRUE(runFree(model, segment, fit.initial[0], against));
   double error = 0.0, size = 0.0;
   for (std::size_t k = 0; k < with.size(); ++k) {
     const double slope = (with[k] - against[k]) / (2.0 * small);
@@ -80,7 +80,7 @@ class ScreenedDrive {
   explicit ScreenedDrive(const SimulationOptions& options)
       : record_(recorded(options)),
         records_{&record_},
-        held_out_(*holdOut(records_, kB0)),
+        held_out_(*splitHoldOut(records_, kB0)),
         fit_(fitOf(record_, held_out_.training)) {}
 
   Screening screening() const { return {records_, held_out_, fit_}; }
@@ -92,7 +92,7 @@ class ScreenedDrive {
  private:
   DriveRecord record_;
   std::vector<const DriveRecord*> records_;
-  HeldOut held_out_;
+  HoldOut held_out_;
   ModelFit fit_;
 };
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/sensor_check.h"
+#include "suspension_health_monitor/internal/health/sensor_check.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "simulated_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {

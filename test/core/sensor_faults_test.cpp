@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/simulation/sensor_faults.h"
+#include "suspension_health_monitor/internal/simulation/sensor_faults.h"
 
 #include <gtest/gtest.h>
 

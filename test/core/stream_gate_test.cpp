@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/stream_gate.h"
+#include "suspension_health_monitor/internal/signal/stream_gate.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "suspension_health_monitor/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/model/strut_integrator.h"
+#include "suspension_health_monitor/internal/model/strut_integrator.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "paper_drive.h"
-#include "suspension_health_monitor/identification/batch_estimators.h"
-#include "suspension_health_monitor/identification/general_regression.h"
+#include "reference/batch_estimators.h"
+#include "reference/general_regression.h"
 
 namespace suspension_health_monitor {
 namespace {

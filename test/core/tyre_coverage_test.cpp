@@ -7,7 +7,7 @@
 
 #include "interval_coverage.h"
 #include "simulated_drive.h"
-#include "suspension_health_monitor/tyre_tracker.h"
+#include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/ud_covariance.h"
+#include "suspension_health_monitor/internal/identification/ud_covariance.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "milliseconds.h"
-#include "suspension_health_monitor/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -46,7 +46,7 @@ TEST_F(WithRoad, ASampleWaitsForTheRoadsReadingAndGivesItsValue) {
 }
 
 TEST_F(WithRoad, ASilentRoadHoldsTheStrutUpForALimitedTimeOnly) {
-  const int lag = static_cast<int>(UniformGrid::kMostRoadLag);
+  const int lag = static_cast<int>(kMostRoadLag);
   for (int k = 0; k < lag; ++k) pushStrut(20 * k);
   EXPECT_TRUE(stamps_.empty());
   pushStrut(20 * lag);

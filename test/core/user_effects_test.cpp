@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/model/user_effects.h"
+#include "suspension_health_monitor/internal/model/user_effects.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/model/effect_catalogue.h"
-#include "suspension_health_monitor/model/strut_integrator.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/model/strut_integrator.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -12,7 +12,7 @@
 #include "monitor_settings.h"
 #include "paper_drive.h"
 #include "simulated_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -103,7 +103,7 @@ TEST(VaryingMonitor, WrongReadingsAloneDoNotOpenIt) {
       std::vector<double> worst;
       for (int seed = kFirstSeed; seed < kFirstSeed + kNumSeeds; ++seed) {
         SimulationOptions options;
-        options.damping_ramp = false;
+        options.damping_end_fraction = 1.0;
         options.duration = 90.0;
         options.seed = seed;
         options.scenario = kind.scenario;
@@ -125,8 +125,9 @@ TEST(VaryingMonitor, TheScaleOfDataAndTimeDoesNotMatter) {
   SimulationOptions drive;
   drive.seed = 303;
   MonitorOptions options = optionsWith(kSlow, kFastest), small = options;
-  options.horizon_samples = small.horizon_samples = 30;
+  options.integration_horizon = 30 * *options.sample_period;
   small.sample_period = 0.02 / kQuicker;
+  small.integration_horizon = 30 * *small.sample_period;
   SuspensionMonitor truck(options), part(small);
   double least = kSlow;
   std::int64_t number = 0;

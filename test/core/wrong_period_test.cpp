@@ -5,8 +5,8 @@
 
 #include "monitor_settings.h"
 #include "paper_drive.h"
-#include "suspension_health_monitor/suspension_monitor.h"
-#include "suspension_health_monitor/tyre_tracker.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -26,7 +26,7 @@ TEST(WrongPeriod, LeavesNoEstimateValidAndHealthStale) {
     SuspensionMonitor monitor(optionsAt(0.02 * (1.0 + error)));
     for (const CornerSample& sample : drive) {
       const MonitorReport& report = *monitor.addSample(sample);
-      ASSERT_FALSE(report.la.valid || report.ls.valid) << error;
+      ASSERT_FALSE(report.la.valid() || report.ls.valid()) << error;
     }
     EXPECT_FALSE(monitor.input().period_fits);
     EXPECT_NEAR(monitor.report().la.damping_to_mass * (1.0 + error), kPaperB1, 0.2) << "else it would not matter";
@@ -45,7 +45,7 @@ TEST(WrongPeriod, ASmallErrorAndJitterAreNone) {
       monitor.addSample(sample);
       ASSERT_TRUE(monitor.input().period_fits) << k;
     }
-    EXPECT_TRUE(monitor.report().la.valid);
+    EXPECT_TRUE(monitor.report().la.valid());
   }
 }
 
@@ -61,7 +61,7 @@ TEST(WrongPeriod, IsForgottenWhenTheStampsFitAgain) {
     }
   }
   EXPECT_TRUE(monitor.input().period_fits);
-  EXPECT_TRUE(monitor.report().la.valid);
+  EXPECT_TRUE(monitor.report().la.valid());
 }
 
 TEST(WrongPeriod, SurvivesAnotherForgettingFactor) {
@@ -73,7 +73,7 @@ TEST(WrongPeriod, SurvivesAnotherForgettingFactor) {
       other.forgetting_factor = 0.98;
       monitor.reconfigure(other);
     }
-    ASSERT_FALSE(monitor.addSample(drive[k])->la.valid) << k;
+    ASSERT_FALSE(monitor.addSample(drive[k])->la.valid()) << k;
   }
 }
 
@@ -92,7 +92,7 @@ TEST(WrongPeriod, LeavesNoTyreValid) {
     while (const auto sample = simulator.next())
       tyre.add({sample->stamp, sample->sprung->acceleration, sample->unsprung->acceleration},
                sample->road->acceleration);
-    EXPECT_EQ(tyre.report().la.valid, fits);
+    EXPECT_EQ(tyre.report().la.valid(), fits);
   }
 }
 

@@ -10,7 +10,7 @@ from decimal import Decimal
 import rosbag
 import rospy
 import rostest
-from ros_session import PACKAGE, REPOSITORY, Collector, is_finite, launch, run_tool
+from ros_session import PACKAGE, REPOSITORY, Collector, is_finite, replayed, run_tool, settings_file
 from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
 
 SETTINGS = os.path.join(REPOSITORY, "config", "paper.yaml")
@@ -39,14 +39,14 @@ class BagReplayTest(unittest.TestCase):
             cls.offline = read_csv(table)
             with rosbag.Bag(bag) as messages:
                 cls.stamps = {message.header.stamp.to_nsec() for _, message, _ in messages.read_messages("/sprung/imu")}
-            cls.replay(bag)
+            cls.replay(bag, settings_file(folder, "paper.yaml"))
 
     @classmethod
-    def replay(cls, bag):
+    def replay(cls, bag, config):
         collectors = [Collector("/monitor/ls", ParameterEstimate), Collector("/monitor/la", ParameterEstimate),
                       Collector("/monitor/comparison", ModelComparison)]
-        with launch("replay.launch", bag=bag, rate=RATE, delay=2.0, config=SETTINGS) as player:
-            status = player.wait_for_end(20.0)
+        with replayed(collectors, bag=bag, rate=RATE, config=config) as player:
+            status = player.wait_for_end()
         if status != 0:
             raise AssertionError(f"replay.launch ended with {status}:\n{player.output()}")
         cls.ls, cls.la, cls.comparison = (collector.by_stamp() for collector in collectors)

@@ -8,13 +8,14 @@ import unittest
 import rospy
 import rostest
 import yaml
-from ros_session import PACKAGE, Collector, start_node, wait_until
+from ros_session import PACKAGE, Collector, Pace, start_node, wait_until
 from std_srvs.srv import Trigger
 from suspension_health_monitor.msg import SuspensionHealth
 
 B1, B0 = 3.0, 13.8
 LEARN_TIME = 15.0  # [s]
-HEALTHY = {"real_time_factor": 20.0, "duration": 40.0, "scenario": "paper_clean", "damping_ramp": False}
+HEALTHY = {"real_time_factor": 20.0, "duration": 40.0, "scenario": "paper_clean", "damping_end_fraction": 1.0}
+TOO_SHORT = {**HEALTHY, "duration": 0.8 * LEARN_TIME}
 WORN = {**HEALTHY, "damping_to_mass": 0.6 * B1}
 
 
@@ -24,20 +25,25 @@ class BaselineTest(unittest.TestCase):
         self.path = os.path.join(self.folder.name, "strut.yaml")
         self.parameters = {"baseline_file": self.path, "baseline": {"learn_time": LEARN_TIME}}
         self.health = Collector("/monitor/health", SuspensionHealth)
+        self.pace = Pace("/baseline_test/pace", self.health)
 
     def tearDown(self):
+        self.pace.stop()
         self.health.stop()
         self.folder.cleanup()
 
     def monitor(self, **changes):
         return start_node("monitor_node", "monitor", {**self.parameters, **changes})
 
+    def simulator(self, parameters):
+        return start_node("simulator_node", "drive", parameters, pace="/baseline_test/pace")
+
     def drive(self, parameters, accepts, what):
         """Lets the simulated strut drive until a message is accepted, which it returns."""
-        self.health.messages.clear()
         self.health.wait_for_publisher()
-        with start_node("simulator_node", "drive", parameters):
-            return self.health.wait_for(accepts, 20.0, what)
+        self.health.messages.clear()
+        with self.simulator(parameters):
+            return self.health.wait_for(accepts, what)
 
     def stored(self):
         with open(self.path, encoding="utf-8") as stream:
@@ -45,13 +51,13 @@ class BaselineTest(unittest.TestCase):
 
     def test_is_learned_stored_and_loaded_after_a_kill(self):
         with self.monitor() as monitor:
-            learning = self.drive(HEALTHY, lambda health: 0.3 < health.learning_progress < 0.9, "progress")
+            learning = self.drive(TOO_SHORT, lambda health: 0.3 < health.learning_progress < 0.9, "progress")
             self.assertRegex(learning.reason, r"^learning the baseline: [3-9][0-9] %")
             self.assertFalse(os.path.exists(self.path))
             learned = self.drive(HEALTHY, lambda health: abs(health.damping_change) < 1.0, "a judgement by the baseline")
             self.assertEqual(os.listdir(self.folder.name), ["strut.yaml"])
             monitor._process.send_signal(signal.SIGKILL)  # pylint: disable=protected-access
-            monitor.wait_for_end(5.0)
+            monitor.wait_for_end()
         stored = self.stored()
         self.assertAlmostEqual(stored["damping_to_mass"], B1, delta=0.1)
         self.assertAlmostEqual(stored["stiffness_to_mass"], B0, delta=0.4)
@@ -67,20 +73,28 @@ class BaselineTest(unittest.TestCase):
 
     def test_service_makes_the_present_strut_the_baseline(self):
         with self.monitor():
-            rospy.wait_for_service("/monitor/save_baseline", 10.0)
+            rospy.wait_for_service("/monitor/save_baseline")
             save = rospy.ServiceProxy("/monitor/save_baseline", Trigger)
             refused = save()
             self.assertFalse(refused.success)
             self.assertIn("no valid estimate", refused.message)
             self.health.wait_for_publisher()
-            with start_node("simulator_node", "drive", {**WORN, "duration": 200.0, "real_time_factor": 10.0}):
-                self.health.wait_for(lambda health: health.header.stamp.to_sec() > 0 and health.learning_progress > 0.5,
-                                     20.0, "a valid estimate")
+            with self.simulator({**WORN, "duration": 3600.0}):
+                self.health.wait_for(lambda health: health.learning_progress > 0.5, "a valid estimate")
                 saved = save()
                 self.assertTrue(saved.success, saved.message)
                 wait_until(lambda: "baseline" in self.health.messages[-1].reason
-                           and "learning" not in self.health.messages[-1].reason, 5.0, "a judgement by it")
+                           and "learning" not in self.health.messages[-1].reason, "a judgement by it")
         self.assertAlmostEqual(self.stored()["damping_to_mass"], 0.6 * B1, delta=0.1)
+
+    def test_service_refuses_an_estimate_that_could_prove_nothing(self):
+        with self.monitor(health={"damping_warn": 0.001, "damping_error": 0.002}):
+            with self.simulator({**HEALTHY, "duration": 3600.0}):
+                self.health.wait_for(lambda health: health.learning_progress > 0.3, "a valid estimate")
+                refused = rospy.ServiceProxy("/monitor/save_baseline", Trigger)()
+        self.assertFalse(refused.success)
+        self.assertRegex(refused.message, r"too uncertain .* = [0-9.]+ \+- [0-9.]+, so that damage of 0.2 % would not be")
+        self.assertFalse(os.path.exists(self.path))
 
     def test_broken_file_is_refused_by_name_key_value_and_what_is_allowed(self):
         broken = {"damping_to_mass: -3\nstiffness_to_mass: 13.8\n": ["damping_to_mass = -3", "must be in"],
@@ -93,13 +107,13 @@ class BaselineTest(unittest.TestCase):
             with open(self.path, "w", encoding="utf-8") as stream:
                 stream.write(text)
             with self.monitor() as monitor:
-                self.assertNotEqual(monitor.wait_for_end(10.0), 0)
+                self.assertNotEqual(monitor.wait_for_end(), 0)
                 for part in [self.path, *parts]:
                     self.assertIn(part, monitor.output())
 
     def test_nominal_values_beside_a_file_are_refused(self):
         with self.monitor(nominal={"damping_to_mass": 3.0}) as monitor:
-            self.assertNotEqual(monitor.wait_for_end(10.0), 0)
+            self.assertNotEqual(monitor.wait_for_end(), 0)
             self.assertIn("baseline_file", monitor.output())
             self.assertIn("must be one of them", monitor.output())
 

@@ -7,7 +7,8 @@ import unittest
 import rospy
 import rostest
 from live_drive import COEFFICIENT, DRIVE, EFFECT, KEPT, SETTINGS, START, Services, load_monitor
-from ros_session import PACKAGE, Collector, load_nodelet
+from ros_session import PACKAGE, Collector, Pace, load_nodelet
+from sensor_msgs.msg import Imu
 from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
 
 
@@ -15,11 +16,15 @@ class ChosenModelTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        cls.drive = load_nodelet("SimulatorNodelet", "drive", DRIVE)
+        cls.imu = Collector("/sprung/imu", Imu)
+        cls.pace = Pace("/chosen_model_test/pace", cls.imu)
+        cls.drive = load_nodelet("SimulatorNodelet", "drive", DRIVE, pace="/chosen_model_test/pace")
 
     @classmethod
     def tearDownClass(cls):
         cls.drive.stop()
+        cls.pace.stop()
+        cls.imu.stop()
         cls.folder.cleanup()
 
     def test_model_is_not_saved_where_no_file_can_be(self):
@@ -27,7 +32,7 @@ class ChosenModelTest(unittest.TestCase):
         for name, parameters, words in (("unwritable", {"model_file": path}, path), ("fileless", {}, "model_file")):
             estimates = Collector(f"/{name}/la", ParameterEstimate)
             with load_monitor(name, **parameters):
-                estimates.wait_for(lambda message: message.valid, 20.0, "a valid estimate")
+                estimates.wait_for(lambda message: message.valid, "a valid estimate")
                 answer = Services(name).save_model()
             estimates.stop()
             self.assertFalse(answer.success)
@@ -37,15 +42,15 @@ class ChosenModelTest(unittest.TestCase):
     def test_shapes_of_the_drive_are_taken_where_none_are_given(self):
         estimates = Collector("/shaped/la", ParameterEstimate)
         with load_monitor("shaped"):
-            first = estimates.wait_for(lambda message: message.valid, 20.0, "a valid estimate").header.stamp
-            estimates.wait_for(lambda message: (message.header.stamp - first).to_sec() > 10.0, 20.0, "motion")
+            first = estimates.wait_for(lambda message: message.valid, "a valid estimate").header.stamp
+            estimates.wait_for(lambda message: (message.header.stamp - first).to_sec() > 10.0, "motion")
             services = Services("shaped")
             for names, shapes in ((["bump_stop"], {}), (["bump_stop", EFFECT], {"bump_stop/g": 0.02}), ([], {})):
                 answer = services.set_effects(names, list(shapes), list(shapes.values()))
                 self.assertTrue(answer.success, answer.message)
                 stamp = estimates.messages[-1].header.stamp
                 newest = estimates.wait_for(
-                    lambda message: message.header.stamp > stamp and message.effect_names == names, 10.0, f"{names}")
+                    lambda message: message.header.stamp > stamp and message.effect_names == names, f"{names}")
                 self.assertEqual(len(newest.effect_coefficients), len(names))
         estimates.stop()
 
@@ -55,10 +60,10 @@ class ChosenModelTest(unittest.TestCase):
             stream.write('effects: {my_damper: {force: "v * abs(v)", unit: "1/m"}}')
         estimates = Collector("/own/la", ParameterEstimate)
         with load_monitor("own", effects_file=path, effects=["my_damper", EFFECT]):
-            estimates.wait_for(lambda message: message.effect_names == ["my_damper", EFFECT], 20.0, "both effects")
+            estimates.wait_for(lambda message: message.effect_names == ["my_damper", EFFECT], "both effects")
             answer = Services("own").set_effects(["my_damper"], [], [])
             self.assertTrue(answer.success, answer.message)
-            last = estimates.wait_for(lambda message: message.effect_names == ["my_damper"] and message.valid, 20.0,
+            last = estimates.wait_for(lambda message: message.effect_names == ["my_damper"] and message.valid,
                                       "the one effect")
             self.assertAlmostEqual(last.effect_coefficients[0], COEFFICIENT, delta=2.0 * COEFFICIENT)
         estimates.stop()
@@ -72,7 +77,7 @@ class ChosenModelTest(unittest.TestCase):
         with load_nodelet("MonitorNodelet", "tilted", SETTINGS, **topics), \
                 load_nodelet("SimulatorNodelet", "tilted_drive", drive, **topics):
             end = rospy.Time.from_sec(START + KEPT)
-            comparisons.wait_for(lambda message: message.header.stamp >= end, 60.0, "enough to search in")
+            comparisons.wait_for(lambda message: message.header.stamp >= end, "enough to search in")
             services = Services("tilted")
             found = services.diagnose(0.0)
             answer = services.set_effects(found.selected, [], [])

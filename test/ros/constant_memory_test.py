@@ -32,7 +32,7 @@ class ConstantMemoryTest(unittest.TestCase):
 
     def resident_at(self, stamp, estimates, program):
         """Resident memory [kB] of a program at a stamp of the drive [s]."""
-        estimates.wait_for(lambda estimate: estimate.header.stamp.to_sec() >= stamp, 40.0, f"{stamp} s of the drive")
+        estimates.wait_for(lambda estimate: estimate.header.stamp.to_sec() >= stamp, f"{stamp} s of the drive")
         with open(f"/proc/{program.process_id()}/status", encoding="utf-8") as status:
             return int(re.search(r"VmRSS:\s+(\d+) kB", status.read()).group(1))
 

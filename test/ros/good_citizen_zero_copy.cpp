@@ -40,7 +40,7 @@ TEST(GoodCitizen, ZeroCopyNeedsSharedPointers) {
   ros::AsyncSpinner spinner(1);
   spinner.start();
   const auto wait = [](const auto& done) {
-    for (int i = 0; i < 1000 && !done(); ++i) ros::WallDuration(0.01).sleep();
+    for (int i = 0; i < 30000 && !done(); ++i) ros::WallDuration(0.01).sleep();
     return done();
   };
   ASSERT_TRUE(wait([&] { return imu[0].getNumSubscribers() + imu[1].getNumSubscribers() == 2; }));

@@ -11,7 +11,7 @@ import rospy
 import rostest
 import yaml
 from measured_drive import DAMPING_TO_MASS, PERIOD, MeasuredDrive
-from ros_session import PACKAGE, start_node, wait_until
+from ros_session import PACKAGE, PATIENCE, start_node, wait_until
 from std_srvs.srv import Trigger
 
 START = 1000.0  # [s]
@@ -60,10 +60,10 @@ class KillTest(unittest.TestCase):
         with start_node("monitor_node", "monitor", {"sample_period": PERIOD, "model_file": path}) as node:
             self.drive()
             saving = Saving()
-            wait_until(lambda: saving.successes >= saves, 20.0, "the model saved again and again")
+            wait_until(lambda: saving.successes >= saves, "the model saved again and again")
             time.sleep(after)
             node.kill()
-        saving.join(10.0)
+        saving.join(PATIENCE)
         self.assertFalse(saving.is_alive())
         with open(path, encoding="utf-8") as file:
             model = yaml.safe_load(file)

@@ -2,7 +2,7 @@
 import threading
 
 import rospy
-from ros_session import load_nodelet
+from ros_session import PATIENCE, load_nodelet
 from std_srvs.srv import Trigger
 from suspension_health_monitor.srv import Diagnose, SetEffects
 
@@ -16,7 +16,7 @@ KEPT = 60.0  # [s]
 
 
 def proxy(monitor, service, service_type):
-    rospy.wait_for_service(f"/{monitor}/{service}", 10.0)
+    rospy.wait_for_service(f"/{monitor}/{service}", PATIENCE)
     return rospy.ServiceProxy(f"/{monitor}/{service}", service_type)
 
 

@@ -10,7 +10,7 @@ import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from live_drive import COEFFICIENT, DRIVE, EFFECT, KEPT, STIFFNESS_TO_MASS, Services, load_monitor, two_searches
-from ros_session import PACKAGE, Collector, load_nodelet, statuses, values, wait_until
+from ros_session import PACKAGE, Collector, Pace, load_nodelet, statuses, values, wait_until
 from sensor_msgs.msg import Imu
 from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
 
@@ -31,13 +31,15 @@ class LiveSearchTest(unittest.TestCase):
         cls.la.wait_for_publisher()
         cls.services = Services("live")
         cls.before_the_drive = cls.ask_everything_too_early()
-        cls.programs.append(load_nodelet("SimulatorNodelet", "drive", DRIVE))
+        cls.pace = Pace("/live_search_test/pace", cls.imu, cls.la, cls.comparison)
+        cls.programs.append(load_nodelet("SimulatorNodelet", "drive", DRIVE, pace="/live_search_test/pace"))
         cls.search_and_extend()
 
     @classmethod
     def tearDownClass(cls):
         for program in reversed(cls.programs):
             program.stop()
+        cls.pace.stop()
         cls.folder.cleanup()
 
     @classmethod
@@ -49,21 +51,22 @@ class LiveSearchTest(unittest.TestCase):
         """Waits until that much of the drive has been compared; the comparisons of this part."""
         begin = len(cls.comparison.messages)
         stamp = cls.now() + rospy.Duration(seconds)
-        cls.comparison.wait_for(lambda message: message.header.stamp >= stamp, 30.0 + seconds, f"{seconds} s of drive")
+        cls.comparison.wait_for(lambda message: message.header.stamp >= stamp, f"{seconds} s of drive")
         return cls.comparison.messages[begin:]
 
     @classmethod
     def now(cls):
-        return cls.la.wait_for(lambda message: True, 10.0, "an estimate") and cls.la.messages[-1].header.stamp
+        return cls.la.wait_for(lambda message: True, "an estimate") and cls.la.messages[-1].header.stamp
 
     @classmethod
     def search_and_extend(cls):
         cls.drive_on(3.0)
-        cls.after_three_seconds = cls.services.diagnose(0.0)
+        with cls.pace.held():
+            cls.after_three_seconds = cls.services.diagnose(0.0)
         cls.plain = cls.drive_on(KEPT)
-        cls.imu_before, cls.la_before = len(cls.imu.messages), len(cls.la.messages)
+        begin = len(cls.la.messages)
         cls.found, cls.refused = cls.call_twice("live")
-        cls.imu_after, cls.la_after = len(cls.imu.messages), len(cls.la.messages)
+        cls.estimates_meanwhile = cls.la.messages[begin:]
         cls.status_found = cls.next_status()
         cls.extended_answer = cls.services.set_effects(cls.found.selected, [], [])
         cls.drive_on(SETTLED)
@@ -75,13 +78,13 @@ class LiveSearchTest(unittest.TestCase):
     def call_twice(cls, monitor):
         """(answer of the call that searched, answer of the call that came meanwhile)."""
         calls = two_searches(monitor)
-        wait_until(lambda: all(call.ended() for call in calls), 60.0, "the end of the search")
+        wait_until(lambda: all(call.ended() for call in calls), "the end of the search")
         return sorted((call.response for call in calls), key=lambda answer: answer.success, reverse=True)
 
     @classmethod
     def next_status(cls):
-        begin = len(statuses(cls.diagnostics, "live: Model"))
-        return wait_until(lambda: statuses(cls.diagnostics, "live: Model")[begin:], 5.0, "a status of the model")[0]
+        begin = len(statuses(cls.diagnostics.messages, "live: Model"))
+        return wait_until(lambda: statuses(cls.diagnostics.messages, "live: Model")[begin:], "a status of the model")[0]
 
     def test_too_early_is_said_in_words(self):
         diagnose, effects, save = self.before_the_drive
@@ -116,10 +119,9 @@ class LiveSearchTest(unittest.TestCase):
         self.assertTrue(found.ranked_significant[0])
 
     def test_estimates_keep_pace_during_the_search(self):
-        arrived, estimated = self.imu_after - self.imu_before, self.la_after - self.la_before
-        self.assertGreater(arrived, 20, "the search has taken no time: it says nothing")
-        self.assertGreater(estimated, 0.5 * arrived)
-        self.assertEqual(int(values(statuses(self.diagnostics, "live: Input")[-1])["gaps"]), 0)
+        """The drive waits for a monitor that does not follow; this one has followed until the search was over."""
+        self.assertGreater(len(self.estimates_meanwhile), 20, "the search has taken no time, or the monitor stood still")
+        self.assertEqual(int(values(statuses(self.diagnostics.messages, "live: Input")[-1])["gaps"]), 0)
 
     def test_second_call_is_refused_while_one_searches(self):
         self.assertFalse(self.refused.success)
@@ -164,7 +166,7 @@ class LiveSearchTest(unittest.TestCase):
         self.assertEqual(os.listdir(self.folder.name), ["model.yaml"])
         estimates = Collector("/again/la", ParameterEstimate)
         with load_monitor("again", model_file=self.model_file):
-            estimates.wait_for(lambda message: message.effect_names == [EFFECT], 10.0, "the effect of the file")
+            estimates.wait_for(lambda message: message.effect_names == [EFFECT], "the effect of the file")
         estimates.stop()
 
     def test_wrong_effects_are_refused_and_change_nothing(self):
@@ -180,7 +182,7 @@ class LiveSearchTest(unittest.TestCase):
                 self.assertIn(word, answer.message)
         self.assertIn("shape_names", self.services.set_effects(["bump_stop"], ["bump_stop/g"], []).message)
         stamp = self.now()
-        newest = self.la.wait_for(lambda message: message.header.stamp > stamp, 10.0, "a new estimate")
+        newest = self.la.wait_for(lambda message: message.header.stamp > stamp, "a new estimate")
         self.assertEqual(newest.effect_names, [EFFECT])
 
     def test_window_beyond_what_is_kept_is_refused(self):

@@ -4,7 +4,7 @@ import os
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from ros_session import REPOSITORY, Collector, is_finite, wait_until
+from ros_session import REPOSITORY, UNLIMITED, Collector, is_finite, wait_until
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 from suspension_health_monitor.msg import ParameterEstimate
@@ -44,12 +44,12 @@ class MeasuredDrive:
         self.estimates = Collector(f"/{monitor}/la", ParameterEstimate)
         self.diagnostics = Collector("/diagnostics", DiagnosticArray)
         self.input_task = f"{monitor}: Input"
-        self.publishers = [rospy.Publisher(topic, Imu, queue_size=2 * BATCH, tcp_nodelay=True)
+        self.publishers = [rospy.Publisher(topic, Imu, queue_size=UNLIMITED, tcp_nodelay=True)
                            for topic in (sprung, unsprung)]
         self.topics = (sprung, unsprung)
         self.reset = rospy.ServiceProxy(f"/{monitor}/reset", Trigger)
         for publisher in self.publishers:
-            wait_until(publisher.get_num_connections, 10.0, f"a subscriber of {publisher.name}")
+            wait_until(publisher.get_num_connections, f"a subscriber of {publisher.name}")
         self.estimates.wait_for_publisher()
         self.diagnostics.wait_for_publisher()
 
@@ -76,10 +76,10 @@ class MeasuredDrive:
                     if imu is not None:
                         publisher.publish(imu)
             wanted = make_imu(start + (end - 1) * self.period, 0.0).header.stamp
-            wait_until(lambda: self.estimates.messages and self.estimates.messages[-1].header.stamp == wanted, 5.0,
+            wait_until(lambda: self.estimates.messages and self.estimates.messages[-1].header.stamp == wanted,
                        f"the estimate of sample {end - 1}")
 
-    def input_status(self, accepts, timeout=5.0, what="a status of the input", after=0):
+    def input_status(self, accepts, what="a status of the input", after=0):
         """The first status of the input, of the messages from number `after` on, that accepts(status)."""
         def find():
             for array in self.diagnostics.messages[after:]:
@@ -87,7 +87,7 @@ class MeasuredDrive:
                     if status.name == self.input_task and accepts(status):
                         return status
             return None
-        return wait_until(find, timeout, what)
+        return wait_until(find, what)
 
     def assert_estimate_is_good(self, test):
         last = self.estimates.messages[-1]

@@ -7,7 +7,7 @@ import rospy
 import rostest
 import yaml
 from measured_drive import DAMPING_TO_MASS, LARGEST_ERROR, PERIOD, VALID_AFTER, MeasuredDrive
-from ros_session import PACKAGE, load_nodelet, wait_until
+from ros_session import PACKAGE, PATIENCE, load_nodelet, wait_until
 from suspension_health_monitor.msg import ModelInUse
 from suspension_health_monitor.srv import SetEffects
 
@@ -18,7 +18,7 @@ EFFECTS = ["quadratic_damping", "bump_stop"]
 
 def latched_model():
     """What a subscriber that comes now gets."""
-    return rospy.wait_for_message("/monitor/model", ModelInUse, 5.0)
+    return rospy.wait_for_message("/monitor/model", ModelInUse, PATIENCE)
 
 
 class ModelTopicTest(unittest.TestCase):
@@ -47,7 +47,7 @@ class ModelTopicTest(unittest.TestCase):
                 for publisher, imu in zip(drive.publishers, pair):
                     publisher.publish(imu)
             wanted = drive.pair(begin + 99 - DELAY, START)[0].header.stamp
-            wait_until(lambda: drive.estimates.messages[-1].header.stamp == wanted, 5.0, f"sample {begin + 99 - DELAY}")
+            wait_until(lambda: drive.estimates.messages[-1].header.stamp == wanted, f"sample {begin + 99 - DELAY}")
 
     def check_plain_model(self, model):
         self.assertEqual(model.effect_names, [])

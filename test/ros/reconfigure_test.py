@@ -8,7 +8,7 @@ import rostest
 from dynamic_reconfigure.client import Client
 from dynamic_reconfigure.msg import ConfigDescription
 from measured_drive import MeasuredDrive, PERIOD
-from ros_session import PACKAGE, Collector, find_program, load_nodelet, wait_until
+from ros_session import PACKAGE, PATIENCE, Collector, find_program, load_nodelet, wait_until
 from rosgraph_msgs.msg import Log
 from suspension_health_monitor.msg import SuspensionHealth
 
@@ -32,7 +32,7 @@ REFUSED = {
 
 def options_by_name():
     """What `suspension_bag options` says, the table of all options."""
-    output = subprocess.run([find_program(PACKAGE, "suspension_bag"), "options"], check=True, text=True, timeout=10.0,
+    output = subprocess.run([find_program(PACKAGE, "suspension_bag"), "options"], check=True, text=True, timeout=PATIENCE,
                             stdout=subprocess.PIPE).stdout
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in output.splitlines() if line.startswith("|")]
     return {row[0].strip("`"): row[1:] for row in rows}
@@ -46,7 +46,7 @@ class ReconfigureTest(unittest.TestCase):
         cls.rosout.wait_for_publisher()
         cls.health = Collector("/monitor/health", SuspensionHealth)
         cls.drive = MeasuredDrive()
-        cls.client = Client("/monitor", timeout=10.0)
+        cls.client = Client("/monitor", timeout=PATIENCE)
 
     @classmethod
     def tearDownClass(cls):
@@ -59,6 +59,7 @@ class ReconfigureTest(unittest.TestCase):
     def setUp(self):
         self.turn(**AS_GIVEN)
         self.drive.reset()
+        self.health.messages.clear()
 
     def turn(self, **changes):
         """@return all settings after the change."""
@@ -68,13 +69,15 @@ class ReconfigureTest(unittest.TestCase):
         return self.turn(**{})
 
     def level(self):
-        return self.health.messages[-1].level
+        """Of the newest sample that has an estimate."""
+        newest = self.drive.estimates.messages[-1].header.stamp
+        return self.health.wait_for(lambda health: health.header.stamp == newest, "the health of the newest sample").level
 
     def test_dynamic_reconfigure_overwrites_launch_parameters(self):
         topics = {"sprung/imu": "/fresh/sprung", "unsprung/imu": "/fresh/unsprung"}
         with load_nodelet("MonitorNodelet", "fresh", {"sample_period": PERIOD, **GIVEN}, **topics):
-            client = Client("/fresh", timeout=10.0)
-            first = client.get_configuration(10.0)
+            client = Client("/fresh", timeout=PATIENCE)
+            first = client.get_configuration(PATIENCE)
             self.assertEqual({name: first[name] for name in AS_GIVEN}, AS_GIVEN)
             self.assertEqual(rospy.get_param("/fresh/health"), GIVEN["health"])
             client.close()
@@ -89,12 +92,12 @@ class ReconfigureTest(unittest.TestCase):
         for request, words in REFUSED.values():
             before = self.now()
             self.assertEqual(self.turn(**request), before)
-            self.rosout.wait_for(lambda log: log.level == Log.WARN and all(word in log.msg for word in words), 5.0,
+            self.rosout.wait_for(lambda log: log.level == Log.WARN and all(word in log.msg for word in words),
                                  f"a warning with {words}")
             self.assertTrue(all(rospy.get_param("/monitor/" + name) == before[name] for name in request))
 
     def test_ranges_and_defaults_are_those_of_all_options(self):
-        description = rospy.wait_for_message("/monitor/parameter_descriptions", ConfigDescription, 5.0)
+        description = rospy.wait_for_message("/monitor/parameter_descriptions", ConfigDescription, PATIENCE)
         table = options_by_name()
 
         def numbers(config):
@@ -143,7 +146,7 @@ class ReconfigureTest(unittest.TestCase):
         for pair in (self.drive.pair(index, START) for index in range(90)):
             for publisher, imu in zip(self.drive.publishers, pair):
                 publisher.publish(imu)
-        wait_until(lambda: len(self.drive.estimates.messages) == 30, 5.0, "every third sample")
+        wait_until(lambda: len(self.drive.estimates.messages) == 30, "every third sample")
         indices = [round((estimate.header.stamp.to_sec() - START) / PERIOD) for estimate in self.drive.estimates.messages]
         self.assertEqual(set(b - a for a, b in zip(indices, indices[1:])), {3})
 

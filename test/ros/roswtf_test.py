@@ -7,7 +7,7 @@ import unittest
 
 import rospy
 import rostest
-from ros_session import PACKAGE, Collector
+from ros_session import PACKAGE, PATIENCE, Collector
 from suspension_health_monitor.msg import ParameterEstimate
 
 # Its static checks are about the machine (rosdep's cache; ROS_ROOT, which Debian does not set): only what it says of the
@@ -21,9 +21,9 @@ class RoswtfTest(unittest.TestCase):
     def test_nothing_is_wrong_with_the_graph(self):
         collectors = [Collector(f"/{monitor}/la", ParameterEstimate) for monitor in ("monitor", "second_monitor")]
         for collector in collectors:
-            collector.wait_for(lambda estimate: True, 20.0, "an estimate")
+            collector.wait_for(lambda estimate: True, "an estimate")
         with tempfile.TemporaryDirectory() as folder:
-            output = subprocess.run([sys.executable, "-c", ROSWTF], cwd=folder, text=True, timeout=50.0,
+            output = subprocess.run([sys.executable, "-c", ROSWTF], cwd=folder, text=True, timeout=PATIENCE,
                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT).stdout
         self.assertIn(GRAPH, output, "it has looked at the graph")
         graph = output[output.index(GRAPH):]

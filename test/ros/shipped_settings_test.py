@@ -26,7 +26,7 @@ class ShippedSettingsTest(unittest.TestCase):
                 nodelet, topic = (("SimulatorNodelet", "truth") if file in SIMULATOR_FILES
                                   else ("MonitorNodelet", "la"))
                 with load_nodelet(nodelet, name, settings(file)) as loaded:
-                    wait_until(lambda: f"/{name}/{topic}" in published_topics() or not loaded.running(), 5.0, file)
+                    wait_until(lambda: f"/{name}/{topic}" in published_topics() or not loaded.running(), file)
                     self.assertTrue(loaded.running(), loaded.output())
 
 

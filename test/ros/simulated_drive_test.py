@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """The estimates against the simulator's truth, by stamp, through real topics."""
 import math
+import tempfile
 import unittest
 
 import rospy
 import rostest
-from ros_session import PACKAGE, Collector, launch, settings, start_node
+from ros_session import PACKAGE, Collector, Pace, launch, record_drive, settings, start_node
 from suspension_health_monitor.msg import ParameterEstimate, SimulationTruth
 
 # Errors of b1 [1/s] and b0 [1/s^2] in the paper's experiments (lambda 0.98, L 30), t > 10 s, measured over 20 noise
@@ -19,33 +20,21 @@ SETTLED = 10.0  # [s]
 TIMES = (12.0, 20.0, 38.0, 55.0, 62.0, 80.0, 95.0, 119.0)  # [s], none within 10 s after a loss (25..26 s, 65..66 s)
 DURATION = 120.0
 SEED = 1
+TOPICS = LS, LA, TRUTH = ("/monitor/ls", "/monitor/la", "/simulator/truth")
 
 
 class SimulatedDriveTest(unittest.TestCase):
-    def setUp(self):
-        self.ls = Collector("/monitor/ls", ParameterEstimate)
-        self.la = Collector("/monitor/la", ParameterEstimate)
-        self.truth = Collector("/simulator/truth", SimulationTruth)
-
-    def tearDown(self):
-        for collector in (self.ls, self.la, self.truth):
-            collector.stop()
-
-    def wait_for_end(self, start_time):
-        last = rospy.Time.from_sec(start_time + DURATION)
-        for collector in (self.ls, self.la, self.truth):
-            collector.wait_for(lambda message: message.header.stamp == last, 20.0, "the end of the drive")
-
-    def errors(self, estimates, start_time):
+    def errors(self, estimates, truths, start_time):
         """(b1 error, b0 error) by drive time [s], from 10 s on."""
-        truth = self.truth.by_stamp()
+        truth_at = {truth.header.stamp: truth for truth in truths}
         result = {}
-        for stamp, estimate in estimates.by_stamp().items():
-            time = round(stamp * 1e-9 - start_time, 9)
+        for estimate in estimates:
+            time = round(estimate.header.stamp.to_sec() - start_time, 6)
             if time >= SETTLED:
                 self.assertTrue(estimate.valid or time not in TIMES, f"at {time} s")
-                result[time] = (estimate.damping_to_mass - truth[stamp].damping_to_mass,
-                                estimate.stiffness_to_mass - truth[stamp].stiffness_to_mass)
+                truth = truth_at[estimate.header.stamp]
+                result[time] = (estimate.damping_to_mass - truth.damping_to_mass,
+                                estimate.stiffness_to_mass - truth.stiffness_to_mass)
         self.assertEqual(len(result), round((DURATION - SETTLED) * 50) + 1, "an estimate for every sample")
         return result
 
@@ -60,37 +49,47 @@ class SimulatedDriveTest(unittest.TestCase):
             self.assertLessEqual(abs(rms / expected - 1.0), 5 * RMS_SCATTER, f"{what}: rms {rms}, table {expected}")
 
     def test_nodelets_in_one_manager_follow_the_truth_through_data_loss(self):
-        with launch("paper.launch", scenario="paper_outliers", real_time_factor=30, seed=SEED):
-            self.wait_for_end(0.0)
-        ls = self.errors(self.ls, 0.0)
-        la = self.errors(self.la, 0.0)
+        with tempfile.TemporaryDirectory() as folder:
+            drive = record_drive(folder, TOPICS, scenario="paper_outliers", seed=SEED)
+        ls, la = (self.errors(drive[topic], drive[TRUTH], 0.0) for topic in (LS, LA))
         self.assert_close_at_times(ls, "ls, no fault")
         self.assert_close_at_times(la, "la, data loss")
         self.assert_rms_as_in_table(ls, "ls, data loss")
         self.assert_rms_as_in_table(la, "la, data loss")
 
     def test_hidden_effect_is_told_on_the_truth_alone(self):
-        with launch("simulation.launch", scenario="iso_road", real_time_factor=20, hidden="bump_stop=47,g=0.013; "
-                    "quadratic_damping=1.6", effects="quadratic_damping", duration=30):
-            estimate = self.la.wait_for(lambda message: message.effect_names, 20.0, "an effect in the model")
-            truth = self.truth.wait_for(lambda message: True, 20.0, "the truth")
+        la, truth = Collector(LA, ParameterEstimate), Collector(TRUTH, SimulationTruth)
+        with launch("simulation.launch", scenario="iso_road", hidden="bump_stop=47,g=0.013; quadratic_damping=1.6",
+                    effects="quadratic_damping", duration=3600):
+            estimate = la.wait_for(lambda message: message.effect_names, "an effect in the model")
+            told = truth.wait_for(lambda message: True, "the truth")
             topics = [topic for topic, _ in rospy.get_published_topics("/simulator")]
+        la.stop()
+        truth.stop()
         self.assertEqual(estimate.effect_names, ["quadratic_damping"])
-        self.assertEqual(dict(zip(truth.effect_names, truth.effect_coefficients)),
+        self.assertEqual(dict(zip(told.effect_names, told.effect_coefficients)),
                          {"bump_stop": 47.0, "quadratic_damping": 1.6})
-        self.assertEqual(topics, ["/simulator/truth"])
+        self.assertEqual(topics, [TRUTH])
 
     def test_separate_nodes_follow_the_truth(self):
         start_time = 1000.0
-        drive = {"scenario": "paper_clean", "start_time": start_time, "real_time_factor": 30.0, "seed": SEED}
+        drive = {"scenario": "paper_clean", "start_time": start_time, "real_time_factor": 0.0, "seed": SEED}
+        collectors = {topic: Collector(topic, SimulationTruth if topic == TRUTH else ParameterEstimate)
+                      for topic in TOPICS}
+        pace = Pace("/simulated_drive_test/pace", *collectors.values())
         rospy.set_param("/use_sim_time", False)
         with start_node("monitor_node", "monitor", settings("paper.yaml")):
-            self.la.wait_for_publisher()
-            self.ls.wait_for_publisher()
-            with start_node("simulator_node", "simulator", drive):
-                self.wait_for_end(start_time)
-        for name, estimates in (("ls, no fault", self.ls), ("la, no fault", self.la)):
-            errors = self.errors(estimates, start_time)
+            collectors[LA].wait_for_publisher()
+            collectors[LS].wait_for_publisher()
+            with start_node("simulator_node", "simulator", drive, pace="/simulated_drive_test/pace"):
+                last = rospy.Time.from_sec(start_time + DURATION)
+                for collector in collectors.values():
+                    collector.wait_for(lambda message: message.header.stamp == last, "the end of the drive")
+        pace.stop()
+        for collector in collectors.values():
+            collector.stop()
+        for topic, name in ((LS, "ls, no fault"), (LA, "la, no fault")):
+            errors = self.errors(collectors[topic].messages, collectors[TRUTH].messages, start_time)
             self.assert_close_at_times(errors, name)
             self.assert_rms_as_in_table(errors, name)
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/assessment.h"
+#include "suspension_health_monitor/internal/health/assessment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,10 +66,8 @@ HealthAssessment::HealthAssessment(const HealthOptions& options)
     : options_(options),
       memory_(memoryOf(options)),
       confirmation_(fromSeconds(options.confirm_time)),
-      damping_(memory_, horizonOf(options)),
-      stiffness_(damping_),
-      damping_early_(earlyWarning(options)),
-      stiffness_early_(earlyWarning(options)) {
+      damping_{FollowedParameter(memory_, horizonOf(options)), earlyWarning(options)},
+      stiffness_(damping_) {
   options.validate();
   baseline_.damping_to_mass = options.nominal_damping_to_mass;
   baseline_.stiffness_to_mass = options.nominal_stiffness_to_mass;
@@ -82,38 +80,42 @@ void HealthAssessment::setOptions(const HealthOptions& options) {
   options_ = options;
   if (memoryOf(options) != memory_) {
     memory_ = memoryOf(options);
-    damping_ = stiffness_ = FollowedParameter(memory_, horizonOf(options));
+    damping_.course = stiffness_.course = FollowedParameter(memory_, horizonOf(options));
   }
   confirmation_.setConfirmTime(fromSeconds(options.confirm_time));
 }
 
 void HealthAssessment::setMemory(double rows) {
   const double memory = std::min(memory_, rows / options_.rows_per_update);
-  damping_.setMemory(memory, horizonOf(options_));
-  stiffness_.setMemory(memory, horizonOf(options_));
+  damping_.course.setMemory(memory, horizonOf(options_));
+  stiffness_.course.setMemory(memory, horizonOf(options_));
 }
 
 void HealthAssessment::setBaseline(const Baseline& baseline) {
   baseline_ = baseline;
   learner_.reset();
-  damping_early_ = stiffness_early_ = earlyWarning(options_);
   since_early_ = 0.0;
-  damping_level_ = stiffness_level_ = HealthLevel::kOk;
+  for (Parameter* parameter : {&damping_, &stiffness_}) {
+    parameter->early = earlyWarning(options_);
+    parameter->level = HealthLevel::kOk;
+  }
 }
 
 const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& ls, const StrutEstimate& la) {
   HealthReport now;
-  now.estimate_valid = la.valid;
+  now.estimate_valid = la.valid();
   now.doubt = la.doubt;
   now.sensor = sensor_;
-  if (la.valid) {
+  if (la.valid()) {
     follow(ls, la);
-    if (learner_) learn(stamp, ls);
+    if (learner_ && agree_)
+      if (const std::optional<Baseline> learned = learner_->add(stamp, ls, options_.rows_per_update))
+        setBaseline(*learned);
     const StrutChange changed = change();
     judge(changed, now);
     warnEarly(changed);
   }
-  now.early_warning = damping_early_.isOn() || stiffness_early_.isOn();
+  now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
   now.outliers = disagreement_ > kOutlierShare;
   now.learned = baseline_.learned;
   if (learner_) {
@@ -121,38 +123,33 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
     now.learning_restarted = learner_->restarts() > 0;
   }
   const HealthLevel level = confirmation_.update(stamp, now.level);
-  if (la.valid || level == HealthLevel::kStale) report_ = now;  // else the last judgement stands, with its reasons
+  if (la.valid() || level == HealthLevel::kStale) report_ = now;  // else the last judgement stands, with its reasons
   report_.level = level;
   return report_;
 }
 
 void HealthAssessment::follow(const StrutEstimate& ls, const StrutEstimate& la) {
-  agree_ = ls.valid &&
+  agree_ = ls.valid() &&
            !apart(ls.damping_to_mass, la.damping_to_mass, ls.damping_to_mass_stddev, la.damping_to_mass_stddev,
                   kAgreement, kTails) &&
            !apart(ls.stiffness_to_mass, la.stiffness_to_mass, ls.stiffness_to_mass_stddev, la.stiffness_to_mass_stddev,
                   kAgreement, kTails);
   disagreement_ += ((agree_ ? 0.0 : 1.0) - disagreement_) / (kOutlierMemories * memory_);
   const auto if_valid = [&](double value, double stddev) {
-    return ls.valid ? std::optional<UncertainValue>({value, stddev}) : std::nullopt;
+    return ls.valid() ? std::optional<UncertainValue>({value, stddev}) : std::nullopt;
   };
-  damping_.follow(if_valid(ls.damping_to_mass, ls.damping_to_mass_stddev),
-                  {la.damping_to_mass, la.damping_to_mass_stddev});
-  stiffness_.follow(if_valid(ls.stiffness_to_mass, ls.stiffness_to_mass_stddev),
-                    {la.stiffness_to_mass, la.stiffness_to_mass_stddev});
-}
-
-void HealthAssessment::learn(Stamp stamp, const StrutEstimate& ls) {
-  if (!agree_) return;
-  if (const std::optional<Baseline> learned = learner_->add(stamp, ls, options_.rows_per_update)) setBaseline(*learned);
+  damping_.course.follow(if_valid(ls.damping_to_mass, ls.damping_to_mass_stddev),
+                         {la.damping_to_mass, la.damping_to_mass_stddev});
+  stiffness_.course.follow(if_valid(ls.stiffness_to_mass, ls.stiffness_to_mass_stddev),
+                           {la.stiffness_to_mass, la.stiffness_to_mass_stddev});
 }
 
 StrutChange HealthAssessment::change() const {
   const auto from = [&](const std::optional<double>& healthy, double stddev, const FollowedParameter& parameter) {
     return healthy ? parameter.changeFrom({*healthy, stddev}, options_.min_significance) : std::nullopt;
   };
-  return splitChange(from(baseline_.damping_to_mass, baseline_.damping_to_mass_stddev, damping_),
-                     from(baseline_.stiffness_to_mass, baseline_.stiffness_to_mass_stddev, stiffness_),
+  return splitChange(from(baseline_.damping_to_mass, baseline_.damping_to_mass_stddev, damping_.course),
+                     from(baseline_.stiffness_to_mass, baseline_.stiffness_to_mass_stddev, stiffness_.course),
                      options_.payload_range);
 }
 
@@ -162,19 +159,19 @@ void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
   now.payload_change = change.payload;
   if (change.damping) {
     now.damping_significance = logSize(*change.damping) / change.damping_stddev;
-    damping_level_ = levelOf(*change.damping, change.damping_stddev, options_.damping_warn, options_.damping_error,
-                             damping_level_, options_);
+    damping_.level = levelOf(*change.damping, change.damping_stddev, options_.damping_warn, options_.damping_error,
+                             damping_.level, options_);
   }
   if (change.stiffness) {
     now.stiffness_significance = logSize(*change.stiffness) / change.stiffness_stddev;
-    stiffness_level_ = levelOf(*change.stiffness, change.stiffness_stddev, options_.stiffness_warn,
-                               options_.stiffness_error, stiffness_level_, options_);
+    stiffness_.level = levelOf(*change.stiffness, change.stiffness_stddev, options_.stiffness_warn,
+                               options_.stiffness_error, stiffness_.level, options_);
   }
-  now.damping_level = damping_level_;
-  now.stiffness_level = stiffness_level_;
+  now.damping_level = damping_.level;
+  now.stiffness_level = stiffness_.level;
   const auto known = [](HealthLevel level) { return level == HealthLevel::kStale ? HealthLevel::kOk : level; };
-  now.level = std::max(known(damping_level_), known(stiffness_level_));
-  now.uncertain = std::max(damping_level_, stiffness_level_) == HealthLevel::kStale;
+  now.level = std::max(known(damping_.level), known(stiffness_.level));
+  now.uncertain = std::max(damping_.level, stiffness_.level) == HealthLevel::kStale;
   if (now.level == HealthLevel::kOk && now.uncertain) now.level = HealthLevel::kStale;
   if (now.sensor.fault != SensorFault::kNone) now.level = HealthLevel::kWarn;
 }
@@ -183,8 +180,8 @@ void HealthAssessment::warnEarly(const StrutChange& change) {
   since_early_ += 1.0;
   if (since_early_ < spacingOfEarly(options_)) return;
   since_early_ = 0.0;
-  if (change.damping) damping_early_.add(*change.damping, change.damping_stddev);
-  if (change.stiffness) stiffness_early_.add(*change.stiffness, change.stiffness_stddev);
+  if (change.damping) damping_.early.add(*change.damping, change.damping_stddev);
+  if (change.stiffness) stiffness_.early.add(*change.stiffness, change.stiffness_stddev);
 }
 
 }  // namespace suspension_health_monitor

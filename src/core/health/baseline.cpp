@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/baseline.h"
+#include "suspension_health_monitor/internal/health/baseline.h"
 
 #include <algorithm>
 #include <cmath>

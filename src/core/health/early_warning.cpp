@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/early_warning.h"
+#include "suspension_health_monitor/internal/health/early_warning.h"
 
 #include <algorithm>
 #include <cmath>

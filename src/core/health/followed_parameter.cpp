@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/followed_parameter.h"
+#include "suspension_health_monitor/internal/health/followed_parameter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,13 +55,10 @@ double FollowedParameter::varianceOfMeans(double memory, double horizon, double 
 void FollowedParameter::follow(const std::optional<UncertainValue>& ls, const UncertainValue& la) {
   newest_ = la;
   if (!forgets_) return;
-  if (ls) {
-    // What LS and LA differ by beyond the noise counts as an error of LS: its own may not yet show the outlier.
-    const double beyond = std::max(0.0, std::abs(ls->value - la.value) - ls->stddev);
-    ls_.follow(ls->value, ls->stddev * ls->stddev + beyond * beyond);
-  } else {
+  if (ls)
+    ls_.follow(ls->value, ls->stddev * ls->stddev);
+  else
     ls_.pass();
-  }
   la_.follow(la.value, la.stddev * la.stddev);
 }
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "suspension_health_monitor/health/assessment.h"
+#include "suspension_health_monitor/internal/health/assessment.h"
 
 namespace suspension_health_monitor {
 namespace {

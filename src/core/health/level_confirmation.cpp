@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/level_confirmation.h"
+#include "suspension_health_monitor/internal/health/level_confirmation.h"
 
 #include <algorithm>
 

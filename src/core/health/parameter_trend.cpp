@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/parameter_trend.h"
+#include "suspension_health_monitor/internal/health/parameter_trend.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,15 @@
-#include "suspension_health_monitor/health/sensor_check.h"
+#include "suspension_health_monitor/internal/health/sensor_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "suspension_health_monitor/internal/monitor/validity_gate.h"
+
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kGravity = 9.80665;  // [m/s^2]
-constexpr double kExplained = 0.5;    // less is not this strut
 constexpr double kCertain = 5.0;      // standard deviations
 constexpr double kMuchLarger = 9.0;   // variance over variance
 constexpr double kInG = 0.15;         // so near 1 is what a sensor of gravity reads that has g for its unit
@@ -24,52 +25,55 @@ std::string withMean(const char* sensor, double mean) {
 
 }  // namespace
 
-void SensorCheck::Reading::add(double before, double now, double slow, double quick) {
-  still = now == last ? std::min(still + 1, kStill) : 0;
+void SensorCheck::Reading::add(double now, double slow, double quick) {
+  still = now == last ? still + 1.0 : 0.0;
+  const double off = now - mean, change = now - last;
   last = now;
-  const double off = now - mean;
   mean += slow * off;
   variance += quick * (off * off - variance);
-  step += quick * ((now - before) * (now - before) - step);
+  step += quick * (change * change - step);
 }
 
-const SensorReport& SensorCheck::look(const CornerSample& previous, const CornerSample& sample, const StrutEstimate& la,
-                                      bool enough_rows) {
+void SensorCheck::add(const CornerSample& sample) {
   // What a sensor read while it was dead says nothing of its mean: that is learned anew.
-  const auto revives = [](const Reading& reading, double now) {
-    return reading.still == kStill && now != reading.last;
-  };
-  if (revives(readings_[0], sample.sprung_acceleration) || revives(readings_[1], sample.unsprung_acceleration)) {
+  const auto revives = [&](const Reading& reading, double now) { return isStill(reading) && now != reading.last; };
+  if (samples_ == 0.0 || revives(readings_[0], sample.sprung_acceleration) ||
+      revives(readings_[1], sample.unsprung_acceleration)) {
     readings_ = {};
-    looked_ = 0.0;
+    readings_[0].last = sample.sprung_acceleration;
+    readings_[1].last = sample.unsprung_acceleration;
+    samples_ = pending_since_ = 0.0;
   }
-  looked_ += 1.0;
-  const double slow = 1.0 / std::min(looked_, memory_), quick = std::min(1.0, kQuick / std::min(looked_, memory_));
-  readings_[0].add(previous.sprung_acceleration, sample.sprung_acceleration, slow, quick);
-  readings_[1].add(previous.unsprung_acceleration, sample.unsprung_acceleration, slow, quick);
-  const SensorFault found = judge(la, enough_rows);
-  lasted_ = found == pending_ ? lasted_ + 1.0 : 0.0;
+  samples_ += 1.0;
+  const double slow = 1.0 / std::min(samples_, memory_), quick = std::min(1.0, kQuick * slow);
+  readings_[0].add(sample.sprung_acceleration, slow, quick);
+  readings_[1].add(sample.unsprung_acceleration, slow, quick);
+}
+
+const SensorReport& SensorCheck::judge(const StrutEstimate& la, bool la_tells) {
+  const SensorFault found = find(la, la_tells);
+  if (found != pending_) pending_since_ = samples_;
   pending_ = found;
-  if (lasted_ >= memory_ || (found != SensorFault::kNone && readings_[0].still + readings_[1].still >= kStill)) {
+  const bool stuck = found == SensorFault::kSprungStuck || found == SensorFault::kUnsprungStuck;
+  if (stuck || samples_ - pending_since_ >= memory_) {
     report_.fault = found;
     report_.mean = {readings_[0].mean, readings_[1].mean};
   }
   return report_;
 }
 
-SensorFault SensorCheck::judge(const StrutEstimate& la, bool enough_rows) {
-  const bool sprung_still = readings_[0].still == kStill, unsprung_still = readings_[1].still == kStill;
+SensorFault SensorCheck::find(const StrutEstimate& la, bool la_tells) const {
+  const bool sprung_still = isStill(readings_[0]), unsprung_still = isStill(readings_[1]);
   if (sprung_still && unsprung_still) return SensorFault::kNone;  // at rest, and nothing resolves its noise
   if (sprung_still) return SensorFault::kSprungStuck;
   if (unsprung_still) return SensorFault::kUnsprungStuck;
-  if (looked_ < memory_) return SensorFault::kNone;
+  if (samples_ < memory_) return SensorFault::kNone;
   if (const SensorFault fault = judgeMeans(); fault != SensorFault::kNone) return fault;
-  return enough_rows ? judgeMotion(la) : SensorFault::kNone;
+  return la_tells ? judgeMotion(la) : SensorFault::kNone;
 }
 
 SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
-  if (la.doubt == EstimateDoubt::kNotExcited) return SensorFault::kNone;  // parked: the wheel moves nothing
-  const bool is_strut = la.explained >= kExplained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
+  const bool is_strut = la.explained >= kLeastExplained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
   if (is_strut) return SensorFault::kNone;
   const bool body_moves = readings_[0].isMotion(), wheel_moves = readings_[1].isMotion();
   if (body_moves && la.damping_to_mass < -kCertain * la.damping_to_mass_stddev) return SensorFault::kNegativeDamping;

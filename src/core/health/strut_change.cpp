@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/health/strut_change.h"
+#include "suspension_health_monitor/internal/health/strut_change.h"
 
 #include <algorithm>
 #include <cmath>

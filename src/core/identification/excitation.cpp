@@ -1,21 +1,24 @@
-#include "suspension_health_monitor/identification/excitation.h"
+#include "suspension_health_monitor/internal/identification/excitation.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLeastShare = 0.5;       // of psi^2
-constexpr double kLeastExcitation = 4.5;  // of the noise's information
-constexpr double kUsualShare = 0.1;       // of the usual information: no rest
-constexpr double kByChance = 1e-8;        // that noise looks like a strut
-constexpr double kMostGrowth = 4.0;       // of the usual in a block: an outlier does not become it
+// Of n rows of white noise two regressors explain more than a share x of psi^2 with probability (1 - x)^((n - 2) / 2):
+// a half of one block's once in 2e9.
+constexpr double kLeastShare = 0.5;
 constexpr int kFewestRows = 64;           // of a block
-constexpr double kUsualMemories = 10.0;
-constexpr double kMostTimes = 2.0;      // the strut that is known
-constexpr double kOffsetMemory = 0.98;  // forgetting factor of a look
+constexpr double kLeastExcitation = 4.5;  // of the noise's information: less would pull a parameter by a fifth
+constexpr int kMostBlocks = 8;            // that are judged together before a parameter is released
+constexpr double kUsualShare = 0.1;       // of the usual information: no rest
+constexpr double kWheelStands = 0.01;     // of the wheel's usual part
+constexpr double kMostGrowth = 4.0;       // of the usual in a block: an outlier does not become it
+constexpr double kUsualMemories = 10.0;   // of the estimator, that the usual lasts
+constexpr double kMostTimes = 2.0;        // the known strut
+constexpr double kLarger = 2.0, kMuchLarger = 9.0;  // the body's part over the wheel's
+constexpr double kOffsetMemory = 0.9975;            // forgetting factor of a row
 
 std::array<double, kNumStrutParameters> informationOf(const RowMoments& rows) {
   return {rows.damping_information, rows.stiffness_information};
@@ -30,97 +33,103 @@ std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, con
           rows.stiffness_information / (sensor * noise.regressorGain(kStiffnessToMass))};
 }
 
-Excitation::Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise)
-    : looks_per_block_(std::max(horizon_samples, kFewestRows) / kJudgeEvery),
-      most_blocks_(std::max(1.0, kUsualMemories / (looks_per_block_ * kJudgeEvery * (1.0 - forgetting_factor)))),
-      kept_(1.0 - 1.0 / (most_blocks_ * looks_per_block_)),
-      noise_(noise),
-      offset_(kOffsetMemory) {
-  // Of n outputs of white noise two regressors explain more than x with probability (1 - x)^((n - 2) / 2).
-  for (int k = 0; k < kMostBlocks; ++k) {
-    const double exponent = 2.0 / ((k + 1) * looks_per_block_ - 2);
-    least_share_[static_cast<std::size_t>(k)] = std::max(kLeastShare, 1.0 - std::pow(kByChance, exponent));
-  }
+Excitation::Block& Excitation::Block::operator+=(const Block& other) {
+  moments += other.moments;
+  body += other.body;
+  wheel += other.wheel;
+  rows += other.rows;
+  blocks += other.blocks;
+  return *this;
 }
 
-bool Excitation::judge(const RegressionRow& row, const Eigen::VectorXd& theta) {
-  const double* const phi = row.regressor.data();
+void Excitation::Usual::learn(double information, double most_blocks) {
+  blocks = std::min(blocks + 1.0, most_blocks);
+  const double most = blocks > 1.0 ? kMostGrowth * mean : information;
+  mean += (std::min(information, most) - mean) / blocks;
+}
+
+Excitation::Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise)
+    : block_rows_(std::max(horizon_samples, kFewestRows)),
+      most_blocks_(std::max(1.0, kUsualMemories / (block_rows_ * (1.0 - forgetting_factor)))),
+      noise_(noise),
+      offset_(kOffsetMemory) {}
+
+bool Excitation::add(const RegressionRow& row, const Eigen::VectorXd& theta, double wheel_output) {
   double output = row.output;  // without what effects make of it
-  for (Eigen::Index j = kNumStrutParameters; j < theta.size(); ++j) output -= phi[j] * theta[j];
-  offset_.add(phi[kStiffnessToMass]);
-  const double damping = phi[kDampingToMass], stiffness = phi[kStiffnessToMass] - offset_.mean();
-  block_.add(damping, stiffness, output);
-  if (++looks_ < looks_per_block_) return false;
+  for (Eigen::Index j = kNumStrutParameters; j < theta.size(); ++j) output -= row.regressor[j] * theta[j];
+  offset_.add(row.regressor[kStiffnessToMass]);
+  block_.moments.add(row.regressor[kDampingToMass], row.regressor[kStiffnessToMass] - offset_.mean(), output);
+  block_.body += row.output * row.output;
+  block_.wheel += wheel_output * wheel_output;
+  if (++block_.rows < block_rows_) return false;
   closeBlock();
   return true;
 }
 
-void Excitation::know(const Eigen::Vector2d& strut) { most_ = (kMostTimes * strut).cwiseMax(kept_ * most_); }
-
-void Excitation::Part::learnUsual(double information, double most_blocks) {
-  blocks = std::min(blocks + 1.0, most_blocks);
-  const double most = blocks > 1.0 ? kMostGrowth * usual : information;
-  usual += (std::min(information, most) - usual) / blocks;
+void Excitation::know(const Eigen::Vector2d& strut) {
+  most_ = (kMostTimes * strut).cwiseMax((1.0 - 1.0 / (most_blocks_ * block_rows_)) * most_);
+  is_known_ = true;
 }
 
 void Excitation::closeBlock() {
-  blocks_ = std::min(blocks_ + 1, 2);
-  if (most_.all()) {
-    if (is_held_) judgeHeld();  // first: what is released by older blocks is held again if the newest do not tell of it
-    RowMoments recent = before_;
+  block_.blocks = 1;
+  judgeWheel();
+  if (knowsStrut()) {
+    if (isHeld()) judgeHeld();  // first: what is released by older blocks is held again if the newest do not tell of it
+    Block recent = before_;
     recent += block_;
     judgeExcited(recent);
   }
   before_ = block_;
-  block_ = RowMoments();
-  looks_ = 0;
+  block_ = Block();
+  is_known_ = false;
 }
 
-void Excitation::judgeExcited(const RowMoments& recent) {
-  const StrutFit fit = recent.bestStrut(most_);
-  const bool tells = fit.rest < (1.0 - kLeastShare) * recent.output;
-  const auto excitation = excitationOf(recent, fit, noise_);
-  const auto information = informationOf(recent), newest = informationOf(block_);
+void Excitation::judgeWheel() {
+  Usual& usual = usual_[kWheel];
+  const double wheel = block_.wheel / block_.rows, body = block_.body / block_.rows;
+  const bool is_much_larger = body > kMuchLarger * wheel;
+  outside_force_ = usual.blocks > 0.0 ? wheel < kWheelStands * usual.mean && body > kLarger * wheel : is_much_larger;
+  if (is_known_ && !outside_force_ && !is_much_larger) usual.learn(wheel, most_blocks_);
+}
+
+void Excitation::judgeExcited(const Block& recent) {
+  const StrutFit fit = recent.moments.bestStrut(most_);
+  const bool tells = fit.rest < (1.0 - kLeastShare) * recent.moments.output;
+  const auto excitation = excitationOf(recent.moments, fit, noise_);
+  const auto information = informationOf(recent.moments), newest = informationOf(block_.moments);
   bool is_new = false;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (!part.excited) continue;
     part.excitation = excitation[i];
-    const double mean = information[i] / (blocks_ * looks_per_block_);
     if (tells && excitation[i] >= kLeastExcitation) {
-      part.learnUsual(newest[i] / looks_per_block_, most_blocks_);
-    } else if (blocks_ == 2 && mean < kUsualShare * part.usual) {
+      usual_[i].learn(newest[i] / block_.rows, most_blocks_);
+    } else if (recent.blocks == 2 && information[i] / recent.rows < kUsualShare * usual_[i].mean) {
       part.excited = false;
       part.rough_blocks = 0;
       is_new = true;
     }
   }
-  if (!is_new) return;
-  is_held_ = true;
-  window_ = RowMoments();
-  window_blocks_ = 0;
+  if (is_new) since_held_ = Block();
 }
 
 void Excitation::judgeHeld() {
-  window_ += block_;
-  ++window_blocks_;
-  const StrutFit fit = window_.bestStrut(most_);
-  const bool tells = fit.rest < (1.0 - least_share_[static_cast<std::size_t>(window_blocks_ - 1)]) * window_.output;
-  const auto excitation = excitationOf(window_, fit, noise_);
-  const double least = kLeastExcitation * kMostBlocks / window_blocks_;
-  const auto newest = informationOf(block_);
+  since_held_ += block_;
+  const StrutFit fit = since_held_.moments.bestStrut(most_);
+  const bool tells = fit.rest < (1.0 - kLeastShare) * since_held_.moments.output;
+  const auto excitation = excitationOf(since_held_.moments, fit, noise_);
+  const double least = kLeastExcitation * kMostBlocks / since_held_.blocks;
+  const auto newest = informationOf(block_.moments);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (part.excited) continue;
     part.excitation = excitation[i];
-    const bool is_rough = newest[i] >= kUsualShare * part.usual * looks_per_block_;
+    const bool is_rough = newest[i] >= kUsualShare * usual_[i].mean * block_.rows;
     part.rough_blocks = is_rough ? part.rough_blocks + 1 : 0;
     part.excited = (tells && excitation[i] >= least) || part.rough_blocks >= kMostBlocks;
   }
-  is_held_ = !(parts_[kDampingToMass].excited && parts_[kStiffnessToMass].excited);
-  if (window_blocks_ < kMostBlocks && is_held_) return;
-  window_ = RowMoments();
-  window_blocks_ = 0;
+  if (since_held_.blocks == kMostBlocks || !isHeld()) since_held_ = Block();
 }
 
 void Excitation::restart() {
@@ -128,12 +137,13 @@ void Excitation::restart() {
   offset_ = RunningMean(kOffsetMemory);
   most_.setZero();
   parts_.fill(Part());
-  is_held_ = false;
+  usual_.fill(Usual());
+  outside_force_ = false;
 }
 
 void Excitation::reset() {
-  block_ = before_ = window_ = RowMoments();
-  looks_ = blocks_ = window_blocks_ = 0;
+  block_ = before_ = since_held_ = Block();
+  is_known_ = false;
   for (Part& part : parts_) part.rough_blocks = 0;
 }
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/horizon_integral.h"
+#include "suspension_health_monitor/internal/identification/horizon_integral.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -13,14 +13,6 @@ namespace {
 
 }  // namespace
 
-IntegrationRule integrationRule(std::string_view name) {
-  if (name == "trapezoid") return IntegrationRule::kTrapezoid;
-  if (name == "simpson") return IntegrationRule::kSimpson;
-  if (name == "cubic") return IntegrationRule::kCubic;
-  throw std::invalid_argument("integration_rule = \"" + std::string(name) + "\", must be one of " +
-                              std::string(kIntegrationRuleNames));
-}
-
 HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule rule)
     : intervals_(intervals),
       period_(period),
@@ -32,13 +24,13 @@ HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule r
   switch (rule) {
     case IntegrationRule::kTrapezoid: end_corrections_ = {-1.0 / 2}; break;
     case IntegrationRule::kSimpson:
-      if (intervals % 2 != 0) refuseIntervals(intervals, "even for integration_rule simpson");
+      if (intervals % 2 != 0) refuseIntervals(intervals, "even for Simpson's rule");
       same_weight_ = 2.0 / 3;
       other_weight_ = 4.0 / 3;
       end_corrections_ = {-1.0 / 3};
       break;
     case IntegrationRule::kCubic:
-      if (intervals < 5) refuseIntervals(intervals, "at least 5 for integration_rule cubic");
+      if (intervals < 5) refuseIntervals(intervals, "at least 5 for the cubic rule");
       end_corrections_ = {-5.0 / 8, 1.0 / 6, -1.0 / 24};
       corrects_neighbours_ = true;
       break;

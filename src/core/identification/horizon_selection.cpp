@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {

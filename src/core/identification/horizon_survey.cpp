@@ -1,63 +1,99 @@
-#include "suspension_health_monitor/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/identification/horizon_survey.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "suspension_health_monitor/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/signal/continuity.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr int kShortest = 6;  // even, for Simpson's rule, and enough for the cubic one
-constexpr double kFewestRows = 20;
+constexpr int kFewestRows = 20;
+const double kStep = std::sqrt(2.0);
 
 }  // namespace
 
 HorizonSurvey::HorizonSurvey(double period, IntegrationRule rule, int longest) : period_(period), rule_(rule) {
-  RecursiveOptions options;
-  options.forgetting_factor = 1.0;
-  for (double exact = kShortest; exact < longest + 0.5; exact *= std::sqrt(2.0)) {
+  for (double exact = kShortest; exact < longest + 0.5; exact *= kStep) {
     const int even = 2 * static_cast<int>(std::lround(exact / 2));
     if (!candidates_.empty() && candidates_.back().horizon_samples == even) continue;
-    candidates_.push_back(
-        {even, SuspensionRegression({even, period, rule}), RecursiveLeastSquares(kNumStrutParameters, options)});
+    candidates_.push_back({even, SuspensionRegression({even, period, rule})});
   }
 }
 
 void HorizonSurvey::push(const CornerSample& sample) {
-  for (Candidate& candidate : candidates_)
-    if (const RegressionRow* row = candidate.regression.push(sample)) candidate.least_squares.update(*row);
+  for (Candidate& candidate : candidates_) {
+    const RegressionRow* row = candidate.regression.push(sample);
+    if (row == nullptr) continue;
+    const Eigen::Vector3d entries(row->regressor[kDampingToMass], row->regressor[kStiffnessToMass], row->output);
+    candidate.moments += entries * entries.transpose();
+    ++candidate.rows;
+  }
 }
 
 void HorizonSurvey::interrupt() {
   for (Candidate& candidate : candidates_) candidate.regression.reset();
 }
 
-std::optional<int> HorizonSurvey::horizonSamples() const {
-  std::optional<int> best;
-  double smallest_distance = std::numeric_limits<double>::infinity();
+bool HorizonSurvey::Candidate::hasEnough() const { return rows >= kFewestRows; }
+
+Eigen::Vector2d HorizonSurvey::Candidate::theta() const {
+  return moments.topLeftCorner<2, 2>().inverse() * moments.topRightCorner<2, 1>();
+}
+
+std::optional<HorizonSurvey::Choice> HorizonSurvey::choose() const {
+  std::optional<Choice> best;
   for (const Candidate& candidate : candidates_) {
-    const Eigen::VectorXd& theta = candidate.least_squares.parameters();
-    const bool is_strut = theta[kDampingToMass] > 0.0 && theta[kStiffnessToMass] > 0.0 && theta.allFinite();
-    if (candidate.least_squares.effectiveRows() < kFewestRows || !is_strut) continue;
+    const Eigen::Vector2d theta = candidate.theta();
+    if (!candidate.hasEnough() || !theta.allFinite() || theta.minCoeff() <= 0.0) continue;
     const double proposed = proposeHorizon(theta[kDampingToMass], theta[kStiffnessToMass]).horizon;
     const double distance = std::abs(std::log(proposed / (candidate.horizon_samples * period_)));
-    if (distance >= smallest_distance) continue;
-    smallest_distance = distance;
-    best = suspension_health_monitor::horizonSamples(proposed, period_, rule_);
+    if (!best || distance < best->distance) best = Choice{&candidate, proposed, distance};
   }
   return best;
+}
+
+std::optional<int> HorizonSurvey::horizonSamples() const {
+  const std::optional<Choice> choice = choose();
+  if (!choice) return std::nullopt;
+  return suspension_health_monitor::horizonSamples(choice->horizon, period_, rule_);
+}
+
+bool HorizonSurvey::isClear() const {
+  const std::optional<Choice> choice = choose();
+  if (!choice || choice->distance > std::log(kStep)) return false;
+  const Eigen::Matrix3d& moments = choice->candidate->moments;
+  return choice->candidate->theta().dot(moments.topRightCorner<2, 1>()) >= 0.5 * moments(2, 2);
 }
 
 bool HorizonSurvey::dampingIsNegative() const {
   bool any = false;
   const bool all = std::all_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
-    if (candidate.least_squares.effectiveRows() < kFewestRows) return true;
+    if (!candidate.hasEnough()) return true;
     any = true;
-    return candidate.least_squares.parameters()[kDampingToMass] < 0.0;
+    return candidate.theta()[kDampingToMass] < 0.0;
   });
   return any && all;
+}
+
+std::optional<int> surveyHorizon(const std::vector<Drive>& drives, double period, std::size_t most_samples) {
+  HorizonSurvey survey(period, IntegralFilterOptions{}.rule, HorizonSurvey::kLongest);
+  for (const Drive& drive : drives) {
+    const CornerSample* last = nullptr;
+    for (std::size_t k = 0; k < std::min(most_samples, drive.samples.size()); ++k) {
+      const CornerSample& sample = drive.samples[k];
+      const bool usable = isUsable(sample.sprung_acceleration) && isUsable(sample.unsprung_acceleration);
+      if (!usable || last == nullptr ||
+          continuity(sample.stamp - last->stamp, fromSeconds(period)) != Continuity::kContinues)
+        survey.interrupt();
+      if (usable) survey.push(sample);
+      last = &sample;
+    }
+  }
+  return survey.horizonSamples();
 }
 
 }  // namespace suspension_health_monitor

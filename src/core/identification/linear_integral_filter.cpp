@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/linear_integral_filter.h"
+#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 
 #include <algorithm>
 #include <stdexcept>

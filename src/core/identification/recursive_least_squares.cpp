@@ -1,13 +1,18 @@
-#include "suspension_health_monitor/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "suspension_health_monitor/identification/plain_size.h"
-
 namespace suspension_health_monitor {
+
+namespace {
+
+constexpr double kStartMemories = 3.0;     // of rows until an estimate has left its start: so slow is LA
+constexpr double kMostStartRows = 3000.0;  // for a memory that is longer
+
+}  // namespace
 
 void RecursiveOptions::validate() const {
   if (!(forgetting_factor > 0.0 && forgetting_factor <= 1.0))
@@ -23,22 +28,23 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
       scores_(num_parameters, std::max(0, options.correlated_rows), options.forgetting_factor),
-      weights_(ofFourRows(options.forgetting_factor)),
       held_(static_cast<std::size_t>(num_parameters), false),
       excited_(theta_),
+      best_(theta_),
       means_(options.forgetting_factor) {
   options.validate();
 }
 
 double RecursiveEstimator::innovate(const RegressionRow& row) {
-  double innovation = row.output;
-  const double* const phi = row.regressor.data();
-  const double* const theta = theta_.data();
-  withPlainSize(theta_.size(), [&](auto p) {
-    for (Eigen::Index i = 0; i < p; ++i) innovation -= phi[i] * theta[i];
-  });
-  means_.add({std::abs(innovation), innovation * innovation, std::abs(row.output)});
+  const double innovation = row.output - row.regressor.dot(theta_), size = std::abs(innovation);
+  means_.add({size, innovation * innovation, std::abs(row.output), scores_.limited(size)});
   return innovation;
+}
+
+void RecursiveEstimator::learnScatter(bool estimate_is_valid, const Eigen::VectorXd& best) {
+  if (!estimate_is_valid && valid_rows_ > 0.0) interrupt();
+  valid_rows_ = estimate_is_valid ? valid_rows_ + 1.0 : 0.0;
+  best_ = best;
 }
 
 void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
@@ -47,21 +53,17 @@ void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
   changed.validate();
   options_ = changed;
   means_.setForgettingFactor(forgetting_factor);
-  weights_.setForgettingFactor(ofFourRows(forgetting_factor));
   scores_.setForgettingFactor(forgetting_factor);
 }
 
 void RecursiveEstimator::correct(const RegressionRow& row, double innovation, const RowWeight& weight) {
   const double lambda = options_.forgetting_factor;
   // Rows that are held in part say nothing of how residuals of whole ones are correlated.
-  if (num_held_ == 0) scores_.add(row, theta_, weight, innovation);
-  const Eigen::VectorXd& gains = num_held_ == 0 ? covariance_.update(row.regressor, lambda / weight.weight, lambda)
-                                                : correctPartly(row, weight.weight);
-  const double* const gain = gains.data();
-  double* const theta = theta_.data();
-  withPlainSize(theta_.size(), [&](auto p) {
-    for (Eigen::Index i = 0; i < p; ++i) theta[i] += gain[i] * innovation;
-  });
+  const bool has_settled = valid_rows_ > std::min(kStartMemories / (1.0 - lambda), kMostStartRows);
+  if (num_held_ == 0 && has_settled && !scores_.add(row, best_, weight, innovation)) valid_rows_ = 0.0;
+  const Eigen::VectorXd& gain = num_held_ == 0 ? covariance_.update(row.regressor, lambda / weight.weight, lambda)
+                                               : correctPartly(row, weight.weight);
+  theta_ += gain * innovation;
 }
 
 // @return the gain for a row of which only the part that is not held counts.
@@ -99,7 +101,7 @@ void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns)
   covariance_ = UdCovariance(covariance_, sources);
   held_.assign(columns.size(), false);  // the plain strut's own are held anew when its excitation is judged
   num_held_ = 0;
-  excited_ = theta_;
+  excited_ = best_ = theta_;
   scores_ = ScoreCovariance(scores_, sources);
   num_released_ = 0;
   for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/regressor_noise.h"
+#include "suspension_health_monitor/internal/identification/regressor_noise.h"
 
 namespace suspension_health_monitor {
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/row_moments.h"
+#include "suspension_health_monitor/internal/identification/row_moments.h"
 
 #include <algorithm>
 #include <initializer_list>

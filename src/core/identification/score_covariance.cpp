@@ -1,220 +1,201 @@
-#include "suspension_health_monitor/identification/score_covariance.h"
+#include "suspension_health_monitor/internal/identification/score_covariance.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/identification/plain_size.h"
-#include "suspension_health_monitor/signal/ring_size.h"
-
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kMemories = 30.0;      // of the estimate, that the means last
-constexpr double kLongestMemory = 1e5;  // [rows] of an estimate that never forgets
-constexpr int kFirstRows = 100;         // while the estimate comes from its start
-constexpr unsigned kRefreshEvery = 64;  // rows
-constexpr int kStretch = 3;             // windows of lags that it looks at without a break
-constexpr double kEnough = 6000.0;      // rows in the means, to rest between stretches from then on
-constexpr int kRest = 7;                // stretches
-constexpr double kFading = 2.0;         // the first rows, when the slow mean is still poor, count least
-constexpr double kWhiteRatio = 2.0;     // of variances, before anything is known: the usual horizons give 0.5 to 3
-constexpr double kSmallestShare = 0.4;  // of what uncorrelated scores would give: below, the lags' sum is mostly noise
-constexpr double kFar = 5.0;            // mean sizes of a residual: beyond, a reading is wrong, or many are
-// Whatever lambda, rounding and outliers that have left the window are forgotten after a thousand windows.
-constexpr double kWindows = 1000.0;
+constexpr int kFewestRows = 32;          // of a block, where rows are hardly correlated
+constexpr double kFewestBlocks = 50.0;   // that the means last: chance then makes 20 % of a variance, 10 % of a stddev
+constexpr double kMemories = 30.0;       // of the estimate, that the means last if that is longer
+constexpr double kMostBlocks = 1e4;      // that they last for an estimate that never forgets
+constexpr double kFading = 2.0;          // the first blocks, when the slow course is still poor, count least
+constexpr double kPriorBlocks = 6.0;     // that what is assumed beforehand counts for
+constexpr double kWhiteRatio = 2.0;      // of variances, assumed beforehand: the usual horizons give 0.5 to 3
+constexpr double kSmallestShare = 0.4;   // of A: if its sum with the neighbours' part is smaller, that is chance
+constexpr double kMostDeviations = 3.0;  // of a sum of scores of a block: chance exceeds it once in 300 blocks
+constexpr int kMostStrange = 2;          // blocks in a row, most rows of which stand out
+constexpr double kFar = 5.0;             // mean sizes of a residual: beyond, a reading is wrong, or many are
+
+// m <- m + factor a b', the lower triangle.
+void addProduct(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double factor, Eigen::MatrixXd& m) {
+  for (Eigen::Index j = 0; j < a.size(); ++j)
+    for (Eigen::Index i = j; i < a.size(); ++i) m(i, j) += factor * a[i] * b[j];
+}
+
+// x' m x of a symmetric matrix whose lower triangle is given.
+double quadratic(const Eigen::MatrixXd& m, const Eigen::VectorXd& x) {
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    sum += m(j, j) * x[j] * x[j];
+    for (Eigen::Index i = j + 1; i < x.size(); ++i) sum += 2.0 * m(i, j) * x[i] * x[j];
+  }
+  return sum;
+}
 
 }  // namespace
 
-ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double forgetting_factor)
-    : size_(num_parameters),
-      lags_(correlated_rows),
-      forgetting_factor_(forgetting_factor),
-      slow_theta_(Eigen::VectorXd::Zero(size_)),
-      once_(slow_theta_),
-      twice_(slow_theta_),
-      score_(Eigen::VectorXd::Zero(size_)),
-      lagged_(Eigen::VectorXd::Zero(size_)),
-      line_(ringSize(static_cast<std::size_t>(lags_) + 1) * static_cast<std::size_t>(size_), 0.0),
-      mask_(ringSize(static_cast<std::size_t>(lags_) + 1) - 1),
-      first_rows_(kFirstRows),
-      long_run_(Eigen::MatrixXd::Zero(size_, size_)),
-      lag0_(long_run_),
-      information_(long_run_),
-      factor_(Eigen::MatrixXd::Identity(size_, size_)),  // without a matrix it has no state to copy
-      unit_(Eigen::VectorXd::Zero(size_)),
-      column_(unit_),
-      unknown_(kWhiteRatio),
-      prior_(Eigen::VectorXd::Constant(size_, unknown_)),
-      ratio_(prior_) {
-  setForgettingFactor(forgetting_factor);
+ScoreCovariance::Rows::Rows(int num_parameters)
+    : scores(Eigen::VectorXd::Zero(num_parameters)),
+      information(Eigen::MatrixXd::Zero(num_parameters, num_parameters)) {}
+
+void ScoreCovariance::Rows::clear() {
+  scores.setZero();
+  information.setZero();
+  squares = weight = 0.0;
+  usual = all = 0;
 }
 
+ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double forgetting_factor)
+    : block_rows_(std::max(correlated_rows + 1, kFewestRows)),
+      forgetting_factor_(forgetting_factor),
+      decay_(forgetting_factor),
+      course_(Eigen::MatrixXd::Zero(num_parameters, 2)),
+      block_(num_parameters),
+      before_(block_.scores),
+      means_{block_.information, block_.information, block_.information},
+      factor_(Eigen::MatrixXd::Identity(num_parameters, num_parameters)),  // without a matrix it has no state to copy
+      column_(before_),
+      prior_(Eigen::VectorXd::Constant(num_parameters, kWhiteRatio)),
+      ratio_(prior_) {}
+
 ScoreCovariance::ScoreCovariance(const ScoreCovariance& before, const std::vector<std::optional<int>>& sources)
-    : ScoreCovariance(static_cast<int>(sources.size()), before.lags_, before.forgetting_factor_) {
+    : ScoreCovariance(static_cast<int>(sources.size()), before.block_rows_ - 1, before.forgetting_factor_) {
   slope_ = before.slope_;
-  usual_ = before.usual_;
-  square_ = before.square_;
-  weight_ = before.weight_;
-  unknown_ = before.unknown_;
-  prior_.setConstant(unknown_);
-  for (int i = 0; i < size_; ++i)
-    if (const std::optional<int>& source = sources[static_cast<std::size_t>(i)]) prior_[i] = before.ratio_[*source];
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    if (sources[i]) prior_[static_cast<Eigen::Index>(i)] = before.ratio_[*sources[i]];
   ratio_ = prior_;
 }
 
-void ScoreCovariance::setForgettingFactor(double forgetting_factor) {
-  forgetting_factor_ = forgetting_factor;
-  slow_gain_ = std::max(1.0 - forgetting_factor, 1.0 / kLongestMemory) / kMemories;
-  setDecay();
+void ScoreCovariance::interrupt() {
+  block_.clear();
+  has_before_ = false;
 }
 
-void ScoreCovariance::setDecay() {
-  const double forgetting = std::max((1.0 - forgetting_factor_) * slope_, 1.0 / (kWindows * (lags_ + 1)));
-  decay_ = 1.0 - forgetting;
-  end_decay_ = std::pow(decay_, lags_ + 1);
-}
-
-void ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight,
-                          double innovation) {
-  phase_ = (phase_ + 1) % kRefreshEvery;
-  if (rest_ > 0) {
-    --rest_;
-    return;
-  }
-  const bool is_usual = addScore(row, weight.smallest_divisor);
-  const bool counts = is_usual && (weight.smallest_divisor == 0.0 || std::abs(innovation) <= kFar * usual_);
-  if (counts && in_stretch_ > lags_) average(row.regressor.data(), weight.weight, innovation);
-  if (isNowAndThen() || first_rows_ > 0) nowAndThen(theta);
-}
-
-void ScoreCovariance::nowAndThen(const Eigen::VectorXd& theta) {
-  const int whole = kStretch * (lags_ + kFewRows);
-  if (first_rows_ == 0) in_stretch_ = std::min(in_stretch_ + kFewRows, whole);
-  if (phase_ == 0) refresh();
-  follow(theta);
-  if (averaged_ >= kEnough && in_stretch_ == whole) endStretch();
-}
-
-// Learns what is usual, of which an outlier becomes part slowly, by kFar of it at most.
-bool ScoreCovariance::isUsual(double size) {
-  if (first_rows_ > 0) {
-    usual_ = std::max(usual_, size);
-    return true;
-  }
-  const double most = usual_ > 0.0 ? kFar * usual_ : size;
-  usual_ += std::max(slow_gain_, kFading / (averaged_ + kFading)) * (std::min(size, most) - usual_);
-  return size <= most;
-}
-
-// @return false for a row that stands out: its score is taken as 0.
-bool ScoreCovariance::addScore(const RegressionRow& row, double smallest_divisor) {
-  const double* const phi = row.regressor.data();
-  const double* const slow = slow_theta_.data();
-  double* const score = score_.data();
-  double* const lagged = lagged_.data();
-  const double decay = decay_, end_decay = end_decay_;
-  newest_ = (newest_ + 1) & mask_;
-  const std::size_t end = (newest_ + mask_ - static_cast<std::size_t>(lags_)) & mask_;
-  return withPlainSize(size_, [&](auto p) {
-    double* const at_newest = line_.data() + newest_ * static_cast<std::size_t>(p);
-    const double* const at_end = line_.data() + end * static_cast<std::size_t>(p);
-    double residual = row.output;
-    for (Eigen::Index i = 0; i < p; ++i) residual -= phi[i] * slow[i];
-    const double size = std::abs(residual);
-    const bool counts = smallest_divisor == 0.0 || isUsual(size);
-    if (!counts) residual = 0.0;
-    if (smallest_divisor > 0.0) residual /= std::max(size, smallest_divisor);
-    for (Eigen::Index i = 0; i < p; ++i) {
-      lagged[i] = decay * (lagged[i] + score[i]) - end_decay * at_end[i];
-      score[i] = residual * phi[i];
-      at_newest[i] = score[i];
-    }
-    return counts;
-  });
-}
-
-void ScoreCovariance::endStretch() {
-  refresh();                                                // the next turn of it may fall into the rest
-  rest_ = (kRest * in_stretch_ / kFewRows + 1) * kFewRows;  // so that the next look comes kFewRows rows after the rest
+void ScoreCovariance::restart() {
   interrupt();
+  usual_ = seen_ = means_.blocks = 0.0;
+  strange_blocks_ = 0;
+  ratio_ = prior_;
 }
 
-// The slow course of the estimate by double exponential smoothing (Brown), which does not lag behind a parameter that
-// moves steadily: it would take the lag for correlated noise. From when this has left its start.
-void ScoreCovariance::follow(const Eigen::VectorXd& theta) {
-  if (first_rows_ > 0) {
-    --first_rows_;
-    slow_theta_ = once_ = twice_ = theta;
-    return;
+double ScoreCovariance::longestMemory() const {
+  const double memory = 1.0 / std::max((1.0 - forgetting_factor_) * block_rows_, 1e-12);
+  return std::clamp(kMemories * memory, kFewestBlocks, kMostBlocks);
+}
+
+bool ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight,
+                          double innovation) {
+  if (seen_ == 0.0) course_.colwise() = theta;
+  const double residual = row.output - 2.0 * row.regressor.dot(course_.col(0)) + row.regressor.dot(course_.col(1));
+  block_.scores *= decay_;
+  ++block_.all;
+  if (isUsual(residual, innovation)) {
+    const bool by_residual = weight.smallest_divisor > 0.0;
+    const double of_residual =
+        by_residual ? 1.0 / std::max(std::abs(residual), weight.smallest_divisor) : weight.weight;
+    const double step = weight.weight * innovation;
+    block_.scores += (of_residual * residual) * row.regressor;
+    addProduct(row.regressor, row.regressor, weight.weight, block_.information);
+    block_.squares += step * step;
+    block_.weight += weight.weight;
+    ++block_.usual;
   }
-  const double gain = kFewRows * std::max(slow_gain_, kFading / (averaged_ + kFading * kFewRows));
-  once_ += gain * (theta - once_);
-  twice_ += gain * (once_ - twice_);
-  slow_theta_ = 2.0 * once_ - twice_;
+  return block_.all < block_rows_ || closeBlock(theta);
 }
 
-void ScoreCovariance::average(const double* regressor, double weight, double innovation) {
-  averaged_ += 1.0;
-  const double gain = std::max(slow_gain_, kFading / (averaged_ + kFading - 1.0));
-  withPlainSize(size_, [&](auto p) {
-    for (Eigen::Index j = 0; j < p; ++j) {
-      for (Eigen::Index i = 0; i <= j; ++i) {
-        const double now = score_[i] * score_[j];
-        lag0_(i, j) += gain * (now - lag0_(i, j));
-        long_run_(i, j) += gain * (now + score_[i] * lagged_[j] + lagged_[i] * score_[j] - long_run_(i, j));
-        information_(i, j) += gain * (weight * regressor[i] * regressor[j] - information_(i, j));
-      }
+// Also learns what is usual, of which an outlier becomes part slowly, by kFar of it at most.
+bool ScoreCovariance::isUsual(double residual, double innovation) {
+  const double size = std::abs(residual);
+  if (usual_ == 0.0) usual_ = size;
+  const double most = kFar * usual_;
+  seen_ = std::min(seen_ + 1.0, longestMemory() * block_rows_);
+  usual_ += (std::min(size, most) - usual_) / seen_;
+  return size <= most && std::abs(innovation) <= most;
+}
+
+double ScoreCovariance::limited(double size) const { return usual_ > 0.0 ? std::min(size, kFar * usual_) : size; }
+
+bool ScoreCovariance::closeBlock(const Eigen::VectorXd& theta) {
+  if (2 * block_.usual < block_.all) {
+    // A wrong reading is in two blocks; if there are more, what was usual is not any more.
+    const int strange = strange_blocks_ + 1;
+    if (strange <= kMostStrange) {
+      interrupt();
+      strange_blocks_ = strange;
+      return true;
     }
-  });
-  square_ += gain * (weight * innovation * weight * innovation - square_);
-  weight_ += gain * (weight - weight_);
+    prior_ = ratio_;
+    restart();
+    return false;
+  }
+  strange_blocks_ = 0;
+  if (has_before_) {
+    limitScores();
+    means_.blocks += 1.0;
+    const double gain = std::max(1.0 / longestMemory(), kFading / (means_.blocks + kFading - 1.0));
+    average(gain);
+    compareWithWhiteResiduals();
+    // Double exponential smoothing (Brown), which does not lag behind a parameter that moves steadily: it would take
+    // the lag for correlated noise.
+    course_.col(0) += gain * (theta - course_.col(0));
+    course_.col(1) += gain * (course_.col(0) - course_.col(1));
+  } else if (means_.blocks == 0.0) {
+    course_.colwise() = theta;  // the first block, in which the estimate may still come from its start, tells no more
+  }
+  before_ = block_.scores;
+  has_before_ = true;
+  block_.clear();
+  decay_ = 1.0 - (1.0 - forgetting_factor_) * slope_;
+  return true;
 }
 
-// ratio_i = (R^-1 G R^-1)_ii / (R^-1)_ii / scale, by the columns of R^-1.
-void ScoreCovariance::refresh() {
-  setDecay();
-  factor_.compute(information_.selfadjointView<Eigen::Upper>());
-  if (factor_.info() != Eigen::Success || !(square_ > 0.0)) return;  // some parameter has not been excited yet
-  // What was known before counts as some windows' rows.
-  const double doubted = kFirstRows + 4.0 * lags_;
-  const double trust = averaged_ * averaged_ / (averaged_ * averaged_ + doubted * doubted);
-  for (int i = 0; i < size_; ++i) {
-    unit_.setZero();
-    unit_[i] = 1.0;
-    column_ = unit_;
+// The end of a wrong reading's rows does not stand out row by row, but all are of one sign.
+void ScoreCovariance::limitScores() {
+  if (means_.blocks < kPriorBlocks) return;
+  double most = 0.0;  // standard deviations
+  for (Eigen::Index i = 0; i < block_.scores.size(); ++i)
+    if (means_.own(i, i) > 0.0) most = std::max(most, std::abs(block_.scores[i]) / std::sqrt(means_.own(i, i)));
+  if (most > kMostDeviations) block_.scores *= kMostDeviations / most;
+}
+
+void ScoreCovariance::average(double gain) {
+  const double rows = block_.usual;
+  means_.own *= 1.0 - gain;
+  addProduct(block_.scores, block_.scores, gain, means_.own);
+  means_.neighbours *= 1.0 - gain;
+  addProduct(block_.scores, before_, gain, means_.neighbours);
+  addProduct(before_, block_.scores, gain, means_.neighbours);
+  means_.information *= 1.0 - gain;
+  means_.information += (gain / rows) * block_.information;
+  means_.square += gain * (block_.squares / rows - means_.square);
+  means_.weight += gain * (block_.weight / rows - means_.weight);
+}
+
+// ratio_i = (R^-1 G R^-1)_ii / (R^-1)_ii / scale, by the columns of R^-1; all of one row, so that G is over what it
+// would be of one row for white scores, sum mu^2j over a block.
+void ScoreCovariance::compareWithWhiteResiduals() {
+  factor_.compute(means_.information);
+  if (factor_.info() != Eigen::Success || !(means_.square > 0.0)) return;  // some parameter has not been excited yet
+  const double of_block = std::pow(decay_, block_rows_);
+  const double rows = decay_ < 1.0 ? (1.0 - of_block * of_block) / (1.0 - decay_ * decay_) : block_rows_;
+  const double trust = means_.blocks * means_.blocks / (means_.blocks * means_.blocks + kPriorBlocks * kPriorBlocks);
+  for (Eigen::Index i = 0; i < ratio_.size(); ++i) {
+    column_.setZero();
+    column_[i] = 1.0;
     factor_.solveInPlace(column_);
-    double correlated = 0.0, uncorrelated = 0.0;
-    for (int b = 0; b < size_; ++b) {
-      for (int a = 0; a <= b; ++a) {
-        const double product = (a == b ? 1.0 : 2.0) * column_[a] * column_[b];
-        correlated += product * long_run_(a, b);
-        uncorrelated += product * lag0_(a, b);
-      }
-    }
-    const double found = std::max(correlated, kSmallestShare * uncorrelated) / (column_[i] * square_ / weight_);
+    const double own = quadratic(means_.own, column_), of_neighbours = quadratic(means_.neighbours, column_);
+    const double correlated = std::max(own + of_block * of_neighbours, kSmallestShare * own) / rows;
+    const double found = correlated / (column_[i] * means_.square / means_.weight);
     if (std::isfinite(found)) ratio_[i] = prior_[i] + trust * (found - prior_[i]);
   }
 }
 
-void ScoreCovariance::interrupt() {
-  in_stretch_ = 0;
-  std::fill(line_.begin(), line_.end(), 0.0);
-  score_.setZero();
-  lagged_.setZero();
-}
-
-void ScoreCovariance::beginHere() {
-  if (averaged_ > kFirstRows) restart(1.0);
-}
-
-void ScoreCovariance::restart(double unit) {
-  interrupt();
-  first_rows_ = kFirstRows;
-  rest_ = 0;
-  averaged_ = 0.0;
-  usual_ = square_ = weight_ = 0.0;
-  unknown_ *= unit;
-  ratio_ = prior_ = Eigen::VectorXd::Constant(size_, unknown_);
+double ScoreCovariance::inflation(int i, double weight) const {
+  const double forgetting = 1.0 - forgetting_factor_;
+  // The weight of a memory that was longer still counts for a while.
+  return ratio_[i] * (2.0 - std::min(1.0, forgetting * weight)) / (slope_ * (2.0 - forgetting * slope_));
 }
 
 }  // namespace suspension_health_monitor

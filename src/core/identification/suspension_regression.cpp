@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
 
 namespace suspension_health_monitor {
 

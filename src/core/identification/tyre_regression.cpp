@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/tyre_regression.h"
+#include "suspension_health_monitor/internal/identification/tyre_regression.h"
 
 namespace suspension_health_monitor {
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/ud_covariance.h"
+#include "suspension_health_monitor/internal/identification/ud_covariance.h"
 
 #include <algorithm>
 
@@ -37,64 +37,45 @@ void UdCovariance::release(int i, double variance) {
 }
 
 const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor) {
-  // Plain pointers: the compiler cannot know that writing a number does not move a vector.
-  const double* const phi = regressor.data();
-  const double* const ceiling = ceiling_.data();
-  double* const diagonal = diagonal_.data();
-  double* const gain = gain_.data();
-  double* column = upper_.data();  // of U; its part above the diagonal
-  withPlainSize(diagonal_.size(), [&](auto p) {
-    double alpha = noise;
-    for (Eigen::Index j = 0; j < p; ++j, column += p) {
-      double f = phi[j];  // entry j of U' phi
-      for (Eigen::Index i = 0; i < j; ++i) f += column[i] * phi[i];
-      const double v = diagonal[j] * f;
-      const double alpha_before = alpha;
-      alpha += f * v;
-      diagonal[j] = std::min(diagonal[j] * alpha_before / (alpha * forgetting_factor), ceiling[j]);
-      const double multiplier = -f / alpha_before;
-      gain[j] = v;
-      for (Eigen::Index i = 0; i < j; ++i) {
-        const double old = column[i];
-        column[i] += multiplier * gain[i];
-        gain[i] += old * v;
-      }
+  double alpha = noise;
+  for (Eigen::Index j = 0; j < diagonal_.size(); ++j) {
+    auto column = upper_.col(j);
+    const double f = regressor[j] + column.head(j).dot(regressor.head(j));  // entry j of U' phi
+    const double v = diagonal_[j] * f, alpha_before = alpha;
+    alpha += f * v;
+    diagonal_[j] = std::min(diagonal_[j] * alpha_before / (alpha * forgetting_factor), ceiling_[j]);
+    gain_[j] = v;
+    for (Eigen::Index i = 0; i < j; ++i) {
+      const double before = column[i];
+      column[i] -= f / alpha_before * gain_[i];
+      gain_[i] += before * v;
     }
-    const double scale = 1.0 / alpha;
-    for (Eigen::Index j = 0; j < p; ++j) gain[j] *= scale;
-  });
+  }
+  gain_ /= alpha;
   return gain_;
 }
 
 void UdCovariance::forgetAlong(const Eigen::VectorXd& regressor, double forgetting_factor) {
-  const double* const phi = regressor.data();
-  const double* const ceiling = ceiling_.data();
-  double* const diagonal = diagonal_.data();
-  double* const rest = gain_.data();
-  double* const upper = upper_.data();
-  withPlainSize(diagonal_.size(), [&](auto p) {
-    double information = 0.0;  // phi' P^-1 phi by U^-1 phi
-    for (Eigen::Index i = 0; i < p; ++i) rest[i] = phi[i];
-    for (Eigen::Index j = p - 1; j >= 0; --j) {
-      if (rest[j] == 0.0 || diagonal[j] == 0.0) continue;
-      information += rest[j] * rest[j] / diagonal[j];
-      for (Eigen::Index i = 0; i < j; ++i) rest[i] -= rest[j] * upper[j * p + i];
-    }
-    if (!(information > 0.0)) return;
-    double weight = (1.0 - forgetting_factor) / (forgetting_factor * information);
-    for (Eigen::Index i = 0; i < p; ++i) rest[i] = phi[i];
-    for (Eigen::Index j = p - 1; j >= 0; --j) {
-      const double before = diagonal[j], entry = rest[j];
-      if (entry == 0.0 || before == 0.0) continue;
-      const double after = before + weight * entry * entry;
-      for (Eigen::Index i = 0; i < j; ++i) {
-        rest[i] -= entry * upper[j * p + i];
-        upper[j * p + i] += weight * entry * rest[i] / after;
-      }
-      diagonal[j] = std::min(after, ceiling[j]);
-      weight *= before / after;
-    }
-  });
+  Eigen::VectorXd& rest = gain_;
+  rest = regressor;
+  double information = 0.0;  // phi' P^-1 phi by U^-1 phi
+  for (Eigen::Index j = size() - 1; j >= 0; --j) {
+    if (rest[j] == 0.0 || diagonal_[j] == 0.0) continue;
+    information += rest[j] * rest[j] / diagonal_[j];
+    rest.head(j) -= rest[j] * upper_.col(j).head(j);
+  }
+  if (!(information > 0.0)) return;
+  double weight = (1.0 - forgetting_factor) / (forgetting_factor * information);
+  rest = regressor;
+  for (Eigen::Index j = size() - 1; j >= 0; --j) {
+    const double before = diagonal_[j], entry = rest[j];
+    if (entry == 0.0 || before == 0.0) continue;
+    const double after = before + weight * entry * entry;
+    rest.head(j) -= entry * upper_.col(j).head(j);
+    upper_.col(j).head(j) += weight * entry / after * rest.head(j);
+    diagonal_[j] = std::min(after, ceiling_[j]);
+    weight *= before / after;
+  }
 }
 
 void UdCovariance::scale(double factor) {

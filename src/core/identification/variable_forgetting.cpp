@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/identification/variable_forgetting.h"
+#include "suspension_health_monitor/internal/identification/variable_forgetting.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,8 @@
-#include "suspension_health_monitor/model/effect_catalogue.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "find_by_name.h"
+#include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -81,6 +80,8 @@ const std::vector<ForceEffect>& forceEffects() {
   static const std::vector<ForceEffect> effects = makeForceEffects();
   return effects;
 }
+
+EffectLibrary builtInEffects() { return {forceEffects(), measurementEffects()}; }
 
 const ForceEffect& findEffect(const std::vector<ForceEffect>& effects, std::string_view name) {
   return findByName(effects, name);

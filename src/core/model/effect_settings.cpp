@@ -1,11 +1,12 @@
-#include "suspension_health_monitor/model/effect_settings.h"
+#include "suspension_health_monitor/internal/model/effect_settings.h"
 
 #include <sstream>
 #include <stdexcept>
 
 #include "find_by_name.h"
 #include "setting_groups.h"
-#include "suspension_health_monitor/model/effect_catalogue.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

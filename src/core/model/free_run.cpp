@@ -1,29 +1,27 @@
-#include "suspension_health_monitor/model/free_run.h"
+#include "suspension_health_monitor/internal/model/free_run.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "suspension_health_monitor/corner_sample.h"
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLongestStep = 0.35;  // in units of the model's fastest time; keeps the step error below 1e-4
 constexpr std::size_t kNumSplits = 6;  // a sample is 1, 2, 4, .. 32 steps
-constexpr double kMostSteps = 1 << (kNumSplits - 1);
+static_assert(kMostStepsPerSample == 1 << (kNumSplits - 1));
 constexpr double kMeanMemory = 100.0;  // natural periods
-constexpr double kRunaway = 1e3;       // times the largest input
 
 using Split = std::vector<WheelInterpolator>;
 
-// How many steps of kLongestStep a sample has; not above 0 or NaN unless both parameters are above 0.
+// How many steps of kLongestStrutStep a sample has; not above 0 or NaN unless both parameters are above 0.
 // @param frequency  sqrt(b0) [1/s], NaN if b0 is below 0.
 double exactSteps(double period, double damping_to_mass, double frequency) {
   if (!(damping_to_mass > 0.0 && frequency > 0.0)) return 0.0;
-  return period * std::max(damping_to_mass, frequency) / kLongestStep;
+  return period * std::max(damping_to_mass, frequency) / kLongestStrutStep;
 }
 
 // Roots of s^2 + b1 s + b0; an overdamped strut has a slow real one.
@@ -33,7 +31,7 @@ double slowestDecay(double damping_to_mass, double stiffness_to_mass) {
   return discriminant > 0.0 ? stiffness_to_mass / (half + std::sqrt(discriminant)) : half;
 }
 
-bool isFewEnough(double steps) { return steps > 0.0 && steps <= kMostSteps; }  // not NaN
+bool isFewEnough(double steps) { return steps > 0.0 && steps <= kMostStepsPerSample; }  // not NaN
 
 // In samples; made once, so that no run has to do it while samples come.
 const std::array<Split, kNumSplits>& splits() {

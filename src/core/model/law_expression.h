@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/model/effect.h"
+#include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
 

@@ -1,11 +1,10 @@
-#include "suspension_health_monitor/model/measurement_effect.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "find_by_name.h"
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {

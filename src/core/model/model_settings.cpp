@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/model/model_settings.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 
 #include <limits>
 #include <locale>
@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "setting_groups.h"
-#include "suspension_health_monitor/model/effect_settings.h"
-#include "suspension_health_monitor/model/strut_integrator.h"
+#include "suspension_health_monitor/internal/model/effect_settings.h"
+#include "suspension_health_monitor/internal/model/strut_integrator.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -4,6 +4,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/wording/words.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -48,12 +50,6 @@ double toNumber(const std::string& name, const OptionValue& value, double min, d
   Number number{min};
   takeOptions(one, fields, number);
   return number.value;
-}
-
-std::string join(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 }  // namespace suspension_health_monitor

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/option_table.h"
+#include "suspension_health_monitor/internal/option_table.h"
 
 namespace suspension_health_monitor {
 
@@ -22,7 +22,5 @@ std::vector<double> takeNumbers(const std::string& group, const OptionMap& setti
 /// @return the number that a setting holds.
 /// @throws std::invalid_argument  naming the setting, its value and what is allowed.
 double toNumber(const std::string& name, const OptionValue& value, double min = -1e30, double max = 1e30);
-
-std::string join(const std::vector<std::string>& names);
 
 }  // namespace suspension_health_monitor

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/model/strut_integrator.h"
+#include "suspension_health_monitor/internal/model/strut_integrator.h"
 
 #include <algorithm>
 

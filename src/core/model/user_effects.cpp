@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/model/user_effects.h"
+#include "suspension_health_monitor/internal/model/user_effects.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "law_expression.h"
 #include "setting_groups.h"
-#include "suspension_health_monitor/model/effect_library.h"
+#include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/alignment.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/alignment_judge.h"
+#include "suspension_health_monitor/internal/signal/alignment_judge.h"
 
 #include <cmath>
 #include <utility>

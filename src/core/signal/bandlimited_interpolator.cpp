@@ -1,10 +1,10 @@
-#include "suspension_health_monitor/signal/bandlimited_interpolator.h"
+#include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
 
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
 
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/signal/period_measurement.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/range_end.h"
+#include "suspension_health_monitor/internal/signal/range_end.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/reject_reason.h"
 
 #include <numeric>
 

@@ -1,7 +1,6 @@
-#include "suspension_health_monitor/signal/resampled_grid.h"
+#include "suspension_health_monitor/internal/signal/resampled_grid.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace suspension_health_monitor {
 
@@ -12,34 +11,18 @@ ResampledGrid::ResampledGrid(Stamp period, bool has_road)
       has_road_(has_road),
       streams_{StreamResampler(period), StreamResampler(period), StreamResampler(period)} {}
 
-void ResampledGrid::push(Side side, Stamp stamp, double acceleration, bool still, double own_period) {
-  StreamResampler& target = stream(side);
-  if (side == Side::kRoad) road_is_silent_ = false;
-  bool after_gap = false;
-  if (const StreamResampler::Reading* before = target.newest()) {
-    const double spacing = toSeconds(stamp - before->stamp);
-    after_gap = spacing > kLongestBridge * std::max(own_period, toSeconds(period_));
-    if (!after_gap && own_period > 0.0 && spacing >= 1.5 * own_period)
-      bridged_ += static_cast<std::uint64_t>(std::round(spacing / own_period)) - 1;
-  }
-  if (target.full()) {
-    rejected_.add(RejectReason::kMissingPartner);
-    target.dropOldest();
-  }
-  target.push({stamp, acceleration, still, after_gap});
-}
-
-std::optional<CornerSample> ResampledGrid::next() {
-  while (begin()) {
+std::optional<CornerSample> ResampledGrid::next(WaitingReadings& waiting) {
+  while (begin(waiting)) {
     const Stamp t = *next_;
     StreamResampler& sprung = stream(Side::kSprung);
     StreamResampler& unsprung = stream(Side::kUnsprung);
-    const Coverage body = sprung.look(t), wheel = unsprung.look(t);
+    const Coverage body = sprung.advance(t, waiting[Side::kSprung]);
+    const Coverage wheel = unsprung.advance(t, waiting[Side::kUnsprung]);
     if (body == Coverage::kInterrupted || wheel == Coverage::kInterrupted) {
       next_.reset();
       continue;
     }
-    if (body == Coverage::kComes || wheel == Coverage::kComes || !findRoad(t)) return std::nullopt;
+    if (body == Coverage::kComes || wheel == Coverage::kComes || !findRoad(t, waiting)) return std::nullopt;
     next_ = t + period_;
     const StreamResampler::Value z = sprung.at(t), w = unsprung.at(t);
     if (z.still == w.still) return CornerSample{t, z.acceleration, w.acceleration};
@@ -49,9 +32,10 @@ std::optional<CornerSample> ResampledGrid::next() {
 }
 
 // @return false: a stream has no readings.
-bool ResampledGrid::begin() {
+bool ResampledGrid::begin(WaitingReadings& waiting) {
   if (next_) return true;
-  const std::optional<Stamp> body = stream(Side::kSprung).earliest(), wheel = stream(Side::kUnsprung).earliest();
+  const std::optional<Stamp> body = stream(Side::kSprung).earliest(waiting[Side::kSprung]);
+  const std::optional<Stamp> wheel = stream(Side::kUnsprung).earliest(waiting[Side::kUnsprung]);
   if (!body || !wheel) return false;
   const Stamp first = std::max(*body, *wheel);
   if (!origin_) origin_ = first;
@@ -60,15 +44,14 @@ bool ResampledGrid::begin() {
 }
 
 // @return false: the road's readings of this instant may still come.
-bool ResampledGrid::findRoad(Stamp t) {
+bool ResampledGrid::findRoad(Stamp t, WaitingReadings& waiting) {
   road_acceleration_.reset();
   if (!has_road_) return true;
-  StreamResampler& road = stream(Side::kRoad);
-  const Coverage coverage = road.look(t);
-  if (coverage == Coverage::kCovered) road_acceleration_ = road.at(t).acceleration;
+  if (!waiting[Side::kRoad].empty()) road_is_silent_ = false;
+  const Coverage coverage = stream(Side::kRoad).advance(t, waiting[Side::kRoad]);
+  if (coverage == Coverage::kCovered) road_acceleration_ = stream(Side::kRoad).at(t).acceleration;
   if (coverage != Coverage::kComes) return true;
-  const Stamp ahead = stream(Side::kSprung).newest()->stamp - t;
-  road_is_silent_ = road_is_silent_ || ahead > (StreamResampler::kHalfWidth + kMostRoadLag) * period_;
+  road_is_silent_ = road_is_silent_ || waiting[Side::kSprung].size() > kMostRoadLag;
   return road_is_silent_;
 }
 
@@ -76,6 +59,12 @@ void ResampledGrid::startNewSeries() {
   for (StreamResampler& each : streams_) each.clear();
   origin_.reset();
   next_.reset();
+}
+
+std::uint64_t ResampledGrid::bridged() const {
+  std::uint64_t sum = 0;
+  for (const StreamResampler& each : streams_) sum += each.bridged();
+  return sum;
 }
 
 }  // namespace suspension_health_monitor

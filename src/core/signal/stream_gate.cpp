@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/stream_gate.h"
+#include "suspension_health_monitor/internal/signal/stream_gate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,67 +1,95 @@
-#include "suspension_health_monitor/signal/stream_resampler.h"
+#include "suspension_health_monitor/internal/signal/stream_resampler.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kFewest = 3;  // readings in the window
+// -6 dB [cycles per grid period]. Nearly half of the power passes at half the rate of the grid, and what is folded back
+// there makes up for it: white noise stays white.
+constexpr double kCutoff = 0.516;
+constexpr double kKaiser = 4.0;                              // shape of the window: ripple 2e-3
+constexpr int kReach = 2 * StreamResampler::kHalfWidth + 1;  // of the filter on the coefficients [knots]
+
+using Taps = Eigen::Matrix<double, 2 * kReach + 1, 1>;
+
+/// The low-pass filter on the spline's values at the knots, as one on its coefficients: a value is
+/// (c_(k-1) + 4 c_k + c_(k+1)) / 6.
+Taps makeTaps() {
+  Taps taps = Taps::Zero();
+  for (int k = 1 - kReach; k < kReach; ++k) {
+    const double place = static_cast<double>(k) / (kReach - 1), angle = kPi * kCutoff * k;
+    const double window = std::cyl_bessel_i(0.0, kKaiser * std::sqrt(1.0 - place * place));
+    const double sinc = k == 0 ? 1.0 : std::sin(angle) / angle;
+    taps.segment<3>(kReach + k - 1) += sinc * window * Eigen::Vector3d(1.0, 4.0, 1.0);
+  }
+  return taps / taps.sum();
+}
 
 }  // namespace
 
-StreamResampler::StreamResampler(Stamp period)
-    : reach_(kHalfWidth * period), per_period_(1.0 / static_cast<double>(period.count())), readings_(kCapacity) {}
+StreamResampler::StreamResampler(Stamp period) : period_(period), reach_(kHalfWidth * period) {}
 
-void StreamResampler::dropOldest() {
-  gaps_ -= reading(0).after_gap ? 1 : 0;
-  first_ = (first_ + 1) % kCapacity;
-  --size_;
+void StreamResampler::clear() {
+  origin_.reset();
+  first_.reset();
 }
 
-void StreamResampler::push(const Reading& reading) {
-  gaps_ += reading.after_gap ? 1 : 0;
-  readings_[(first_ + size_++) % kCapacity] = reading;
+std::optional<Stamp> StreamResampler::earliest(const ReadingQueue& waiting) const {
+  if (first_) return *first_ + reach_;
+  if (waiting.empty()) return std::nullopt;
+  return waiting.front().stamp + reach_;
 }
 
-void StreamResampler::clear() { first_ = size_ = gaps_ = 0; }
-
-std::optional<Stamp> StreamResampler::earliest() const {
-  if (size_ == 0) return std::nullopt;
-  return reading(0).stamp + reach_;
-}
-
-StreamResampler::Coverage StreamResampler::look(Stamp t) {
-  while (size_ >= 2 && reading(1).stamp <= t - reach_) dropOldest();
-  if (size_ == 0) return Coverage::kComes;
-  if (reading(0).stamp > t - reach_) return Coverage::kInterrupted;
-  const std::size_t before = gaps_ - (reading(0).after_gap ? 1 : 0);
-  for (std::size_t i = 1; before > 0 && i < size_ && reading(i - 1).stamp < t + reach_; ++i) {
-    if (!reading(i).after_gap) continue;
-    while (i-- > 0) dropOldest();
-    return Coverage::kInterrupted;
+StreamResampler::Coverage StreamResampler::advance(Stamp t, ReadingQueue& waiting) {
+  if (!origin_) origin_ = t;
+  while (!first_ || last_.stamp < t + reach_) {
+    if (waiting.empty()) return Coverage::kComes;
+    const SensorReading reading = waiting.front();
+    waiting.pop();
+    const bool interrupted = first_ && followsAfterGap(reading);
+    if (!first_ || interrupted) begin(reading);
+    take(reading);
+    if (interrupted) return Coverage::kInterrupted;
   }
-  return newest()->stamp >= t + reach_ ? Coverage::kCovered : Coverage::kComes;
+  return *first_ <= t - reach_ ? Coverage::kCovered : Coverage::kInterrupted;
 }
 
-StreamResampler::Value StreamResampler::at(Stamp t) const {
-  // The first reading lies at or before the window, one at its end or behind it.
-  const double reference = reading(0).acceleration;  // a constant then passes without any rounding
-  WindowSums sums;
-  bool still = reading(0).still;
-  std::size_t i = 1;
-  for (; reading(i).stamp < t + reach_; ++i) {
-    const Reading& it = reading(i);
-    const double spacing = 0.5 * static_cast<double>((reading(i + 1).stamp - reading(i - 1).stamp).count());
-    sums.add(static_cast<double>((it.stamp - t).count()) * per_period_, spacing * per_period_,
-             it.acceleration - reference);
-    if (it.stamp <= t) still = it.still;
-  }
-  if (i > kFewest) return {reference + sums.value(), still};
-  // A stream so slow that the window tells nothing of its course.
-  for (i = 0; reading(i + 1).stamp <= t; ++i) continue;
-  const Reading& before = reading(i);
-  const Reading& after = reading(i + 1);
-  const double part =
-      static_cast<double>((t - before.stamp).count()) / static_cast<double>((after.stamp - before.stamp).count());
-  return {before.acceleration + part * (after.acceleration - before.acceleration), before.still};
+bool StreamResampler::followsAfterGap(const SensorReading& reading) const {
+  const double period = toSeconds(period_);
+  const double usual = std::clamp(reading.usual_spacing, period, kSlowest * period);
+  return toSeconds(reading.stamp - last_.stamp) > kLongestBridge * usual;
+}
+
+void StreamResampler::begin(const SensorReading& reading) {
+  first_ = reading.stamp;
+  last_ = reading;
+  reference_ = reading.acceleration;
+  spline_.clear();
+  next_knot_ = static_cast<std::int64_t>(std::ceil(2.0 * toSeconds(reading.stamp - *origin_) / toSeconds(period_)));
+}
+
+void StreamResampler::take(const SensorReading& reading) {
+  const double spacing = toSeconds(reading.stamp - last_.stamp);
+  if (reading.usual_spacing > 0.0 && spacing >= 1.5 * reading.usual_spacing)
+    bridged_ += static_cast<std::uint64_t>(std::round(spacing / reading.usual_spacing)) - 1;
+  const double position =
+      2.0 * static_cast<double>((reading.stamp - *origin_).count()) / static_cast<double>(period_.count());
+  for (; static_cast<double>(next_knot_) < position; ++next_knot_) stillAt(next_knot_) = last_.still;
+  spline_.add(position, reading.acceleration - reference_);
+  last_ = reading;
+}
+
+StreamResampler::Value StreamResampler::at(Stamp t) {
+  static const Taps taps = makeTaps();
+  const std::int64_t middle = 2 * ((t - *origin_) / period_);
+  spline_.solve(middle - kReach, middle);
+  const double filtered = taps.dot(Eigen::Map<const Taps>(spline_.coefficients(middle - kReach)));
+  return {reference_ + filtered, stillAt(middle)};
 }
 
 }  // namespace suspension_health_monitor

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/signal/stream_timing.h"
+#include "suspension_health_monitor/internal/signal/stream_timing.h"
 
 namespace suspension_health_monitor {
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/simulation/accelerometer.h"
+#include "suspension_health_monitor/internal/simulation/accelerometer.h"
 
 #include <cmath>
 
@@ -21,7 +21,7 @@ Accelerometer::Accelerometer(const SimulationOptions& options, Place place)
     : noise_random_(options.seed, noisePurpose(place)),
       delivery_random_(options.seed, deliveryPurpose(place)),
       noise_(options.noise),
-      gaussian_(options.noise_distribution == "gaussian"),
+      gaussian_(options.gaussian_noise),
       dropout_(options.dropout),
       stamp_jitter_(options.stamp_jitter),
       clock_offset_(place == Place::kSprung ? options.clock_offset : 0.0),

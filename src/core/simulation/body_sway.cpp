@@ -1,9 +1,9 @@
-#include "suspension_health_monitor/simulation/body_sway.h"
+#include "suspension_health_monitor/internal/simulation/body_sway.h"
 
 #include <cmath>
 
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/scenario.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/simulation/drive_simulator.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 #include <algorithm>
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
@@ -30,7 +30,7 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       scenario_(makeScenario(options)),
       sprung_(options, Accelerometer::Place::kSprung),
       unsprung_(options, Accelerometer::Place::kUnsprung),
-      sprung_schedule_(options.sprung_rate.value_or(options.rate), 0.0, options, RandomPurpose::kSprungTiming),
+      sprung_schedule_(options.rate, 0.0, options, RandomPurpose::kSprungTiming),
       unsprung_schedule_(options.unsprung_rate.value_or(options.rate), options.unsprung_phase, options,
                          RandomPurpose::kUnsprungTiming),
       road_(options, Accelerometer::Place::kRoad),

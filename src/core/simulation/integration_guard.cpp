@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/simulation/integration_guard.h"
+#include "suspension_health_monitor/internal/simulation/integration_guard.h"
 
 #include <sstream>
 #include <stdexcept>

@@ -1,11 +1,11 @@
-#include "suspension_health_monitor/simulation/iso_road.h"
+#include "suspension_health_monitor/internal/simulation/iso_road.h"
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "suspension_health_monitor/pi.h"
-#include "suspension_health_monitor/simulation/random_stream.h"
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,8 +1,8 @@
-#include "suspension_health_monitor/simulation/random_stream.h"
+#include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 #include <cmath>
 
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,8 +1,8 @@
-#include "suspension_health_monitor/simulation/road.h"
+#include "suspension_health_monitor/internal/simulation/road.h"
 
 #include <cmath>
 
-#include "suspension_health_monitor/pi.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {

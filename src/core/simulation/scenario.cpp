@@ -1,11 +1,11 @@
-#include "suspension_health_monitor/simulation/scenario.h"
+#include "suspension_health_monitor/internal/simulation/scenario.h"
 
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/simulation/iso_road.h"
-#include "suspension_health_monitor/simulation/sensor_faults.h"
+#include "suspension_health_monitor/internal/simulation/iso_road.h"
+#include "suspension_health_monitor/internal/simulation/sensor_faults.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -44,8 +44,7 @@ const Vehicle& findVehicle(const SimulationOptions& options) {
 
 Ramp dampingRamp(const SimulationOptions& options, double first) {
   const double usual = options.scenario == "iso_road" ? 1.0 : kPaperDampingLeft;
-  const double left = options.damping_ramp ? options.damping_end_fraction.value_or(usual) : 1.0;
-  return {first, first * left, options.ramp_start, options.ramp_end};
+  return {first, first * options.damping_end_fraction.value_or(usual), options.ramp_start, options.ramp_end};
 }
 
 Road makeRoad(const SimulationOptions& options, const Vehicle& vehicle) {
@@ -91,7 +90,7 @@ void validate(const SimulationOptions& options) {
 }
 
 double fasterRate(const SimulationOptions& options) {
-  return std::max(options.sprung_rate.value_or(options.rate), options.unsprung_rate.value_or(options.rate));
+  return std::max(options.rate, options.unsprung_rate.value_or(options.rate));
 }
 
 Scenario makeScenario(const SimulationOptions& options) {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/simulation/sensor_schedule.h"
+#include "suspension_health_monitor/internal/simulation/sensor_schedule.h"
 
 namespace suspension_health_monitor {
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/simulation/strut.h"
+#include "suspension_health_monitor/internal/simulation/strut.h"
 
 #include <algorithm>
 

@@ -1,0 +1,100 @@
+// Prints the table of doc/uncertainty.md for instrumental variables: error of a whole drive's b1 and b0 by least
+// squares over all rows and by instrumental variables, and how often the latter's 95 % interval holds the truth.
+//   whole_drive_table [SEEDS [SECONDS]]      measurements of each drive, default 20, and its length, default 120
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+
+#include "../test/core/interval_coverage.h"
+#include "suspension_health_monitor/internal/identification/instrumental_variables.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+struct Case {
+  const char* name;
+  const char* scenario;
+  const char* vehicle;
+  const char* iso_class;
+  double rate;  // [Hz]
+};
+constexpr Case kCases[] = {{"paper's road", "paper_clean", "default", "default", 100},
+                           {"paper's vehicle, ISO road", "iso_road", "paper", "default", 100},
+                           {"car, class A", "iso_road", "golden_car", "A", 200},
+                           {"car, class C", "iso_road", "golden_car", "C", 200},
+                           {"rover, class D", "iso_road", "rover", "D", 200},
+                           {"UGV, class B", "iso_road", "ugv", "B", 200},
+                           {"UGV, class C", "iso_road", "ugv", "C", 200}};
+constexpr double kNoise = 0.03;  // [m/s^2]
+
+struct Errors {
+  double sum = 0.0;  // relative
+  Coverage coverage;
+  void add(double estimate, double stddev, double truth) {
+    sum += estimate / truth - 1.0;
+    coverage.add(estimate - truth, stddev);
+  }
+};
+
+void printRow(const char* name, const std::string& horizon, const std::array<double, 2>& least_squares,
+              const std::array<Errors, 2>& errors, int seeds) {
+  std::printf("| %s | %s |", name, horizon.c_str());
+  for (const double error : least_squares) std::printf(" %+.2f |", 100.0 * error / seeds);
+  for (const Errors& each : errors)
+    std::printf(" %+.2f, %.0f, %.2f |", 100.0 * each.sum / seeds, 100.0 * each.coverage.share(), each.coverage.rms());
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+void printTable(int seeds, double seconds) {
+  std::printf(
+      "| drive | L | LS b1: mean error [%%] | LS b0 | IV b1: mean error [%%], interval holds [%%], rms z | IV b0 |\n"
+      "|---|---|---|---|---|---|\n");
+  std::array<Coverage, 2> all;
+  for (const Case& drive : kCases) {
+    SimulationOptions simulation;
+    simulation.scenario = drive.scenario;
+    simulation.vehicle = drive.vehicle;
+    simulation.iso_class = drive.iso_class;
+    simulation.rate = drive.rate;
+    simulation.duration = seconds;
+    const CleanDrive clean = cleanDrive(simulation);
+    const int proposed = proposedHorizon(clean, kNoise);
+    for (const int horizon : std::set<int>{5, 10, 30, proposed}) {
+      std::array<double, 2> least_squares{};
+      std::array<Errors, 2> errors;
+      for (int seed = 1; seed <= seeds; ++seed) {
+        const IntegralFilterOptions filter{horizon, clean.period, IntegrationRule::kCubic};
+        RecursiveOptions never_forgets;
+        never_forgets.forgetting_factor = 1.0;
+        SuspensionRegression regression(filter);
+        RecursiveLeastSquares ls(kNumStrutParameters, never_forgets);
+        InstrumentalVariables iv(filter);
+        measure(clean, kNoise, static_cast<unsigned>(7000 + seed), [&](const CornerSample& sample) {
+          if (const RegressionRow* row = regression.push(sample)) ls.update(*row);
+          iv.push(sample);
+        });
+        const double truth[] = {clean.damping_to_mass, clean.stiffness_to_mass};
+        const std::optional<BlockSolution> solution = iv.solution();
+        for (std::size_t i = 0; i < 2 && solution; ++i) {
+          const auto k = static_cast<Eigen::Index>(i);
+          least_squares[i] += ls.parameters()[k] / truth[i] - 1.0;
+          errors[i].add(solution->theta[k], solution->stddev[k], truth[i]);
+        }
+      }
+      printRow(drive.name, std::to_string(horizon) + (horizon == proposed ? ", proposed" : ""), least_squares, errors,
+               seeds);
+      for (std::size_t i = 0; i < 2; ++i) all[i] += errors[i].coverage;
+    }
+  }
+  std::printf("| **all** | | | | %.1f %%, %.2f | %.1f %%, %.2f |\n", 100.0 * all[0].share(), all[0].rms(),
+              100.0 * all[1].share(), all[1].rms());
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
+
+int main(int argc, char** argv) {
+  suspension_health_monitor::printTable(argc > 1 ? std::atoi(argv[1]) : 20, argc > 2 ? std::atof(argv[2]) : 120.0);
+}

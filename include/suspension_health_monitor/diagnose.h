@@ -1,0 +1,101 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/strut_model.h"
+
+namespace suspension_health_monitor {
+
+enum class Verdict {
+  kEffectFound,     ///< Diagnosis::selected names what the model lacks
+  kNothingMissing,  ///< what the model leaves is noise
+  kUnexplained      ///< structure is left and no candidate takes most of it: no name is better than a false one
+};
+
+/// A model with some effects added, fitted on two thirds of the drives and judged by the rest, which no fit has seen.
+struct RankedModel {
+  std::vector<std::string> effects;  ///< names of all that is in the model
+  StrutModel model;
+  bool fitted = false;                 ///< false: screened only, the figures are what a fit is expected to give
+  double held_out_rmse = 0.0;          ///< [m/s^2]
+  double error_removed_percent = 0.0;  ///< of the mean square that the model before left
+  double significance = 0.0;           ///< t of the improvement over held-out stretches, against the model before
+  bool significant = false;            ///< by that, corrected for the number of candidates; of fitted models only
+};
+
+/// A model with its uncertainty.
+struct FittedModel {
+  StrutModel model;
+  std::vector<double> stddev;  ///< of its numbers, in the order of numbersOf()
+  bool all_samples = true;     ///< false: that fit failed, and these are the numbers of the one to two thirds of them
+};
+
+struct DiagnoseOptions {
+  std::optional<double> sample_period;  ///< T [s]; nothing: the median spacing of the samples
+  std::optional<int> horizon_samples;   ///< L of the integral filter of the first guess; nothing: chosen by the drives
+  /// Where to start: effects that it has stay in the model and are fitted again, and the search is for what is missing
+  /// beside them. Nothing: the linear strut, b1 and b0 by least squares.
+  std::optional<StrutModel> model;
+  EffectLibrary candidates = builtInEffects();
+  int threads = 2;       ///< the result is the same for any number
+  int most_effects = 3;  ///< to add
+  int most_forces = 2;   ///< among them: three can imitate almost any law of travel and travel rate
+  /// Told how much is done, 0 .. 1, every now and then, on the calling thread. What it throws ends the search and comes
+  /// out of diagnose(): the way to cancel.
+  std::function<void(double share)> progress = {};
+};
+
+/// What a search found.
+struct Diagnosis {
+  Shortcoming shortcoming = Shortcoming::kNone;  ///< if any: all below but `reason` is empty
+  std::string reason;  ///< what is the matter with the drives, to be read after "the drives"; empty if nothing is
+
+  Verdict verdict = Verdict::kNothingMissing;
+  std::string summary;                ///< the verdict in a sentence
+  RankedModel base;                   ///< the model that the search started with, fitted
+  double base_fit_percent = 0.0;      ///< 100 (1 - |y - yhat| / |y - mean y|) on what was held out
+  double noise_floor = 0.0;           ///< what sensor noise alone would leave of a free run [m/s^2]
+  double structured_share = 0.0;      ///< share of the base's held-out mean square that is not noise
+  double surface_share = 0.0;         ///< share of that which a free-form force over travel and travel rate takes
+  std::vector<RankedModel> ranking;   ///< single effects, best first
+  std::vector<std::string> selected;  ///< names of what is to be added to the model
+  std::vector<std::vector<std::string>> indistinguishable;  ///< groups that these drives cannot tell apart
+  std::string suggested_drive;  ///< sentences: what to record next, to tell a group apart or explain the rest
+  std::vector<std::pair<std::string, std::string>> not_tried;  ///< candidates that these drives cannot tell, and why
+
+  /// With kEffectFound: the model with what was found, as judged, and fitted to all samples.
+  std::optional<RankedModel> extended;
+  std::optional<FittedModel> final_fit;
+  double extended_fit_percent = 0.0;
+
+  Stamp from{}, to{};  ///< first and last sample of the first and the last drive
+
+  explicit operator bool() const { return shortcoming == Shortcoming::kNone; }
+
+  /// @return the model to go on with: final_fit, or the base where nothing was added.
+  const StrutModel& model() const { return final_fit ? final_fit->model : base.model; }
+};
+
+/// Searches for the physical effects that a strut model lacks, from recorded accelerations of body and wheel alone.
+///
+/// Every candidate is screened by its linear response; those that may be the best are added to the model, fitted by
+/// output error (the free run, driven by the measured w'', is to follow the measured z'') and judged by blocks that no
+/// fit has seen. The best one stays if the improvement is significant, corrected for the number of candidates, and
+/// worth having; then the next; and what a later one makes superfluous goes. doc/effect_search.md has the details and
+/// how often it is right.
+///
+///   Diagnosis found = diagnose({makeDrive(0.01, sprung, unsprung)});
+///   if (!found) std::cerr << "the drives " << found.reason;
+///   else std::cout << found.summary;
+///
+/// Two minutes on a road are enough for most effects; it takes about a second of processor time.
+/// @param drives  of one strut, sampled alike; several are fitted together.
+/// @return check it with `if`: drives that are too short or show no strut are a result with a reason.
+/// @throws std::invalid_argument  for options that cannot be: a period that is not above 0, no thread, no drive.
+Diagnosis diagnose(const std::vector<Drive>& drives, const DiagnoseOptions& options = {});
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace suspension_health_monitor {
+
+/// What an effect may depend on, at one instant.
+struct StrutMotion {
+  double travel = 0.0;       ///< d [m], compression positive
+  double travel_rate = 0.0;  ///< v [m/s]
+  double time = 0.0;         ///< t [s] since the start of the drive
+  double memory = 0.0;       ///< s, the effect's own state, 0 at the start
+};
+
+/// What a shape parameter is measured in: the search proposes values as multiples of what the drive shows.
+enum class ShapeScale {
+  kNone,        ///< a plain number
+  kTravel,      ///< of the drive's rms travel [m]
+  kTravelRate,  ///< of its rms travel rate [m/s]
+  kTime         ///< of the strut's natural time 1/sqrt(b0) [s]
+};
+
+/// A number inside a law that does not enter linearly, such as the gap of a stop. Fitted offline, fixed online.
+struct ShapeParameter {
+  std::string name, unit;
+  ShapeScale scale = ShapeScale::kNone;
+  double min = 0.0, max = 0.0;  ///< in units of the scale, 0 < min < max
+};
+
+/// A physical effect that the linear strut lacks: an additional force on the body per unit mass,
+///   z'' = b1 v + b0 d + c f(d, v, t, shapes, s),   s' = g(d, v, t, shapes, s).
+/// A law of your own is one more record; searches call its functions on several threads at once.
+struct ForceEffect {
+  using Law = std::function<double(const StrutMotion&, const double* shapes)>;
+
+  std::string name;
+  std::string law;      ///< the formula for people, c included
+  std::string unit;     ///< of the coefficient c
+  std::string finding;  ///< what a workshop would find
+  Law force;            ///< f, per unit of c; shapes in SI
+  std::vector<ShapeParameter> shapes = {};
+  Law memory_rate = {};  ///< g [unit of s per second]; empty: no memory
+};
+
+/// What the body's IMU measures besides z'', in the strut's frame: z up along the strut, x and y across it.
+enum class BodyChannel {
+  kAccelerationX,         ///< a_x [m/s^2], less its mean
+  kAccelerationY,         ///< a_y [m/s^2], less its mean
+  kAngularAccelerationX,  ///< w_x' [rad/s^2]
+  kAngularAccelerationY   ///< w_y' [rad/s^2]
+};
+inline constexpr std::size_t kNumBodyChannels = 4;
+
+/// By BodyChannel one value per sample; empty where the channel is not known.
+using BodyChannels = std::array<std::vector<double>, kNumBodyChannels>;
+
+/// rms values of a drive that tell which size of a coefficient matters.
+struct ReadingSizes {
+  double residual = 0.0;  ///< what a model leaves [m/s^2]
+  double y = 0.0;         ///< of the measured z'' [m/s^2]
+  double period = 0.0;    ///< T [s]
+  std::array<double, kNumBodyChannels> body{};
+};
+
+/// Something that is wrong with the reading of the body's sensor, not with the strut: acts on the predicted z''.
+/// Never to be called a damper.
+struct MeasurementEffect {
+  struct Coefficient {
+    std::string name;  ///< "coefficient" if there is only one
+    std::string unit;
+  };
+
+  /// Changes a predicted series in place.
+  /// @param c  one value per coefficient.  @param body  of the same samples.  @param period  sampling time [s].
+  using Apply = void (*)(const double* c, const BodyChannels& body, double period, std::vector<double>& predicted);
+
+  std::string name;
+  std::string law;  ///< what is read instead of y
+  std::vector<Coefficient> coefficients;
+  std::string finding;
+  Apply apply;
+  /// Size of coefficient i that changes the reading about as much as the residual does.
+  double (*scale)(const ReadingSizes& sizes, std::size_t i);
+  std::vector<BodyChannel> channels = {};  ///< without which the effect cannot be told
+};
+
+/// The built-in force effects, one record each in src/core/model/effect_catalogue.cpp: everything else (fits, settings,
+/// the simulator, messages, tables) iterates over this list. See doc/add_an_effect.md.
+const std::vector<ForceEffect>& forceEffects();
+
+/// The built-in measurement effects, one record each in src/core/model/measurement_effect.cpp.
+const std::vector<MeasurementEffect>& measurementEffects();
+
+/// What may be missing from a model, and what one may be made of: the catalogue's records and the user's own laws.
+struct EffectLibrary {
+  std::vector<ForceEffect> forces;
+  std::vector<MeasurementEffect> readings;
+};
+
+/// @return the whole catalogue.
+EffectLibrary builtInEffects();
+
+/// @return the effect of that name in `effects`.
+/// @throws std::invalid_argument  naming the unknown name and the known ones.
+const ForceEffect& findEffect(const std::vector<ForceEffect>& effects, std::string_view name);
+const MeasurementEffect& findEffect(const std::vector<MeasurementEffect>& effects, std::string_view name);
+
+/// @return what coefficient i is called where all of a model's are listed: the effect's name, or NAME/COEFFICIENT if it
+/// has several.
+std::string nameOfCoefficient(const MeasurementEffect& effect, std::size_t i);
+
+}  // namespace suspension_health_monitor

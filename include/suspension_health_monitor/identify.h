@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/drive.h"
+
+namespace suspension_health_monitor {
+
+/// What one estimator knows of the strut. NaN: nothing.
+struct IdentifiedStrut {
+  double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
+  double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
+  double damping_to_mass_stddev = std::nan("");    ///< [1/s]: 1.96 of it either way holds the truth 95 times of 100
+  double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
+  double rows = 0.0;                               ///< regression rows that the estimate rests on
+  double explained = std::nan("");                 ///< share of the body's motion that the strut explains, at most 1
+  bool valid = false;
+  std::string reason;  ///< why it is not valid; empty if it is
+
+  /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
+  double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }
+  /// Damping ratio b1 / (2 sqrt(b0)) [-]; NaN unless b0 > 0.
+  double dampingRatio() const { return damping_to_mass / (2 * std::sqrt(stiffness_to_mass)); }
+};
+
+struct IdentifyOptions {
+  std::optional<double> sample_period;  ///< T [s]; nothing: the median spacing of the samples
+  std::optional<int> horizon_samples;   ///< L of the integral filter; nothing: proposed from the data
+  double forgetting_factor = 0.99;      ///< lambda of ls and la, in [0.9, 1]: memory 1/(1 - lambda) rows
+};
+
+struct IdentifyResult {
+  double sample_period = 0.0;  ///< T [s]
+  int horizon_samples = 0;     ///< L
+  /// At the end of the drive, over the memory: least squares and least sum of absolute values, as the live monitor has
+  /// them.
+  IdentifiedStrut ls, la;
+  /// Over the whole drive, by instrumental variables: not biased by the sensors' noise, whatever the horizon.
+  IdentifiedStrut iv;
+  std::uint64_t samples = 0;                      ///< taken in
+  std::uint64_t rows = 0;                         ///< regression rows that they gave
+  std::uint64_t gaps = 0;                         ///< after each of which the filter filled anew
+  std::uint64_t clock_jumps = 0;                  ///< times that the clock went back
+  std::map<std::string, std::uint64_t> rejected;  ///< readings that were kept out, by reason; only those that occurred
+  std::vector<std::string> warnings;              ///< of sensors and stamps, in words
+};
+
+/// Identifies a strut from recorded drives, through the same code as the live monitor.
+///
+///     const Drive drive = makeDrive(0.01, body, wheel);       // accelerations [m/s^2], 100 Hz
+///     const IdentifyResult result = identify({drive});
+///     if (result.iv.valid) use(result.iv.damping_to_mass, result.iv.stiffness_to_mass);
+///
+/// @param drives  of the same strut, taken one after the other.
+/// @throws std::invalid_argument  naming the option, its value and what is allowed; if no drive has two samples; or if
+/// no horizon can be proposed, because the data show no damped spring.
+IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions& options = {});
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/compare.h"
+
+namespace suspension_health_monitor {
+
+/// What is known of the noise beforehand.
+struct ExpectedNoise {
+  double floor = 0.0;  ///< rmse that the noise of both sensors leaves of a free run [m/s^2]
+  double damping_to_mass = 0.0, stiffness_to_mass = 0.0;  ///< b1 [1/s], b0 [1/s^2]: how noise on w'' comes through
+};
+
+/// Sources: L. Ljung, System Identification, 2nd ed. (1999), ch. 16 (residual tests, bands); M. S. Bartlett, J. Royal
+/// Statistical Society B 8 (1946), 27-41 (variance of correlations); P. D. Welch, IEEE Trans. Audio Electroacoustics 15
+/// (1967), 70-73; G. C. Carter, Proc. IEEE 75 (1987), 236-255 (coherence).
+/// @param segments  of one period, b1 and b0 above 0.
+/// @return nothing if there are fewer than 64 samples, or nothing moves.
+std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise);
+
+}  // namespace suspension_health_monitor

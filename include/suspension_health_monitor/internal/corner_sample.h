@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cmath>
+
+#include "suspension_health_monitor/drive.h"
+
+namespace suspension_health_monitor {
+
+/// @return true for an acceleration that can be computed with: not NaN, not infinite, nor so large that sums of its
+/// fourth power would overflow.
+inline bool isUsable(double acceleration) { return std::abs(acceleration) < 1e60; }
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+
+namespace suspension_health_monitor {
+
+/// The force of an effect, per unit of its coefficient, at every sample of a motion; the memory starts at 0 in every
+/// segment.
+/// @param ends  of the segments: segment i is [ends[i - 1], ends[i]).
+Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
+                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends);
+
+/// What a small additional force would do to a free run: the model linearised along the motion that a fit gave it.
+///   x'' = -(F_d x + F_v x' + f),   change of z'' = F_d x + F_v x' + f,
+/// x the change of travel, F_d and F_v the slopes of the model's force there, f the additional force per unit mass.
+/// A few operations per sample instead of a nonlinear fit: for screening many candidates.
+///
+/// Samples of all segments of all records stand in one row, in the order of ModelFit::residuals.
+class LinearResponse {
+ public:
+  /// @param fit  a fit of these records that did not run away. Both must outlive this object.
+  LinearResponse(const Records& records, const ModelFit& fit);
+
+  Eigen::Index numSamples() const { return static_cast<Eigen::Index>(motion_.size()); }
+  const std::vector<StrutMotion>& motion() const { return motion_; }  ///< per sample; without memory
+  double travel() const { return travel_; }                           ///< rms [m]
+  double travelRate() const { return travel_rate_; }                  ///< rms [m/s]
+  const ModelFit& fit() const { return *fit_; }
+
+  /// @return the effect's force along the motion, per unit of its coefficient.
+  Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes) const {
+    return suspension_health_monitor::forceAlong(effect, shapes, motion_, ends_);
+  }
+
+  /// @return change of z'' at every sample for an additional force `f` [m/s^2].
+  Eigen::VectorXd respond(const Eigen::VectorXd& force) const;
+
+  /// @return change of the predicted reading per unit of a measurement effect's coefficients, one column each; 0 where
+  /// the effect cannot show.
+  Eigen::MatrixXd readingSlopes(const MeasurementEffect& effect) const;
+
+  /// Ends of the segments, as forceAlong() has them.
+  const std::vector<std::size_t>& ends() const { return ends_; }
+
+ private:
+  void measureSizes();
+
+  const ModelFit* fit_;
+  double period_;
+  double travel_ = 0.0, travel_rate_ = 0.0;
+  std::vector<StrutMotion> motion_;
+  std::vector<double> predicted_;
+  std::vector<double> slope_travel_, slope_rate_;  // F_d [1/s^2], F_v [1/s]
+  std::vector<std::size_t> ends_;
+  std::vector<const BodyChannels*> bodies_;  // by segment
+  ReadingSizes sizes_;                       // of what is predicted
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/record/drive_record.h"
+
+namespace suspension_health_monitor {
+
+/// Which samples of a segment count in a fit: one flag per sample.
+using SampleMask = std::vector<char>;
+
+/// measured - predicted, per segment of all records and sample [m/s^2].
+using Residuals = std::vector<std::vector<double>>;
+
+/// FreeRun::follow() over a segment from a given state, with the faults of the reading that the model has.
+/// @param predicted  z'' at every sample [m/s^2]; resized.
+/// @param motion  travel and travel rate at every sample, if wanted.
+/// @return false if the model runs away: it is not stable under this drive.
+bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState state, std::vector<double>& predicted,
+             std::vector<StrutState>* motion = nullptr);
+
+/// Residuals beyond this many (robust) standard deviations lose weight in fits and in comparisons of models.
+inline constexpr double kOutlierScale = 4.0;
+
+struct FitOptions {
+  int max_iterations = 25;
+  std::vector<StrutState> initial = {};  ///< first guess of the initial states, per segment; empty: at rest
+};
+
+/// A model fitted by output error, with the initial state of every segment.
+struct ModelFit {
+  StrutModel model;
+  std::vector<StrutState> initial;  ///< per segment
+  Residuals residuals;
+  std::vector<double> stddev;  ///< of the model's numbers, in the order of numbersOf()
+};
+
+/// Fits b1, b0, coefficients, shapes and the initial state of every segment so that the free run follows the measured
+/// z'' of all records, in the sense of a robust sum of squares (smooth Huber loss).
+/// Solver: Ceres, Levenberg-Marquardt, derivatives by differences, initial states eliminated (Schur complement).
+/// @param records  drives that share the model.  @param masks  per segment of all records; empty: all samples.
+/// @param start  first guess, b0 > 0; also sets the scale of every parameter that is not 0 in it.
+/// @return nothing if the model runs away, an effect never acts, the solver fails, or no spring is left (b0 <= 0): what
+/// has no natural frequency cannot be compared, searched or simulated.
+std::optional<ModelFit> fitOutputError(const Records& records, const std::vector<SampleMask>& masks,
+                                       const StrutModel& start, const FitOptions& options = {});
+
+}  // namespace suspension_health_monitor

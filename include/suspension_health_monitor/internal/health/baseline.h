@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
+
+namespace suspension_health_monitor {
+
+/// The healthy strut, to judge changes by. Standard deviations are 0 for values that somebody has given.
+struct Baseline {
+  std::optional<double> damping_to_mass;    ///< b1 [1/s]
+  std::optional<double> stiffness_to_mass;  ///< b0 [1/s^2]
+  double damping_to_mass_stddev = 0.0;      ///< [1/s]
+  double stiffness_to_mass_stddev = 0.0;    ///< [1/s^2]
+  bool learned = false;                     ///< from a drive; false: nominal values
+  Stamp from{}, to{};                       ///< the drive that it was learned from
+
+  bool isEmpty() const { return !damping_to_mass && !stiffness_to_mass; }
+};
+
+/// @return the strut as LA estimates it at `stamp`, as healthy: after a service.
+Baseline baselineOf(const StrutEstimate& la, Stamp stamp);
+
+/// Learns the baseline from a stretch of estimates of LS that LA agrees with: their mean, over halves that must agree.
+///
+/// A strut that changes while it is learned is not taken as healthy: if the means of the two halves differ by more than
+/// kDrift standard deviations and 3 %, learning begins anew.
+/// Standard deviation of a mean over n rows: that of one estimate times sqrt(2 m / n), with m the estimator's memory:
+/// exponential forgetting correlates estimates over 2 m rows.
+/// Cost per estimate: O(1), no allocation.
+class BaselineLearner {
+ public:
+  /// @param rows  to learn from, > 0.  @param memory  m of the estimator in rows.
+  BaselineLearner(double rows, double memory) : rows_(rows), memory_(memory) {}
+
+  /// @param rows  that have passed since the last call.
+  /// @return the baseline, once it is learned; learning then begins anew.
+  std::optional<Baseline> add(Stamp stamp, const StrutEstimate& estimate, double rows);
+
+  double progress() const { return (halves_[0].rows + halves_[1].rows) / rows_; }  ///< 0..1
+  int restarts() const { return restarts_; }                                       ///< because the strut was changing
+
+ private:
+  struct Half {
+    double rows = 0.0;
+    double damping = 0.0, stiffness = 0.0;                    // means
+    double damping_variance = 0.0, stiffness_variance = 0.0;  // means of an estimate's variance
+  };
+
+  static constexpr double kDrift = 3.0;
+  static constexpr double kLeastDrift = 0.03;  // of the value: less is what another road does
+
+  bool drifts(double first, double second, double variance) const;
+  Baseline result(Stamp to) const;
+
+  double rows_, memory_;
+  Half halves_[2];
+  Stamp from_{};
+  int restarts_ = 0;
+};
+
+}  // namespace suspension_health_monitor

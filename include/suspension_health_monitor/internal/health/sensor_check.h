@@ -1,0 +1,92 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
+
+namespace suspension_health_monitor {
+
+/// What is wrong with the sensors, or how they are read, rather than with the strut.
+enum class SensorFault : unsigned char {
+  kNone,
+  kSprungStuck,       ///< the body's IMU reads one value while the other moves
+  kUnsprungStuck,     ///< the wheel carrier's IMU, likewise
+  kSprungGravity,     ///< the body's IMU reads on average neither gravity nor 0: gain, offset or mount
+  kUnsprungGravity,   ///< the wheel carrier's IMU, likewise
+  kGravityOnOneSide,  ///< one reads gravity, the other does not
+  kGravityOpposed,    ///< one reads gravity upward, the other downward
+  kSprungInG,         ///< the body's IMU reads 1 where the other reads gravity
+  kUnsprungInG,       ///< the wheel carrier's IMU, likewise
+  kNegativeDamping,   ///< damping is certainly negative
+  kUnrelated,         ///< both move, but the one is not what a strut makes of the other
+};
+
+/// What was found, with the mean readings [m/s^2] that say so.
+struct SensorReport {
+  SensorFault fault = SensorFault::kNone;
+  std::array<double, 2> mean{};  ///< sprung, unsprung
+};
+
+/// Tells faults of a sensor from those of the strut, by what a strut cannot do:
+/// - a vehicle does not climb for good, so a mean reading is gravity (REP 145: +9.81 at rest on the up axis) or 0
+///   (taken out before). A gain error shows there as well as in the parameters, a worn damper does not; so do an offset
+///   and a mount that has turned;
+/// - a strut takes energy: damping that is certainly negative is that of readings of which one has the wrong sign, and
+///   a body that shakes three times as much as the wheel may be the wheel;
+/// - a spring lets no wheel move without the body;
+/// - a model that explains less than half of a signal that is motion, not noise (its steps from sample to sample are
+///   smaller than white noise would have them), was given readings that do not belong together.
+/// Each verdict must have lasted for the memory. Nothing is said while the mean is uncertain: a mean counts as off by
+/// what exceeds kMeanNoise of the rms.
+/// Cost per sample: O(1), no allocation.
+class SensorCheck {
+ public:
+  /// @param gravity_tolerance  share of g by which a mean may be off; 0: means are not judged.
+  /// @param memory  in samples, above 0.
+  SensorCheck(double gravity_tolerance, double memory) : tolerance_(gravity_tolerance), memory_(memory) {}
+
+  void add(const CornerSample& sample);
+
+  /// @param la  the estimate at the newest sample.
+  /// @param la_tells  it rests on enough rows of the present motion to tell what the sensors do.
+  const SensorReport& judge(const StrutEstimate& la, bool la_tells);
+
+  const SensorReport& report() const { return report_; }
+
+ private:
+  struct Reading {
+    double last = 0.0, mean = 0.0, variance = 0.0, step = 0.0;  // step: mean square from sample to sample
+    double still = 0.0;                                         // samples without any change
+    void add(double now, double slow, double quick);
+    double meanNoise() const { return kMeanNoise * std::sqrt(variance); }
+    bool isMotion() const { return step < kWhiteShare * 2.0 * variance; }
+  };
+
+  static constexpr double kMeanNoise = 0.2;  // of the rms: more than a mean over the memory is off by
+  static constexpr double kQuick = 10.0;     // motion is forgotten so much sooner than the mean: else a stop takes long
+  static constexpr double kWhiteShare = 0.5;  // of 2 variance, the mean square step of white noise
+  static constexpr double kStill = 0.5;       // of the memory
+
+  bool isStill(const Reading& reading) const { return reading.still >= kStill * memory_; }
+  SensorFault find(const StrutEstimate& la, bool la_tells) const;
+  SensorFault judgeMeans() const;
+  SensorFault judgeGravity() const;
+  SensorFault judgeMotion(const StrutEstimate& la) const;
+  bool isOff(const Reading& reading) const;
+
+  double tolerance_, memory_;
+  double samples_ = 0.0;        // taken in since a sensor came back
+  double pending_since_ = 0.0;  // in samples taken in
+  SensorFault pending_ = SensorFault::kNone;
+  std::array<Reading, 2> readings_;
+  SensorReport report_;
+};
+
+/// @return the finding in words for a person; empty for kNone.
+std::string describe(const SensorReport& report);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "suspension_health_monitor/internal/identification/horizon_integral.h"
+#include "suspension_health_monitor/internal/signal/delay_line.h"
+
+namespace suspension_health_monitor {
+
+/// Size and rule of a linear integral filter; the same for every signal of one regression.
+struct IntegralFilterOptions {
+  int horizon_samples = 30;  ///< L, horizon h = L T
+  double period = 0.02;      ///< sampling time T [s]
+  IntegrationRule rule = IntegrationRule::kCubic;
+};
+
+/// Linear integral filter: the n-fold finite-horizon integral of the r-th derivative of a sampled signal,
+///   I_r^n x(k) = (1 - q^-L)^r J^(n-r) x(k),   J x = integral of x over the newest L sampling intervals.
+/// With the trapezoid rule this is Eq. (9), since (1 - q^-1)(1 + q^-1 + ... + q^(-L+1)) = 1 - q^-L.
+/// A derivative needs no integration rule: r = n is an exact difference.
+///
+/// Source: Eq. (8)-(9); Sagara and Zhao (1990).
+/// Cost per push: O(n), independent of L, no allocation. No drift, see HorizonIntegral.
+class LinearIntegralFilter {
+ public:
+  /// @param order  n >= 1.
+  /// @param lowest_derivative  smallest r that will be asked for, 0 <= r <= n; a larger one saves work.
+  /// @throws std::invalid_argument  naming the argument, its value and what is allowed.
+  LinearIntegralFilter(int order, const IntegralFilterOptions& options, int lowest_derivative = 0);
+
+  void push(double sample);
+
+  /// @return true once n L + 1 samples have been pushed: initial conditions no longer reach the output.
+  bool full() const { return missing_ == 0; }
+
+  /// @param derivative  r, lowest_derivative <= r <= n.
+  /// @return I_r^n x at the newest sample [unit of x times s^(n-r)].
+  double output(int derivative) const;
+
+  void reset();
+
+ private:
+  int order_;
+  int horizon_;
+  int missing_;  // samples until it is full
+  std::vector<HorizonIntegral> integrals_;
+  std::vector<DelayLine> lines_;                // lines_[i] holds J^i x
+  std::vector<std::vector<double>> binomials_;  // binomials_[r][j]: coefficient of q^(-jL) in (1 - q^-L)^r
+};
+
+}  // namespace suspension_health_monitor

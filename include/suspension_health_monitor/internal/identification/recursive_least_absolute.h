@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/small_divisor.h"
+
+namespace suspension_health_monitor {
+
+struct LeastAbsoluteOptions {
+  int start_rows = 150;  ///< k0: rows during which LS leads, >= 1
+  SmallDivisor small_divisor_rule = SmallDivisor::kRelative;
+  double small_divisor = 0.2;             ///< eps_min >= 0, [unit of psi] if absolute, [-] if relative
+  bool scale_covariance_at_start = true;  ///< P_LA = P_LS mean|epsilon| at the hand-over, else P_LA = P_LS (paper)
+
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  void validate() const;
+};
+
+/// Recursive estimation in the sense of the least sum of absolute values, sum_i lambda^(k-i) |psi_i - phi_i' theta|:
+/// every row is weighted by 1/|epsilon| once, when it comes.
+///
+/// Source: Eq. (24)-(26), started from LS after k0 rows (sec. 3.2). With w = max(|epsilon|, eps_min) the correction is
+/// P phi epsilon / w, the least squares step for the weight 1/w; it equals (26), P phi sgn(epsilon), wherever
+/// |epsilon| >= eps_min, and does not overshoot below.
+/// Robust: good rows keep the weight that they earned while their residual was small, so a burst of outliers longer
+/// than the memory does not take over; the exact criterion (18) breaks down there.
+/// Cost per update: O(p^2), no allocation.
+class RecursiveLeastAbsolute : public RecursiveEstimator {
+ public:
+  RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive, const LeastAbsoluteOptions& options);
+
+  /// @param row  regressor of size p. A row of zeros says nothing and changes nothing.
+  /// @return the innovation before the update, in the unit of psi.
+  double update(const RegressionRow& row);
+
+  /// @return variance of theta_i: P_ii times the mean square of the bounded scores over the mean weight, which outliers
+  /// hardly touch, times what the residuals' correlation and LA's slower convergence make of it (ScoreCovariance).
+  /// During the first k0 rows that of LS.
+  double parameterVariance(int i) const { return varianceAt(i, leads() ? scale() : meanSquareResidual()); }
+
+  /// As RecursiveLeastSquares::parameterShift(): by rows of that weight.
+  double parameterShift(int i, const Eigen::Vector2d& moment) const {
+    return shiftAt(i, moment) * (leads() ? weights_.mean(kWeight) : 1.0);
+  }
+
+ private:
+  double scale() const { return weights_.mean(kSquareScore) / weights_.mean(kWeight); }
+  bool leads() const { return rows_ == absolute_.start_rows; }  // else LS does
+  RowWeight weigh(double innovation);
+  void takeOver();
+
+  enum Mean : std::size_t { kSquareScore, kWeight, kNumMeans };
+
+  LeastAbsoluteOptions absolute_;
+  RunningMeans<kNumMeans> weights_;  // (w epsilon)^2, w
+  RunningMeans<2> slopes_;           // of the weighted residual at 0; of the weight
+  int rows_ = 0;                     // counts up to k0 and stays there
+};
+
+}  // namespace suspension_health_monitor

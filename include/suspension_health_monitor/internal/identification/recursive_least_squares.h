@@ -1,0 +1,165 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/identification/regression_row.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
+#include "suspension_health_monitor/internal/identification/score_covariance.h"
+#include "suspension_health_monitor/internal/identification/ud_covariance.h"
+
+namespace suspension_health_monitor {
+
+/// Start-up value of the covariance P(0).
+enum class InitialVariance {
+  kAbsolute,  ///< P_ii(0) = v, the paper's diag(1e5, ...): depends on the units of the data
+  kRelative,  ///< P_ii(0) = v / phi_i^2 with the first regressor entry that is not 0: scale-free
+};
+
+struct RecursiveOptions {
+  double forgetting_factor = 0.98;  ///< lambda in (0, 1]; memory 1 / (1 - lambda) rows
+  double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
+  InitialVariance initial_variance_rule = InitialVariance::kRelative;
+  int correlated_rows = 0;  ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
+
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  void validate() const;
+};
+
+/// Where a parameter comes from when the columns of a regression change.
+struct ColumnOrigin {
+  std::optional<int> before;  ///< its number before the change; none: it is new
+  double start = 0.0;         ///< what a new one starts from [unit of the parameter]
+};
+
+/// What LS and LA have in common: an estimate theta with its covariance, updated row by row with a weight.
+class RecursiveEstimator {
+ public:
+  /// @param num_parameters  p >= 1.
+  RecursiveEstimator(int num_parameters, const RecursiveOptions& options);
+
+  /// Goes on with other columns: estimates and covariance of those that stay are kept. A new one stays at its start
+  /// until a regressor of it is not 0. Then its standard deviation is as large as the start itself, or, from 0 on, what
+  /// the initial variance says, in either case free of units. Allocates.
+  void changeColumns(const std::vector<ColumnOrigin>& columns);
+
+  int numParameters() const { return static_cast<int>(theta_.size()); }
+  const Eigen::VectorXd& parameters() const { return theta_; }  ///< theta, (p)
+  const UdCovariance& covariance() const { return covariance_; }
+  double forgettingFactor() const { return options_.forgetting_factor; }  ///< the present one
+
+  /// Forgets faster or more slowly from the next row on; the estimate stays.
+  /// @throws std::invalid_argument  as RecursiveOptions::validate().
+  void setForgettingFactor(double forgetting_factor);
+
+  /// Forgets by another factor for the time being, at most that of setForgettingFactor(). Variances are meant for that
+  /// one: while the present one is below, they are up to twice too large, standard deviations up to 1.41 times.
+  /// @param forgetting_factor  lambda in (0, 1].
+  void setPresentFactor(double forgetting_factor) {
+    options_.forgetting_factor = forgetting_factor;
+    means_.setForgettingFactor(forgetting_factor);
+  }
+
+  /// The next row does not follow the one before: residuals of both are not correlated.
+  void interrupt() { scores_.interrupt(); }
+
+  /// How the estimate scatters is learned only while it is worth something, and has been for some memories: rows of a
+  /// vehicle that stands, or those that bring the estimate from its start, would teach something else.
+  /// @param best  the best estimate that there is of the same parameters, (p): residuals are counted against its
+  /// course.
+  void learnScatter(bool estimate_is_valid, const Eigen::VectorXd& best);
+
+  /// Holds parameter i from the next row on, or no longer: rows then say nothing of it, and what is known of it is not
+  /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
+  void hold(int i, bool held);
+
+  /// Takes a row into the running means only: neither does the estimate move nor is anything forgotten.
+  /// @return the innovation psi - phi' theta, in the unit of psi.
+  double observe(const RegressionRow& row) { return innovate(row); }
+
+  /// @return sum of lambda^(k-i): the number of rows that the estimate rests on.
+  double effectiveRows() const { return means_.weight(); }
+
+  double meanAbsoluteResidual() const { return means_.mean(kAbsoluteResidual); }  ///< running mean of |epsilon|
+  double meanSquareResidual() const { return means_.mean(kSquareResidual); }      ///< running mean of epsilon^2
+  double meanAbsoluteOutput() const { return means_.mean(kAbsoluteOutput); }      ///< running mean of |psi|
+
+  /// @return 1 - mean|epsilon| / mean|psi| over the memory [-]; 0 as long as nothing has moved.
+  double explained() const {
+    return meanAbsoluteOutput() > 0.0 ? 1.0 - meanAbsoluteResidual() / meanAbsoluteOutput() : 0.0;
+  }
+
+  /// @return running mean of |epsilon|, of which rows that stand out count no more than those that just do not.
+  double usualResidual() const { return means_.mean(kUsualResidual); }
+
+ protected:
+  /// epsilon = psi - phi' theta, Eq. (15) and (24); also takes the row into the running means.
+  double innovate(const RegressionRow& row);
+
+  /// Gives parameters that this row is the first to excite their variance, to be called before correct().
+  /// @param residual_variance  what turns P_ii into the variance of theta_i.
+  /// @param unit  of the estimator's P, against that of LS.
+  void releaseExcited(const RegressionRow& row, double residual_variance, double unit) {
+    if (num_released_ < numParameters()) release(row.regressor, residual_variance, unit);
+  }
+
+  /// theta <- theta + gain epsilon.
+  void correct(const RegressionRow& row, double innovation, const RowWeight& weight);
+
+  /// @return variance of theta_i; `scale` as in ScoreCovariance::inflation().
+  double varianceAt(int i, double scale) const {
+    return scale * covariance_.variance(i) * scores_.inflation(i, effectiveRows());
+  }
+
+  /// @return P phi_e sum lambda^(k-i): how far row moments E[phi e] shift theta_i; of parameters beyond moment's size
+  /// 0.
+  double shiftAt(int i, const Eigen::Vector2d& moment) const {
+    return effectiveRows() * (covariance_.entry(i, 0) * moment[0] + covariance_.entry(i, 1) * moment[1]);
+  }
+
+  RecursiveOptions options_;
+  Eigen::VectorXd theta_;
+  UdCovariance covariance_;
+  ScoreCovariance scores_;
+
+ private:
+  void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
+  const Eigen::VectorXd& correctPartly(const RegressionRow& row, double weight);
+
+  enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kUsualResidual, kNumMeans };
+
+  int num_released_ = 0;
+  std::vector<bool> held_;
+  int num_held_ = 0;
+  Eigen::VectorXd excited_;  // the regressor without what is held
+  double valid_rows_ = 0.0;  // in a row
+  Eigen::VectorXd best_;     // estimate of the parameters
+  RunningMeans<kNumMeans> means_;
+};
+
+/// Recursive least squares with exponential forgetting: minimises sum_i lambda^(k-i) (psi_i - phi_i' theta)^2 (13).
+///
+/// Source: Eq. (15)-(17), the covariance in factored form (UdCovariance).
+/// Assumes: residuals of zero mean and without outliers (else RecursiveLeastAbsolute), not correlated with the
+/// regressor (else instrumental variables).
+/// A parameter whose regressor entry has been 0 ever since stays at its start, 0 unless changeColumns() said otherwise.
+/// Cost per update: O(p^2), no allocation.
+class RecursiveLeastSquares : public RecursiveEstimator {
+ public:
+  using RecursiveEstimator::RecursiveEstimator;
+
+  /// @param row  regressor of size p. A row of zeros says nothing and changes nothing.
+  /// @return the innovation psi - phi' theta before the update, in the unit of psi.
+  double update(const RegressionRow& row);
+
+  /// @return variance of theta_i: mean(epsilon^2) P_ii times what the residuals' correlation makes of it
+  /// (ScoreCovariance).
+  double parameterVariance(int i) const { return varianceAt(i, meanSquareResidual()); }
+
+  /// @param moment  E[phi e] of a row.
+  /// @return what it shifts theta_i by; p >= 2.
+  double parameterShift(int i, const Eigen::Vector2d& moment) const { return shiftAt(i, moment); }
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
+#include "suspension_health_monitor/internal/identification/regression_row.h"
+
+namespace suspension_health_monitor {
+
+/// Position of the strut's own parameters in theta, Eq. (30).
+enum StrutParameter : int { kDampingToMass = 0, kStiffnessToMass = 1, kNumStrutParameters = 2 };
+
+/// Rows of the strut regression from the two accelerations, Eq. (28)-(30), with a column more for every effect:
+///   I_2^2 y = b1 I_1^2 u + b0 I_0^2 u + sum_j c_j I_2^2 f_j + e,   y = z'' [m/s^2], u = w'' - z'' [m/s^2],
+/// with b1 = beta/M [1/s] and b0 = K/M [1/s^2]. It is the model (27) differentiated twice, so that only accelerations
+/// occur, under the twofold integral, so that nothing is differentiated in fact.
+/// The effects' f_j, per unit of c_j, come from an observer of the travel (free_run.h).
+/// A constant in y vanishes from psi; a constant common to both sensors vanishes from u.
+/// Cost per sample: O(1), no allocation.
+class SuspensionRegression {
+ public:
+  explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0);
+
+  /// Takes in the next sample of a uninterrupted uniform series (only the accelerations are used).
+  /// @param effect_forces  f_j at this sample, one per effect.
+  /// @return the row, owned by this object and valid until the next call; nullptr while the filter fills (2 L samples).
+  const RegressionRow* push(const CornerSample& sample, const double* effect_forces = nullptr);
+
+  /// @return what psi of the newest row would be of the wheel's own acceleration: I_2^2 w'' [m/s^2].
+  double wheelOutput() const { return row_.output + relative_.output(2); }
+
+  /// Starts anew after a gap.
+  void reset();
+
+ private:
+  LinearIntegralFilter sprung_;
+  LinearIntegralFilter relative_;
+  std::vector<LinearIntegralFilter> effects_;
+  RegressionRow row_;
+};
+
+}  // namespace suspension_health_monitor

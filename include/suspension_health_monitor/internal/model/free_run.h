@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/model/strut_integrator.h"
+
+namespace suspension_health_monitor {
+
+/// The wheel's motion over an uninterrupted stretch of a recorded drive.
+struct RecordedWheel {
+  const std::vector<WheelStep>& steps;  ///< one per integration step, from the first sample to the last
+  double start;                         ///< time of the first sample since the start of the drive [s]
+  double period;                        ///< T [s]
+  int steps_per_sample;
+  std::size_t num_samples;
+};
+
+/// A free run has run away when its prediction is so many times as large as the largest acceleration that was measured.
+inline constexpr double kRunaway = 1e3;
+
+/// The strut model (27), with or without effects, driven by the measured wheel acceleration alone:
+///   d'' = w''_measured - z''_model,   z''_model = b1 v + b0 d + sum_j c_j f_j(d, v, t, s_j).
+/// The spring holds the travel d, so nothing drifts, unlike an integration of the accelerations; the prediction is free
+/// of the noise on the body's sensor. It is the prediction that is compared with the measurement, the observer of the
+/// travel that effects depend on, the source of instruments, and over recorded drives the core of output-error fits.
+///
+/// Between samples w'' is interpolated from as many samples after an instant as before it, as a causal interpolation
+/// would leave errors of the size of the sensor noise on a rough road: the run answers kDelay samples late.
+/// Integration: integrateStrut(), split so that no step is longer than 0.35 / sqrt(b0) or 0.35 / b1.
+///
+/// A constant a in w'' (gravity, tilt, offset) moves the travel by a / b0 and comes out again as a in the prediction.
+/// The linear laws let it pass, others do not: with effects in the model travel is counted from a / b0, with a the
+/// mean of w'', of all samples at first, then with a memory of 100 natural periods 2 pi / sqrt(b0). The error of a
+/// does not reach the linear part of the prediction: when a changes, the travel changes by as much the other way.
+/// Cost per sample: O(1) for a given model, no allocation.
+class FreeRun {
+ public:
+  static constexpr int kDelay = BandlimitedInterpolator::kHalfWidth;  ///< samples
+
+  /// @param period  sampling time T > 0 [s].
+  explicit FreeRun(double period);
+
+  /// @return true if the linear part is stable and the sampling can follow it: b1 > 0, b0 > 0, at most 32 steps per
+  /// sample.
+  bool accepts(double damping_to_mass, double stiffness_to_mass) const;
+
+  /// Changes the linear part if it is acceptable. The spring's force b0 d and the travel rate go on.
+  /// @return accepts(); if false, the model stays as it was.
+  bool trySetModel(double damping_to_mass, double stiffness_to_mass);
+
+  /// As trySetModel().
+  /// @param damping_to_mass  b1 [1/s].  @param stiffness_to_mass  b0 [1/s^2].
+  /// @throws std::invalid_argument  naming the value that makes the model unacceptable.
+  void setModel(double damping_to_mass, double stiffness_to_mass);
+
+  /// Replaces the model's effects; the run goes on, their memories start at 0. Allocates.
+  /// @throws std::invalid_argument  if there are more than StrutState::kMostEffects, if an effect has not its number of
+  ///         shapes, or if a value is not finite.
+  void setEffects(const std::vector<ActiveEffect>& effects);
+
+  /// Changes c_j [unit of the effect's coefficient].
+  void setCoefficient(std::size_t j, double coefficient) { model_.effects[j].coefficient = coefficient; }
+
+  /// A run over a recorded stretch from a given state, with the same integration: for fits and comparisons.
+  /// @param bound  a prediction beyond it means that the model runs away [m/s^2].
+  /// @param predicted  z'' at every sample [m/s^2]; resized.  @param motion  the states, if wanted; resized.
+  /// @return false if the model runs away: it is not stable under this drive.
+  static bool follow(const StrutModel& model, const RecordedWheel& wheel, StrutState state, double bound,
+                     std::vector<double>& predicted, std::vector<StrutState>* motion = nullptr);
+
+  bool hasModel() const { return num_steps_ > 0; }
+  const StrutModel& model() const { return model_; }
+
+  /// Takes in the next sample of an uninterrupted uniform series of w'' [m/s^2].
+  /// @param time  of this sample since the start of the drive [s], for the laws that depend on it.
+  /// @return the predicted body acceleration z'' at the sample kDelay before this one [m/s^2]; nothing before a model
+  /// is set and 2 kDelay samples have come.
+  std::optional<double> push(double unsprung_acceleration, double time = 0.0);
+
+  /// @return true once the unknown initial travel has decayed to 1e-3 of itself.
+  bool settled() const { return decayed_ >= kSettledDecay; }
+
+  /// How often the run has left all bounds: the force of an effect was not usable (isUsable()), a prediction was not
+  /// finite, or larger than a thousand times the largest w'' of the run. Effects can do that, whose coefficients
+  /// accepts() does not judge. The run then starts anew.
+  std::uint64_t runaways() const { return runaways_; }
+
+  /// At the sample that the last prediction belongs to:
+  double travel() const { return state_.travel; }                       ///< d [m]; with effects less a / b0
+  double travelRate() const { return state_.travel_rate; }              ///< v [m/s]
+  double unsprungAcceleration() const { return window()[kDelay - 1]; }  ///< w'' as measured [m/s^2]
+  /// f_j, one per effect, per unit of its coefficient.
+  const double* effectForces() const { return forces_.data(); }
+
+  /// Forgets travel and input, keeps the model and the mean of w'': for a gap in the series.
+  void reset();
+
+ private:
+  static constexpr double kSettledDecay = 6.9;  // ln 1000
+  static constexpr std::size_t kWindow = WheelInterpolator::kWidth;
+
+  bool withEffects() const { return !model_.effects.empty(); }
+  void split(double steps);
+  const double* window() const { return &input_[newest_ + 1]; }  // kWindow samples, the oldest first
+  void insert(double unsprung_acceleration);
+  void advance(double time);
+  double predict(double time);
+  void countTravelFrom(double offset);
+  void startAnew();
+  bool ranAway(double prediction);
+
+  double period_;
+  StrutModel model_;
+  const WheelInterpolator* steps_ = nullptr;                      // of one sample
+  int num_steps_ = 0;                                             // 0: no model yet
+  double step_ = 0.0;                                             // [s]
+  double decay_rate_ = 0.0;                                       // of the slowest free motion [1/s]
+  double mean_memory_ = std::numeric_limits<double>::infinity();  // [samples]
+  StrutState state_;
+  std::array<double, StrutState::kMostEffects> forces_{};
+  std::array<double, 2 * kWindow> input_{};  // every sample twice, kWindow apart: always kWindow in a row
+  std::size_t newest_ = kWindow - 1;         // its first place, < kWindow
+  std::size_t num_inputs_ = 0;
+  double mean_ = 0.0, mean_weight_ = 0.0;
+  double offset_ = 0.0;   // travel is counted from where this constant holds it [m/s^2]
+  double largest_ = 0.0;  // |w''| of this run [m/s^2]
+  double decayed_ = 0.0;  // e-foldings since the start; 0: not running
+  std::uint64_t runaways_ = 0;
+};
+
+}  // namespace suspension_health_monitor

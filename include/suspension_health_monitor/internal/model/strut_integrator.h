@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
+#include "suspension_health_monitor/strut_model.h"
+
+namespace suspension_health_monitor {
+
+/// Travel, travel rate and the memories of the effects.
+struct StrutState {
+  static constexpr std::size_t kMostEffects = 8;
+
+  double travel = 0.0;       ///< d [m]
+  double travel_rate = 0.0;  ///< v [m/s]
+  std::array<double, kMostEffects> memory{};
+
+  bool finite() const { return std::isfinite(travel) && std::isfinite(travel_rate); }
+};
+
+/// What the wheel does during one integration step, beyond going on with the speed that it had: the gains of its
+/// position [m] and velocity [m/s] by the middle and by the end of the step.
+struct WheelStep {
+  double middle_position = 0.0, middle_velocity = 0.0, end_position = 0.0, end_velocity = 0.0;
+};
+
+/// Longest step of integrateStrut(), in units of the strut's fastest time, the smaller of 1/b1 and 1/sqrt(b0): keeps
+/// the error of a step below 1e-4.
+inline constexpr double kLongestStrutStep = 0.35;
+inline constexpr int kMostStepsPerSample = 32;
+
+/// Turns samples of w'' into wheel steps.
+class WheelInterpolator {
+ public:
+  static constexpr int kWidth = 2 * BandlimitedInterpolator::kHalfWidth;
+
+  /// @param from, to  ends of the step in samples, 0 <= from < to <= 1.  @param period  T [s].
+  WheelInterpolator(double from, double to, double period);
+
+  /// @param around  kWidth samples of w'' [m/s^2], the oldest first; the step begins `from` after number kWidth / 2
+  /// - 1.
+  WheelStep operator()(const double* around) const {
+    if (!is_whole_) return ofPart(around);
+    // From sample to sample the middle follows from the ends, whose accelerations are known: half the sums. Position by
+    // the polynomial of fifth degree through position, velocity and acceleration at both ends.
+    const auto [position, velocity] = sums<2>(around);
+    const double* const ends = around + kWidth / 2 - 1;
+    const double rise = period_ * velocity, square = period_ * period_;
+    return {position / 2 - 5.0 / 32 * rise + square / 64 * (ends[0] + ends[1]),
+            (15.0 / 8 * position - 7.0 / 16 * rise + square / 32 * (ends[1] - ends[0])) / period_, position, velocity};
+  }
+
+ private:
+  /// The first kRows of the end's position and velocity, the middle's position and velocity.
+  template <int kRows>
+  std::array<double, kRows> sums(const double* around) const {
+    Eigen::Array<double, 2, kRows> pairs = Eigen::Array<double, 2, kRows>::Zero();
+#pragma GCC unroll 12  // counting would cost a third of the sums; a compiler that does not know it may go on
+    for (Eigen::Index i = 0; i < kWidth / 2; ++i) {
+      const Eigen::Array2d pair(around[2 * i], around[2 * i + 1]);
+      for (Eigen::Index row = 0; row < kRows; ++row) pairs.col(row) += weights_.col(4 * i + row) * pair;
+    }
+    std::array<double, kRows> totals;
+    for (Eigen::Index row = 0; row < kRows; ++row)
+      totals[static_cast<std::size_t>(row)] = pairs(0, row) + pairs(1, row);
+    return totals;
+  }
+
+  WheelStep ofPart(const double* around) const;  // elsewhere: together the two would not fit into registers
+
+  bool is_whole_;
+  double period_;
+  Eigen::Array<double, 2, 2 * kWidth> weights_;  // of two samples for the four numbers, then of the next two
+};
+
+/// One step of the strut under the wheel's motion:
+///   d'' = w'' - z''(d, v, t, s),   s_j' = g_j.
+/// Only the body's part of the motion is integrated numerically (classical Runge-Kutta); the wheel's part, which
+/// oscillates much faster, comes in as what it exactly is in the middle and at the end. A step is taken in parts where
+/// a memory forgets faster than that, by as many as 32.
+/// @pre model.effects.size() <= StrutState::kMostEffects.
+void integrateStrut(const StrutModel& model, double time, double step, const WheelStep& wheel, StrutState& state);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/model/free_run.h"
+#include "suspension_health_monitor/internal/signal/continuity.h"
+#include "suspension_health_monitor/internal/signal/mean_spacing.h"
+#include "suspension_health_monitor/internal/signal/reject_reason.h"
+
+namespace suspension_health_monitor {
+
+/// How the input has been so far.
+struct InputStatus {
+  std::uint64_t samples = 0;   ///< taken in
+  std::uint64_t rows = 0;      ///< regression rows that they gave
+  std::uint64_t gaps = 0;      ///< interruptions of at least one sample, after which the filter filled anew
+  std::uint64_t restarts = 0;  ///< times that the clock went back and the series began anew
+  double mean_period = 0.0;    ///< of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
+  bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
+
+  static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
+};
+
+/// The samples as uninterrupted uniform series: what may be taken in, where a series ends, whether the period is the
+/// one that was said. Cost per sample: O(1), no allocation.
+class SampleSeries {
+ public:
+  explicit SampleSeries(Stamp period) : period_(period) {}
+
+  /// Takes in the next sample if it can be.
+  /// @return how it follows the one before, kGap and kClockJumped beginning a new series; empty: it was rejected.
+  std::optional<Continuity> add(const CornerSample& sample);
+
+  void countRow() { ++status_.rows; }
+
+  /// Judges the spacings up to now.
+  void judgePeriod();
+
+  /// @return the sample FreeRun::kDelay before the newest one; nullptr: the series is too short yet.
+  const CornerSample* delayed() const;
+
+  /// @return the newest stamp; Stamp::zero() before the first.
+  Stamp newest() const { return last_.value_or(Stamp::zero()); }
+
+  /// @return time of the newest sample since the start of the drive [s].
+  double time() const { return first_ ? toSeconds(*last_ - *first_) : 0.0; }
+
+  Stamp period() const { return period_; }
+  const InputStatus& status() const { return status_; }
+  const RejectCounts& rejected() const { return rejected_; }
+
+ private:
+  const CornerSample& at(std::size_t number) const { return recent_[number % recent_.size()]; }
+  void countSpacings();
+
+  Stamp period_;
+  std::optional<Stamp> first_, last_;                       // of the drive
+  std::array<CornerSample, FreeRun::kDelay + 1> recent_{};  // by their number in the series, modulo
+  std::size_t size_ = 0;                                    // of the series
+  MeanSpacing spacing_;
+  InputStatus status_;
+  RejectCounts rejected_;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/every_n.h"
+#include "suspension_health_monitor/internal/identification/excitation.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/identification/variable_forgetting.h"
+#include "suspension_health_monitor/internal/monitor/silent_rows.h"
+#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
+#include "suspension_health_monitor/internal/monitor/validity_gate.h"
+#include "suspension_health_monitor/internal/monitor_options.h"
+
+namespace suspension_health_monitor {
+
+/// The estimation itself: regression rows of a series of samples, LS and LA of them side by side, and what the rows
+/// tell of the strut (Excitation). Rows that tell nothing are only observed, so that the estimates stay.
+/// Whether an estimate may be trusted is decided elsewhere, by facts().
+/// Cost per sample: O(1) whatever the horizon; no allocation.
+class StrutIdentifier {
+ public:
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  explicit StrutIdentifier(const MonitorOptions& options);
+
+  /// Goes on with other effects: one column for each beside b1 and b0. Allocates.
+  void changeColumns(const std::vector<ColumnOrigin>& columns);
+
+  /// Takes in the next sample of an uninterrupted uniform series.
+  /// @param effect_forces  f_j at this sample, one per effect.
+  void add(const CornerSample& sample, const double* effect_forces);
+
+  /// No row comes of the newest sample.
+  void skip() { has_row_ = false; }
+
+  /// Writes what is known now, all but the doubt.
+  void describe(StrutEstimate& ls, StrutEstimate& la);
+
+  /// @param estimate  as described, of either estimator.
+  EstimateFacts facts(const StrutEstimate& estimate) const;
+
+  /// What is learned of the strut and of the estimates' scatter is learned while they are valid.
+  void noteValidity(const StrutEstimate& ls, const StrutEstimate& la);
+
+  bool hasRow() const { return has_row_; }  ///< of the newest sample
+
+  /// @return true while rows tell nothing of the strut, and are only observed.
+  bool holdsAll() const;
+
+  void startNewSeries();
+
+  /// Another drive begins, perhaps of another vehicle: nothing is held any more.
+  void startNewDrive();
+
+  /// The estimates begin anew with the next row to be worth something, since the model has changed.
+  void restartValidity() { rows_ = 0.0; }
+
+  /// From the next row on; the estimates stay.
+  /// @param options  of which forgetting_factor and fastest_forgetting_factor count.
+  /// @throws std::invalid_argument  as RecursiveOptions::validate().
+  void setForgetting(const MonitorOptions& options);
+
+  /// @return the factor that rows are forgotten by now.
+  double forgettingFactor() const { return least_absolute_.forgettingFactor(); }
+
+  const Eigen::VectorXd& leastAbsoluteParameters() const { return least_absolute_.parameters(); }
+
+ private:
+  /// How rows are forgotten.
+  struct Forgetting {
+    bool only_excited;                           // parameters of which the rows tell nothing are held
+    std::optional<VariableForgetting> variable;  // none: by one factor always
+    double fewest_rows = 0.0;                    // of a valid estimate
+  };
+
+  void update(const RegressionRow& row);
+  void takeExcitation();
+  bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }
+  void forgetBy(double factor);
+  void describeStddevs(StrutEstimate& ls, StrutEstimate& la) const;
+
+  IntegralFilterOptions filter_;
+  SuspensionRegression regression_;
+  Excitation excitation_;
+  RecursiveLeastSquares least_squares_;
+  RecursiveLeastAbsolute least_absolute_;
+  Forgetting forgetting_;
+  EveryN stddevs_due_;
+  bool has_row_ = false;
+  double rows_ = 0.0;            // of the model's present columns
+  double rows_to_forget_ = 0.0;  // until what a force from outside did is forgotten
+  SilentRows silent_rows_;
+  bool la_is_valid_ = false;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/every_n.h"
+#include "suspension_health_monitor/internal/health/assessment.h"
+#include "suspension_health_monitor/internal/monitor/model_tracker.h"
+#include "suspension_health_monitor/internal/monitor/sample_series.h"
+#include "suspension_health_monitor/internal/monitor_options.h"
+
+namespace suspension_health_monitor {
+
+/// Everything that is known after one sample.
+struct MonitorReport : ModelReport {
+  Stamp stamp{};          ///< of the row's sample: the newest; with effects in the model FreeRun::kDelay before it
+  double measured = 0.0;  ///< z'' at this stamp [m/s^2]
+  HealthReport health;
+};
+
+/// Identifies one strut from a series of samples: the facade that the nodelet, the command line and the tests share.
+///
+/// Per sample, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then
+/// the free run with LA's parameters against the measurement. Health is judged three times per two horizons.
+/// While samples come at another period than that of the options no estimate is valid (InputStatus::period_fits).
+/// With effects in the model (ModelTracker) the plain one runs along, with LS and LA of its own, to be compared with.
+/// Cost per sample: O(1) whatever the horizon; no allocation, no lock.
+class SuspensionMonitor {
+ public:
+  /// @param options  with sample_period given.
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  explicit SuspensionMonitor(const MonitorOptions& options);
+
+  /// Has these effects in the model from now on; none: the plain model. Estimates carry over, coefficients are start
+  /// values, shapes stay as they are given. Not for the sample path: allocates.
+  /// @throws std::invalid_argument  naming what is wrong with the effects; the model then stays as it was.
+  void setEffects(const std::vector<ActiveEffect>& effects);
+
+  /// @return the effects in the model, with the coefficients that the free run has now.
+  const std::vector<ActiveEffect>& effects() const { return tracker().effects(); }
+
+  /// Goes on with other forgetting factors and other thresholds of health; estimates and filters are kept.
+  /// @param options  which differ from options() in nothing else.
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed; all then stays as it was.
+  void reconfigure(const MonitorOptions& options);
+
+  /// Takes in the next sample. A gap or a clock that goes back empties the filter (2 L samples without rows follow);
+  /// estimates hold meanwhile, marked as not valid.
+  /// @return the report, owned by this object and valid until the next call; nullptr if the sample was rejected, and,
+  ///         with effects in the model, for the first FreeRun::kDelay samples of a series and after setEffects(): so
+  ///         late are its reports, and no stamp comes twice.
+  const MonitorReport* addSample(const CornerSample& sample);
+
+  /// Judges health by this from now on.
+  void setBaseline(const Baseline& baseline) { health_.setBaseline(baseline); }
+  const Baseline& baseline() const { return health_.baseline(); }
+
+  const MonitorReport& report() const { return report_; }
+  const InputStatus& input() const { return series_.status(); }
+  const RejectCounts& rejected() const { return series_.rejected(); }
+  const MonitorOptions& options() const { return options_; }
+  /// @return lambda for the rows to come, between fastest_forgetting_factor and forgetting_factor.
+  double forgettingFactor() const { return tracker().forgettingFactor(); }
+  double period() const { return toSeconds(series_.period()); }
+  int horizonSamples() const { return health_.options().horizon_samples; }
+
+ private:
+  const CornerSample* track(const CornerSample& sample);
+  void judgeHealth();
+  template <class Change>
+  void changeModels(const Change& change);
+  const ModelTracker& tracker() const { return extended_ ? *extended_ : plain_; }
+
+  MonitorOptions options_;
+  SampleSeries series_;
+  ModelTracker plain_;
+  std::optional<ModelTracker> extended_;  // with effects
+  ModelReport base_;                      // of the plain model while there is an extended one
+  HealthAssessment health_;
+  SensorCheck sensors_;
+  EveryN health_due_;
+  std::optional<Stamp> reported_until_;  // by the model before the effects were set
+  MonitorReport report_;
+};
+
+}  // namespace suspension_health_monitor

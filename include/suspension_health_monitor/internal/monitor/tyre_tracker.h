@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/tyre_regression.h"
+#include "suspension_health_monitor/internal/monitor/silent_rows.h"
+#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
+#include "suspension_health_monitor/internal/monitor/validity_gate.h"
+#include "suspension_health_monitor/internal/monitor_options.h"
+
+namespace suspension_health_monitor {
+
+/// What one estimator knows of wheel and tyre. NaN: nothing yet.
+struct WheelEstimate {
+  double damping_to_wheel_mass = std::nan("");           ///< beta/m [1/s]
+  double stiffness_to_wheel_mass = std::nan("");         ///< K/m [1/s^2]
+  double tyre_to_wheel_mass = std::nan("");              ///< K0/m [1/s^2]
+  double damping_to_wheel_mass_stddev = std::nan("");    ///< [1/s], with the residuals' correlation
+  double stiffness_to_wheel_mass_stddev = std::nan("");  ///< [1/s^2], likewise
+  double tyre_to_wheel_mass_stddev = std::nan("");       ///< [1/s^2], likewise
+  double effective_rows = 0.0;                           ///< rows in the estimator's memory
+  double explained = 0.0;                                ///< 1 - mean|epsilon| / mean|psi| over the memory
+  EstimateDoubt doubt = EstimateDoubt::kNoRows;          ///< why it is not valid (validity_gate.h)
+
+  bool valid() const { return doubt == EstimateDoubt::kNone; }
+  /// @return undamped natural frequency of the wheel between strut and tyre, the body held fast [Hz].
+  double wheelHopFrequency() const { return std::sqrt(stiffness_to_wheel_mass + tyre_to_wheel_mass) / (2 * M_PI); }
+};
+
+/// @return m/M = b1 / (beta/m) [-], the share of the wheel's mass in the body's; none unless both are valid.
+std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate& tyre);
+
+struct TyreReport {
+  bool has_row = false;  ///< the newest sample gave a regression row
+  WheelEstimate ls, la;
+};
+
+/// Wheel and tyre of one strut, followed through a drive by LS and LA side by side, with a third accelerometer where
+/// the tyre touches the road. Samples without a reading of it empty the filter, as does a gap: estimates hold
+/// meanwhile, marked as not valid. Cost per sample: O(1), no allocation.
+class TyreTracker {
+ public:
+  /// @param options  with sample_period given.
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  explicit TyreTracker(const MonitorOptions& options);
+
+  /// Takes in the next sample of the strut.
+  /// @param road_acceleration  mu'' at this sample [m/s^2]; none: the road's sensor is silent.
+  const TyreReport& add(const CornerSample& sample, const std::optional<double>& road_acceleration);
+
+  /// Takes over the forgetting factor, from the next row on; estimates stay. Nothing else changes.
+  /// @throws std::invalid_argument  as RecursiveOptions::validate().
+  void reconfigure(const MonitorOptions& options);
+
+  /// @param fits  false: no estimate is valid from the next sample on, as samples do not come at the sample period.
+  void setPeriodFits(bool fits) { period_fits_ = fits; }
+
+  const TyreReport& report() const { return report_; }
+  int horizonSamples() const { return horizon_samples_; }
+
+ private:
+  bool continues(Stamp stamp) const;
+  void estimate(const RegressionRow& row);
+  void judge();
+
+  int horizon_samples_;
+  Stamp period_;
+  double fewest_rows_;
+  bool period_fits_ = true;
+  SilentRows silent_rows_;
+  TyreRegression regression_;
+  RecursiveLeastSquares least_squares_;
+  RecursiveLeastAbsolute least_absolute_;
+  std::optional<Stamp> last_stamp_;
+  TyreReport report_;
+};
+
+}  // namespace suspension_health_monitor

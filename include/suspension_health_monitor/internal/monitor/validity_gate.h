@@ -1,0 +1,35 @@
+#pragma once
+
+#include "suspension_health_monitor/internal/monitor/estimate_doubt.h"
+
+namespace suspension_health_monitor {
+
+/// Share of the measured signal that a model has to explain to be that of the strut.
+inline constexpr double kLeastExplained = 0.5;
+
+/// All that decides whether an estimate is valid.
+struct EstimateFacts {
+  bool period_fits = true;        ///< samples come at the sample period of the options
+  bool has_row = false;           ///< the newest sample gave a regression row: the filter is full
+  bool sensor_moves = true;       ///< the body's reading has changed within a horizon
+  double rows = 0.0;              ///< that the estimate rests on, of the model's present columns
+  double fewest_rows = 0.0;       ///< that it needs
+  bool excites_damping = true;    ///< the rows tell of it (Excitation)
+  bool excites_stiffness = true;  ///< likewise
+  bool outside_force = false;     ///< something else moves the body, or did within the memory
+  double explained = 0.0;         ///< share of the output's size
+  bool is_physical = false;       ///< all parameters that have to be above 0 are
+  bool has_stddev = false;        ///< the standard deviations are numbers
+  bool free_run_fails = false;    ///< the free run fits the body's motion worse than a constant does
+};
+
+/// The one place that decides whether an estimate may be trusted.
+/// @return the first reason against it, in the order of EstimateDoubt; kNone: the estimate is valid.
+EstimateDoubt doubtOf(const EstimateFacts& facts);
+
+inline constexpr double kFewestRows = 50.0;  ///< of a valid estimate: noise of a tenth then makes an error of 1 or 2 %
+
+/// @return so many rows, or nine tenths of a memory that is shorter.
+double fewestRows(double wanted, double forgetting_factor);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "suspension_health_monitor/internal/health/assessment.h"
+#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/option_table.h"
+
+namespace suspension_health_monitor {
+
+/// What presets differ in beside options: how rows are made, and how the estimators begin, weigh and forget.
+struct EstimatorOptions {
+  IntegrationRule rule = IntegrationRule::kCubic;
+  bool forgets_unexcited = false;  ///< true: exponential forgetting, the paper's; false: directional (excitation.h)
+  RecursiveOptions recursive;      ///< whose forgetting factor and correlated rows are set for each estimator
+  LeastAbsoluteOptions least_absolute;
+};
+
+/// All settings of a SuspensionMonitor, flat as users write them. Group, name, unit, meaning and range of each stand in
+/// kMonitorFields only. Settings that an estimator has, too, take its default.
+struct MonitorOptions {
+  std::string preset = "default";
+  EstimatorOptions estimators;  ///< the preset's; no options of users
+  std::optional<double> sample_period;
+  std::optional<double> integration_horizon;
+  double forgetting_factor = 0.99;
+  std::optional<double> fastest_forgetting_factor;
+  double comparison_window = 10.0;
+  std::optional<double> sprung_mass;
+  std::optional<double> nominal_damping_to_mass;
+  std::optional<double> nominal_stiffness_to_mass;
+  double damping_warn = HealthOptions{}.damping_warn;
+  double damping_error = HealthOptions{}.damping_error;
+  double stiffness_warn = HealthOptions{}.stiffness_warn;
+  double stiffness_error = HealthOptions{}.stiffness_error;
+  double confirm_time = HealthOptions{}.confirm_time;
+  double payload_range = HealthOptions{}.payload_range;
+  double gravity_tolerance = HealthOptions{}.gravity_tolerance;
+  double learn_time = HealthOptions{}.learn_time;
+
+  /// @param preset  "default", or "paper": sections 3.2 and 4 of the paper.
+  /// @return the values of a preset, to which options are set.
+  static MonitorOptions of(const std::string& preset);
+
+  /// Takes the options that `values` names out of it; what is not among them is the preset's.
+  /// @throws std::invalid_argument  as takeOptions().
+  static MonitorOptions takeFrom(OptionMap& values);
+
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  void validate() const;
+
+  /// The horizon in samples: integration_horizon (0.6 s if it is left out) over `period`.
+  /// @param period  sampling time [s].
+  /// @throws std::invalid_argument  if the horizon is longer than 100000 samples.
+  int horizonSamples(double period) const;
+
+  IntegralFilterOptions filter(double period) const;
+
+  /// That of the wheel's regression, whose best horizon is near one period of its hop: an eighth of the strut's, of at
+  /// least 5 samples.
+  IntegralFilterOptions tyreFilter(double period) const;
+
+  /// @param correlated_rows  2 L for rows of a filter, as each reading of a sensor is in 2 L + 1 of them.
+  RecursiveOptions recursive(int correlated_rows = 0) const;
+  /// @return the smallest lambda that rows may be forgotten by.
+  double fastestForgetting() const { return fastest_forgetting_factor.value_or(forgetting_factor); }
+  const LeastAbsoluteOptions& leastAbsolute() const { return estimators.least_absolute; }
+  /// @param period  sampling time [s].
+  HealthOptions health(double period) const;
+};
+
+using MonitorField = OptionField<MonitorOptions>;
+inline constexpr std::array kMonitorFields{
+    MonitorField{"input", "sample_period", "s", "sampling time T; left out: measured from the stamps",
+                 &MonitorOptions::sample_period, 1e-5, 10.0},
+    MonitorField{"estimation", "preset", "-",
+                 "paper: estimators as in the paper, forgetting_factor 0.98 and integration_horizon 0.6 unless given",
+                 &MonitorOptions::preset, 0, 0, "default paper"},
+    MonitorField{"estimation", "integration_horizon", "s",
+                 "horizon h of the integral filter, near one period of the body's bounce; left out: 0.6",
+                 &MonitorOptions::integration_horizon, 1e-5, 1e6},
+    MonitorField{"estimation", "forgetting_factor", "-", "lambda; memory 1/(1 - lambda) rows, 1 never forgets",
+                 &MonitorOptions::forgetting_factor, 0.9, 1.0},
+    MonitorField{"estimation", "fastest_forgetting_factor", "-",
+                 "lambda while damping or stiffness move, at most forgetting_factor; left out: lambda stays",
+                 &MonitorOptions::fastest_forgetting_factor, 0.9, 1.0},
+    MonitorField{"model", "sprung_mass", "kg", "body mass on this strut, for damping and stiffness in SI",
+                 &MonitorOptions::sprung_mass, 1e-6, 1e6},
+    MonitorField{"health", "nominal/damping_to_mass", "1/s", "b1 of the healthy strut",
+                 &MonitorOptions::nominal_damping_to_mass, 1e-9, 1e9},
+    MonitorField{"health", "nominal/stiffness_to_mass", "1/s^2", "b0 of the healthy strut",
+                 &MonitorOptions::nominal_stiffness_to_mass, 1e-9, 1e12},
+    MonitorField{"health", "health/damping_warn", "-", "relative change of damping that warns",
+                 &MonitorOptions::damping_warn, 0.001, 10.0},
+    MonitorField{"health", "health/damping_error", "-", "relative change of damping that is an error",
+                 &MonitorOptions::damping_error, 0.001, 10.0},
+    MonitorField{"health", "health/stiffness_warn", "-", "relative change of stiffness that warns",
+                 &MonitorOptions::stiffness_warn, 0.001, 10.0},
+    MonitorField{"health", "health/stiffness_error", "-", "relative change of stiffness that is an error",
+                 &MonitorOptions::stiffness_error, 0.001, 10.0},
+    MonitorField{"health", "health/confirm_time", "s", "a new level must last this long before it is reported",
+                 &MonitorOptions::confirm_time, 0.0, 3600.0},
+    MonitorField{"health", "health/payload_range", "-",
+                 "relative change of body mass that may be payload; 0: no change may", &MonitorOptions::payload_range,
+                 0.0, 10.0},
+    MonitorField{"health", "health/gravity_tolerance", "-",
+                 "share of g by which a mean reading may be off, as of an inclined strut; 0: not judged",
+                 &MonitorOptions::gravity_tolerance, 0.0, 0.5},
+    MonitorField{"health", "baseline/learn_time", "s",
+                 "valid driving that a baseline is learned from; 0: none is learned", &MonitorOptions::learn_time, 0.0,
+                 1e6},
+    MonitorField{"output", "comparison_window", "s",
+                 "memory of rmse and fit of the free run, and of the check of the sensors",
+                 &MonitorOptions::comparison_window, 1e-3, 1e5},
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace suspension_health_monitor {
+
+/// A list that is none of texts. No option takes it: it is refused as any other wrong value is.
+struct UnusableList {
+  std::string text;  ///< as it was written
+  bool operator==(const UnusableList& other) const { return text == other.text; }
+};
+
+/// A value as a parameter server, a YAML file or a command line delivers it. A list of texts comes as one text with
+/// commas.
+using OptionValue = std::variant<bool, int, double, std::string, UnusableList>;
+
+/// Values by full name; a nested YAML key is joined with '/', as on the ROS parameter server: `health/damping_warn`.
+using OptionMap = std::map<std::string, OptionValue>;
+
+/// One option of the struct `Options`: the only place where its name, unit, meaning and range are written.
+/// The default is the struct's own initialiser.
+template <class Options>
+struct OptionField {
+  using Member = std::variant<bool Options::*, int Options::*, double Options::*, std::string Options::*,
+                              std::optional<double> Options::*>;
+
+  std::string_view group;  ///< under which people are shown it, as "input"; empty: in no table that they see
+  std::string_view name;
+  std::string_view unit;  ///< "-" without unit
+  std::string_view help;
+  Member member;
+  double min, max;           ///< smallest and largest allowed number
+  std::string_view choices;  ///< allowed words, separated by one space; empty: any text
+
+  constexpr OptionField(std::string_view its_name, std::string_view its_unit, std::string_view its_help,
+                        Member its_member, double smallest = 0.0, double largest = 0.0, std::string_view words = {})
+      : name(its_name),
+        unit(its_unit),
+        help(its_help),
+        member(its_member),
+        min(smallest),
+        max(largest),
+        choices(words) {}
+
+  /// The same with a group in front.
+  template <class... Rest>
+  constexpr OptionField(std::string_view its_group, std::string_view its_name, std::string_view its_unit,
+                        std::string_view its_help, Rest... rest)
+      : OptionField(its_name, its_unit, its_help, rest...) {
+    group = its_group;
+  }
+};
+
+/// What a person, a loader or a table in a document needs to know of one option.
+struct OptionDescription {
+  std::string group, name, unit, help;
+  std::string allowed;        ///< "in [0.9, 1]", "one of auto, paired", "true or false", "any text"
+  std::string default_value;  ///< "none" where the option may be left out
+};
+
+namespace option_table {
+
+using Member = std::variant<bool*, int*, double*, std::string*, std::optional<double>*>;
+
+/// An option bound to the struct instance that holds its value.
+struct Bound {
+  std::string_view group, name, unit, help;
+  Member member;
+  double min, max;
+  std::string_view choices;
+};
+
+template <class Options>
+Bound bind(const OptionField<Options>& field, Options& options) {
+  const Member member = std::visit([&](auto pointer) { return Member(&(options.*pointer)); }, field.member);
+  return {field.group, field.name, field.unit, field.help, member, field.min, field.max, field.choices};
+}
+
+/// @return what an option is at present; nothing where it may be left out, and is.
+std::optional<OptionValue> valueOf(const Bound& option);
+
+void assign(const Bound& option, const OptionValue& value);
+void check(const Bound& option);
+OptionDescription describe(const Bound& option);
+
+}  // namespace option_table
+
+/// Checks every option of one struct against its table.
+/// @throws std::invalid_argument  naming the option, its value and what is allowed. NaN is outside every range.
+template <class Options, std::size_t N>
+void validate(const Options& options, const std::array<OptionField<Options>, N>& fields) {
+  Options copy = options;
+  for (const OptionField<Options>& field : fields) option_table::check(option_table::bind(field, copy));
+}
+
+/// Sets the options that `values` names and removes them from `values`, so that what is left is unknown to this table.
+/// @throws std::invalid_argument  on a value of the wrong type or outside its range; `options` is then unchanged.
+template <class Options, std::size_t N>
+void takeOptions(OptionMap& values, const std::array<OptionField<Options>, N>& fields, Options& options) {
+  Options changed = options;
+  for (const OptionField<Options>& field : fields) {
+    const option_table::Bound option = option_table::bind(field, changed);
+    if (const auto found = values.find(std::string(field.name)); found != values.end()) {
+      option_table::assign(option, found->second);
+      values.erase(found);
+    }
+    option_table::check(option);
+  }
+  options = changed;
+}
+
+/// @param known  descriptions of all options that the caller understands, to propose the nearest name if one is near.
+/// @throws std::invalid_argument  naming the first key that is left in `values`: a misspelt option must not pass. Of a
+/// name that was an option once it says what serves instead.
+void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>& known);
+
+/// @return one description per row of the table, with the struct's own defaults.
+template <class Options, std::size_t N>
+std::vector<OptionDescription> describeOptions(const std::array<OptionField<Options>, N>& fields) {
+  Options defaults;
+  std::vector<OptionDescription> result;
+  for (const OptionField<Options>& field : fields)
+    result.push_back(option_table::describe(option_table::bind(field, defaults)));
+  return result;
+}
+
+/// @return the descriptions of both tables, group after group.
+/// @param groups  all that there are, in the order wanted; within one the order of the tables is kept.
+std::vector<OptionDescription> inGroups(const std::vector<std::string>& groups, std::vector<OptionDescription> first,
+                                        const std::vector<OptionDescription>& second);
+
+}  // namespace suspension_health_monitor

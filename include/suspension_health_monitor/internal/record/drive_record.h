@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+#include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/internal/model/strut_integrator.h"
+
+namespace suspension_health_monitor {
+
+/// An uninterrupted, uniformly sampled stretch of a drive, prepared for free runs.
+struct DriveSegment {
+  double start = 0.0;            ///< time of its first sample since the start of the drive [s]
+  double period = 0.0;           ///< sampling time T [s]
+  int steps = 1;                 ///< integration steps per sample
+  std::vector<double> sprung;    ///< z'' less the drive's mean w'' [m/s^2], one per sample
+  std::vector<double> unsprung;  ///< w'' less its mean [m/s^2], one per sample
+  std::vector<WheelStep> wheel;  ///< what the wheel does, one per integration step
+  std::vector<Stamp> stamps;     ///< one per sample
+  BodyChannels body;             ///< what else the body's IMU measured; empty: not measured, or it never changes
+
+  std::size_t size() const { return sprung.size(); }
+
+  /// @return since the start of the drive [s].
+  double time(std::size_t sample) const { return start + static_cast<double>(sample) * period; }
+};
+
+/// A drive as a whole, kept for comparison and for fits.
+///
+/// The mean of w'' is taken off both signals: a vehicle stays where it is, so this is gravity and the offset of the
+/// wheel's sensor; what the body's sensor has besides stays.
+/// A stretch ends at a gap, and where a sensor repeats one value: a reading that is stuck or lost.
+/// Samples at the ends of a stretch that the interpolation of w'' needs are not part of it.
+/// The body's motion comes to the samples by linear interpolation between its messages. Accelerations lose their mean
+/// over the drive. Angular rates are differentiated by the slope of a cubic through the neighbours (least squares), of
+/// 2 to 12 on either side: as few as the noise of the rate allows.
+class DriveRecord {
+ public:
+  /// @param period  sampling time T [s].  @param steps  integration steps per sample, >= 1.
+  DriveRecord(const Drive& drive, double period, int steps = 1);
+
+  double period() const { return period_; }
+  int steps() const { return steps_; }
+  const std::vector<DriveSegment>& segments() const { return segments_; }
+  std::size_t numSamples() const;
+  double gravity() const { return mean_wheel_; }
+
+ private:
+  struct Stretch;
+
+  static std::vector<Stretch> stretchesOf(const Drive& drive, double period);
+  void addSegment(const Stretch& stretch);
+
+  double period_;
+  int steps_;
+  double mean_wheel_ = 0.0;
+  std::vector<DriveSegment> segments_;
+};
+
+/// Drives of one vehicle and one period, as fits and searches take them.
+using Records = std::vector<const DriveRecord*>;
+
+/// @return the segments of all records, one after the other: the order of everything that is kept by segment.
+std::vector<const DriveSegment*> segmentsOf(const Records& records);
+
+/// The drives as records, integrated in steps that follow the strut's fastest motion.
+/// @param model  a damped spring.
+std::deque<DriveRecord> makeRecords(const std::vector<Drive>& drives, double period, const StrutModel& model);
+
+/// @return the addresses of the records.
+Records pointersTo(const std::deque<DriveRecord>& records);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
+
+namespace suspension_health_monitor {
+
+/// Kinds of a drive that would tell models apart, see separating_drive.h.
+enum class DriveKind { kNoneHelps, kMoreTravel, kLessTravel, kSlower, kQuicker, kLonger };
+
+/// The drive that would tell a group of effects apart best.
+struct SeparatingDrive {
+  std::vector<std::string> group;  ///< names of the effects
+  DriveKind kind = DriveKind::kNoneHelps;
+  double difference_there = 0.0;  ///< rms difference of the least different laws, as a share of the strut's force
+  double difference_here = 0.0;
+};
+
+/// A diagnosis without the words for people.
+struct SearchResult : Diagnosis {
+  std::vector<SeparatingDrive> separating;  ///< one per group that the drives cannot tell apart
+  double power_at_sampling_limit = 0.0;     ///< see powerAtSamplingLimit()
+};
+
+/// diagnose() of drives that are prepared already.
+/// @param start  a damped spring, e.g. of LS: effects that it has stay.
+/// @param options  its period, horizon and model are not looked at.
+SearchResult searchEffects(const Records& records, const StrutModel& start, const DiagnoseOptions& options = {});
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
+#include "suspension_health_monitor/internal/signal/range_end.h"
+#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/stream_timing.h"
+
+namespace suspension_health_monitor {
+
+/// Lets the readings of one sensor pass that can be true, by their stamps and values, and counts the others by reason.
+///
+/// Clipping is recognised without knowing the sensor's range: flat tops at the very highest or lowest value that the
+/// sensor has ever read, of a sensor that resolves far finer (RangeEnd). From then on every reading at that value is
+/// kept out, until a reading beyond it shows that it was no limit.
+/// Cost per reading: O(1), no allocation.
+class StreamGate {
+ public:
+  /// @param period  sampling time T; a reading that is more than 50 T older than its predecessor is a clock that jumped
+  ///                or a bag that loops, not a message that was overtaken.
+  explicit StreamGate(Stamp period) : longest_overtaking_(50 * period) {}
+
+  enum class Verdict {
+    kPasses,
+    kRejected,
+    kBeginsAnew,  ///< passes, but the clock went back: what came before belongs to another series
+  };
+
+  /// Looks at the next reading. A reading that is rejected for its stamp leaves no trace but in the counters.
+  Verdict judge(Stamp stamp, double acceleration);
+
+  /// Forgets the last stamp: the next reading may have any.
+  void startNewSeries();
+
+  /// @return true if the last kStill readings were all the same: a sensor that is stuck, or a vehicle at rest and a
+  /// sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
+  bool isStill() const { return equal_in_a_row_ == kStill; }
+
+  /// @return the mean distance of the newest thousand readings from their mean [m/s^2].
+  double deviation() const { return deviation_.mean(); }
+
+  /// @return how far from that mean any reading has been [m/s^2], those that were kept out as absurd left out.
+  double farthest() const;
+
+  const RejectCounts& rejected() const { return rejected_; }
+  const StreamTiming& timing() const { return timing_; }
+
+ private:
+  static constexpr int kStill = 20;              // equal readings in a row; fewer occur where the resolution is coarse
+  static constexpr double kUsualMemory = 0.999;  // forgetting factor
+
+  std::optional<RejectReason> faultOfStamp(Stamp stamp) const;
+  bool isAbsurd(double acceleration);
+  bool isClipped(double acceleration);
+  void noteValue(double acceleration);
+  Verdict reject(RejectReason reason);
+
+  Stamp longest_overtaking_;
+  std::optional<Stamp> last_;
+  std::optional<double> value_;  // of the last reading
+  int equal_in_a_row_ = 0;
+  int absurd_in_a_row_ = 0;
+  double finest_step_ = 0.0;            // other than 0
+  RangeEnd upper_{1.0}, lower_{-1.0};   // of all readings that passed, the clipped ones included
+  RunningMean repeated_{kUsualMemory};  // 1 for a reading that equals the one before, both extremes left out
+  RunningMean size_{kUsualMemory};      // |acceleration|
+  RunningMean mean_{kUsualMemory}, deviation_{kUsualMemory};  // of the acceleration; |acceleration - mean|
+  RejectCounts rejected_;
+  StreamTiming timing_;
+};
+
+}  // namespace suspension_health_monitor

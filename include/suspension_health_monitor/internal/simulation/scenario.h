@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/internal/model/quarter_car.h"
+#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/simulation/road.h"
+#include "suspension_health_monitor/internal/simulation/strut.h"
+
+namespace suspension_health_monitor {
+
+/// What a simulated drive is like. The meaning of what users may set is in kSimulationFields.
+struct SimulationOptions {
+  std::string scenario = "paper_clean";
+  std::string vehicle = "default";
+  std::optional<double> damping_to_mass;
+  std::optional<double> stiffness_to_mass;
+
+  std::optional<double> damping_end_fraction;
+  double ramp_start = 40.0;  ///< when the damping begins to change [s]
+  double ramp_end = 100.0;   ///< when it has changed, after ramp_start [s]
+
+  std::string iso_class = "default";
+  std::optional<double> speed;
+  double duration = 120.0;
+  int seed = 1;
+
+  double rate = 50.0;
+  std::optional<double> unsprung_rate;
+  double unsprung_phase = 0.0;
+  double sampling_jitter = 0.0;
+  double noise = 0.024;
+  bool gaussian_noise = false;  ///< true: normal; false: uniform within +-sqrt(3) noise, as in the paper
+  double dropout = 0.0;
+  double stamp_jitter = 0.0;
+  double clock_offset = 0.0;
+  double clock_skew = 0.0;
+
+  double body_acceleration = 0.0;
+  double body_rate = 0.0;
+  double gyro_noise = 0.001;  ///< standard deviation of the white noise on both rates [rad/s]
+
+  std::vector<ActiveEffect> hidden = {};  ///< effects that the model lacks, at most kMostHiddenEffects
+  std::vector<ActiveMeasurementEffect> hidden_faults = {};  ///< what is wrong with the body's IMU (sensor_faults.h)
+};
+
+using SimulationField = OptionField<SimulationOptions>;
+inline constexpr std::array kSimulationFields{
+    SimulationField{
+        "drive", "scenario", "-",
+        "paper_clean: the paper's road (31); paper_outliers: and both readings 0 at 25..26 s and 65..66 s; "
+        "paper_saturation: and bumps (32) at 85 s and 110 s into end stops at +-0.09 m; iso_road: an ISO 8608 road",
+        &SimulationOptions::scenario, 0, 0, "paper_clean paper_outliers paper_saturation iso_road"},
+    SimulationField{"drive", "vehicle", "-",
+                    "masses, strut and tyre; default: paper in the paper's scenarios, golden_car on iso_road",
+                    &SimulationOptions::vehicle, 0, 0, "default paper golden_car rover ugv"},
+    SimulationField{"drive", "damping_to_mass", "1/s", "b1 at the start; none: the vehicle's",
+                    &SimulationOptions::damping_to_mass, 0.0, 1e5},
+    SimulationField{"drive", "stiffness_to_mass", "1/s^2", "b0; none: the vehicle's",
+                    &SimulationOptions::stiffness_to_mass, 1e-3, 1e8},
+    SimulationField{"drive", "damping_end_fraction", "-",
+                    "share of the damping that is left when it has worn, from 40 s to 100 s; 1: a healthy drive; none: "
+                    "2/3 in the paper's scenarios, 1 on iso_road",
+                    &SimulationOptions::damping_end_fraction, 0.0, 10.0},
+    SimulationField{"drive", "iso_class", "-", "road class of iso_road, A smooth; default: the vehicle's",
+                    &SimulationOptions::iso_class, 0, 0, "default A B C D E F G H"},
+    SimulationField{"drive", "speed", "m/s", "speed on iso_road; none: the vehicle's", &SimulationOptions::speed, 0.01,
+                    200.0},
+    SimulationField{"drive", "duration", "s", "length of the drive; samples at both ends", &SimulationOptions::duration,
+                    0.0, 1e6},
+    SimulationField{"drive", "seed", "-", "same options and seed, same drive", &SimulationOptions::seed, 0, 2147483647},
+    SimulationField{"sensors", "rate", "Hz",
+                    "samples per second of both sensors; a car on iso_road shakes up to 2.83 speed Hz",
+                    &SimulationOptions::rate, 0.1, 20000.0},
+    SimulationField{"sensors", "unsprung_rate", "Hz", "samples per second of the unsprung sensor; none: rate",
+                    &SimulationOptions::unsprung_rate, 0.1, 20000.0},
+    SimulationField{"sensors", "unsprung_phase", "s", "when the unsprung sensor reads first",
+                    &SimulationOptions::unsprung_phase, 0.0, 10.0},
+    SimulationField{"sensors", "sampling_jitter", "s",
+                    "readings are taken, and stamped, late by a uniform 0..sampling_jitter, less than one period of "
+                    "the faster sensor",
+                    &SimulationOptions::sampling_jitter, 0.0, 10.0},
+    SimulationField{"sensors", "stamp_jitter", "s",
+                    "stamps are late by a uniform 0..stamp_jitter, less than one sample period; the readings are not",
+                    &SimulationOptions::stamp_jitter, 0.0, 10.0},
+    SimulationField{"sensors", "clock_offset", "s", "what the sprung sensor's clock shows at the start of the drive",
+                    &SimulationOptions::clock_offset, -10.0, 10.0},
+    SimulationField{"sensors", "clock_skew", "s/s", "how much faster than true time the sprung sensor's clock runs",
+                    &SimulationOptions::clock_skew, -0.01, 0.01},
+    SimulationField{"sensors", "dropout", "-", "share of messages lost, each sensor by itself",
+                    &SimulationOptions::dropout, 0.0, 1.0},
+    SimulationField{"sensors", "noise", "m/s^2", "standard deviation of either sensor's white noise",
+                    &SimulationOptions::noise, 0.0, 1e3},
+    SimulationField{"sensors", "body_acceleration", "m/s^2",
+                    "rms of braking and cornering, on x and y of the body's IMU; 0: none",
+                    &SimulationOptions::body_acceleration, 0.0, 1e3},
+    SimulationField{"sensors", "body_rate", "rad/s",
+                    "rms of roll and pitch rate, on x and y of the body's IMU; 0: it has no gyro",
+                    &SimulationOptions::body_rate, 0.0, 1e3},
+};
+
+/// Checks ranges (kSimulationFields), the order of the ramp's ends, that jitter keeps the stamps in order, the number
+/// of hidden effects, and that hidden faults are known and have a motion to act on.
+/// @throws std::invalid_argument  naming option, value and what is allowed.
+void validate(const SimulationOptions& options);
+
+/// @return readings per second of the faster sensor.
+double fasterRate(const SimulationOptions& options);
+
+/// A stretch of time [first, last] in [s], both ends included.
+struct TimeWindow {
+  double first, last;
+
+  bool contains(double t) const { return t >= first && t <= last; }
+};
+
+/// What the options amount to: the vehicle and its strut, the road, the faults of the sensors' wiring.
+struct Scenario {
+  QuarterCar vehicle;  ///< at the start of the drive
+  Strut strut;
+  Road road;
+  std::vector<TimeWindow> zero_readings;  ///< both accelerations read 0
+};
+
+/// @throws std::invalid_argument  as validate().
+Scenario makeScenario(const SimulationOptions& options);
+
+}  // namespace suspension_health_monitor

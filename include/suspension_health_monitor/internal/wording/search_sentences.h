@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "suspension_health_monitor/internal/record/untestable_effects.h"
+#include "suspension_health_monitor/internal/search/effect_search.h"
+
+namespace suspension_health_monitor {
+
+/// The verdict's name for programs: effect_found, nothing_missing or unexplained.
+const char* nameOf(Verdict verdict);
+
+/// The verdict in a sentence for people.
+std::string summaryOf(const SearchResult& result);
+
+/// What to record next, in sentences; empty if there is nothing to tell apart and nothing unexplained.
+std::string suggestionOf(const SearchResult& result);
+
+/// Why an effect is not tried.
+std::string reasonOf(BodyChannel missing);
+
+/// What is the matter with drives, to be read after "the drives"; empty for kNone.
+/// @param start  the model that was given, or the rough one by least squares.
+std::string reasonOf(Shortcoming shortcoming, const StrutModel& start);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/effects.h"
+
+namespace suspension_health_monitor {
+
+/// An effect in use: with its coefficient and its shapes (SI).
+struct ActiveEffect {
+  ForceEffect effect;
+  double coefficient = 0.0;
+  std::vector<double> shapes;  ///< one per effect.shapes
+};
+
+/// A fault of the measurement, with its size.
+struct ActiveMeasurementEffect {
+  MeasurementEffect effect;
+  std::vector<double> coefficients;  ///< one per effect.coefficients
+};
+
+/// The strut as it is modelled: z'' = b1 v + b0 d + sum_j c_j f_j, and how its acceleration is read.
+struct StrutModel {
+  double damping_to_mass = 0.0;    ///< b1 [1/s]
+  double stiffness_to_mass = 0.0;  ///< b0 [1/s^2]
+  std::vector<ActiveEffect> effects;
+  std::vector<ActiveMeasurementEffect> reading;
+
+  /// @param memory  one state per effect, those without memory included.
+  /// @return z'' [m/s^2].
+  double force(double travel, double travel_rate, double time, const double* memory) const {
+    double sum = damping_to_mass * travel_rate + stiffness_to_mass * travel;
+    for (std::size_t j = 0; j < effects.size(); ++j)
+      sum += effects[j].coefficient *
+             effects[j].effect.force({travel, travel_rate, time, memory[j]}, effects[j].shapes.data());
+    return sum;
+  }
+};
+
+/// One number of a model as files and tables list it.
+struct ModelNumber {
+  enum class Kind { kStrut, kCoefficient, kShape };
+
+  Kind kind = Kind::kStrut;
+  std::string name;    ///< damping_to_mass, bump_stop (its coefficient), bump_stop/g (a shape), mount_tilt/c_x
+  std::string effect;  ///< bump_stop; empty for those of the linear strut
+  std::string symbol;  ///< b1, b0, c, or what the law calls it
+  std::string unit;
+  double value = 0.0;  ///< SI
+};
+
+/// @return b1, b0, coefficient and shapes effect by effect, then the coefficients of the reading's faults: the order in
+/// which a fit has standard deviations.
+std::vector<ModelNumber> numbersOf(const StrutModel& model);
+
+/// @return the same numbers, to be changed in place; valid as long as no effect is added or taken out.
+std::vector<double*> valuesOf(StrutModel& model);
+
+}  // namespace suspension_health_monitor

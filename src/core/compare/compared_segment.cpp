@@ -1,0 +1,73 @@
+#include "suspension_health_monitor/internal/compare/compared_segment.h"
+
+#include <cmath>
+
+#include "suspension_health_monitor/internal/fit/motion_error.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+double meanResidual(const std::vector<ComparedSegment>& segments) {
+  double sum = 0.0, count = 0.0;
+  for (const ComparedSegment& segment : segments) {
+    for (std::size_t k = 0; k < segment.size(); ++k) sum += segment.residual(k);
+    count += static_cast<double>(segment.size());
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
+                     ComparedSegment& segment) {
+  std::vector<double> residual(segment.size());
+  for (std::size_t k = 0; k < segment.size(); ++k) residual[k] = segment.residual(k);
+  const MotionError wrong = motionError(residual, mean, segment.period, model.stiffness_to_mass);
+  std::vector<double>& force = segment.missing_force;
+  force.resize(segment.size());
+  for (std::size_t k = 0; k < segment.size(); ++k)
+    force[k] = model.force(segment.travel[k] - wrong.travel[k], segment.travel_rate[k] - wrong.travel_rate[k],
+                           segment.time(k), motion[k].memory.data());
+  for (const ActiveMeasurementEffect& reading : model.reading)
+    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, force);
+  for (std::size_t k = 0; k < segment.size(); ++k) force[k] = segment.measured[k] - force[k];
+}
+
+ComparedSegment makeSegment(const StrutModel& model, const DriveSegment& source,
+                            const std::vector<StrutState>& motion) {
+  ComparedSegment segment;
+  segment.start = source.start;
+  segment.period = source.period;
+  segment.measured = source.sprung;
+  segment.wheel = source.unsprung;
+  segment.body = source.body;
+  for (std::size_t k = 0; k < source.size(); ++k) {
+    const StrutState& state = motion[k];
+    segment.travel.push_back(state.travel);
+    segment.travel_rate.push_back(state.travel_rate);
+    segment.added_force.push_back(model.force(state.travel, state.travel_rate, segment.time(k), state.memory.data()) -
+                                  model.damping_to_mass * state.travel_rate - model.stiffness_to_mass * state.travel);
+  }
+  return segment;
+}
+
+}  // namespace
+
+std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
+                                              const std::vector<StrutState>& initial) {
+  ComparedDrives drives;
+  auto& [segments, motion] = drives;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (const DriveSegment& source : records[r]->segments()) {
+      std::vector<double> predicted;
+      motion.emplace_back();
+      if (!runFree(model, source, initial[segments.size()], predicted, &motion.back())) return std::nullopt;
+      segments.push_back(makeSegment(model, source, motion.back()));
+      segments.back().record = r;
+      segments.back().predicted = std::move(predicted);
+    }
+  const double mean = meanResidual(segments);
+  for (std::size_t i = 0; i < segments.size(); ++i) addMissingForce(model, motion[i], mean, segments[i]);
+  return drives;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,129 @@
+#include "suspension_health_monitor/internal/compare/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/compare/compared_segment.h"
+#include "suspension_health_monitor/internal/compare/failure_regions.h"
+#include "suspension_health_monitor/internal/compare/partial_residual.h"
+#include "suspension_health_monitor/internal/compare/prediction_error.h"
+#include "suspension_health_monitor/internal/fit/hold_out.h"
+#include "suspension_health_monitor/internal/fit/initial_states.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/fit/rough_model.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+/// Fits the model, or keeps it.
+/// @return the state in which every segment begins; nothing if the model runs away or no spring is left.
+std::optional<std::vector<StrutState>> settleModel(const Records& records, const CompareOptions& options,
+                                                   Comparison& comparison) {
+  if (!options.fit) return estimateInitialStates(records, comparison.model);
+  std::optional<ModelFit> fit = fitOutputError(records, {}, comparison.model);
+  if (!fit || !isDampedSpring(fit->model)) return std::nullopt;
+  comparison.model = fit->model;
+  comparison.stddev = fit->stddev;
+  return std::move(fit->initial);
+}
+
+Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
+  Residuals residuals;
+  for (const ComparedSegment& segment : segments) {
+    residuals.emplace_back();
+    for (std::size_t k = 0; k < segment.size(); ++k) residuals.back().push_back(segment.residual(k));
+  }
+  return residuals;
+}
+
+std::optional<double> heldOutRmse(const Records& records, const HoldOut& held_out, bool fit,
+                                  const Comparison& comparison) {
+  if (!fit) return held_out.rmse(held_out.stretchErrors(residualsOf(comparison.segments)));
+  const std::optional<ModelFit> training = fitOutputError(records, held_out.training, comparison.model);
+  if (!training) return std::nullopt;
+  return held_out.rmse(held_out.stretchErrors(training->residuals));
+}
+
+/// [from, to] of what is held out, per drive.
+std::vector<std::vector<std::pair<double, double>>> heldOutSpans(const Records& records, const HoldOut& held_out) {
+  std::vector<std::vector<std::pair<double, double>>> spans;
+  auto mask = held_out.training.begin();
+  for (const DriveRecord* record : records) {
+    spans.emplace_back();
+    for (const DriveSegment& segment : record->segments()) {
+      for (auto first = mask->begin(); (first = std::find(first, mask->end(), 0)) != mask->end();) {
+        const auto end = std::find(first, mask->end(), 1);
+        const auto index = [&](auto at) { return static_cast<std::size_t>(at - mask->begin()); };
+        spans.back().emplace_back(segment.time(index(first)), segment.time(index(end) - 1));
+        first = end;
+      }
+      ++mask;
+    }
+  }
+  return spans;
+}
+
+int horizonFor(const CompareOptions& options, const StrutModel& model, double period) {
+  if (options.horizon_samples) return *options.horizon_samples;
+  const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass).horizon;
+  return horizonSamples(horizon, period, IntegralFilterOptions{}.rule);
+}
+
+/// @return what is the matter, if anything.
+Shortcoming fill(const Records& records, const CompareOptions& options, Comparison& comparison) {
+  const auto report = [&](double share) {
+    if (options.progress) options.progress(share);
+  };
+  if (segmentsOf(records).empty()) return Shortcoming::kTooShort;
+  if (!isDampedSpring(comparison.model)) return Shortcoming::kNoDampedSpring;
+  const std::optional<std::vector<StrutState>> initial = settleModel(records, options, comparison);
+  if (!initial) return Shortcoming::kNoStableFit;
+  std::optional<ComparedDrives> compared = compareSegments(records, comparison.model, *initial);
+  if (!compared) return Shortcoming::kNoStableFit;
+  comparison.segments = std::move(compared->segments);
+  const std::optional<PredictionError> free_run = freeRunError(comparison.segments);
+  if (!free_run) return Shortcoming::kTooShort;
+  comparison.free_run = *free_run;
+  report(0.4);
+  if (const auto held_out = splitHoldOut(records, comparison.model.stiffness_to_mass)) {
+    comparison.held_out_rmse = heldOutRmse(records, *held_out, options.fit, comparison);
+    comparison.held_out = heldOutSpans(records, *held_out);
+  }
+  report(0.7);
+
+  IntegralFilterOptions filter;
+  filter.period = records.front()->period();
+  filter.horizon_samples = comparison.horizon_samples = horizonFor(options, comparison.model, filter.period);
+  comparison.one_step = oneStepError(comparison.segments, comparison.model, filter);
+  // Noise cannot leave more than this very model does.
+  comparison.noise_floor = std::min(estimateNoiseFloor(records, comparison.model), comparison.free_run.rmse);
+  if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
+  comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
+  report(0.85);
+  const ExpectedNoise noise{comparison.noise_floor, comparison.model.damping_to_mass,
+                            comparison.model.stiffness_to_mass};
+  std::optional<ResidualViews> views = viewResidual(comparison.segments, noise);
+  if (!views) return Shortcoming::kTooShort;
+  comparison.views = std::move(*views);
+  comparison.where = findFailures(comparison.views, noise);
+  comparison.forces = partialResiduals(comparison.segments, compared->motion, comparison.model);
+  report(1.0);
+  return Shortcoming::kNone;
+}
+
+}  // namespace
+
+Comparison compareModel(const Records& records, const StrutModel& model, const CompareOptions& options) {
+  Comparison comparison;
+  comparison.model = model;
+  const Shortcoming shortcoming = fill(records, options, comparison);
+  if (shortcoming == Shortcoming::kNone) return comparison;
+  Comparison nothing;
+  nothing.model = model;
+  nothing.shortcoming = shortcoming;
+  return nothing;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,184 @@
+#include "suspension_health_monitor/internal/compare/partial_residual.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::size_t kBins = 28;
+constexpr std::size_t kColumns = 18, kRows = 14;
+constexpr std::size_t kFewestInBin = 8, kFewestInCell = 3;
+constexpr double kCutAtEachEnd = 0.003;  // of the samples: single extremes would stretch the axis
+constexpr std::size_t kProbes = 200;
+constexpr double kNoInfluence = 1e-9;  // of the force
+
+struct Sample {
+  StrutMotion motion;
+  double seen = 0.0, law = 0.0;
+};
+
+double valueOf(const StrutMotion& motion, ForceVariable variable) {
+  switch (variable) {
+    case ForceVariable::kTravel: return motion.travel;
+    case ForceVariable::kTravelRate: return motion.travel_rate;
+    case ForceVariable::kTime: break;
+  }
+  return motion.time;
+}
+
+void setValue(StrutMotion& motion, ForceVariable variable, double value) {
+  switch (variable) {
+    case ForceVariable::kTravel: motion.travel = value; return;
+    case ForceVariable::kTravelRate: motion.travel_rate = value; return;
+    case ForceVariable::kTime: motion.time = value;
+  }
+}
+
+double forceOf(const ActiveEffect& active, const StrutMotion& motion) {
+  return active.coefficient * active.effect.force(motion, active.shapes.data());
+}
+
+/// Whether the force of some samples changes when one of its variables is taken from other samples.
+bool dependsOn(const ActiveEffect& active, ForceVariable variable, const std::vector<Sample>& samples) {
+  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kProbes);
+  for (std::size_t i = 0; i < samples.size(); i += stride) {
+    StrutMotion other = samples[i].motion;
+    setValue(other, variable, valueOf(samples[(i + samples.size() / 2 + 1) % samples.size()].motion, variable));
+    const double force = samples[i].law, changed = forceOf(active, other);
+    if (std::abs(changed - force) > kNoInfluence * (std::abs(force) + std::abs(changed))) return true;
+  }
+  return false;
+}
+
+std::vector<ForceVariable> variablesOf(const ActiveEffect& active, const std::vector<Sample>& samples) {
+  if (active.effect.memory_rate) return {ForceVariable::kTravel};
+  std::vector<ForceVariable> variables;
+  for (const ForceVariable variable : {ForceVariable::kTravel, ForceVariable::kTravelRate, ForceVariable::kTime})
+    if (variables.size() < 2 && dependsOn(active, variable, samples)) variables.push_back(variable);
+  if (variables.empty()) variables.push_back(ForceVariable::kTravel);
+  return variables;
+}
+
+/// Even edges over nearly all values.
+std::vector<double> edgesOver(const std::vector<Sample>& samples, ForceVariable variable, std::size_t bins) {
+  std::vector<double> values;
+  values.reserve(samples.size());
+  for (const Sample& sample : samples) values.push_back(valueOf(sample.motion, variable));
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  const double low = values[static_cast<std::size_t>(kCutAtEachEnd * last)];
+  const double high = values[static_cast<std::size_t>((1.0 - kCutAtEachEnd) * last)];
+  std::vector<double> edges;
+  for (std::size_t i = 0; i <= bins; ++i)
+    edges.push_back(low + (high - low) * static_cast<double>(i) / static_cast<double>(bins));
+  return edges;
+}
+
+/// Index of the range that holds the value, or the number of ranges if none does.
+std::size_t rangeOf(const std::vector<double>& edges, double value) {
+  const std::size_t ranges = edges.size() - 1;
+  if (!(value >= edges.front() && value <= edges.back())) return ranges;
+  const auto above = std::upper_bound(edges.begin(), edges.end(), value);
+  return std::min(ranges - 1, static_cast<std::size_t>(above - edges.begin()) - 1);
+}
+
+class Average {
+ public:
+  void add(const Sample& sample) {
+    ++count_;
+    const double step = sample.seen - mean_;
+    mean_ += step / static_cast<double>(count_);
+    squares_ += step * (sample.seen - mean_);
+    law_ += (sample.law - law_) / static_cast<double>(count_);
+  }
+
+  PartialResidualBin bin(double at) const {
+    return {at, mean_, count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : 0.0, law_, count_};
+  }
+
+ private:
+  double mean_ = 0.0, squares_ = 0.0, law_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+/// @param direction  +1 compressing, -1 extending, 0 both.
+std::vector<PartialResidualBin> curveOver(const std::vector<Sample>& samples, ForceVariable variable, int direction) {
+  const std::vector<double> edges = edgesOver(samples, variable, kBins);
+  std::vector<Average> averages(kBins + 1);
+  for (const Sample& sample : samples)
+    if (direction == 0 || direction * sample.motion.travel_rate > 0.0)
+      averages[rangeOf(edges, valueOf(sample.motion, variable))].add(sample);
+  std::vector<PartialResidualBin> curve;
+  for (std::size_t i = 0; i < kBins; ++i) {
+    const PartialResidualBin bin = averages[i].bin(0.5 * (edges[i] + edges[i + 1]));
+    if (bin.count >= kFewestInBin) curve.push_back(bin);
+  }
+  return curve;
+}
+
+PartialResidualGrid gridOver(const std::vector<Sample>& samples, ForceVariable first, ForceVariable second) {
+  PartialResidualGrid grid{edgesOver(samples, first, kColumns), edgesOver(samples, second, kRows), {}};
+  std::vector<std::vector<Average>> averages(kColumns + 1, std::vector<Average>(kRows + 1));
+  for (const Sample& sample : samples)
+    averages[rangeOf(grid.first_edges, valueOf(sample.motion, first))]
+            [rangeOf(grid.second_edges, valueOf(sample.motion, second))]
+                .add(sample);
+  for (std::size_t i = 0; i < kColumns; ++i) {
+    grid.cells.emplace_back();
+    for (std::size_t j = 0; j < kRows; ++j) {
+      const PartialResidualBin bin = averages[i][j].bin(0.0);
+      grid.cells.back().push_back(bin.count >= kFewestInCell ? bin : PartialResidualBin{});
+    }
+  }
+  return grid;
+}
+
+/// Every sample with the force of one effect.
+std::vector<Sample> samplesOf(const std::vector<ComparedSegment>& segments,
+                              const std::vector<std::vector<StrutState>>& motion, const ActiveEffect& active,
+                              std::size_t index) {
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    for (std::size_t k = 0; k < segments[i].size(); ++k) {
+      const StrutState& state = motion[i][k];
+      Sample sample{{state.travel, state.travel_rate, segments[i].time(k), state.memory[index]}};
+      sample.law = forceOf(active, sample.motion);
+      sample.seen = segments[i].missing_force[k] + sample.law;
+      samples.push_back(sample);
+    }
+  return samples;
+}
+
+PartialResidual partialResidual(const ActiveEffect& active, const std::vector<Sample>& samples) {
+  PartialResidual force;
+  force.effect = active;
+  force.variables = variablesOf(active, samples);
+  if (force.variables.size() == 2) {
+    force.grid = gridOver(samples, force.variables[0], force.variables[1]);
+  } else {
+    force.curve = curveOver(samples, force.variables.front(), force.hasMemory() ? 1 : 0);
+    if (force.hasMemory()) force.back = curveOver(samples, force.variables.front(), -1);
+  }
+  return force;
+}
+
+}  // namespace
+
+double PartialResidual::lawAt(double value) const {
+  StrutMotion motion;
+  setValue(motion, variables.front(), value);
+  return forceOf(effect, motion);
+}
+
+std::vector<PartialResidual> partialResiduals(const std::vector<ComparedSegment>& segments,
+                                              const std::vector<std::vector<StrutState>>& motion,
+                                              const StrutModel& model) {
+  std::vector<PartialResidual> forces;
+  for (std::size_t j = 0; j < model.effects.size(); ++j)
+    forces.push_back(partialResidual(model.effects[j], samplesOf(segments, motion, model.effects[j], j)));
+  return forces;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,214 @@
+#include "residual_bins.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kMostTimeBins = 24.0;    // of all drives together
+constexpr double kShortestTimeBin = 4.0;  // natural periods
+const std::vector<double> kShares{0.0, 0.01, 0.03, 0.06, 0.1,  0.2,  0.3,  0.4, 0.5,
+                                  0.6, 0.7,  0.8,  0.9,  0.94, 0.97, 0.99, 1.0};
+const std::vector<double> kLoopShares{0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.0};
+constexpr int kCells = 12;         // of the force surface, either way; even: one edge is 0
+constexpr double kCovered = 0.99;  // of the samples, by the inner edges
+constexpr std::size_t kFewestInLoop = 8;
+
+/// Sums over the samples of a bin.
+struct BinSums {
+  double count = 0.0, missing = 0.0, missing_square = 0.0, residual_square = 0.0;
+
+  void add(double m, double r) {
+    count += 1.0;
+    missing += m;
+    missing_square += square(m);
+    residual_square += square(r);
+  }
+
+  double standardError(double memory) const {
+    if (count < 2.0) return 0.0;
+    const double mean = missing / count;
+    return std::sqrt(std::max(0.0, missing_square / count - square(mean)) * memory / (count - 1.0));
+  }
+
+  void fill(double memory, ResidualBin& bin) const {
+    bin.count = static_cast<std::size_t>(count);
+    if (count == 0.0) return;
+    bin.mean = missing / count;
+    bin.rms = std::sqrt(residual_square / count);
+    bin.standard_error = standardError(memory);
+  }
+};
+
+std::vector<double> quantiles(std::vector<double> values, const std::vector<double>& shares) {
+  std::sort(values.begin(), values.end());
+  std::vector<double> edges;
+  for (const double share : shares)
+    edges.push_back(values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))]);
+  return edges;
+}
+
+/// The bin of a value; the outermost take in what lies beyond.
+std::size_t binOf(const std::vector<double>& edges, double value) {
+  const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, value);
+  return static_cast<std::size_t>(above - edges.begin()) - 1;
+}
+
+std::vector<ResidualBin> makeBins(const std::vector<double>& edges, const std::vector<BinSums>& sums, double memory) {
+  std::vector<ResidualBin> bins(sums.size());
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    bins[i].from = edges[i];
+    bins[i].to = edges[i + 1];
+    sums[i].fill(memory, bins[i]);
+  }
+  return bins;
+}
+
+/// Even edges around 0 that cover nearly all values.
+std::vector<double> evenEdges(const std::vector<double>& values) {
+  const std::vector<double> ends = quantiles(values, {0.5 * (1.0 - kCovered), 0.5 * (1.0 + kCovered)});
+  const double reach = std::max(std::abs(ends[0]), std::abs(ends[1]));
+  std::vector<double> edges;
+  for (int i = 0; i <= kCells; ++i) edges.push_back(reach * (2.0 * i / kCells - 1.0));
+  return edges;
+}
+
+/// What one stretch of time says of the strut's numbers: normal equations of missing force on (v, d).
+class LocalFit {
+ public:
+  void add(double rate, double travel, double missing) {
+    const Eigen::Vector2d row(rate, travel);
+    gram_ += row * row.transpose();
+    moment_ += missing * row;
+    square_ += square(missing);
+  }
+
+  void fill(double memory, TimeBin& bin) const {
+    const Eigen::LDLT<Eigen::Matrix2d> factors(gram_);
+    if (bin.count < 8 || !(factors.rcond() > 1e-14)) return;
+    const Eigen::Vector2d solution = factors.solve(moment_);
+    const double left = std::max(0.0, square_ - moment_.dot(solution)) / (static_cast<double>(bin.count) - 2.0);
+    const Eigen::Matrix2d covariance = left * memory * factors.solve(Eigen::Matrix2d::Identity());
+    bin.damping_error = solution[0];
+    bin.stiffness_error = solution[1];
+    bin.damping_error_stddev = std::sqrt(std::max(0.0, covariance(0, 0)));
+    bin.stiffness_error_stddev = std::sqrt(std::max(0.0, covariance(1, 1)));
+  }
+
+ private:
+  Eigen::Matrix2d gram_ = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d moment_ = Eigen::Vector2d::Zero();
+  double square_ = 0.0;
+};
+
+struct DriveSpan {
+  double from = 0.0, to = 0.0;  // [s]
+  std::size_t first = 0;        // of its segments
+  std::size_t last = 0;         // one past the end
+};
+
+std::vector<DriveSpan> spansOf(const std::vector<ComparedSegment>& segments) {
+  std::vector<DriveSpan> spans;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    if (s == 0 || segments[s].record != segments[s - 1].record) spans.push_back({segments[s].start, 0.0, s, s});
+    spans.back().to = segments[s].time(segments[s].size());
+    spans.back().last = s + 1;
+  }
+  return spans;
+}
+
+}  // namespace
+
+std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<ComparedSegment>& segments) {
+  const std::vector<DriveSpan> spans = spansOf(segments);
+  double duration = 0.0;
+  for (const DriveSpan& span : spans) duration += span.to - span.from;
+  const double width = std::max(duration / kMostTimeBins, kShortestTimeBin * series.natural_period * series.period);
+  std::vector<TimeBin> bins;
+  for (const DriveSpan& span : spans) {
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::floor((span.to - span.from) / width)));
+    std::vector<BinSums> sums(count);
+    std::vector<LocalFit> fits(count);
+    for (std::size_t s = span.first; s < span.last; ++s)
+      for (std::size_t k = 0; k < segments[s].size(); ++k) {
+        const double share = (segments[s].time(k) - span.from) / (span.to - span.from);
+        const std::size_t i = std::min(count - 1, static_cast<std::size_t>(share * static_cast<double>(count)));
+        const std::size_t n = series.begins[s] + k;
+        sums[i].add(series.residual[n], series.residual[n]);
+        fits[i].add(series.rate[n], series.travel[n], series.missing[n]);
+      }
+    for (std::size_t i = 0; i < count; ++i) {
+      TimeBin& bin = bins.emplace_back();
+      bin.record = segments[span.first].record;
+      bin.from = span.from + (span.to - span.from) * static_cast<double>(i) / static_cast<double>(count);
+      bin.to = span.from + (span.to - span.from) * static_cast<double>(i + 1) / static_cast<double>(count);
+      sums[i].fill(series.residual_memory, bin);
+      fits[i].fill(series.missing_memory, bin);
+    }
+  }
+  return bins;
+}
+
+std::vector<ResidualBin> binByQuantile(const ResidualSeries& series, const std::vector<double>& x) {
+  const std::vector<double> edges = quantiles(x, kShares);
+  std::vector<BinSums> sums(edges.size() - 1);
+  for (std::size_t n = 0; n < x.size(); ++n) sums[binOf(edges, x[n])].add(series.missing[n], series.residual[n]);
+  return makeBins(edges, sums, series.missing_memory);
+}
+
+DirectionLoop compareDirections(const ResidualSeries& series) {
+  const std::vector<double> edges = quantiles(series.travel, kLoopShares);
+  std::vector<BinSums> forth(edges.size() - 1), back(edges.size() - 1);
+  for (std::size_t n = 0; n < series.size(); ++n)
+    (series.rate[n] > 0.0 ? forth : back)[binOf(edges, series.travel[n])].add(series.missing[n], series.residual[n]);
+  DirectionLoop loop;
+  loop.compressing = makeBins(edges, forth, series.missing_memory);
+  loop.extending = makeBins(edges, back, series.missing_memory);
+  double weight = 0.0, variance = 0.0;
+  for (std::size_t i = 0; i < forth.size(); ++i) {
+    const ResidualBin& c = loop.compressing[i];
+    const ResidualBin& e = loop.extending[i];
+    if (std::min(c.count, e.count) < kFewestInLoop) continue;
+    const auto count = static_cast<double>(c.count + e.count);
+    weight += count;
+    loop.gap += count * (c.mean - e.mean);
+    variance += count * count * (square(c.standard_error) + square(e.standard_error));
+    loop.area += (c.mean - e.mean) * (c.to - c.from);
+  }
+  if (weight == 0.0) return loop;
+  loop.gap /= weight;
+  loop.gap_standard_error = std::sqrt(variance) / weight;
+  return loop;
+}
+
+ForceSurface mapForce(const ResidualSeries& series) {
+  ForceSurface surface;
+  surface.travel_edges = evenEdges(series.travel);
+  surface.rate_edges = evenEdges(series.rate);
+  std::vector<BinSums> sums(kCells * kCells);
+  for (std::size_t n = 0; n < series.size(); ++n)
+    sums[binOf(surface.travel_edges, series.travel[n]) * kCells + binOf(surface.rate_edges, series.rate[n])].add(
+        series.missing[n], series.residual[n]);
+  surface.mean = surface.standard_error = surface.rms = Eigen::MatrixXd::Zero(kCells, kCells);
+  surface.count = Eigen::MatrixXi::Zero(kCells, kCells);
+  double explained = 0.0;
+  for (int i = 0; i < kCells; ++i)
+    for (int j = 0; j < kCells; ++j) {
+      const BinSums& cell = sums[static_cast<std::size_t>(i * kCells + j)];
+      surface.count(i, j) = static_cast<int>(cell.count);
+      if (cell.count < 2.0) continue;
+      surface.mean(i, j) = cell.missing / cell.count;
+      surface.rms(i, j) = std::sqrt(cell.residual_square / cell.count);
+      surface.standard_error(i, j) = cell.standardError(series.missing_memory);
+      explained += cell.count * (square(surface.mean(i, j)) - square(surface.standard_error(i, j)));
+    }
+  const double whole = sumOfSquares(series.missing);
+  if (whole > 0.0) surface.explained_share = std::clamp(explained / whole, 0.0, 1.0);
+  return surface;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,104 @@
+#include "residual_correlation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "noise_test.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kFewestLags = 20.0, kMostLags = 500.0;
+constexpr double kOutside = 0.05;                     // of the lags, by chance
+const double kBand = normalQuantile(0.5 * kOutside);  // half the band's width, in standard deviations
+const double kUnlikely = normalQuantile(0.01);        // of the number of lags outside
+
+/// Response of z'' to a unit sample of w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): e^{At}, held over a sample.
+std::vector<double> impulseResponse(const ExpectedNoise& noise, double period, std::size_t length) {
+  const double b1 = noise.damping_to_mass, b0 = noise.stiffness_to_mass;
+  const double fastest = std::max(b1, std::sqrt(b0));
+  const int steps = std::max(1, static_cast<int>(std::ceil(10.0 * fastest * period)));
+  const double h = period / steps;
+  double travel = 0.5 * period * period, rate = period;  // after one sample of w'' = 1
+  std::vector<double> response(length);
+  for (double& value : response) {
+    value = b1 * rate + b0 * travel;
+    for (int i = 0; i < steps; ++i) {  // midpoint rule
+      const double middle_travel = travel + 0.5 * h * rate;
+      const double middle_rate = rate - 0.5 * h * (b1 * rate + b0 * travel);
+      travel += h * middle_rate;
+      rate -= h * (b1 * middle_rate + b0 * middle_travel);
+    }
+  }
+  return response;
+}
+
+/// Counts lags outside the band.
+/// @param band  half its width where noise on w'' leaves nothing.  @param dependence  by how much correlation between
+/// lags widens the spread of their number.
+void countOutside(double band, double dependence, ResidualCorrelation& result) {
+  const auto lags = static_cast<double>(result.value.size());
+  const double far = band * (NoiseTest::limitFor(lags) / kBand - 1.0);  // beyond the band
+  double outside = 0.0;
+  bool far_outside = false;
+  for (std::size_t i = 0; i < result.value.size(); ++i) {
+    const double beyond = std::max(result.lower[i] - result.value[i], result.value[i] - result.upper[i]);
+    if (beyond > 0.0) outside += 1.0;
+    far_outside = far_outside || beyond > far;
+  }
+  result.share_outside = outside / lags;
+  const double spread = std::sqrt(kOutside * (1.0 - kOutside) * lags * dependence);
+  result.within = !far_outside && outside <= kOutside * lags + kUnlikely * spread + 0.5;
+}
+
+void addLag(int lag, double period, double value, double expected, double band, ResidualCorrelation& result) {
+  result.lag.push_back(lag * period);
+  result.value.push_back(value);
+  result.lower.push_back(std::min(0.0, expected) - band);
+  result.upper.push_back(std::max(0.0, expected) + band);
+}
+
+}  // namespace
+
+ResidualCorrelations correlate(const ResidualSeries& series, const ExpectedNoise& noise) {
+  const auto count = static_cast<double>(series.size());
+  const int lags =
+      static_cast<int>(std::min(std::clamp(std::round(series.natural_period), kFewestLags, kMostLags), count / 4.0));
+  const std::vector<double> through = impulseResponse(noise, series.period, 8 * static_cast<std::size_t>(lags));
+  const double share = 1.0 / (1.0 + sumOfSquares(through));  // of the floor's mean square: the body's own sensor
+
+  ResidualCorrelations result;
+  std::vector<double> residual{1.0}, wheel{1.0}, expected{1.0};
+  double squares = 0.0;
+  const Correlation own(series, series.residual, series.residual), road(series, series.wheel, series.wheel);
+  for (int lag = 1; lag <= lags; ++lag) {
+    residual.push_back(own.at(lag));
+    wheel.push_back(road.at(lag));
+    expected.push_back(share * std::inner_product(through.begin() + lag, through.end(), through.begin(), 0.0));
+    squares += expected.back() * expected.back();
+  }
+  const double band = kBand * std::sqrt((1.0 + 2.0 * squares) / count);
+  double cross_variance = 1.0, wheel_squares = 0.0;
+  for (std::size_t lag = 1; lag < residual.size(); ++lag) {
+    addLag(static_cast<int>(lag), series.period, residual[lag], expected[lag], band, result.whiteness);
+    cross_variance += 2.0 * residual[lag] * wheel[lag];
+    wheel_squares += 2.0 * wheel[lag] * wheel[lag];
+  }
+  countOutside(band, 1.0 + 2.0 * squares, result.whiteness);
+
+  const double cross_band = kBand * std::sqrt(std::max(1.0, cross_variance) / count);
+  const Correlation cross(series, series.residual, series.wheel);
+  const double sizes = std::sqrt(sumOfSquares(series.residual) * sumOfSquares(series.wheel)) / count;
+  for (int lag = -lags; lag <= lags; ++lag) {
+    // Noise on w'' is in the model's input with its own sign, so in the residual with the opposite one.
+    const double noise_square = share * noise.floor * noise.floor;
+    const double left =
+        lag > 0 && sizes > 0.0 ? -noise_square * through[static_cast<std::size_t>(lag) - 1] / sizes : 0.0;
+    addLag(lag, series.period, cross.at(lag), left, cross_band, result.cross);
+  }
+  countOutside(cross_band, 1.0 + wheel_squares, result.cross);
+  return result;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/compare/residual_analysis.h"
+
+namespace suspension_health_monitor {
+
+/// All segments one after the other, one entry per sample, the means of residual and missing force taken off.
+struct ResidualSeries {
+  std::vector<double> residual, missing, travel, rate, wheel;
+  std::vector<std::size_t> begins;                     ///< of the segments, and the end of the last one
+  double period = 0.0;                                 ///< T [s]
+  double natural_period = 0.0;                         ///< of the strut, in samples
+  double offset = 0.0;                                 ///< mean residual [m/s^2]
+  double residual_memory = 1.0, missing_memory = 1.0;  ///< samples per independent one, >= 1
+
+  std::size_t size() const { return residual.size(); }
+};
+
+/// @return nothing if there are fewer than 64 samples, or nothing moves.
+std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise);
+
+double sumOfSquares(const std::vector<double>& values);
+
+/// The correlation of two of the series.
+class Correlation {
+ public:
+  /// The arguments must outlive it.
+  Correlation(const ResidualSeries& series, const std::vector<double>& a, const std::vector<double>& b);
+
+  /// @return sum over k of a(k) b(k - lag) within segments, over the root of both sums of squares.
+  double at(int lag) const;
+
+ private:
+  const ResidualSeries& series_;
+  const std::vector<double>& a_;
+  const std::vector<double>& b_;
+  double scale_;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,34 @@
+#include "suspension_health_monitor/diagnose.h"
+
+#include <stdexcept>
+
+#include "prepared_drives.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
+
+namespace suspension_health_monitor {
+
+Diagnosis diagnose(const std::vector<Drive>& drives, const DiagnoseOptions& options) {
+  if (options.threads < 1)
+    throw std::invalid_argument("threads = " + std::to_string(options.threads) + ", must be 1 or more");
+  const PreparedDrives prepared = prepareDrives(drives, options.sample_period, options.horizon_samples, options.model);
+  SearchResult result;
+  result.shortcoming = prepared.shortcoming;
+  result.reason = prepared.reason;
+  if (!result) return result;
+
+  const Records records = pointersTo(prepared.records);
+  DiagnoseOptions searched = options;
+  const std::vector<UntestableEffect> untestable = takeUntestable(searched.candidates, records);
+  result = searchEffects(records, prepared.start, searched);
+  result.reason = reasonOf(result.shortcoming, prepared.start);
+  if (!result) return result;
+  result.summary = summaryOf(result);
+  result.suggested_drive = suggestionOf(result);
+  for (const UntestableEffect& effect : untestable)
+    result.not_tried.emplace_back(effect.name, reasonOf(effect.missing));
+  result.from = drives.front().samples.front().stamp;
+  result.to = drives.back().samples.back().stamp;
+  return result;
+}
+
+}  // namespace suspension_health_monitor

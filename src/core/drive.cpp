@@ -1,0 +1,36 @@
+#include "suspension_health_monitor/drive.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace suspension_health_monitor {
+
+Drive makeDrive(double period, const std::vector<double>& sprung_acceleration,
+                const std::vector<double>& unsprung_acceleration) {
+  if (!(period > 0.0)) throw std::invalid_argument("period = " + std::to_string(period) + " [s], must be above 0");
+  if (sprung_acceleration.size() != unsprung_acceleration.size())
+    throw std::invalid_argument(std::to_string(sprung_acceleration.size()) + " sprung and " +
+                                std::to_string(unsprung_acceleration.size()) +
+                                " unsprung accelerations, must be as many");
+  Drive drive;
+  drive.samples.reserve(sprung_acceleration.size());
+  for (std::size_t k = 0; k < sprung_acceleration.size(); ++k)
+    drive.samples.push_back(
+        {fromSeconds(static_cast<double>(k) * period), sprung_acceleration[k], unsprung_acceleration[k]});
+  return drive;
+}
+
+double medianPeriod(const std::vector<Drive>& drives) {
+  std::vector<Stamp> spacings;
+  for (const Drive& drive : drives)
+    for (std::size_t k = 1; k < drive.samples.size(); ++k)
+      spacings.push_back(drive.samples[k].stamp - drive.samples[k - 1].stamp);
+  if (spacings.empty()) throw std::invalid_argument("no drive has two samples");
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  if (*middle <= Stamp::zero()) throw std::invalid_argument("the stamps of the samples do not rise");
+  return toSeconds(*middle);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,130 @@
+#include "suspension_health_monitor/internal/fit/hold_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::size_t kBlocks = 15;  // per record
+constexpr std::size_t kFewestStretches = 8;
+constexpr std::size_t kSettlingPeriods = 2;  // natural periods
+
+}  // namespace
+
+PairedTest testPaired(const std::vector<double>& before, const std::vector<double>& after, double independent) {
+  double sum = 0.0, squares = 0.0, total = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double difference = before[i] - after[i];
+    sum += difference;
+    squares += square(difference);
+    total += before[i];
+  }
+  const auto n = static_cast<double>(before.size());
+  const double variance = std::max(0.0, (squares - sum * sum / n) / (n - 1.0));
+  PairedTest result;
+  if (total > 0.0) result.removed_share = sum / total;
+  if (total > sum && total > 0.0) result.log_ratio = independent * std::log(total / (total - sum));
+  if (variance > 0.0) result.t = sum / std::sqrt(n * variance);
+  return result;
+}
+
+bool isSignificant(const PairedTest& comparison, double probability) {
+  // chi square of two degrees of freedom, a coefficient and a shape: P(x > q) = exp(-q / 2).
+  return comparison.t > normalQuantile(probability) || comparison.log_ratio > -2.0 * std::log(probability);
+}
+
+std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_mass) {
+  HoldOut result;
+  double sum = 0.0, squares = 0.0;
+  for (const DriveRecord* record : records) {
+    const auto period = static_cast<std::size_t>(
+        std::max(4.0, std::round(2.0 * kPi / std::sqrt(stiffness_to_mass) / record->period())));
+    const std::size_t block = std::max<std::size_t>(1, record->numSamples() / kBlocks);
+    std::size_t position = 0;  // in the record
+    for (const DriveSegment& segment : record->segments()) {
+      const std::size_t index = result.training.size();
+      SampleMask& mask = result.training.emplace_back(segment.size(), 1);
+      for (std::size_t k = 0; k < segment.size(); ++k) {
+        // The beginning of a segment is always fitted: nothing else tells its initial state.
+        if (k < kSettlingPeriods * period || (position + k) / block % 3 != 2) continue;
+        mask[k] = 0;
+        sum += segment.sprung[k];
+        squares += square(segment.sprung[k]);
+        result.samples_ += 1.0;
+        const bool goes_on = !result.stretches_.empty() && result.stretches_.back().segment == index &&
+                             result.stretches_.back().last == k && k - result.stretches_.back().first < period;
+        if (goes_on)
+          result.stretches_.back().last = k + 1;
+        else
+          result.stretches_.push_back({index, k, k + 1});
+      }
+      position += segment.size();
+    }
+  }
+  if (result.stretches_.size() < kFewestStretches) return std::nullopt;
+  const double mean = sum / result.samples_;
+  result.deviation_ = std::sqrt(std::max(0.0, squares / result.samples_ - mean * mean));
+  return result;
+}
+
+template <class Loss>
+std::vector<double> HoldOut::sumByStretch(const Residuals& residuals, const Loss& loss) const {
+  std::vector<double> sums;
+  for (const Stretch& stretch : stretches_) {
+    double sum = 0.0;
+    for (std::size_t k = stretch.first; k < stretch.last; ++k) sum += loss(residuals[stretch.segment][k]);
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+std::vector<double> HoldOut::stretchErrors(const Residuals& residuals) const {
+  return sumByStretch(residuals, [](double r) { return square(r); });
+}
+
+std::vector<double> HoldOut::stretchLosses(const Residuals& residuals, double outlier) const {
+  return sumByStretch(residuals, [outlier](double r) {
+    const double q = r / outlier;
+    return 2.0 * square(r) /
+           (std::sqrt(1.0 + square(q)) + 1.0);  // without the cancellation of the formula as it is written
+  });
+}
+
+double HoldOut::independentSquares(const Residuals& residuals) const {
+  double squares = 0.0;
+  std::size_t most_lags = 0;
+  for (const Stretch& stretch : stretches_) {
+    most_lags = std::max(most_lags, stretch.last - stretch.first);
+    for (std::size_t k = stretch.first; k < stretch.last; ++k) squares += square(residuals[stretch.segment][k]);
+  }
+  if (squares == 0.0) return samples_;
+  double coloured = 1.0;
+  for (std::size_t lag = 1; lag < most_lags; ++lag) {
+    double product = 0.0;  // with the samples before the stretch, held out or not
+    for (const Stretch& stretch : stretches_)
+      for (std::size_t k = std::max(stretch.first, lag); k < stretch.last; ++k)
+        product += residuals[stretch.segment][k] * residuals[stretch.segment][k - lag];
+    coloured += 2.0 * square(product / squares);
+  }
+  return samples_ / coloured;
+}
+
+double HoldOut::trainingError(const Residuals& residuals) const {
+  double sum = 0.0;
+  for (std::size_t segment = 0; segment < training.size(); ++segment)
+    for (std::size_t k = 0; k < training[segment].size(); ++k)
+      if (training[segment][k] != 0) sum += square(residuals[segment][k]);
+  return sum;
+}
+
+double HoldOut::rmse(const std::vector<double>& stretch_errors) const {
+  double sum = 0.0;
+  for (const double error : stretch_errors) sum += error;
+  return std::sqrt(sum / samples_);
+}
+
+}  // namespace suspension_health_monitor

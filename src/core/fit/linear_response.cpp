@@ -1,0 +1,154 @@
+#include "suspension_health_monitor/internal/fit/linear_response.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kDifference = 1e-4;  // of the rms motion, for the slopes of the force
+constexpr int kMemorySteps = 4;       // per sample
+
+double rms(const std::vector<StrutMotion>& motion, double StrutMotion::*member) {
+  double sum = 0.0;
+  for (const StrutMotion& m : motion) sum += square(m.*member);
+  return std::sqrt(sum / static_cast<double>(motion.size()));
+}
+
+/// The memory after a sample in which the motion goes from one point to the next in a straight line (classical
+/// Runge-Kutta).
+double advanceMemory(const ForceEffect& effect, const double* shapes, const StrutMotion& from, const StrutMotion& to,
+                     double memory) {
+  const double h = (to.time - from.time) / kMemorySteps;
+  const auto rate = [&](double share, double state) {
+    return effect.memory_rate({from.travel + share * (to.travel - from.travel),
+                               from.travel_rate + share * (to.travel_rate - from.travel_rate),
+                               from.time + share * (to.time - from.time), state},
+                              shapes);
+  };
+  for (int step = 0; step < kMemorySteps; ++step) {
+    const double start = static_cast<double>(step) / kMemorySteps;
+    const double middle = (step + 0.5) / kMemorySteps;
+    const double k1 = rate(start, memory);
+    const double k2 = rate(middle, memory + h / 2 * k1);
+    const double k3 = rate(middle, memory + h / 2 * k2);
+    const double k4 = rate((step + 1.0) / kMemorySteps, memory + h * k3);
+    memory += h / 6 * (k1 + 2 * (k2 + k3) + k4);
+  }
+  return memory;
+}
+
+}  // namespace
+
+LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
+    : fit_(&fit), period_(records.front()->period()) {
+  StrutModel force = fit.model;
+  force.reading.clear();
+  std::vector<std::array<double, StrutState::kMostEffects>> memory;
+  std::vector<double> predicted;
+  std::vector<StrutState> states;
+  for (const DriveSegment* segment : segmentsOf(records)) {
+    runFree(force, *segment, fit.initial[ends_.size()], predicted, &states);
+    predicted_.insert(predicted_.end(), predicted.begin(), predicted.end());
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      motion_.push_back({states[k].travel, states[k].travel_rate, segment->time(k), 0.0});
+      memory.push_back(states[k].memory);
+    }
+    ends_.push_back(motion_.size());
+    bodies_.push_back(&segment->body);
+  }
+  measureSizes();
+  travel_ = rms(motion_, &StrutMotion::travel);
+  travel_rate_ = rms(motion_, &StrutMotion::travel_rate);
+  const double by_travel = kDifference * travel_, by_rate = kDifference * travel_rate_;
+  for (std::size_t k = 0; k < motion_.size(); ++k) {
+    const StrutMotion& m = motion_[k];
+    const auto at = [&](double d, double v) {
+      return force.force(m.travel + d, m.travel_rate + v, m.time, memory[k].data());
+    };
+    slope_travel_.push_back((at(by_travel, 0.0) - at(-by_travel, 0.0)) / (2.0 * by_travel));
+    slope_rate_.push_back((at(0.0, by_rate) - at(0.0, -by_rate)) / (2.0 * by_rate));
+  }
+}
+
+void LinearResponse::measureSizes() {
+  const auto count = static_cast<double>(predicted_.size());
+  double squares = 0.0;
+  for (const double y : predicted_) squares += square(y);
+  sizes_.y = std::sqrt(squares / count);
+  sizes_.residual = kDifference * sizes_.y;
+  sizes_.period = period_;
+  for (std::size_t c = 0; c < kNumBodyChannels; ++c) {
+    double sum = 0.0;
+    for (const BodyChannels* body : bodies_)
+      for (const double value : (*body)[c]) sum += square(value);
+    sizes_.body[c] = std::sqrt(sum / count);
+  }
+}
+
+Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
+                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends) {
+  Eigen::VectorXd force(static_cast<Eigen::Index>(motion.size()));
+  std::size_t k = 0;
+  for (const std::size_t end : ends) {
+    double memory = 0.0;
+    for (; k < end; ++k) {
+      StrutMotion here = motion[k];
+      here.memory = memory;
+      force[static_cast<Eigen::Index>(k)] = effect.force(here, shapes.data());
+      if (effect.memory_rate && k + 1 < end) memory = advanceMemory(effect, shapes.data(), here, motion[k + 1], memory);
+    }
+  }
+  return force;
+}
+
+// Trapezoidal rule: stable however stiff the model is.
+Eigen::VectorXd LinearResponse::respond(const Eigen::VectorXd& force) const {
+  Eigen::VectorXd response(numSamples());
+  const double half = period_ / 2.0;
+  std::size_t k = 0;
+  for (const std::size_t end : ends_) {
+    double x = 0.0, rate = 0.0;
+    for (const std::size_t begin = k; k < end; ++k) {
+      const double f = force[static_cast<Eigen::Index>(k)];
+      if (k > begin) {
+        // x1 = x + half (rate + rate1), rate1 = rate + half (acceleration + acceleration1)
+        const double acceleration = -response[static_cast<Eigen::Index>(k) - 1];
+        const double known_x = x + half * rate, known_rate = rate + half * acceleration;
+        rate = (known_rate - half * (slope_travel_[k] * known_x + f)) /
+               (1.0 + half * (slope_rate_[k] + half * slope_travel_[k]));
+        x = known_x + half * rate;
+      }
+      response[static_cast<Eigen::Index>(k)] = slope_travel_[k] * x + slope_rate_[k] * rate + f;
+    }
+  }
+  return response;
+}
+
+Eigen::MatrixXd LinearResponse::readingSlopes(const MeasurementEffect& effect) const {
+  const auto count = static_cast<Eigen::Index>(effect.coefficients.size());
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(numSamples(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double step = effect.scale(sizes_, static_cast<std::size_t>(i));
+    if (!std::isfinite(step)) continue;  // a channel that is not known
+    std::vector<double> coefficients(effect.coefficients.size(), 0.0);
+    std::size_t begin = 0;
+    for (std::size_t s = 0; s < ends_.size(); ++s) {
+      std::vector<double> before(predicted_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                 predicted_.begin() + static_cast<std::ptrdiff_t>(ends_[s]));
+      std::vector<double> after = before;
+      coefficients[static_cast<std::size_t>(i)] = -step;
+      effect.apply(coefficients.data(), *bodies_[s], period_, before);
+      coefficients[static_cast<std::size_t>(i)] = step;
+      effect.apply(coefficients.data(), *bodies_[s], period_, after);
+      for (std::size_t k = 0; k < after.size(); ++k)
+        slopes(static_cast<Eigen::Index>(begin + k), i) = (after[k] - before[k]) / (2.0 * step);
+      begin = ends_[s];
+    }
+  }
+  return slopes;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,200 @@
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "suspension_health_monitor/internal/fit/hat_functions.h"
+#include "suspension_health_monitor/internal/fit/motion_error.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using Segments = std::vector<const DriveSegment*>;
+using Series = std::vector<std::vector<double>>;  // per segment
+
+constexpr Eigen::Index kReach = 16;  // samples to either side
+constexpr Eigen::Index kTerms = 4 * kReach + 1;
+constexpr std::size_t kMostRows = 6000;  // of long drives every so many: 1 % of the floor is chance
+constexpr int kReweightings = 2;
+constexpr int kRounds = 3;  // interpolation and laws in turns
+constexpr int kNodes = 17;  // of a force of travel or of travel rate alone
+constexpr Eigen::Index kLawTerms = 2 * kNodes + kForceNodes * kForceNodes + 2;
+
+/// One sample that is interpolated.
+struct Place {
+  std::size_t segment;
+  Eigen::Index sample;
+};
+
+std::vector<Place> choosePlaces(const Segments& segments) {
+  std::vector<Place> all;
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    for (Eigen::Index k = kReach; k + kReach < static_cast<Eigen::Index>(segments[s]->size()); ++k)
+      all.push_back({s, k});
+  const std::size_t stride = 1 + all.size() / kMostRows;
+  std::vector<Place> chosen;
+  for (std::size_t i = 0; i < all.size(); i += stride) chosen.push_back(all[i]);
+  return chosen;
+}
+
+/// A robust linear regression.
+struct Regression {
+  Eigen::VectorXd solution, error;
+
+  Regression(const Eigen::MatrixXd& rows, const Eigen::VectorXd& measured) {
+    Eigen::VectorXd weight = Eigen::VectorXd::Ones(measured.size());
+    for (int pass = 0; pass <= kReweightings; ++pass) {
+      const Eigen::MatrixXd weighted = weight.asDiagonal() * rows;
+      Eigen::MatrixXd gram = rows.transpose() * weighted;
+      gram.diagonal().array() += 1e-12 * gram.trace();  // for columns that are 0
+      solution = gram.ldlt().solve(weighted.transpose() * measured);
+      error = measured - rows * solution;
+      if (deviation() == 0.0) return;
+      const double outlier = kOutlierScale * deviation();
+      weight = error.unaryExpr([&](double e) { return 1.0 / (1.0 + square(square(e / outlier))); });
+    }
+  }
+
+  double deviation() const { return robustDeviation({error.data(), error.data() + error.size()}); }
+};
+
+/// z'' from its neighbours, from the wheel's motion during the steps around it (which stands for w''), and a constant.
+/// @param series  z'' per segment.
+Regression interpolate(const Segments& segments, const std::vector<Place>& places, const Series& series) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(places.size()), kTerms);
+  Eigen::VectorXd measured(rows.rows());
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+    const auto [index, k] = places[static_cast<std::size_t>(r)];
+    const DriveSegment& segment = *segments[index];
+    const double* const y = series[index].data() + k;
+    for (Eigen::Index i = 0; i < kReach; ++i) {
+      rows(r, i) = y[-1 - i];
+      rows(r, kReach + i) = y[1 + i];
+    }
+    for (Eigen::Index i = 0; i < 2 * kReach; ++i) {
+      const auto step = static_cast<std::size_t>((k - kReach + i) * segment.steps);
+      rows(r, 2 * kReach + i) = segment.wheel[step].end_velocity / segment.period;
+    }
+    rows(r, kTerms - 1) = 1.0;
+    measured[r] = *y;
+  }
+  return {rows, measured};
+}
+
+/// Laws that a model may lack, along its free run: a free-form force of travel rate, with nodes that lie closer the
+/// nearer to 0, where friction turns; one of travel; one of both; and both times time.
+class FreeFormLaws {
+ public:
+  explicit FreeFormLaws(const Segments& segments) : segments_(segments) {}
+
+  /// The motion of the free run, corrected by what its residual says: the forces that are missing move the strut.
+  /// @return false if the model runs away, or nothing moves.
+  bool run(const StrutModel& model) {
+    double count = 0.0;
+    std::vector<double> residual;
+    for (const DriveSegment* segment : segments_) {
+      std::vector<StrutState>& states = motion_.emplace_back();
+      if (!runFree(model, *segment, {}, residual, &states)) return false;
+      double mean = 0.0;
+      for (std::size_t k = 0; k < residual.size(); ++k) {
+        residual[k] = segment->sprung[k] - residual[k];
+        mean += residual[k] / static_cast<double>(residual.size());
+      }
+      const MotionError error = motionError(residual, mean, segment->period, model.stiffness_to_mass);
+      for (std::size_t k = 0; k < residual.size(); ++k) {
+        travel_ += square(states[k].travel -= error.travel[k]);
+        travel_rate_ += square(states[k].travel_rate -= error.travel_rate[k]);
+      }
+      count += static_cast<double>(segment->size());
+    }
+    for (double* sum : {&travel_, &travel_rate_}) *sum = std::sqrt(*sum / count);
+    return travel_ > 0.0 && travel_rate_ > 0.0;
+  }
+
+  /// What the laws do to an interpolation, which sees the same forces in the neighbours.
+  Eigen::MatrixXd interpolated(const std::vector<Place>& places, const Eigen::VectorXd& interpolation) const {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(places.size()), kLawTerms);
+    for (Eigen::Index r = 0; r < rows.rows(); ++r) {
+      const Place& place = places[static_cast<std::size_t>(r)];
+      const auto add = [&](Eigen::Index offset, double factor) {
+        at(place.segment, static_cast<std::size_t>(place.sample + offset),
+           [&](Eigen::Index term, double value) { rows(r, term) += factor * value; });
+      };
+      add(0, 1.0);
+      for (Eigen::Index i = 0; i < kReach; ++i) {
+        add(-1 - i, -interpolation[i]);
+        add(1 + i, -interpolation[kReach + i]);
+      }
+    }
+    return rows;
+  }
+
+  /// Takes the laws off a series.
+  void takeOff(const Eigen::VectorXd& coefficients, Series& series) const {
+    for (std::size_t s = 0; s < series.size(); ++s)
+      for (std::size_t k = 0; k < series[s].size(); ++k)
+        at(s, k, [&](Eigen::Index term, double value) { series[s][k] -= coefficients[term] * value; });
+  }
+
+ private:
+  /// Calls take(term, value) for every term that is not 0 at a sample.
+  template <class Take>
+  void at(std::size_t segment, std::size_t sample, const Take& take) const {
+    const StrutState& state = motion_[segment][sample];
+    const double travel = state.travel / travel_, rate = state.travel_rate / travel_rate_;
+    const double near_zero = std::copysign(std::sqrt(std::abs(rate) * kOutermostNode), rate);
+    forHatsAt(near_zero, kNodes, take);
+    forHatsAt(travel, kNodes, [&](int node, double value) { take(kNodes + node, value); });
+    forHatsAt(travel, rate, kForceNodes, [&](int node, double value) { take(2 * kNodes + node, value); });
+    const double time = segments_[segment]->time(sample) / segments_.back()->time(segments_.back()->size()) - 0.5;
+    take(kLawTerms - 2, time * rate);
+    take(kLawTerms - 1, time * travel);
+  }
+
+  const Segments& segments_;
+  std::vector<std::vector<StrutState>> motion_;
+  double travel_ = 0.0, travel_rate_ = 0.0;  // rms
+};
+
+/// @return standard deviation of the body's noise; 0 if there are too few samples.
+double bodyNoise(const Segments& segments, const StrutModel& model, bool without_laws) {
+  const std::vector<Place> places = choosePlaces(segments);
+  const auto count = static_cast<double>(places.size());
+  if (count <= 2.0 * kTerms) return 0.0;
+  Series series;
+  for (const DriveSegment* segment : segments) series.push_back(segment->sprung);
+  Regression interpolation = interpolate(segments, places, series);
+  const double plain = interpolation.deviation() * std::sqrt(count / (count - kTerms));
+  FreeFormLaws laws(segments);
+  if (!without_laws || count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return plain;
+  double deviation = 0.0;
+  for (int round = 1;; ++round) {
+    const Regression fit(laws.interpolated(places, interpolation.solution), interpolation.error);
+    deviation = fit.deviation() * std::sqrt(count / (count - kTerms - kLawTerms));
+    if (round == kRounds) break;
+    laws.takeOff(fit.solution, series);
+    interpolation = interpolate(segments, places, series);
+  }
+  return std::min(plain, deviation);
+}
+
+/// White noise on w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): its variance grows by T (b1^2 + b0) / (2 b1).
+double ofBothSensors(double body_noise, double period, const StrutModel& model) {
+  const double b1 = model.damping_to_mass, b0 = model.stiffness_to_mass;
+  return body_noise * std::sqrt(1.0 + period * (square(b1) + b0) / (2.0 * b1));
+}
+
+}  // namespace
+
+double estimateNoiseFloor(const Records& records, const StrutModel& model) {
+  return ofBothSensors(bodyNoise(segmentsOf(records), model, true), records.front()->period(), model);
+}
+
+double estimateSamplingFloor(const Records& records, const StrutModel& model) {
+  return ofBothSensors(bodyNoise(segmentsOf(records), model, false), records.front()->period(), model);
+}
+
+}  // namespace suspension_health_monitor

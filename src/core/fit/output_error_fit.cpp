@@ -1,0 +1,161 @@
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "drive_sizes.h"
+#include "parameterization.h"
+#include "segment_cost.h"
+#include "suspension_health_monitor/internal/model/free_run.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using LocalStates = std::vector<std::array<double, 2>>;  // travel and travel rate that segments begin with, scaled
+
+constexpr double kSmallForce = 0.1;  // of the measured acceleration: what a coefficient of 1 makes of its effect
+
+/// @return nothing if an effect never acts in these drives, or a fault of the measurement cannot show in them.
+std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const DriveSizes& sizes, double period) {
+  std::vector<double> scales;
+  for (const double force : sizes.forces) {
+    if (force == 0.0) return std::nullopt;
+    scales.push_back(kSmallForce * sizes.acceleration / force);
+  }
+  const ReadingSizes reading_sizes{sizes.residual, sizes.acceleration, period, sizes.body};
+  for (const ActiveMeasurementEffect& reading : start.reading)
+    for (std::size_t i = 0; i < reading.coefficients.size(); ++i) {
+      scales.push_back(reading.effect.scale(reading_sizes, i));
+      if (!std::isfinite(scales.back())) return std::nullopt;
+    }
+  return scales;
+}
+
+/// Standard deviations of the model's numbers (in SI), the initial states of the segments being unknown, too.
+std::vector<double> standardDeviations(const ceres::Problem& problem, const Parameterization& parameters,
+                                       const double* model) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(parameters.size(), parameters.size());
+  double square = 0.0, count = 0.0;
+  std::vector<ceres::ResidualBlockId> blocks;
+  problem.GetResidualBlocks(&blocks);
+  for (const ceres::ResidualBlockId block : blocks) {
+    std::vector<double*> x;
+    problem.GetParameterBlocksForResidualBlock(block, &x);
+    const ceres::CostFunction* cost = problem.GetCostFunctionForResidualBlock(block);
+    Eigen::VectorXd residuals(cost->num_residuals());
+    RowMajor shared(cost->num_residuals(), parameters.size()), local(cost->num_residuals(), 2);
+    double* jacobians[2] = {shared.data(), local.data()};
+    if (!cost->Evaluate(x.data(), residuals.data(), jacobians)) continue;
+    const Eigen::MatrixXd cross = local.transpose() * shared;
+    information += shared.transpose() * shared - cross.transpose() * (local.transpose() * local).ldlt().solve(cross);
+    square += residuals.squaredNorm();
+    count += static_cast<double>(residuals.size());
+  }
+  const Eigen::MatrixXd covariance =
+      square / count * information.ldlt().solve(Eigen::MatrixXd::Identity(parameters.size(), parameters.size()));
+  const Eigen::VectorXd deviations =
+      covariance.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseProduct(parameters.slopes(model).cwiseAbs());
+  return {deviations.data(), deviations.data() + deviations.size()};
+}
+
+/// Fits the model `x` and the initial states in place.
+/// @return the model's standard deviations; nothing if the solver fails.
+std::optional<std::vector<double>> solve(const Segments& segments, const std::vector<SampleMask>& masks,
+                                         const StrutModel& start, const Parameterization& parameters,
+                                         const CostScales& scales, int max_iterations, Eigen::VectorXd& x,
+                                         LocalStates& initial) {
+  ceres::Problem problem;
+  auto* ordering = new ceres::ParameterBlockOrdering;  // the solver's options own it
+  ceres::Solver::Options solver;
+  solver.linear_solver_ordering.reset(ordering);
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    problem.AddResidualBlock(new SegmentCost(*segments[s], maskOf(masks, s), parameters, start, scales), nullptr,
+                             x.data(), initial[s].data());
+    ordering->AddElementToGroup(initial[s].data(), 0);
+  }
+  ordering->AddElementToGroup(x.data(), 1);
+  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  solver.max_num_iterations = max_iterations;
+  solver.function_tolerance = 1e-7;
+  solver.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return std::nullopt;
+  return standardDeviations(problem, parameters, x.data());
+}
+
+/// A first guess of coefficients by linear thinking may make the model run away: they are halved until it does not.
+/// @return false if that does not help.
+bool tame(const Segments& segments, const std::vector<StrutState>& initial, StrutModel& model) {
+  constexpr int most_halvings = 4;
+  std::vector<double> predicted;
+  for (int i = 0; i <= most_halvings; ++i) {
+    bool runs = true;
+    for (std::size_t s = 0; s < segments.size() && runs; ++s)
+      runs = runFree(model, *segments[s], initial.empty() ? StrutState{} : initial[s], predicted);
+    if (runs) return true;
+    for (ActiveEffect& active : model.effects) active.coefficient /= 2.0;
+  }
+  return false;
+}
+
+/// Adds initial state and residuals of a segment.
+bool addResiduals(const DriveSegment& segment, const StrutState& state, ModelFit& fit) {
+  std::vector<double> residuals;
+  if (!runFree(fit.model, segment, state, residuals)) return false;
+  for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segment.sprung[k] - residuals[k];
+  fit.initial.push_back(state);
+  fit.residuals.push_back(std::move(residuals));
+  return true;
+}
+
+}  // namespace
+
+bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState state, std::vector<double>& predicted,
+             std::vector<StrutState>* motion) {
+  double largest = 0.0;
+  for (const double y : segment.sprung) largest = std::max(largest, std::abs(y));
+  const RecordedWheel wheel{segment.wheel, segment.start, segment.period, segment.steps, segment.size()};
+  if (!FreeRun::follow(model, wheel, state, kRunaway * largest, predicted, motion)) return false;
+  for (const ActiveMeasurementEffect& reading : model.reading)
+    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, predicted);
+  return true;
+}
+
+std::optional<ModelFit> fitOutputError(const Records& records, const std::vector<SampleMask>& masks,
+                                       const StrutModel& guess, const FitOptions& options) {
+  const Segments segments = segmentsOf(records);
+  StrutModel start = guess;
+  if (!(start.stiffness_to_mass > 0.0) || !tame(segments, options.initial, start)) return std::nullopt;
+  const std::optional<DriveSizes> sizes = measureSizes(segments, masks, start);
+  if (!sizes) return std::nullopt;
+  const auto coefficient_scales = coefficientScales(start, *sizes, records.front()->period());
+  if (!coefficient_scales) return std::nullopt;
+  const MotionScale motion{sizes->travel, sizes->travel_rate, 1.0 / std::sqrt(start.stiffness_to_mass)};
+  const Parameterization parameters(start, *coefficient_scales, motion);
+  const CostScales scales{sizes->travel, sizes->travel_rate,
+                          std::max(kOutlierScale * sizes->residual, 1e-9 * sizes->acceleration)};
+  Eigen::VectorXd x = parameters.initial();
+  LocalStates initial(segments.size(), {0.0, 0.0});
+  for (std::size_t s = 0; s < options.initial.size(); ++s)
+    initial[s] = {options.initial[s].travel / scales.travel, options.initial[s].travel_rate / scales.travel_rate};
+  auto stddev = solve(segments, masks, start, parameters, scales, options.max_iterations, x, initial);
+  if (!stddev) return std::nullopt;
+
+  ModelFit fit;
+  fit.model = start;
+  fit.stddev = std::move(*stddev);
+  parameters.apply(x.data(), fit.model);
+  if (!(fit.model.stiffness_to_mass > 0.0)) return std::nullopt;
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    if (!addResiduals(*segments[s], {initial[s][0] * scales.travel, initial[s][1] * scales.travel_rate, {}}, fit))
+      return std::nullopt;
+  return fit;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,36 @@
+#include "suspension_health_monitor/identify.h"
+
+#include <limits>
+#include <stdexcept>
+
+#include "suspension_health_monitor/internal/drive_identification.h"
+#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+int proposeHorizon(const std::vector<Drive>& drives, double period) {
+  if (const auto samples = surveyHorizon(drives, period, std::numeric_limits<std::size_t>::max())) return *samples;
+  throw std::invalid_argument("horizon_samples is not given, and none can be proposed: the data show no damped spring");
+}
+
+}  // namespace
+
+IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions& options) {
+  MonitorOptions monitor;
+  monitor.sample_period = options.sample_period ? *options.sample_period : medianPeriod(drives);
+  monitor.forgetting_factor = options.forgetting_factor;
+  const double period = *monitor.sample_period;
+  const int horizon = options.horizon_samples ? *options.horizon_samples : proposeHorizon(drives, period);
+  monitor.integration_horizon = horizon * period;
+  monitor.validate();
+  DriveIdentification identification(monitor, {});
+  for (const Drive& drive : drives)
+    for (const CornerSample& sample : drive.samples) {
+      identification.push(Side::kSprung, sample.stamp, sample.sprung_acceleration);
+      identification.push(Side::kUnsprung, sample.stamp, sample.unsprung_acceleration);
+    }
+  return identification.result();
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,51 @@
+#include "suspension_health_monitor/internal/monitor/sample_series.h"
+
+#include <cmath>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kSpacings = 50.0;  // before their mean counts: jitter of half a period shifts it by a hundredth
+
+}  // namespace
+
+std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
+  if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) {
+    rejected_.add(RejectReason::kNotFinite);
+    return std::nullopt;
+  }
+  const Continuity how = last_ ? continuity(sample.stamp - *last_, period_) : Continuity::kContinues;
+  if (how == Continuity::kTooSoon) {
+    rejected_.add(RejectReason::kTooSoon);
+    return std::nullopt;
+  }
+  if (how == Continuity::kGap) ++status_.gaps;
+  if (how == Continuity::kClockJumped) ++status_.restarts;
+  if (!last_ || how != Continuity::kContinues) {
+    if (last_) countSpacings();
+    spacing_.begin(sample.stamp);
+    size_ = 0;
+  }
+  if (!first_ || how == Continuity::kClockJumped) first_ = sample.stamp;
+  last_ = sample.stamp;
+  ++status_.samples;
+  recent_[size_++ % recent_.size()] = sample;
+  return how;
+}
+
+void SampleSeries::countSpacings() {
+  spacing_.countUntil(*last_, size_);
+  status_.mean_period = spacing_.mean();
+}
+
+void SampleSeries::judgePeriod() {
+  countSpacings();
+  if (spacing_.weight() < kSpacings) return;
+  status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;
+}
+
+const CornerSample* SampleSeries::delayed() const {
+  return size_ > FreeRun::kDelay ? &at(size_ - 1 - FreeRun::kDelay) : nullptr;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,191 @@
+#include "suspension_health_monitor/internal/monitor/strut_identifier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include "suspension_health_monitor/internal/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr int kStddevsEvery = 8;           // rows
+constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
+
+void describeParameters(const RecursiveEstimator& estimator, StrutEstimate& estimate) {
+  const Eigen::VectorXd& theta = estimator.parameters();
+  estimate.damping_to_mass = theta[kDampingToMass];
+  estimate.stiffness_to_mass = theta[kStiffnessToMass];
+  estimate.num_effects = static_cast<std::size_t>(theta.size() - kNumStrutParameters);
+  std::copy_n(theta.data() + kNumStrutParameters, estimate.num_effects, estimate.coefficients.begin());
+  estimate.effective_rows = estimator.effectiveRows();
+  estimate.explained = estimator.explained();
+}
+
+/// What is random, and what the sensors' noise in the regressors shifts.
+template <class Estimator>
+double stddevOf(const Estimator& estimator, int i, const Eigen::Vector2d& noise_moment) {
+  const double shift = estimator.parameterShift(i, noise_moment);
+  return std::sqrt(estimator.parameterVariance(i) + shift * shift);
+}
+
+// What LS and LA differ by beyond the scatter of LS is an error of LS, which suffers wrong readings for as long as it
+// remembers them, and whose own scatter does not show that they were all of one sign.
+double withDifference(double stddev, double ls, double la) {
+  return std::hypot(stddev, std::max(0.0, std::abs(ls - la) - stddev));
+}
+
+}  // namespace
+
+StrutIdentifier::StrutIdentifier(const MonitorOptions& options)
+    : filter_(options.filter(*options.sample_period)),
+      regression_(filter_),
+      excitation_(filter_.horizon_samples, options.forgetting_factor, RegressorNoise(filter_)),
+      least_squares_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples)),
+      least_absolute_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples), options.leastAbsolute()),
+      forgetting_{!options.estimators.forgets_unexcited, {}},
+      stddevs_due_(kStddevsEvery),
+      silent_rows_(filter_.horizon_samples) {
+  rows_ = std::numeric_limits<double>::infinity();  // the plain columns are there from the first row on
+  setForgetting(options);
+}
+
+void StrutIdentifier::changeColumns(const std::vector<ColumnOrigin>& columns) {
+  least_squares_.changeColumns(columns);
+  least_absolute_.changeColumns(columns);
+  regression_ = SuspensionRegression(filter_, columns.size() - kNumStrutParameters);
+  if (forgetting_.variable) forgetting_.variable->restart(least_absolute_.numParameters());
+  takeExcitation();
+  has_row_ = false;
+  rows_ = 0.0;
+  stddevs_due_.restart();
+}
+
+void StrutIdentifier::add(const CornerSample& sample, const double* effect_forces) {
+  const RegressionRow* row = regression_.push(sample, effect_forces);
+  has_row_ = row != nullptr;
+  if (!has_row_) return;
+  silent_rows_.add(row->output);
+  // Rows that LA hits exactly would weigh so much that it could not leave them for minutes.
+  if (!silent_rows_.moves()) return;
+  rows_ += 1.0;
+  if (excitation_.add(*row, least_absolute_.parameters(), regression_.wheelOutput())) takeExcitation();
+  update(*row);
+}
+
+bool StrutIdentifier::holdsAll() const {
+  const bool excited = excitation_.excited(kDampingToMass) || excitation_.excited(kStiffnessToMass);
+  return forgetting_.only_excited && (!excited || (excitation_.outsideForce() && excitation_.knowsStrut()));
+}
+
+void StrutIdentifier::update(const RegressionRow& row) {
+  if (holdsAll()) {
+    least_squares_.observe(row);
+    least_absolute_.observe(row);
+    return;
+  }
+  rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
+  least_squares_.update(row);
+  const double innovation = least_absolute_.update(row);
+  // An estimate that is not valid moves because it comes from its start; of a held one nobody knows whether it moves.
+  if (!forgetting_.variable || !la_is_valid_) return;
+  forgetting_.variable->add(row, innovation, least_absolute_.meanAbsoluteResidual());
+  forgetBy(forgetting_.variable->factor());
+}
+
+void StrutIdentifier::takeExcitation() {
+  if (excitation_.outsideForce()) rows_to_forget_ = kMemoriesToForget * least_absolute_.effectiveRows();
+  for (RecursiveEstimator* estimator :
+       {static_cast<RecursiveEstimator*>(&least_squares_), static_cast<RecursiveEstimator*>(&least_absolute_)})
+    for (const StrutParameter i : {kDampingToMass, kStiffnessToMass}) estimator->hold(i, isHeld(i));
+}
+
+void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate& la) {
+  least_squares_.learnScatter(ls.valid() && la.valid(), least_absolute_.parameters());
+  least_absolute_.learnScatter(la.valid(), least_absolute_.parameters());
+  if (la.valid()) excitation_.know({la.damping_to_mass, la.stiffness_to_mass});
+  if (forgetting_.variable && la_is_valid_ && !la.valid()) forgetBy(forgetting_.variable->slow());
+  la_is_valid_ = la.valid();
+}
+
+void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
+  describeParameters(least_squares_, ls);
+  describeParameters(least_absolute_, la);
+  for (StrutEstimate* estimate : {&ls, &la}) {
+    estimate->damping_excitation = excitation_.excitation(kDampingToMass);
+    estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
+  }
+  if (!holdsAll() && stddevs_due_()) describeStddevs(ls, la);
+}
+
+void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) const {
+  // For a normal distribution the variance is pi/2 times the mean size squared.
+  const double size = least_absolute_.usualResidual();
+  const Eigen::Vector2d strut(la.damping_to_mass, la.stiffness_to_mass);
+  const Eigen::Vector2d moment = excitation_.noise().moment(strut, 0.5 * kPi * size * size);
+  const auto of_ls = [&](int i) {
+    return withDifference(stddevOf(least_squares_, i, moment), least_squares_.parameters()[i],
+                          least_absolute_.parameters()[i]);
+  };
+  const auto of_la = [&](int i) { return stddevOf(least_absolute_, i, moment); };
+  ls.damping_to_mass_stddev = of_ls(kDampingToMass);
+  ls.stiffness_to_mass_stddev = of_ls(kStiffnessToMass);
+  la.damping_to_mass_stddev = of_la(kDampingToMass);
+  la.stiffness_to_mass_stddev = of_la(kStiffnessToMass);
+  for (std::size_t j = 0; j < la.num_effects; ++j) {
+    ls.coefficient_stddevs[j] = of_ls(kNumStrutParameters + static_cast<int>(j));
+    la.coefficient_stddevs[j] = of_la(kNumStrutParameters + static_cast<int>(j));
+  }
+}
+
+EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
+  EstimateFacts facts;
+  facts.has_row = has_row_;
+  facts.sensor_moves = silent_rows_.moves();
+  facts.rows = std::min(estimate.effective_rows, rows_);
+  facts.fewest_rows = forgetting_.fewest_rows;
+  facts.excites_damping = !isHeld(kDampingToMass);
+  facts.excites_stiffness = !isHeld(kStiffnessToMass);
+  facts.outside_force = rows_to_forget_ > 0.0;
+  facts.explained = estimate.explained;
+  facts.is_physical = estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
+  facts.has_stddev = std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev);
+  return facts;
+}
+
+void StrutIdentifier::startNewSeries() {
+  regression_.reset();
+  least_squares_.interrupt();
+  least_absolute_.interrupt();
+  excitation_.reset();
+  has_row_ = false;
+}
+
+void StrutIdentifier::startNewDrive() {
+  startNewSeries();
+  excitation_.restart();
+  takeExcitation();
+}
+
+void StrutIdentifier::setForgetting(const MonitorOptions& options) {
+  const double slow = options.forgetting_factor, fastest = options.fastestForgetting(), now = forgettingFactor();
+  least_squares_.setForgettingFactor(slow);
+  least_absolute_.setForgettingFactor(slow);
+  forgetting_.fewest_rows = fewestRows(kFewestRows, fastest);
+  if (!options.fastest_forgetting_factor) {
+    forgetting_.variable.reset();
+  } else if (!forgetting_.variable) {
+    forgetting_.variable.emplace(least_absolute_.numParameters(), 2 * filter_.horizon_samples, slow, fastest);
+  } else {
+    forgetting_.variable->setFactors(slow, fastest);
+    forgetBy(la_is_valid_ ? std::clamp(now, fastest, slow) : slow);  // until it is decided anew
+  }
+}
+
+void StrutIdentifier::forgetBy(double factor) {
+  least_squares_.setPresentFactor(factor);
+  least_absolute_.setPresentFactor(factor);
+}
+
+}  // namespace suspension_health_monitor

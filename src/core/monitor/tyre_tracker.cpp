@@ -1,0 +1,97 @@
+#include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
+
+#include "suspension_health_monitor/internal/signal/continuity.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+template <class Estimator>
+void describe(const Estimator& estimator, WheelEstimate& estimate) {
+  const Eigen::VectorXd& theta = estimator.parameters();
+  const auto stddev = [&](int i) { return std::sqrt(estimator.parameterVariance(i)); };
+  estimate.damping_to_wheel_mass = theta[kDampingToWheelMass];
+  estimate.stiffness_to_wheel_mass = theta[kStiffnessToWheelMass];
+  estimate.tyre_to_wheel_mass = theta[kTyreToWheelMass];
+  estimate.damping_to_wheel_mass_stddev = stddev(kDampingToWheelMass);
+  estimate.stiffness_to_wheel_mass_stddev = stddev(kStiffnessToWheelMass);
+  estimate.tyre_to_wheel_mass_stddev = stddev(kTyreToWheelMass);
+  estimate.effective_rows = estimator.effectiveRows();
+  estimate.explained = estimator.explained();
+}
+
+bool isWheel(const WheelEstimate& estimate) {
+  return estimate.damping_to_wheel_mass > 0.0 && estimate.stiffness_to_wheel_mass > 0.0 &&
+         estimate.tyre_to_wheel_mass > 0.0;
+}
+
+}  // namespace
+
+std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate& tyre) {
+  if (!strut.valid() || !tyre.valid()) return std::nullopt;
+  return strut.damping_to_mass / tyre.damping_to_wheel_mass;
+}
+
+TyreTracker::TyreTracker(const MonitorOptions& options)
+    : horizon_samples_(options.tyreFilter(*options.sample_period).horizon_samples),
+      period_(fromSeconds(*options.sample_period)),
+      fewest_rows_(fewestRows(kFewestRows, options.forgetting_factor)),
+      silent_rows_(horizon_samples_),
+      regression_(options.tyreFilter(*options.sample_period)),
+      least_squares_(kNumTyreParameters, options.recursive(2 * horizon_samples_)),
+      least_absolute_(kNumTyreParameters, options.recursive(2 * horizon_samples_), options.leastAbsolute()) {}
+
+const TyreReport& TyreTracker::add(const CornerSample& sample, const std::optional<double>& road_acceleration) {
+  report_.has_row = false;
+  const bool usable = isUsable(sample.sprung_acceleration) && isUsable(sample.unsprung_acceleration) &&
+                      road_acceleration && isUsable(*road_acceleration);
+  if (!usable || !continues(sample.stamp)) {
+    regression_.reset();
+    least_squares_.interrupt();
+    least_absolute_.interrupt();
+  }
+  last_stamp_ = sample.stamp;
+  if (usable)
+    if (const RegressionRow* row = regression_.push(sample, *road_acceleration)) estimate(*row);
+  judge();
+  return report_;
+}
+
+void TyreTracker::reconfigure(const MonitorOptions& options) {
+  least_squares_.setForgettingFactor(options.forgetting_factor);
+  least_absolute_.setForgettingFactor(options.forgetting_factor);
+  fewest_rows_ = fewestRows(kFewestRows, options.forgetting_factor);
+}
+
+bool TyreTracker::continues(Stamp stamp) const {
+  return !last_stamp_ || continuity(stamp - *last_stamp_, period_) == Continuity::kContinues;
+}
+
+void TyreTracker::estimate(const RegressionRow& row) {
+  report_.has_row = true;
+  silent_rows_.add(row.output);
+  if (!silent_rows_.moves()) return;
+  least_squares_.update(row);
+  least_absolute_.update(row);
+  describe(least_squares_, report_.ls);
+  describe(least_absolute_, report_.la);
+}
+
+void TyreTracker::judge() {
+  for (WheelEstimate* estimate : {&report_.ls, &report_.la}) {
+    EstimateFacts facts;
+    facts.period_fits = period_fits_;
+    facts.has_row = report_.has_row;
+    facts.sensor_moves = silent_rows_.moves();
+    facts.rows = estimate->effective_rows;
+    facts.fewest_rows = fewest_rows_;
+    facts.explained = estimate->explained;
+    facts.is_physical = isWheel(*estimate);
+    facts.has_stddev = std::isfinite(estimate->damping_to_wheel_mass_stddev + estimate->stiffness_to_wheel_mass_stddev +
+                                     estimate->tyre_to_wheel_mass_stddev);
+    estimate->doubt = doubtOf(facts);
+  }
+  least_squares_.learnScatter(report_.ls.valid() && report_.la.valid(), least_absolute_.parameters());
+  least_absolute_.learnScatter(report_.la.valid(), least_absolute_.parameters());
+}
+
+}  // namespace suspension_health_monitor

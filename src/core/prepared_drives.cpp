@@ -1,0 +1,66 @@
+#include "prepared_drives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "suspension_health_monitor/internal/fit/rough_model.h"
+#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/record/untestable_effects.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::size_t kSurveyedSamples = 40000;  // of every drive
+
+double periodOf(const std::vector<Drive>& drives, const std::optional<double>& sample_period) {
+  if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
+  if (!sample_period) return medianPeriod(drives);
+  if (!(*sample_period > 0.0 && std::isfinite(*sample_period)))
+    throw std::invalid_argument("sample_period = " + std::to_string(*sample_period) + " [s], must be above 0");
+  return *sample_period;
+}
+
+StrutModel roughStart(const std::vector<Drive>& drives, double period, std::optional<int> horizon_samples) {
+  if (horizon_samples && *horizon_samples < 1)
+    throw std::invalid_argument("horizon_samples = " + std::to_string(*horizon_samples) + ", must be 1 or more");
+  if (!horizon_samples) horizon_samples = surveyHorizon(drives, period, kSurveyedSamples);
+  if (!horizon_samples) return {};
+  IntegralFilterOptions filter;
+  filter.period = period;
+  filter.horizon_samples = *horizon_samples;
+  return roughModel(drives, filter);
+}
+
+bool canFollow(const StrutModel& model, double period) {
+  const double fastest = std::max(model.damping_to_mass, std::sqrt(model.stiffness_to_mass));
+  return period * fastest <= kLongestStrutStep * kMostStepsPerSample;
+}
+
+PreparedDrives lacking(Shortcoming shortcoming, const StrutModel& start) {
+  return {shortcoming, reasonOf(shortcoming, start), start, {}};
+}
+
+}  // namespace
+
+PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::optional<double>& sample_period,
+                             const std::optional<int>& horizon_samples, const std::optional<StrutModel>& model) {
+  const double period = periodOf(drives, sample_period);
+  const StrutModel start = model ? *model : roughStart(drives, period, horizon_samples);
+  // What a fit leaves to the linear damping may be less than nothing where an effect of the model damps.
+  const bool is_spring = model ? start.stiffness_to_mass > 0.0 : isDampedSpring(start);
+  if (!is_spring) return lacking(Shortcoming::kNoDampedSpring, start);
+  if (!canFollow(start, period)) return lacking(Shortcoming::kTooFast, start);
+  PreparedDrives prepared{Shortcoming::kNone, "", start, makeRecords(drives, period, start)};
+  EffectLibrary in_use;
+  for (const ActiveMeasurementEffect& reading : start.reading) in_use.readings.push_back(reading.effect);
+  const std::vector<UntestableEffect> untestable = takeUntestable(in_use, pointersTo(prepared.records));
+  if (untestable.empty()) return prepared;
+  PreparedDrives refused = lacking(Shortcoming::kModelUntestable, start);
+  refused.reason =
+      "do not tell " + untestable.front().name + ", which the model has: " + reasonOf(untestable.front().missing);
+  return refused;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,90 @@
+#include "body_channels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "slope_filter.h"
+#include "suspension_health_monitor/internal/corner_sample.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kConstant = 1e-9;  // change against size, below which a channel is taken to stand still
+
+/// One number of every message, as a function of time.
+class Channel {
+ public:
+  Channel(const std::vector<BodyMotion>& motion, std::array<double, 2> BodyMotion::*member, std::size_t axis)
+      : motion_(motion), member_(member), axis_(axis) {}
+
+  double operator()(Stamp stamp) const {
+    const auto after = std::lower_bound(motion_.begin(), motion_.end(), stamp,
+                                        [](const BodyMotion& m, Stamp s) { return m.stamp < s; });
+    if (after == motion_.begin()) return value(*after);
+    if (after == motion_.end()) return value(motion_.back());
+    const BodyMotion& before = *(after - 1);
+    const double share = toSeconds(stamp - before.stamp) / toSeconds(after->stamp - before.stamp);
+    return (1.0 - share) * value(before) + share * value(*after);
+  }
+
+  /// @return false where it is not measured, or does not change.
+  bool tells() const {
+    double least = value(motion_.front()), most = least;
+    for (const BodyMotion& m : motion_) {
+      if (!isUsable(value(m))) return false;
+      least = std::min(least, value(m));
+      most = std::max(most, value(m));
+    }
+    return most - least > kConstant * std::max(std::abs(least), std::abs(most));
+  }
+
+  double mean() const {
+    double sum = 0.0;
+    for (const BodyMotion& m : motion_) sum += value(m);
+    return sum / static_cast<double>(motion_.size());
+  }
+
+ private:
+  double value(const BodyMotion& m) const { return (m.*member_)[axis_]; }
+
+  const std::vector<BodyMotion>& motion_;
+  std::array<double, 2> BodyMotion::*member_;
+  std::size_t axis_;
+};
+
+void addAcceleration(const Channel& channel, std::size_t axis, std::vector<DriveSegment>& segments) {
+  const double mean = channel.mean();
+  for (DriveSegment& segment : segments)
+    for (const Stamp stamp : segment.stamps) segment.body[axis].push_back(channel(stamp) - mean);
+}
+
+void addAngularAcceleration(const Channel& rate, std::size_t axis, std::vector<DriveSegment>& segments) {
+  const double period = segments.front().period;
+  const int margin = SlopeFilter::kWidest;
+  std::vector<std::vector<double>> series;  // with a margin on both sides, where messages are, too
+  for (const DriveSegment& segment : segments) {
+    series.emplace_back();
+    const auto aside = [&](Stamp stamp, int k) { series.back().push_back(rate(stamp + k * fromSeconds(period))); };
+    for (int k = -margin; k < 0; ++k) aside(segment.stamps.front(), k);
+    for (const Stamp stamp : segment.stamps) aside(stamp, 0);
+    for (int k = 1; k <= margin; ++k) aside(segment.stamps.back(), k);
+  }
+  const SlopeFilter slope = SlopeFilter::fitting(series, period);
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    for (std::size_t k = 0; k < segments[s].size(); ++k)
+      segments[s].body[2 + axis].push_back(slope(&series[s][k + static_cast<std::size_t>(margin)]));
+}
+
+}  // namespace
+
+void addBodyChannels(const std::vector<BodyMotion>& motion, std::vector<DriveSegment>& segments) {
+  if (motion.empty() || segments.empty()) return;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const Channel acceleration(motion, &BodyMotion::acceleration, axis), rate(motion, &BodyMotion::angular_rate, axis);
+    if (acceleration.tells()) addAcceleration(acceleration, axis, segments);
+    if (rate.tells()) addAngularAcceleration(rate, axis, segments);
+  }
+}
+
+}  // namespace suspension_health_monitor

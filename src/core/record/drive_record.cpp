@@ -1,0 +1,124 @@
+#include "suspension_health_monitor/internal/record/drive_record.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body_channels.h"
+#include "suspension_health_monitor/internal/signal/continuity.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr int kStuckRepeats = 4;  // a value that is read so many times again is a stuck one
+constexpr std::size_t kShortestSegment = 32;
+
+}  // namespace
+
+/// An uninterrupted part of a drive, as it was measured.
+struct DriveRecord::Stretch {
+  double start = 0.0;  // [s]
+  std::vector<double> sprung, wheel;
+  std::vector<Stamp> stamps;
+
+  void cut(std::size_t size) {
+    sprung.resize(size);
+    wheel.resize(size);
+    stamps.resize(size);
+  }
+};
+
+std::vector<DriveRecord::Stretch> DriveRecord::stretchesOf(const Drive& drive, double period) {
+  std::vector<Stretch> stretches;
+  int sprung_repeats = 0, wheel_repeats = 0;  // of the last reading
+  const CornerSample* last = nullptr;
+  for (const CornerSample& sample : drive.samples) {
+    const Continuity follows =
+        last == nullptr ? Continuity::kGap : continuity(sample.stamp - last->stamp, fromSeconds(period));
+    if (follows == Continuity::kTooSoon) continue;
+    if (follows == Continuity::kContinues) {
+      sprung_repeats = sample.sprung_acceleration == last->sprung_acceleration ? sprung_repeats + 1 : 0;
+      wheel_repeats = sample.unsprung_acceleration == last->unsprung_acceleration ? wheel_repeats + 1 : 0;
+    } else {
+      stretches.emplace_back();
+      sprung_repeats = wheel_repeats = 0;
+    }
+    last = &sample;
+    Stretch& stretch = stretches.back();
+    if (std::max(sprung_repeats, wheel_repeats) < kStuckRepeats) {
+      if (stretch.wheel.empty()) stretch.start = toSeconds(sample.stamp - drive.samples.front().stamp);
+      stretch.sprung.push_back(sample.sprung_acceleration);
+      stretch.wheel.push_back(sample.unsprung_acceleration);
+      stretch.stamps.push_back(sample.stamp);
+    } else if (!stretch.wheel.empty()) {  // the readings that turn out to be stuck are in it already
+      stretch.cut(stretch.wheel.size() - std::min<std::size_t>(stretch.wheel.size(), kStuckRepeats));
+      stretches.emplace_back();
+    }
+  }
+  return stretches;
+}
+
+DriveRecord::DriveRecord(const Drive& drive, double period, int steps) : period_(period), steps_(steps) {
+  const std::vector<Stretch> stretches = stretchesOf(drive, period);
+  double sum = 0.0, count = 0.0;
+  for (const Stretch& stretch : stretches) {
+    for (const double wheel : stretch.wheel) sum += wheel;
+    count += static_cast<double>(stretch.wheel.size());
+  }
+  mean_wheel_ = count > 0.0 ? sum / count : 0.0;
+  for (const Stretch& stretch : stretches) addSegment(stretch);
+  addBodyChannels(drive.body, segments_);
+}
+
+void DriveRecord::addSegment(const Stretch& stretch) {
+  constexpr std::size_t kEnd = BandlimitedInterpolator::kHalfWidth;
+  if (stretch.wheel.size() < 2 * kEnd + kShortestSegment) return;
+  std::vector<double> wheel = stretch.wheel;
+  for (double& w : wheel) w -= mean_wheel_;
+  std::vector<WheelInterpolator> interpolators;
+  for (int step = 0; step < steps_; ++step)
+    interpolators.emplace_back(static_cast<double>(step) / steps_, (step + 1.0) / steps_, period_);
+
+  DriveSegment segment;
+  segment.start = stretch.start + static_cast<double>(kEnd) * period_;
+  segment.period = period_;
+  segment.steps = steps_;
+  const std::size_t last = wheel.size() - 1 - kEnd;
+  for (std::size_t k = kEnd; k <= last; ++k) {
+    segment.sprung.push_back(stretch.sprung[k] - mean_wheel_);
+    segment.stamps.push_back(stretch.stamps[k]);
+    segment.unsprung.push_back(wheel[k]);
+    if (k < last)
+      for (const WheelInterpolator& interpolate : interpolators)
+        segment.wheel.push_back(interpolate(&wheel[k + 1 - kEnd]));
+  }
+  segments_.push_back(std::move(segment));
+}
+
+std::size_t DriveRecord::numSamples() const {
+  std::size_t count = 0;
+  for (const DriveSegment& segment : segments_) count += segment.size();
+  return count;
+}
+
+std::vector<const DriveSegment*> segmentsOf(const Records& records) {
+  std::vector<const DriveSegment*> all;
+  for (const DriveRecord* record : records)
+    for (const DriveSegment& segment : record->segments()) all.push_back(&segment);
+  return all;
+}
+
+std::deque<DriveRecord> makeRecords(const std::vector<Drive>& drives, double period, const StrutModel& model) {
+  const double fastest = std::max(model.damping_to_mass, std::sqrt(model.stiffness_to_mass));
+  const int steps = std::max(1, static_cast<int>(std::ceil(period * fastest / kLongestStrutStep)));
+  std::deque<DriveRecord> records;
+  for (const Drive& drive : drives) records.emplace_back(drive, period, steps);
+  return records;
+}
+
+Records pointersTo(const std::deque<DriveRecord>& records) {
+  Records pointers;
+  for (const DriveRecord& record : records) pointers.push_back(&record);
+  return pointers;
+}
+
+}  // namespace suspension_health_monitor

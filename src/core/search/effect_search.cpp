@@ -1,0 +1,244 @@
+#include "suspension_health_monitor/internal/search/effect_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model_evaluator.h"
+#include "separating_drive.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/record/sampling_limit.h"
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kExplained = 0.5;                 // of the structure, or there is no name
+constexpr double kTakenByAnother = 0.3;            // of what is left
+constexpr double kSure = 0.01;                     // probability at which one of two rivals is better by chance
+constexpr double kStarted = 0.1, kForward = 0.85;  // of the progress
+
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// What is in a model and was not in the one that the search started with.
+Names namesBeyond(const EvaluatedModel& base, const EvaluatedModel& model) {
+  Names added;
+  for (const std::string& name : model.ranked.effects)
+    if (!contains(base.ranked.effects, name)) added.push_back(name);
+  return added;
+}
+
+/// The residual from which on a fit counts outliers.
+double outlierOf(const ModelFit& fit) {
+  std::vector<double> all;
+  for (const std::vector<double>& segment : fit.residuals) all.insert(all.end(), segment.begin(), segment.end());
+  const double size = robustDeviation(std::move(all));
+  return size > 0.0 ? kOutlierScale * size : 1.0;
+}
+
+std::vector<RankedModel> asReported(const std::vector<EvaluatedModel>& ranking) {
+  std::vector<RankedModel> models;
+  for (const EvaluatedModel& evaluated : ranking) models.push_back(evaluated.ranked);
+  std::stable_sort(models.begin(), models.end(),
+                   [](const RankedModel& a, const RankedModel& b) { return a.held_out_rmse < b.held_out_rmse; });
+  return models;
+}
+
+/// The best of a ranking, or the simplest that is as good, and all that are as good.
+struct Selection {
+  EvaluatedModel chosen;
+  Names group;
+  std::vector<StrutModel> models;  // of the group
+};
+
+// @pre the first of the ranking is fitted.
+Selection select(const std::vector<EvaluatedModel>& ranking) {
+  const EvaluatedModel& best = ranking.front();
+  Selection selection{best, {}, {}};
+  for (const EvaluatedModel& rival : ranking) {
+    if (!rival.ranked.fitted) continue;
+    const PairedTest gain = rival.gainOf(best);
+    if (gain.removed_share > kWorthHaving || isSignificant(gain, kSure)) continue;
+    selection.group.push_back(rival.added);
+    selection.models.push_back(rival.ranked.model);
+    if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
+  }
+  return selection;
+}
+
+class Search {
+ public:
+  Search(const Records& records, const HoldOut& held_out, const ModelFit& rough, std::size_t most_forces,
+         const DiagnoseOptions& options)
+      : records_(records), options_(options), evaluator_(records, held_out, outlierOf(rough), most_forces, options) {}
+
+  SearchResult run(const ModelFit& rough);
+
+ private:
+  void report(double share) const {
+    if (options_.progress) options_.progress(share);
+  }
+  void noteGroup(const Selection& selection);
+  EvaluatedModel extend();
+  EvaluatedModel refine(EvaluatedModel current);
+  EvaluatedModel withoutSuperfluous(EvaluatedModel current) const;
+  EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick);
+  bool isExplained(const EvaluatedModel& after) const;
+  void conclude(const EvaluatedModel& last);
+  FittedModel finalFit(const EvaluatedModel& last) const;
+
+  const Records& records_;
+  const DiagnoseOptions& options_;
+  ModelEvaluator evaluator_;
+  EvaluatedModel base_;
+  double sampling_floor_ = 0.0;  // [m/s^2]
+  SearchResult result_;
+};
+
+void Search::noteGroup(const Selection& selection) {
+  if (selection.group.size() < 2) return;
+  result_.indistinguishable.push_back(selection.group);
+  result_.separating.push_back(
+      separatingDrive(evaluator_.motionOf(selection.chosen), selection.group, selection.models));
+}
+
+// What the first effect explained, the later ones may explain better together.
+EvaluatedModel Search::withoutSuperfluous(EvaluatedModel current) const {
+  const std::string newest = current.added;
+  for (const std::string& name : namesBeyond(base_, current)) {
+    if (name == newest) continue;
+    const std::optional<EvaluatedModel> without = evaluator_.without(current, name);
+    if (without && !evaluator_.isWorthHaving(*without, current)) current = *without;
+  }
+  return current;
+}
+
+// Each effect was chosen before the later ones were known: is it still the one, and with which others is it confused?
+EvaluatedModel Search::reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick) {
+  for (const std::string& name : added) {
+    const std::optional<EvaluatedModel> without = evaluator_.without(current, name);
+    if (!without) continue;
+    const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(*without, tick);
+    if (ranking.empty() || !ranking.front().ranked.fitted) continue;
+    const Selection selection = select(ranking);
+    noteGroup(selection);
+    if (!contains(selection.group, name) ||
+        complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
+      current = selection.chosen;
+  }
+  return current;
+}
+
+// Forward selection: the best addition as long as it pays.
+EvaluatedModel Search::extend() {
+  EvaluatedModel current = base_;
+  for (int round = 0; round < options_.most_effects; ++round) {
+    const double done = kStarted + kForward * round / options_.most_effects;
+    const auto tick = [&](double share) { report(done + kForward * share / options_.most_effects); };
+    const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
+    if (round == 0) result_.ranking = asReported(ranking);
+    if (ranking.empty()) break;
+    // Whatever a free run leaves of data that it was not fitted to is above the floor.
+    result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
+    if (!ranking.front().ranked.significant) break;
+    const Selection selection = select(ranking);
+    if (round == 0) noteGroup(selection);
+    current = withoutSuperfluous(selection.chosen);
+  }
+  return current;
+}
+
+// Of several effects every one again. That may make one superfluous, which changes what the others are confused with.
+EvaluatedModel Search::refine(EvaluatedModel current) {
+  for (bool changed = namesBeyond(base_, current).size() > 1; changed;) {
+    result_.indistinguishable.clear();
+    result_.separating.clear();
+    const auto tick = [this](double) { report(kStarted + kForward); };
+    current = reconsidered(current, namesBeyond(base_, current), tick);
+    const std::size_t before = current.ranked.effects.size();
+    current.added.clear();  // none is too new to go
+    current = withoutSuperfluous(current);
+    changed = current.ranked.effects.size() < before;
+  }
+  return current;
+}
+
+// A name is given if the model with it leaves noise only; or if it takes most of the structure and no other law of
+// travel and travel rate would take the rest: that comes from elsewhere, or was lost in sampling.
+bool Search::isExplained(const EvaluatedModel& after) const {
+  const double lowest = std::min(sampling_floor_, after.ranked.held_out_rmse);
+  const double floor = square(lowest), left = square(after.ranked.held_out_rmse) - floor;
+  if (left > (1.0 - kExplained) * (square(base_.ranked.held_out_rmse) - floor)) return false;
+  return !isStructured(after.ranked.held_out_rmse, lowest) ||
+         evaluator_.surfaceGain(after) * square(after.ranked.held_out_rmse) < kTakenByAnother * left;
+}
+
+// To all samples; if the solver does not get there, the numbers of the fit that was judged are not worse than none.
+FittedModel Search::finalFit(const EvaluatedModel& last) const {
+  FitOptions options;
+  options.initial = last.fit.initial;
+  const std::optional<ModelFit> fit = fitOutputError(records_, {}, last.ranked.model, options);
+  return fit ? FittedModel{fit->model, fit->stddev, true} : FittedModel{last.fit.model, last.fit.stddev, false};
+}
+
+void Search::conclude(const EvaluatedModel& last) {
+  result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
+  if (result_.structured_share > 0.0)
+    result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
+  const Names added = namesBeyond(base_, last);
+  if (!added.empty() && isExplained(last)) {
+    result_.verdict = Verdict::kEffectFound;
+    result_.selected = added;
+    result_.extended = last.ranked;
+    result_.extended_fit_percent = evaluator_.heldOut().fitPercent(last.ranked.held_out_rmse);
+    result_.final_fit = finalFit(last);
+    return;
+  }
+  result_.indistinguishable.clear();
+  result_.separating.clear();
+  const bool structured = !added.empty() || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
+  result_.verdict = structured ? Verdict::kUnexplained : Verdict::kNothingMissing;
+  result_.power_at_sampling_limit = powerAtSamplingLimit(records_);
+}
+
+SearchResult Search::run(const ModelFit& rough) {
+  const std::optional<EvaluatedModel> base = evaluator_.evaluate(rough.model, rough.initial, nullptr);
+  if (!base) {
+    result_.shortcoming = Shortcoming::kNoStableFit;
+    return result_;
+  }
+  report(kStarted);
+  base_ = *base;
+  result_.base = base->ranked;
+  result_.base_fit_percent = evaluator_.heldOut().fitPercent(base->ranked.held_out_rmse);
+  result_.noise_floor = estimateNoiseFloor(records_, base->ranked.model);
+  sampling_floor_ = estimateSamplingFloor(records_, base->ranked.model);
+  const EvaluatedModel last = refine(extend());
+  result_.noise_floor = std::min(result_.noise_floor, last.ranked.held_out_rmse);
+  conclude(last);
+  report(1.0);
+  return result_;
+}
+
+SearchResult without(Shortcoming shortcoming) {
+  SearchResult nothing;
+  nothing.shortcoming = shortcoming;
+  return nothing;
+}
+
+}  // namespace
+
+SearchResult searchEffects(const Records& records, const StrutModel& start, const DiagnoseOptions& options) {
+  if (segmentsOf(records).empty()) return without(Shortcoming::kTooShort);
+  const std::optional<ModelFit> rough = fitOutputError(records, {}, start);
+  if (!rough) return without(Shortcoming::kNoStableFit);
+  const std::optional<HoldOut> held_out = splitHoldOut(records, rough->model.stiffness_to_mass);
+  if (!held_out) return without(Shortcoming::kTooShort);
+  const std::size_t most_forces = start.effects.size() + static_cast<std::size_t>(options.most_forces);
+  return Search(records, *held_out, *rough, most_forces, options).run(*rough);
+}
+
+}  // namespace suspension_health_monitor

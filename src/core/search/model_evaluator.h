@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/internal/fit/hold_out.h"
+#include "suspension_health_monitor/internal/search/effect_search.h"
+#include "suspension_health_monitor/internal/search/screening.h"
+
+namespace suspension_health_monitor {
+
+/// A smaller share of the mean square is not worth another effect, and no difference between two models.
+inline constexpr double kWorthHaving = 0.02;
+
+/// A model and how it did, or is expected to do, on what was held out.
+struct EvaluatedModel {
+  RankedModel ranked;
+  std::string added;              ///< what it has and the model before had not
+  double training_gain = 0.0;     ///< as ScreenedModel has it
+  bool tried = false;             ///< a fit was tried; it may have failed
+  ModelFit fit;                   ///< empty unless ranked.fitted
+  std::vector<double> stretches;  ///< held-out loss by stretch
+  double loss = 0.0;              ///< their sum
+  double independent = 0.0;       ///< HoldOut::independentSquares()
+
+  PairedTest gainOf(const EvaluatedModel& after) const { return testPaired(stretches, after.stretches, independent); }
+};
+
+/// Free parameters of a model beyond b1 and b0: the simpler of two equal ones is preferred.
+std::size_t complexity(const StrutModel& model);
+
+/// Fits models on the training samples of the drives and evaluates them on the rest.
+class ModelEvaluator {
+ public:
+  using Tick = std::function<void(double share)>;
+
+  /// @param outlier  residual that begins to count as an outlier [m/s^2].
+  /// @param most_forces  force effects that a model may have.  The arguments must outlive this object.
+  ModelEvaluator(const Records& records, const HoldOut& held_out, double outlier, std::size_t most_forces,
+                 const DiagnoseOptions& options);
+
+  /// @param initial  first guess of the initial states.  @param before  the model to compare with, if any.
+  std::optional<EvaluatedModel> evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
+                                         const EvaluatedModel* before) const;
+
+  /// Every candidate that is not in the model added to it: all screened, those fitted that may be the best.
+  /// @return best first, those that were fitted before those that were only screened.
+  std::vector<EvaluatedModel> rankAdditions(const EvaluatedModel& current, const Tick& tick) const;
+
+  /// The model with one of its effects taken out.
+  std::optional<EvaluatedModel> without(const EvaluatedModel& evaluated, const std::string& effect) const;
+
+  /// @return true if `after` is better by enough, and not by chance, correcting for the number of candidates.
+  bool isWorthHaving(const EvaluatedModel& before, const EvaluatedModel& after) const;
+
+  LinearResponse motionOf(const EvaluatedModel& evaluated) const { return {records_, evaluated.fit}; }
+  double surfaceGain(const EvaluatedModel& evaluated) const {
+    return Screening(records_, held_out_, evaluated.fit).surfaceGain();
+  }
+  const HoldOut& heldOut() const { return held_out_; }
+
+ private:
+  std::vector<EvaluatedModel> screenAll(const EvaluatedModel& current, const Tick& tick) const;
+  void fitAll(const std::vector<std::size_t>& wanted, const EvaluatedModel& current,
+              std::vector<EvaluatedModel>& ranking, const Tick& tick) const;
+  EvaluatedModel weighed(const StrutModel& model, const Residuals& residuals) const;
+  void rank(const EvaluatedModel& before, EvaluatedModel& evaluated) const;
+
+  const Records& records_;
+  const HoldOut& held_out_;
+  double outlier_;
+  std::size_t most_forces_;
+  const DiagnoseOptions& options_;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,166 @@
+#include "suspension_health_monitor/internal/search/screening.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shape_scan.h"
+#include "suspension_health_monitor/internal/fit/hat_functions.h"
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kIndependent = 1e-6;  // share of a column that the model's own columns must leave
+constexpr Eigen::Index kSurfaceRows = 20000;
+
+Eigen::VectorXd joined(const Residuals& segments, Eigen::Index count) {
+  Eigen::VectorXd all(count);
+  Eigen::Index k = 0;
+  for (const std::vector<double>& segment : segments)
+    for (const double value : segment) all[k++] = value;
+  return all;
+}
+
+Residuals split(const Eigen::VectorXd& all, const std::vector<std::size_t>& ends) {
+  Residuals segments;
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    segments.emplace_back(all.data() + begin, all.data() + end);
+    begin = end;
+  }
+  return segments;
+}
+
+// Weights of the smooth Huber loss, 0 where a sample is held out.
+Eigen::VectorXd trainingWeights(const HoldOut& held_out, const Eigen::VectorXd& residual) {
+  const double limit = kOutlierScale * robustDeviation({residual.data(), residual.data() + residual.size()});
+  Eigen::VectorXd weight(residual.size());
+  Eigen::Index k = 0;
+  for (const SampleMask& mask : held_out.training)
+    for (const char trained : mask) {
+      const double q = limit > 0.0 ? residual[k] / limit : 0.0;
+      weight[k++] = trained != 0 ? 1.0 / std::sqrt(1.0 + square(q)) : 0.0;
+    }
+  return weight;
+}
+
+}  // namespace
+
+Screening::Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit) : response_(records, fit) {
+  const Eigen::Index n = response_.numSamples();
+  residual_ = joined(fit.residuals, n);
+  weight_ = trainingWeights(held_out, residual_);
+  Eigen::VectorXd travel(n), rate(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    travel[k] = response_.motion()[static_cast<std::size_t>(k)].travel;
+    rate[k] = response_.motion()[static_cast<std::size_t>(k)].travel_rate;
+  }
+  const std::vector<ActiveEffect>& effects = fit.model.effects;
+  common_.resize(n, 2 + static_cast<Eigen::Index>(effects.size()));
+  common_.col(0) = response_.respond(rate);
+  common_.col(1) = response_.respond(travel);
+  for (std::size_t j = 0; j < effects.size(); ++j)
+    common_.col(2 + static_cast<Eigen::Index>(j)) =
+        response_.respond(response_.forceAlong(effects[j].effect, effects[j].shapes));
+  const Eigen::MatrixXd weighted = weight_.asDiagonal() * common_;
+  gram_.compute(common_.transpose() * weighted);
+  own_ = weighted.transpose() * residual_;
+}
+
+std::optional<Screening::Projection> Screening::project(const Columns& columns) const {
+  const Eigen::MatrixXd weighted = weight_.asDiagonal() * columns;
+  const Eigen::MatrixXd cross = common_.transpose() * weighted;
+  const Eigen::MatrixXd carried = gram_.solve(cross);
+  const Eigen::MatrixXd square = columns.transpose() * weighted;
+  const Eigen::MatrixXd independent = square - cross.transpose() * carried;
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    if (!(independent(i, i) > kIndependent * square(i, i))) return std::nullopt;  // 0 and NaN, too
+  Projection result;
+  const Eigen::VectorXd moment = weighted.transpose() * residual_ - carried.transpose() * own_;
+  result.coefficients = independent.ldlt().solve(moment);
+  result.gain = moment.dot(result.coefficients);
+  result.common = gram_.solve(own_) - carried * result.coefficients;
+  return result;
+}
+
+StrutModel Screening::changed(const Eigen::VectorXd& common) const {
+  StrutModel model = response_.fit().model;
+  // A linear guess far away is no good place to begin; half of a parameter is.
+  const auto change = [](double value, double by) { return std::clamp(value + by, 0.5 * value, 1.5 * value); };
+  model.damping_to_mass = change(model.damping_to_mass, common[0]);
+  model.stiffness_to_mass = change(model.stiffness_to_mass, common[1]);
+  for (std::size_t j = 0; j < model.effects.size(); ++j)
+    model.effects[j].coefficient += common[2 + static_cast<Eigen::Index>(j)];
+  return model;
+}
+
+ScreenedModel Screening::expect(const Columns& columns, const Projection& projection) const {
+  ScreenedModel screened;
+  screened.model = changed(projection.common);
+  screened.training_gain = projection.gain;
+  screened.residuals =
+      split(residual_ - columns * projection.coefficients - common_ * projection.common, response_.ends());
+  return screened;
+}
+
+std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const {
+  std::optional<Projection> best;
+  std::vector<double> best_shapes;
+  Eigen::VectorXd best_column;
+  const double natural_time = 1.0 / std::sqrt(response_.fit().model.stiffness_to_mass);
+  for (const std::vector<double>& shapes :
+       scanShapes(effect, {response_.travel(), response_.travelRate(), natural_time})) {
+    Eigen::VectorXd column = response_.respond(response_.forceAlong(effect, shapes));
+    const std::optional<Projection> projection = project(column);
+    if (!projection || (best && projection->gain <= best->gain)) continue;
+    best = projection;
+    best_shapes = shapes;
+    best_column.swap(column);
+  }
+  if (!best) return std::nullopt;
+  ScreenedModel screened = expect(best_column, *best);
+  screened.model.effects.push_back({effect, best->coefficients[0], best_shapes});
+  return screened;
+}
+
+std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) const {
+  const Eigen::MatrixXd columns = response_.readingSlopes(effect);
+  const std::optional<Projection> projection = project(columns);
+  if (!projection) return std::nullopt;
+  ScreenedModel screened = expect(columns, *projection);
+  const Eigen::VectorXd& found = projection->coefficients;
+  screened.model.reading.push_back({effect, {found.data(), found.data() + found.size()}});
+  return screened;
+}
+
+double Screening::surfaceGain() const {
+  const Eigen::Index n = response_.numSamples(), stride = 1 + n / kSurfaceRows;
+  const Eigen::Index rows = (n + stride - 1) / stride;
+  using Strided = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>;
+  const auto thinned = [&](const Eigen::VectorXd& all) {
+    return Strided(all.data(), rows, Eigen::InnerStride<>(stride));
+  };
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(n, kForceNodes * kForceNodes);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const StrutMotion& m = response_.motion()[static_cast<std::size_t>(k)];
+    forHatsAt(m.travel / response_.travel(), m.travel_rate / response_.travelRate(), kForceNodes,
+              [&](int node, double value) { forces(k, node) = value; });
+  }
+  Eigen::MatrixXd columns(rows, forces.cols());
+  for (Eigen::Index node = 0; node < forces.cols(); ++node)
+    columns.col(node) = thinned(response_.respond(forces.col(node)));
+  const Eigen::VectorXd residual = thinned(residual_), weight = thinned(weight_);
+  Eigen::MatrixXd gram = columns.transpose() * weight.asDiagonal() * columns;
+  gram.diagonal().array() += 1e-6 * gram.trace() / static_cast<double>(gram.rows());  // nodes that are never visited
+  const Eigen::VectorXd solution = gram.llt().solve(columns.transpose() * weight.cwiseProduct(residual));
+  const Eigen::VectorXd left = residual - columns * solution;
+  double before = 0.0, after = 0.0;
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    if (weight[k] != 0.0) continue;
+    before += square(residual[k]);
+    after += square(left[k]);
+  }
+  return before > 0.0 ? std::max(0.0, 1.0 - after / before) : 0.0;
+}
+
+}  // namespace suspension_health_monitor

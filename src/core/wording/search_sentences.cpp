@@ -1,0 +1,94 @@
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
+
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kUndersampled = 0.25;       // power at half the sampling rate, over the mean one
+constexpr double kLawOfTravelAndRate = 0.5;  // share of the structure from which on it is one
+
+const char* wordsFor(DriveKind kind) {
+  switch (kind) {
+    case DriveKind::kMoreTravel: return "a rougher road or more speed, with twice the travel";
+    case DriveKind::kLessTravel: return "a smooth road, with a third of the travel";
+    case DriveKind::kSlower: return "slow and long bumps, with the same travel at a third of the rate";
+    case DriveKind::kQuicker: return "short and hard bumps, with the same travel at three times the rate";
+    case DriveKind::kLonger: return "a drive three times as long";
+    case DriveKind::kNoneHelps: break;
+  }
+  return "";
+}
+
+std::string suggest(const SeparatingDrive& drive) {
+  std::vector<std::string> names = drive.group;
+  const std::string last = names.back();
+  names.pop_back();
+  const std::string group = join(names) + " and " + last;
+  if (drive.kind == DriveKind::kNoneHelps)
+    return "No other kind of drive would tell " + group + " apart much better: look at the strut.";
+  return "To tell " + group + " apart, record " + wordsFor(drive.kind) + ": there their forces differ by " +
+         percent(drive.difference_there) + " of the strut's force, against " + percent(drive.difference_here) +
+         " here.";
+}
+
+std::string suggestForUnexplained(const SearchResult& result) {
+  if (result.power_at_sampling_limit > kUndersampled)
+    return "The wheel still shakes at half the sampling rate, so that a part of its motion is lost to any model: "
+           "record at twice the rate.";
+  if (result.surface_share > kLawOfTravelAndRate)
+    return "A force that depends on travel and travel rate alone would explain " + percent(result.surface_share) +
+           " of what is missing: describe it as a law of your own and diagnose again.";
+  return "A force of travel and travel rate would explain only " + percent(result.surface_share) +
+         " of what is missing. Drive the same road again with engine and load at rest, and at another speed: a force "
+         "that does not come through the strut keeps its own time and size.";
+}
+
+}  // namespace
+
+const char* nameOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kEffectFound: return "effect_found";
+    case Verdict::kNothingMissing: return "nothing_missing";
+    case Verdict::kUnexplained: break;
+  }
+  return "unexplained";
+}
+
+std::string summaryOf(const SearchResult& result) {
+  switch (result.verdict) {
+    case Verdict::kEffectFound: return "Missing from the model: " + join(result.selected, " and ") + ".";
+    case Verdict::kNothingMissing: return "Nothing is missing: what the model leaves is noise.";
+    case Verdict::kUnexplained: break;
+  }
+  return "Something is missing, but no known effect explains most of it: no name is given.";
+}
+
+std::string suggestionOf(const SearchResult& result) {
+  if (result.verdict == Verdict::kUnexplained) return suggestForUnexplained(result);
+  std::vector<std::string> sentences;
+  for (const SeparatingDrive& drive : result.separating) sentences.push_back(suggest(drive));
+  return join(sentences, " ");
+}
+
+std::string reasonOf(BodyChannel missing) {
+  const bool linear = missing == BodyChannel::kAccelerationX || missing == BodyChannel::kAccelerationY;
+  return linear ? "the body's IMU shows no changing acceleration across the strut"
+                : "the body's IMU shows no changing angular velocity";
+}
+
+std::string reasonOf(Shortcoming shortcoming, const StrutModel& start) {
+  const std::string numbers = "damping/mass " + std::to_string(start.damping_to_mass) + ", stiffness/mass " +
+                              std::to_string(start.stiffness_to_mass);
+  switch (shortcoming) {
+    case Shortcoming::kNoDampedSpring: return "show no damped spring (" + numbers + ")";
+    case Shortcoming::kTooFast: return "are sampled too slowly for so stiff a strut (" + numbers + ")";
+    case Shortcoming::kTooShort: return "are too short or too calm: nothing can be held out to judge a model by";
+    case Shortcoming::kNoStableFit: return "have no stable damped spring that fits them";
+    case Shortcoming::kModelUntestable: return "do not tell a fault of the body's IMU that the model has";
+    case Shortcoming::kNone: break;
+  }
+  return "";
+}
+
+}  // namespace suspension_health_monitor

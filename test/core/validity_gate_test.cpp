@@ -1,0 +1,83 @@
+#include "suspension_health_monitor/internal/monitor/validity_gate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace suspension_health_monitor {
+namespace {
+
+EstimateFacts nothingAgainstIt() {
+  EstimateFacts facts;
+  facts.has_row = facts.is_physical = facts.has_stddev = true;
+  facts.rows = facts.fewest_rows = 50.0;
+  facts.explained = kLeastExplained;
+  return facts;
+}
+
+struct Flaw {
+  EstimateDoubt doubt;
+  std::function<void(EstimateFacts&)> make;
+};
+
+// In the order of EstimateDoubt.
+const std::vector<Flaw> kFlaws{
+    {EstimateDoubt::kWrongPeriod, [](EstimateFacts& f) { f.period_fits = false; }},
+    {EstimateDoubt::kNoRows, [](EstimateFacts& f) { f.has_row = false; }},
+    {EstimateDoubt::kSensorStuck, [](EstimateFacts& f) { f.sensor_moves = false; }},
+    {EstimateDoubt::kFewRows, [](EstimateFacts& f) { f.rows = 49.9; }},
+    {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.excites_damping = f.excites_stiffness = false; }},
+    {EstimateDoubt::kDampingNotExcited, [](EstimateFacts& f) { f.excites_damping = false; }},
+    {EstimateDoubt::kStiffnessNotExcited, [](EstimateFacts& f) { f.excites_stiffness = false; }},
+    {EstimateDoubt::kOutsideForce, [](EstimateFacts& f) { f.outside_force = true; }},
+    {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
+    {EstimateDoubt::kNotAStrut, [](EstimateFacts& f) { f.is_physical = false; }},
+    {EstimateDoubt::kNoSpread, [](EstimateFacts& f) { f.has_stddev = false; }},
+    {EstimateDoubt::kFreeRunFails, [](EstimateFacts& f) { f.free_run_fails = true; }},
+};
+
+TEST(ValidityGate, PassesAnEstimateThatNothingSpeaksAgainst) {
+  EXPECT_EQ(doubtOf(nothingAgainstIt()), EstimateDoubt::kNone);
+}
+
+TEST(ValidityGate, NamesEveryFlaw) {
+  for (const Flaw& flaw : kFlaws) {
+    EstimateFacts facts = nothingAgainstIt();
+    flaw.make(facts);
+    EXPECT_EQ(doubtOf(facts), flaw.doubt) << describe(flaw.doubt);
+  }
+}
+
+// All but those of the excitation, of which the first includes the other two.
+TEST(ValidityGate, NamesTheFirstOfSeveralFlaws) {
+  for (std::size_t i = 0; i < kFlaws.size(); ++i)
+    for (std::size_t j = i + 1; j < kFlaws.size(); ++j) {
+      if (kFlaws[i].doubt == EstimateDoubt::kDampingNotExcited &&
+          kFlaws[j].doubt == EstimateDoubt::kStiffnessNotExcited)
+        continue;
+      EstimateFacts facts = nothingAgainstIt();
+      kFlaws[i].make(facts);
+      kFlaws[j].make(facts);
+      EXPECT_EQ(doubtOf(facts), kFlaws[i].doubt) << describe(kFlaws[i].doubt) << ", " << describe(kFlaws[j].doubt);
+    }
+}
+
+TEST(ValidityGate, NumbersThatAreNoneAreFlaws) {
+  EstimateFacts facts = nothingAgainstIt();
+  facts.explained = std::nan("");
+  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kNotExplained);
+  facts.rows = std::nan("");
+  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kFewRows);
+}
+
+TEST(ValidityGate, NoMoreRowsAreWantedThanNineTenthsOfTheMemory) {
+  EXPECT_DOUBLE_EQ(fewestRows(50.0, 0.99), 50.0);
+  EXPECT_NEAR(fewestRows(50.0, 0.98), 45.0, 1e-9);
+  EXPECT_DOUBLE_EQ(fewestRows(50.0, 1.0), 50.0);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
