@@ -42,8 +42,8 @@ class Feeder {
   }
 
  private:
-  static MonitorOptions options(int horizon_samples, std::optional<double> fastest) {
-    MonitorOptions options;
+  static MonitorSettings options(int horizon_samples, std::optional<double> fastest) {
+    MonitorSettings options;
     options.sample_period = 0.01;
     options.integration_horizon = horizon_samples * *options.sample_period;
     options.fastest_forgetting_factor = fastest;

@@ -51,7 +51,7 @@ void printTable(int seeds, std::optional<double> fastest) {
     const int proposed = proposedHorizon(clean, drive.noise);
     for (const double horizon : kHorizons)
       for (const double forgetting_factor : kForgettingFactors) {
-        MonitorOptions options;
+        MonitorSettings options;
         options.integration_horizon = std::max(5L, std::lround(horizon * proposed)) / simulation.rate;
         options.forgetting_factor = forgetting_factor;
         options.fastest_forgetting_factor = fastest;

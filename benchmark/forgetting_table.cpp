@@ -27,7 +27,7 @@ struct Point {
 };
 
 std::vector<Point> follow(const std::vector<DriveSample>& drive, const Setting& setting) {
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 0.02;
   options.forgetting_factor = setting.slow;
   options.fastest_forgetting_factor = setting.fastest;

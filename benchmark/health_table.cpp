@@ -40,8 +40,8 @@ struct Delays {
   double hours_before = 0.0, stale = 0.0, samples = 0.0;
 };
 
-MonitorOptions optionsFor(double period, double b1, double b0) {
-  MonitorOptions options;
+MonitorSettings optionsFor(double period, double b1, double b0) {
+  MonitorSettings options;
   options.sample_period = period;
   options.integration_horizon = b0 > 30.0 ? 0.3 : 0.6;  // near what suspension_bag horizon proposes
   options.forgetting_factor = 1.0 - period / 2.0;       // 2 s
@@ -50,7 +50,7 @@ MonitorOptions optionsFor(double period, double b1, double b0) {
   return options;
 }
 
-void judge(const std::vector<CornerSample>& drive, const MonitorOptions& options, bool changes, Delays& delays) {
+void judge(const std::vector<CornerSample>& drive, const MonitorSettings& options, bool changes, Delays& delays) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   double early = kNever, warn = kNever, error = kNever;
   const double end_of_healthy = changes ? kChangeAt : kDuration;

@@ -50,8 +50,8 @@ class Corner {
   }
 
  private:
-  static MonitorOptions options() {
-    MonitorOptions options;
+  static MonitorSettings options() {
+    MonitorSettings options;
     options.sample_period = kPeriod;
     options.forgetting_factor = 0.9998;
     return options;

@@ -164,7 +164,7 @@ class BrakedDrive {
 // A drive, a stop, 24 h of nothing but the sensors' noise, then the road again.
 void printParked(bool forgets_unexcited, double brake, double body_noise, double wheel_noise) {
   constexpr long kDay = 24L * 3600 * 50, kSecond = 50;
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 0.02;
   options.estimators.forgets_unexcited = forgets_unexcited;
   SuspensionMonitor monitor(options);

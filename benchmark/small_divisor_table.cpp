@@ -28,14 +28,14 @@ std::vector<Divisor> divisors() {
 
 struct Setting {
   std::string name;
-  MonitorOptions options;
+  MonitorSettings options;
 };
 
 std::vector<Setting> settings() {
   std::vector<Setting> result{{"all settings of the paper", paperOptions()}};
   for (const double forgetting_factor : kForgettingFactors) {
     for (const Divisor& divisor : divisors()) {
-      MonitorOptions options;
+      MonitorSettings options;
       options.sample_period = 0.02;
       options.forgetting_factor = forgetting_factor;
       options.estimators.least_absolute.small_divisor_rule = divisor.rule;

@@ -73,7 +73,7 @@ struct Course {
 };
 
 Course follow(const std::vector<DriveSample>& drive, const Case& road, std::optional<double> fastest, double until) {
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 1.0 / road.rate;
   options.integration_horizon = road.horizon / road.rate;
   options.forgetting_factor = road.slow;

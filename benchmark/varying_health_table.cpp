@@ -18,8 +18,8 @@ namespace {
 constexpr int kFirstSeed = 101, kNumSeeds = 60;
 constexpr double kWarnDue = 67.0, kErrorDue = 94.0, kStepAt = 60.0, kHours = 24.0;  // of the paper's ramp [s]
 
-MonitorOptions judgedWith(double slow, std::optional<double> fastest) {
-  MonitorOptions options = optionsWith(slow, fastest);
+MonitorSettings judgedWith(double slow, std::optional<double> fastest) {
+  MonitorSettings options = optionsWith(slow, fastest);
   options.nominal_damping_to_mass = kPaperB1;
   options.nominal_stiffness_to_mass = kPaperB0;
   return options;
@@ -27,7 +27,7 @@ MonitorOptions judgedWith(double slow, std::optional<double> fastest) {
 
 double orNever(const std::optional<double>& time) { return time.value_or(std::numeric_limits<double>::infinity()); }
 
-void printRamp(const char* scenario, const MonitorOptions& monitor) {
+void printRamp(const char* scenario, const MonitorSettings& monitor) {
   std::vector<double> warns, errors, notices;
   for (int seed = kFirstSeed; seed < kFirstSeed + kNumSeeds; ++seed) {
     SimulationOptions options;
@@ -42,7 +42,7 @@ void printRamp(const char* scenario, const MonitorOptions& monitor) {
               meanOf(errors), *std::max_element(errors.begin(), errors.end()), meanOf(notices));
 }
 
-void printStep(const MonitorOptions& monitor) {
+void printStep(const MonitorSettings& monitor) {
   std::vector<double> warns;
   for (int seed = kFirstSeed; seed < kFirstSeed + kNumSeeds; ++seed) {
     SimulationOptions options;
@@ -55,7 +55,7 @@ void printStep(const MonitorOptions& monitor) {
   std::printf(" %.1f |", medianOf(warns));
 }
 
-void printDay(const MonitorOptions& options) {
+void printDay(const MonitorSettings& options) {
   const double half_width = 0.024 * std::sqrt(3.0);
   const DayCounts day = healthyDay(options, kHours, 1, std::uniform_real_distribution<double>(-half_width, half_width));
   std::printf(" %ld, %ld |\n", day.warn + day.error, day.early);
@@ -71,7 +71,7 @@ void printTable() {
     std::optional<double> fastest;
   };
   for (const Setting& setting : std::vector<Setting>{{0.99, {}}, {0.995, {}}, {0.99, 0.97}, {0.995, 0.97}}) {
-    const MonitorOptions options = judgedWith(setting.slow, setting.fastest);
+    const MonitorSettings options = judgedWith(setting.slow, setting.fastest);
     std::printf(setting.fastest ? "| %g to %g |" : "| %g |", setting.slow, setting.fastest.value_or(0.0));
     printRamp("paper_clean", options);
     printRamp("paper_outliers", options);

@@ -21,11 +21,11 @@ void require(bool holds, const char* law) {
   if (!holds) throw std::logic_error(std::string("broken law: ") + law);
 }
 
-MonitorOptions takeOptions(FuzzBytes& bytes) {
+MonitorSettings takeOptions(FuzzBytes& bytes) {
   constexpr std::array kPeriods{1e-5, 1e-3, 0.005, 0.02, 0.1, 10.0};
   constexpr std::array kForgetting{0.9, 0.98, 0.99, 0.999, 1.0};
   constexpr std::array kRules{IntegrationRule::kTrapezoid, IntegrationRule::kSimpson, IntegrationRule::kCubic};
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = kPeriods[bytes.choose(kPeriods.size())];
   options.integration_horizon = static_cast<double>(1 + bytes.choose(60)) * *options.sample_period;
   EstimatorOptions& estimators = options.estimators;
@@ -47,7 +47,7 @@ MonitorOptions takeOptions(FuzzBytes& bytes) {
 /// One strut's two sensors and what the monitor says of them.
 class Stream {
  public:
-  explicit Stream(const MonitorOptions& options)
+  explicit Stream(const MonitorSettings& options)
       : monitor_(options), grid_(*options.sample_period), period_(fromSeconds(*options.sample_period)) {}
 
   void run(FuzzBytes& bytes) {
@@ -185,7 +185,7 @@ class Stream {
 
 void feedSampleStream(const std::uint8_t* bytes, std::size_t size) {
   FuzzBytes rest(bytes, size);
-  const MonitorOptions options = takeOptions(rest);
+  const MonitorSettings options = takeOptions(rest);
   std::optional<Stream> stream;
   try {
     stream.emplace(options);

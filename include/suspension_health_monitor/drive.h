@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -16,6 +17,9 @@ inline double toSeconds(Stamp stamp) { return std::chrono::duration<double>(stam
 /// @param seconds  [s], finite and below 2.9e2 years in magnitude.
 /// @return the nearest whole nanosecond.
 inline Stamp fromSeconds(double seconds) { return std::chrono::round<Stamp>(std::chrono::duration<double>(seconds)); }
+
+/// The sensors of a strut. The road's, where the tyre touches it, is optional.
+enum class Side : std::size_t { kSprung = 0, kUnsprung = 1, kRoad = 2 };
 
 /// What the two accelerometers of one strut read at one instant.
 ///

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct ActiveMeasurementEffect {
   MeasurementEffect effect;
   std::vector<double> coefficients;  ///< one per effect.coefficients
 };
+
+inline constexpr std::size_t kMostEffects = 8;  ///< in one model
 
 /// The strut as it is modelled: z'' = b1 v + b0 d + sum_j c_j f_j, and how its acceleration is read.
 struct StrutModel {

@@ -3,8 +3,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/monitor/drive_identification.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -23,8 +23,8 @@ IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions&
   const double period = *monitor.sample_period;
   const int horizon = options.horizon_samples ? *options.horizon_samples : proposeHorizon(drives, period);
   monitor.integration_horizon = horizon * period;
-  monitor.validate();
-  DriveIdentification identification(monitor, {});
+  monitor.alignment = "paired";
+  DriveIdentification identification(monitor);
   for (const Drive& drive : drives)
     for (const CornerSample& sample : drive.samples) {
       identification.push(Side::kSprung, sample.stamp, sample.sprung_acceleration);

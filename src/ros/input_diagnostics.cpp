@@ -34,11 +34,11 @@ void InputDiagnostics::restart() {
 void InputDiagnostics::describe(const ImuPipeline& pipeline, Status& status) {
   summarize(pipeline, status);
   if (pipeline.monitor() != nullptr) describeSeries(*pipeline.monitor(), status);
-  if (pipeline.grid() != nullptr) {
-    const std::string slow = pipeline.grid()->resamples() ? "" : pipeline.grid()->whatIsTooSlow();
+  if (pipeline.strut().grid() != nullptr) {
+    const std::string slow = pipeline.strut().grid()->resamples() ? "" : pipeline.strut().grid()->whatIsTooSlow();
     if (!slow.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow);
-    status.add("alignment", pipeline.grid()->describeAlignment());
-    status.add("bridged", pipeline.grid()->bridged());
+    status.add("alignment", pipeline.strut().grid()->describeAlignment());
+    status.add("bridged", pipeline.strut().grid()->bridged());
   }
   for (const Side side : {Side::kSprung, Side::kUnsprung}) describeStream(side, pipeline, status);
   describeRejected(pipeline.rejected(), status);
@@ -94,13 +94,13 @@ void InputDiagnostics::describeStream(Side side, const ImuPipeline& pipeline, St
     if (options_.max_lag && lag > *options_.max_lag)
       status.mergeSummaryf(DiagnosticStatus::WARN, "%s IMU is %.3g s late", name.c_str(), lag);
   }
-  if (pipeline.grid() == nullptr) return;
-  const StreamTiming& timing = pipeline.grid()->gate(side).timing();
+  if (pipeline.strut().grid() == nullptr) return;
+  const StreamTiming& timing = pipeline.strut().grid()->gate(side).timing();
   const double rate = timing.period() > 0.0 ? 1.0 / timing.period() : 0.0;
   status.addf(name + " rate [Hz]", "%.4g", rate);
   status.addf(name + " jitter [s]", "%.3g", timing.jitter());
   status.add(name + " lost", timing.lost());
-  status.add(name + " rejected", pipeline.grid()->gate(side).rejected().total());
+  status.add(name + " rejected", pipeline.strut().grid()->gate(side).rejected().total());
   const std::optional<double>& expected = side == Side::kSprung ? options_.sprung_rate : options_.unsprung_rate;
   if (expected && rate > 0.0 && std::abs(rate / *expected - 1.0) > kRateTolerance)
     status.mergeSummaryf(DiagnosticStatus::WARN, "%s IMU comes at %.4g Hz, expected %.4g", name.c_str(), rate,

@@ -105,9 +105,9 @@ ActiveEffect LiveModel::make(const std::string& name, Shapes& given, const Scale
 
 std::vector<ActiveEffect> LiveModel::choose(const std::vector<std::string>& names, Shapes given,
                                             const Scale& scale) const {
-  if (names.size() > StrutState::kMostEffects)
+  if (names.size() > kMostEffects)
     throw std::invalid_argument(std::to_string(names.size()) + " effects, must be at most " +
-                                std::to_string(StrutState::kMostEffects));
+                                std::to_string(kMostEffects));
   std::vector<ActiveEffect> chosen;
   for (const std::string& name : names) {
     if (find(chosen, name) != nullptr)

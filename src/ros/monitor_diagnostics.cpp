@@ -26,14 +26,17 @@ void addJudgement(diagnostic_updater::DiagnosticStatusWrapper& status, const std
 }  // namespace
 
 MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                                       const std::string& name, const ShellOptions& options,
+                                       const std::string& name, const PipelineOptions& options,
                                        const std::array<ros::Subscriber, 2>& imu, const LiveModel& model)
-    : input_timeout_(options.input_timeout), input_(options, imu), model_(model), updater_(node, private_node, name) {
+    : input_timeout_(options.shell.input_timeout),
+      input_(options.shell, imu),
+      model_(model),
+      updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Input", [this](Status& status) { input_.describe(*pipeline_, status); });
   updater_.add("Health", this, &MonitorDiagnostics::describeHealth);
   updater_.add("Model", this, &MonitorDiagnostics::describeModel);
-  if (options.tyre) updater_.add("Tyre", [this](Status& status) { describeTyre(*pipeline_, status); });
+  if (options.monitor.tyre) updater_.add("Tyre", [this](Status& status) { describeTyre(*pipeline_, status); });
 }
 
 bool MonitorDiagnostics::noteLevel(HealthLevel level) {

@@ -19,7 +19,7 @@ class MonitorDiagnostics {
  public:
   /// @param imu  the two subscriptions, for their topic names.  @param model  outlives this object.
   MonitorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name,
-                     const ShellOptions& options, const std::array<ros::Subscriber, 2>& imu, const LiveModel& model);
+                     const PipelineOptions& options, const std::array<ros::Subscriber, 2>& imu, const LiveModel& model);
 
   InputDiagnostics& input() { return input_; }
 

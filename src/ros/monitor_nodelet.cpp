@@ -53,11 +53,11 @@ void MonitorNodelet::start() {
   health_ = private_node_.advertise<SuspensionHealth>("health", kQueueSize);
   if (!options_.shell.target_frame.empty())
     static_transforms_ = node_.subscribe("/tf_static", kQueueSize, &MonitorNodelet::onTransforms, this);
-  if (options_.shell.tyre) tyre_.emplace(private_node_, kQueueSize);
+  if (options_.monitor.tyre) tyre_.emplace(private_node_, kQueueSize);
   model_topic_.emplace(private_node_);
   publishModel();
   subscribe();
-  diagnostics_.emplace(node_, private_node_, getName(), options_.shell, imu_, *model_);
+  diagnostics_.emplace(node_, private_node_, getName(), options_, imu_, *model_);
   advertiseServices();
   tick_ = node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
 }
@@ -65,9 +65,8 @@ void MonitorNodelet::start() {
 void MonitorNodelet::makePipeline() {
   pipeline_.emplace(
       options_, [this](const MonitorReport& report) { publish(report); }, &transforms_);
-  pipeline_->setEffects(model_->effects());
-  if (baseline_->known()) pipeline_->setBaseline(*baseline_->known());
-  pipeline_->keepSamples(options_.shell.diagnose_window);
+  pipeline_->strut().setEffects(model_->effects());
+  if (baseline_->known()) pipeline_->strut().setBaseline(*baseline_->known());
 }
 
 void MonitorNodelet::advertiseServices() {
@@ -85,7 +84,7 @@ void MonitorNodelet::advertiseServices() {
 void MonitorNodelet::onReconfigure(LiveSettings& settings) {
   try {
     const PipelineOptions changed = settings.appliedTo(options_);
-    pipeline_->reconfigure(changed.monitor);
+    pipeline_->strut().reconfigure(changed.monitor);
     options_ = changed;
   } catch (const std::invalid_argument& error) {
     NODELET_WARN("%s; all settings stay as they were", error.what());
@@ -105,7 +104,7 @@ void MonitorNodelet::subscribe() {
         ros::TransportHints().tcpNoDelay());
   };
   imu_ = {listen(Side::kSprung, "sprung/imu"), listen(Side::kUnsprung, "unsprung/imu")};
-  if (options_.shell.tyre) road_ = listen(Side::kRoad, "road/imu");
+  if (options_.monitor.tyre) road_ = listen(Side::kRoad, "road/imu");
 }
 
 void MonitorNodelet::stopListening(const std::string& reason) {
@@ -148,7 +147,7 @@ void MonitorNodelet::publish(const MonitorReport& report) {
   send(ls_, [&] { return toMsg(report.ls, "ls", header, effects, mass); });
   send(la_, [&] { return toMsg(report.la, "la", header, effects, mass); });
   if (report.comparison.has_sample) send(comparison_, [&] { return toMsg(report.comparison, header.frame_id); });
-  if (tyre_) tyre_->publish(*pipeline_->tyre(), report.la, header);
+  if (tyre_) tyre_->publish(*pipeline_->strut().tyre(), report.la, header);
   send(health_, [&] { return toMsg(report, pipeline_->monitor()->baseline(), header); });
 }
 
@@ -168,7 +167,7 @@ bool MonitorNodelet::onSetEffects(SetEffectsRequest& request, SetEffectsResponse
   try {
     std::vector<ActiveEffect> effects =
         model_->choose(request.names, shapesOf(request), [this] { return motionScaleNow(); });
-    pipeline_->setEffects(effects);
+    pipeline_->strut().setEffects(effects);
     model_->setEffects(std::move(effects));
     publishModel();
     response.success = true;
@@ -206,7 +205,7 @@ bool MonitorNodelet::onSaveModel(std_srvs::Trigger::Request&, std_srvs::Trigger:
 bool MonitorNodelet::onSaveBaseline(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   try {
     baseline_->save(pipeline_->monitor());
-    pipeline_->setBaseline(*baseline_->known());
+    pipeline_->strut().setBaseline(*baseline_->known());
     response.success = true;
     response.message = "health is judged by the strut as it is now; written to " + options_.shell.baseline_file;
   } catch (const std::runtime_error& error) {

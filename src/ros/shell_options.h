@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/monitor_options.h"
-#include "suspension_health_monitor/internal/signal/alignment.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
 
 namespace suspension_health_monitor {
 
@@ -17,7 +16,6 @@ struct ShellOptions {
   std::string target_frame;
   std::optional<double> sprung_range;
   std::optional<double> unsprung_range;
-  std::string alignment = "auto";
   double input_timeout = 2.0;
   std::optional<double> max_lag;
   std::optional<double> sprung_rate;
@@ -27,7 +25,6 @@ struct ShellOptions {
   std::string effects_file;
   double diagnose_window = 120.0;
   std::string baseline_file;
-  bool tyre = false;
   std::string road_axis = "z";
   int publish_every = 1;
 };
@@ -47,9 +44,6 @@ inline constexpr std::array kShellFields{
                &ShellOptions::sprung_range, 1e-6, 1e6},
     ShellField{"input", "unsprung_range", "m/s^2", "range of the wheel carrier IMU, likewise",
                &ShellOptions::unsprung_range, 1e-6, 1e6},
-    ShellField{"input", "alignment", "-",
-               "readings paired by stamp, resampled onto a grid, or auto: paired until that does badly",
-               &ShellOptions::alignment, 0, 0, kAlignmentNames},
     ShellField{"input", "input_timeout", "s",
                "silence of an IMU, by the clock and by the wall clock, that is reported as an error",
                &ShellOptions::input_timeout, 0.01, 3600.0},
@@ -74,9 +68,6 @@ inline constexpr std::array kShellFields{
         "health", "baseline_file", "-",
         "YAML file with the healthy strut: loaded if it is there, else written once learned, and by ~save_baseline",
         &ShellOptions::baseline_file},
-    ShellField{"tyre", "tyre/enabled", "-",
-               "listen to road/imu, an IMU where the tyre touches the road, and identify the tyre",
-               &ShellOptions::tyre},
     ShellField{"tyre", "tyre/road_axis", "-",
                "axis of the road's IMU (or of target_frame) that points up along the strut", &ShellOptions::road_axis,
                0, 0, kAxisNames},
@@ -93,19 +84,10 @@ struct PipelineOptions {
   /// @throws std::invalid_argument  naming an unknown name, or a value that is wrong and what is allowed.
   static PipelineOptions fromValues(OptionMap values) {
     PipelineOptions options;
-    options.monitor = MonitorOptions::takeFrom(values);
+    options.monitor = takeMonitorOptions(values);
     takeOptions(values, kShellFields, options.shell);
     refuseUnknown(values, describe());
-    options.monitor.validate();
-    return options;
-  }
-
-  /// @param period  sampling time [s].
-  GridOptions grid(double period) const {
-    GridOptions options;
-    options.alignment = alignment(shell.alignment);
-    options.fill_samples = 2 * monitor.horizonSamples(period);
-    options.has_road = shell.tyre;
+    MonitorSettings(options.monitor).validate();
     return options;
   }
 

@@ -41,14 +41,14 @@ void TyreOutput::publish(const TyreTracker& tracker, const StrutEstimate& strut,
 }
 
 void describeTyre(const ImuPipeline& pipeline, diagnostic_updater::DiagnosticStatusWrapper& status) {
-  if (pipeline.tyre() == nullptr) {
+  if (pipeline.strut().tyre() == nullptr) {
     status.summary(DiagnosticStatus::STALE, "measuring the sample period");
     return;
   }
-  const WheelEstimate& la = pipeline.tyre()->report().la;
+  const WheelEstimate& la = pipeline.strut().tyre()->report().la;
   if (la.valid())
     status.summary(DiagnosticStatus::OK, "wheel and tyre are known");
-  else if (!pipeline.grid()->roadAcceleration())
+  else if (!pipeline.strut().grid()->roadAcceleration())
     status.summary(DiagnosticStatus::WARN, "the road's IMU is silent");
   else
     status.summary(DiagnosticStatus::STALE, "cannot tell: no valid estimate (starting, parked, or poor input)");
@@ -58,7 +58,7 @@ void describeTyre(const ImuPipeline& pipeline, diagnostic_updater::DiagnosticSta
   status.addf("wheel hop [Hz]", "%.4g", la.wheelHopFrequency());
   if (const auto ratio = massRatio(pipeline.monitor()->report().la, la))
     status.addf("wheel mass / body mass", "%.4g", *ratio);
-  status.addf("horizon_samples", "%d", pipeline.tyre()->horizonSamples());
+  status.addf("horizon_samples", "%d", pipeline.strut().tyre()->horizonSamples());
 }
 
 }  // namespace suspension_health_monitor

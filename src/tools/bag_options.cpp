@@ -50,7 +50,7 @@ BagOptions readBagOptions(const po::variables_map& values) {
   const OptionMap settings =
       gatherOptions(values["config"].as<std::string>(), values["set"].as<std::vector<std::string>>());
   options.pipeline = PipelineOptions::fromValues(settings);
-  options.pipeline.shell.tyre = bags.topics.size() > 2;
+  options.pipeline.monitor.tyre = bags.topics.size() > 2;
   if (!options.pipeline.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
   MonitorOptions& monitor = options.pipeline.monitor;
   options.period_measured = !monitor.sample_period;

@@ -2,6 +2,10 @@
 
 #include <cstdio>
 #include <optional>
+#include <utility>
+
+#include "../ros/conversions.h"
+#include "../ros/strut_sensors.h"
 
 namespace suspension_health_monitor {
 
@@ -33,9 +37,7 @@ std::string describeStillness(const char* side, const StreamGate& gate) {
 
 std::string describeRejected(const RejectCounts& rejected) {
   std::string text;
-  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
-    if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
-      text += "; rejected " + std::string(kRejectReasonNames[i]) + ": " + std::to_string(count);
+  for (const auto& [reason, count] : rejected.byName()) text += "; rejected " + reason + ": " + std::to_string(count);
   return text;
 }
 
@@ -50,26 +52,31 @@ std::string describeSuspicions(const UniformGrid& grid, bool negative_damping) {
   return text;
 }
 
-StrutSensors readSamples(const ImuBags& bags, PipelineOptions options,
-                         const std::function<bool(const CornerSample&)>& take,
-                         const std::function<void(const BodyMotion&)>& take_body) {
-  options.shell.tyre = false;  // a sample has no part of the road
+ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
+                        const std::function<bool(const CornerSample&)>& take,
+                        const std::function<void(const BodyMotion&)>& take_body) {
   StrutSensors sensors(options.shell, bags.transforms.get());
-  sensors.start(options, *options.monitor.sample_period);
+  MonitorSettings settings = options.monitor;
+  settings.tyre = false;  // a sample has no part of the road
+  const double period = *settings.sample_period;
+  UniformGrid grid(period, settings.grid(period));
   Stamp last_body{};
   readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
     if (side == Side::kRoad) return true;
-    const std::optional<StrutSensors::Reading> reading = sensors.read(side, imu);
-    if (!reading) return true;
-    if (take_body && side == Side::kSprung && reading->stamp > last_body) {
-      last_body = reading->stamp;
+    const std::optional<double> acceleration = sensors.read(side, imu);
+    if (!acceleration) return true;
+    const Stamp stamp = toStamp(imu.header.stamp);
+    if (take_body && side == Side::kSprung && stamp > last_body) {
+      last_body = stamp;
       take_body(sensors.across(imu));
     }
-    for (auto sample = sensors.push(*reading); sample; sample = sensors.next())
+    for (auto sample = grid.push(side, stamp, *acceleration); sample; sample = grid.next())
       if (!take(*sample)) return false;
     return true;
   });
-  return sensors;
+  RejectCounts rejected = sensors.rejected();
+  rejected += grid.rejected();
+  return {std::move(grid), rejected};
 }
 
 }  // namespace suspension_health_monitor

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "../ros/shell_options.h"
-#include "../ros/strut_sensors.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/drive.h"
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 
@@ -17,14 +17,19 @@ std::string describeRejected(const RejectCounts& rejected);
 /// @return what in the readings may be why they show no strut: "; ..." for each suspicion, empty without any.
 std::string describeSuspicions(const UniformGrid& grid, bool negative_damping);
 
-/// Reads the bags as samples of the strut: acceleration along the axis, both sensors paired.
+/// What came of reading samples.
+struct ReadSamples {
+  UniformGrid grid;  ///< after the last reading
+  RejectCounts rejected;
+};
+
+/// Reads the bags as samples of the strut: acceleration along the axis, both sensors aligned.
 /// @param take  called with every sample; returns false to stop.
 /// @param take_body  if given, called with what the body's IMU measures across the strut, message by message, in the
 /// order of their stamps.
-/// @return the sensors after the last reading, with what they have kept out.
 /// @throws InputError, TooLittleError  as readImuMessages().
-StrutSensors readSamples(const ImuBags& bags, PipelineOptions options,
-                         const std::function<bool(const CornerSample&)>& take,
-                         const std::function<void(const BodyMotion&)>& take_body = {});
+ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
+                        const std::function<bool(const CornerSample&)>& take,
+                        const std::function<void(const BodyMotion&)>& take_body = {});
 
 }  // namespace suspension_health_monitor

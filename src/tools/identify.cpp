@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "../ros/conversions.h"
 #include "../ros/live_model.h"
 #include "../ros/strut_sensors.h"
 #include "../ros/whole_file.h"
@@ -15,7 +16,7 @@
 #include "identify_verdict.h"
 #include "interruption.h"
 #include "separate_files.h"
-#include "suspension_health_monitor/internal/drive_identification.h"
+#include "suspension_health_monitor/internal/monitor/drive_identification.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -199,18 +200,17 @@ void identify(const Arguments& arguments) {
   Digest digest;
   bool ever_valid = false;
   const PipelineOptions& pipeline = options.pipeline;
-  DriveIdentification identification(pipeline.monitor, pipeline.grid(*pipeline.monitor.sample_period),
-                                     [&](const MonitorReport& report) {
-                                       table.add(report);
-                                       if (!report.has_row) return;
-                                       ever_valid = ever_valid || report.la.valid() || report.ls.valid();
-                                       digest.add(report);
-                                     });
+  DriveIdentification identification(pipeline.monitor, [&](const MonitorReport& report) {
+    table.add(report);
+    if (!report.has_row) return;
+    ever_valid = ever_valid || report.la.valid() || report.ls.valid();
+    digest.add(report);
+  });
   identification.setEffects(model.effects());
-  StrutSensors sensors(pipeline.shell, options.bags.transforms.get());  // its readings; the grid is another
+  StrutSensors sensors(pipeline.shell, options.bags.transforms.get());
   readImuMessages(options.bags, [&](Side side, const sensor_msgs::Imu& imu) {
-    if (const auto reading = sensors.read(side, imu))
-      identification.push(reading->side, reading->stamp, reading->acceleration);
+    if (const auto acceleration = sensors.read(side, imu))
+      identification.push(side, toStamp(imu.header.stamp), *acceleration);
     return true;
   });
   RejectCounts rejected = sensors.rejected();

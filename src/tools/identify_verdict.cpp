@@ -1,6 +1,6 @@
 #include "identify_verdict.h"
 
-#include "suspension_health_monitor/internal/drive_identification.h"
+#include "suspension_health_monitor/internal/monitor/drive_identification.h"
 
 namespace suspension_health_monitor {
 

@@ -58,9 +58,9 @@ double measurePeriod(const ImuBags& bags) {
 
 /// What a survey came across.
 struct Surveyed {
-  StrutSensors sensors;
+  UniformGrid grid;
   std::size_t samples, gaps;
-  RejectCounts too_soon;
+  RejectCounts rejected;
 };
 
 Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOptions& options) {
@@ -68,7 +68,7 @@ Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOpti
   std::optional<Stamp> last;
   std::size_t count = 0, gaps = 0;
   RejectCounts too_soon;
-  StrutSensors sensors = readSamples(bags, options, [&](const CornerSample& sample) {
+  ReadSamples read = readSamples(bags, options, [&](const CornerSample& sample) {
     const Continuity follows = last ? continuity(sample.stamp - *last, period) : Continuity::kContinues;
     const bool is_extra = follows == Continuity::kTooSoon;
     if (follows == Continuity::kGap || follows == Continuity::kClockJumped) {
@@ -81,23 +81,22 @@ Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOpti
     ++count;
     return true;
   });
-  return {std::move(sensors), count, gaps, too_soon};
+  read.rejected += too_soon;
+  return {std::move(read.grid), count, gaps, read.rejected};
 }
 
 [[noreturn]] void refuse(const Surveyed& surveyed, const HorizonSurvey& survey) {
-  RejectCounts rejected = surveyed.sensors.rejected();
-  rejected += surveyed.too_soon;
   throw TooLittleError(
       "no horizon can be proposed: " +
       std::string(surveyed.samples == 0 ? "no pair of readings can be used" : "the data show no damped spring") +
       " (samples " + std::to_string(surveyed.samples) + ", gaps " + std::to_string(surveyed.gaps) +
-      describeRejected(rejected) + ")" + describeSuspicions(*surveyed.sensors.grid(), survey.dampingIsNegative()) +
+      describeRejected(surveyed.rejected) + ")" + describeSuspicions(surveyed.grid, survey.dampingIsNegative()) +
       "; give integration_horizon (--set integration_horizon=0.6) to look at them all the same");
 }
 
 int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
   const double period = *options.monitor.sample_period;
-  const IntegrationRule rule = options.monitor.estimators.rule;
+  const IntegrationRule rule = MonitorSettings(options.monitor).estimators.rule;
   const double share = std::max(kSurveyedShare, kFewestSurveyed * period / duration(bags));
   if (share < 1.0) {
     ImuBags stretches = bags;

@@ -18,7 +18,7 @@ constexpr double kB1 = 3.0, kB0 = 13.8;  // [1/s], [1/s^2]
 /// A strut over a wheel whose height is given, and sensors with noise.
 class DrivenStrut {
  public:
-  explicit DrivenStrut(const MonitorOptions& options, std::uint64_t seed = 11) : monitor_(options), engine_(seed) {}
+  explicit DrivenStrut(const MonitorSettings& options, std::uint64_t seed = 11) : monitor_(options), engine_(seed) {}
 
   double b1 = kB1, b0 = kB0, noise = 0.024;
 

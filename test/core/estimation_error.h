@@ -29,7 +29,7 @@ struct EstimatorErrors {
 };
 
 /// rms difference between estimates and truth, row by row, once 10 s have passed.
-inline EstimatorErrors rmsErrors(const std::vector<DriveSample>& drive, const MonitorOptions& options) {
+inline EstimatorErrors rmsErrors(const std::vector<DriveSample>& drive, const MonitorSettings& options) {
   SuspensionMonitor monitor(options);
   EstimatorErrors sum;
   double count = 0.0;

@@ -31,6 +31,18 @@ TEST(Example, ArraysAreIdentified) {
   EXPECT_EQ(text.find("not valid"), std::string::npos) << text;
 }
 
+TEST(Example, AStrutIsMonitoredLive) {
+  const std::string text = outputOf("monitor_live");
+  EXPECT_NE(text.find("level 0: "), std::string::npos) << text;
+  const auto worn = text.find("level 2: damping ");
+  ASSERT_NE(worn, std::string::npos) << text;
+  double percent = 0.0, damping = 0.0;
+  EXPECT_EQ(std::sscanf(text.c_str() + worn, "level 2: damping %lf %% below nominal", &percent), 1) << text;
+  const auto end = text.find("at the end: ");
+  ASSERT_EQ(std::sscanf(text.c_str() + end, "at the end: damping/mass %lf", &damping), 1) << text;
+  EXPECT_NEAR(damping, 2.0, 0.1) << text;
+}
+
 TEST(Example, ArraysAreDiagnosed) {
   const std::string text = outputOf("diagnose_arrays");
   EXPECT_NE(text.find("a spring and a damper: "), std::string::npos) << text;

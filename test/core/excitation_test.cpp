@@ -163,7 +163,7 @@ TEST(Excitation, OfALightlyDampedStrutOnASmootherRoadGoesOn) {
 }
 
 TEST(Excitation, ExponentialForgettingLosesTheParkedStrut) {
-  MonitorOptions options = liveOptions();
+  MonitorSettings options = liveOptions();
   options.estimators.forgets_unexcited = true;
   DrivenStrut strut(options);
   strut.drive(2000, roadBetween(0.0, 1e9));

@@ -12,7 +12,7 @@ struct FirstAlarms {
   std::optional<double> early, warn, error;  ///< [s]
 };
 
-inline FirstAlarms firstAlarms(const std::vector<CornerSample>& drive, const MonitorOptions& options) {
+inline FirstAlarms firstAlarms(const std::vector<CornerSample>& drive, const MonitorSettings& options) {
   FirstAlarms first;
   SuspensionMonitor monitor(options);
   for (const CornerSample& sample : drive) {

@@ -131,7 +131,7 @@ TEST(FreeRun, RunsAwayWhereEffectsThatCancelHaveForcesThatNoColumnCanHold) {
 
 TEST(FreeRun, RefusesEffectsThatItCannotHold) {
   FreeRun run = paperFreeRun();
-  const std::vector<ActiveEffect> many(StrutState::kMostEffects + 1, active("asymmetric_spring", 1.0));
+  const std::vector<ActiveEffect> many(kMostEffects + 1, active("asymmetric_spring", 1.0));
   EXPECT_THROW(run.setEffects(many), std::invalid_argument);
   EXPECT_THROW(run.setEffects({active("bump_stop", 1.0)}), std::invalid_argument);
   EXPECT_THROW(run.setEffects({active("bump_stop", std::nan(""), {0.1})}), std::invalid_argument);

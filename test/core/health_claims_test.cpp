@@ -13,14 +13,14 @@
 namespace suspension_health_monitor {
 namespace {
 
-MonitorOptions judgedOptions() {
-  MonitorOptions options = liveOptions();
+MonitorSettings judgedOptions() {
+  MonitorSettings options = liveOptions();
   options.nominal_damping_to_mass = kPaperB1;
   options.nominal_stiffness_to_mass = kPaperB0;
   return options;
 }
 
-HealthReport healthAfter(const std::vector<CornerSample>& drive, const MonitorOptions& options) {
+HealthReport healthAfter(const std::vector<CornerSample>& drive, const MonitorSettings& options) {
   SuspensionMonitor monitor(options);
   for (const CornerSample& sample : drive) monitor.addSample(sample);
   return monitor.report().health;
@@ -51,7 +51,7 @@ TEST(Health, WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp) {
 // With the paper's settings a standard deviation of the change is up to 4 %, twice the hysteresis. Once in 30 drives is
 // measured over 60; so fifteen have at most three, but once in 500 times.
 TEST(Health, LevelsDoNotFlickerOnTheWayDown) {
-  MonitorOptions options = paperOptions();
+  MonitorSettings options = paperOptions();
   options.nominal_damping_to_mass = kPaperB1;
   options.nominal_stiffness_to_mass = kPaperB0;
   int taken_back = 0, errors = 0;
@@ -119,7 +119,7 @@ TEST(Health, HealthyDriveWithOutliersAndBumpsNeverWarns) {
 }
 
 TEST(Health, LearnsTheBaselineAndJudgesByIt) {
-  MonitorOptions options = liveOptions();
+  MonitorSettings options = liveOptions();
   options.learn_time = 30.0;
   SimulationOptions drive;
   drive.ramp_start = 60.0;
@@ -141,7 +141,7 @@ TEST(Health, LearnsTheBaselineAndJudgesByIt) {
 }
 
 TEST(Health, DoesNotLearnAStrutThatIsWearingOut) {
-  MonitorOptions options = liveOptions();
+  MonitorSettings options = liveOptions();
   options.learn_time = 50.0;
   SimulationOptions drive;
   drive.ramp_start = 2.0;
@@ -167,7 +167,7 @@ TEST(Health, TellsPayloadFromWear) {
   EXPECT_EQ(both.damping_level, HealthLevel::kError) << describe(both);
   EXPECT_EQ(both.stiffness_level, HealthLevel::kOk) << describe(both);
   EXPECT_NEAR(*both.damping_change, -0.4, 0.05);
-  MonitorOptions no_payload = judgedOptions();
+  MonitorSettings no_payload = judgedOptions();
   no_payload.payload_range = 0.0;
   loaded.damping_to_mass = kPaperB1 / 1.3;
   EXPECT_EQ(healthAfter(simulate(loaded), no_payload).level, HealthLevel::kWarn);
@@ -199,7 +199,7 @@ TEST(Health, TellsASensorFaultFromADamper) {
     EXPECT_NE(report.level, HealthLevel::kOk);  // a large offset leaves no valid estimate
     EXPECT_NE(report.level, HealthLevel::kError);
   }
-  MonitorOptions not_judged = judgedOptions();
+  MonitorSettings not_judged = judgedOptions();
   not_judged.gravity_tolerance = 0.0;
   EXPECT_EQ(healthAfter(withGravity(drive, 1.0, 2.0), not_judged).sensor.fault, SensorFault::kUnrelated);
 }

@@ -170,6 +170,16 @@ TEST(BaselineLearner, IsTheMeanOfTheStretchWithItsUncertainty) {
   EXPECT_EQ(learned->to, fromSeconds(404.0));
 }
 
+TEST(BaselineLearner, TakesNoTwoDrivesForOne) {
+  BaselineLearner learner(4000.0, 100.0);
+  for (int k = 0; k < 300; ++k) ASSERT_FALSE(learner.add(fromSeconds(k), estimate(3.0, 13.8), 10.0));
+  std::optional<Baseline> learned;
+  for (int k = 100; !learned; ++k) learned = learner.add(fromSeconds(k), estimate(2.0, 20.0), 10.0);
+  EXPECT_NEAR(*learned->damping_to_mass, 2.0, 1e-9);
+  EXPECT_EQ(learned->from, fromSeconds(100.0));
+  EXPECT_EQ(learned->to, fromSeconds(499.0));
+}
+
 TEST(BaselineLearner, DoesNotTakeAChangingStrutAsHealthy) {
   for (const bool stiffness : {false, true}) {
     BaselineLearner learner(4000.0, 100.0);

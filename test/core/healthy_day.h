@@ -18,7 +18,7 @@ struct DayCounts {
 /// minutes two bumps into the stops, at 85 s and 110 s.
 /// @param noise  distribution of a reading's error [m/s^2].
 template <class Noise>
-DayCounts healthyDay(const MonitorOptions& options, double hours, unsigned seed, Noise noise) {
+DayCounts healthyDay(const MonitorSettings& options, double hours, unsigned seed, Noise noise) {
   constexpr double kSampling = 0.02;
   SimulationOptions drive;
   drive.scenario = "paper_saturation";

@@ -80,7 +80,7 @@ inline int proposedHorizon(const CleanDrive& drive, double noise) {
 
 /// @param options  without a sample_period.  @param seeds  number of times that the drive is measured.
 /// The intervals are looked at every three memories of LS, from the tenth memory on.
-inline Coverages coverageOf(const CleanDrive& drive, double noise, MonitorOptions options, int seeds) {
+inline Coverages coverageOf(const CleanDrive& drive, double noise, MonitorSettings options, int seeds) {
   options.sample_period = drive.period;
   const double memory = 1.0 / (1.0 - options.forgetting_factor);
   const auto every = static_cast<std::uint64_t>(3.0 * memory), first = static_cast<std::uint64_t>(10.0 * memory);

@@ -22,7 +22,7 @@ TEST(IntervalCoverage, OfEstimatesAndTheirStandardDeviationsIs95Percent) {
     const CleanDrive drive = cleanDrive(simulation);
     const int proposed = proposedHorizon(drive, 0.03);
     for (const double horizon : {0.6, 1.0, 1.6}) {
-      MonitorOptions options;
+      MonitorSettings options;
       options.integration_horizon = horizon * proposed / simulation.rate;
       all += coverageOf(drive, 0.03, options, 12);
     }

@@ -19,8 +19,8 @@ constexpr double kNoise = 0.03;                // [m/s^2]
 constexpr std::size_t kDelay = FreeRun::kDelay;
 constexpr int kHorizon = 60;
 
-MonitorOptions carMonitor(double forgetting_factor) {
-  MonitorOptions options;
+MonitorSettings carMonitor(double forgetting_factor) {
+  MonitorSettings options;
   options.sample_period = 0.01;
   options.forgetting_factor = forgetting_factor;
   return options;

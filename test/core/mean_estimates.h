@@ -20,7 +20,7 @@ struct MeanEstimates {
 /// Identifies a strut by the readings of sensors as they come, gravity included.
 inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignment) {
   constexpr double kSettled = 20.0, kGravity = 9.81;  // [s], [m/s^2]
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = kAlignedPeriod;
   options.forgetting_factor = 0.999;
   SuspensionMonitor monitor(options);

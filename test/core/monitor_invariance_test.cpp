@@ -66,7 +66,7 @@ TEST(MonitorInvariance, GravityInBothReadingsChangesNothing) {
 // The strut s times faster, sampled s times faster, with the memory in samples: b1 s times, b0 s^2 times as large.
 TEST(MonitorInvariance, TimeScalesTheParameters) {
   constexpr double kFaster = 64.0;
-  MonitorOptions fast_options = liveOptions();
+  MonitorSettings fast_options = liveOptions();
   fast_options.sample_period = 0.02 / kFaster;
   fast_options.integration_horizon = 0.6 / kFaster;
   SuspensionMonitor reference(liveOptions()), fast(fast_options);

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/monitor_options.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,12 +7,13 @@
 
 #include "monitor_settings.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-std::string complaint(const std::function<void(MonitorOptions&)>& change) {
-  MonitorOptions options = liveOptions();
+std::string complaint(const std::function<void(MonitorSettings&)>& change) {
+  MonitorSettings options = liveOptions();
   change(options);
   try {
     SuspensionMonitor monitor(options);
@@ -28,8 +27,8 @@ void expectWords(const std::string& message, const std::string& words) {
   EXPECT_NE(message.find(words), std::string::npos) << "got: \"" << message << '"';
 }
 
-TEST(MonitorOptions, HorizonIsTheNearestNumberOfSamples) {
-  MonitorOptions options;
+TEST(MonitorSettings, HorizonIsTheNearestNumberOfSamples) {
+  MonitorSettings options;
   EXPECT_EQ(options.horizonSamples(0.02), 30);  // 0.6 s if it is left out
   EXPECT_EQ(options.horizonSamples(0.005), 120);
   options.integration_horizon = 0.4;
@@ -42,8 +41,8 @@ TEST(MonitorOptions, HorizonIsTheNearestNumberOfSamples) {
     }
 }
 
-TEST(MonitorOptions, MonitorUsesTheHorizon) {
-  MonitorOptions options = liveOptions();
+TEST(MonitorSettings, MonitorUsesTheHorizon) {
+  MonitorSettings options = liveOptions();
   options.integration_horizon = 0.4;
   SuspensionMonitor monitor(options);
   EXPECT_EQ(monitor.horizonSamples(), 20);
@@ -53,10 +52,10 @@ TEST(MonitorOptions, MonitorUsesTheHorizon) {
   }
 }
 
-TEST(MonitorOptions, PresetGivesWhatIsNotGiven) {
+TEST(MonitorSettings, PresetGivesWhatIsNotGiven) {
   OptionMap nothing, one_line{{"preset", "paper"}}, with_factor{{"preset", "paper"}, {"forgetting_factor", 0.97}};
-  EXPECT_EQ(MonitorOptions::takeFrom(nothing).forgetting_factor, MonitorOptions{}.forgetting_factor);
-  const MonitorOptions paper = MonitorOptions::takeFrom(one_line), other = MonitorOptions::takeFrom(with_factor);
+  EXPECT_EQ(takeMonitorOptions(nothing).forgetting_factor, MonitorSettings{}.forgetting_factor);
+  const MonitorSettings paper = takeMonitorOptions(one_line), other = takeMonitorOptions(with_factor);
   EXPECT_EQ(paper.preset, "paper");
   EXPECT_EQ(paper.forgetting_factor, 0.98);
   EXPECT_EQ(paper.integration_horizon, 0.6);
@@ -64,11 +63,11 @@ TEST(MonitorOptions, PresetGivesWhatIsNotGiven) {
   EXPECT_EQ(other.forgetting_factor, 0.97);
   EXPECT_EQ(other.estimators.rule, IntegrationRule::kTrapezoid);
   OptionMap wrong{{"preset", "papier"}};
-  EXPECT_THROW(MonitorOptions::takeFrom(wrong), std::invalid_argument);
+  EXPECT_THROW(takeMonitorOptions(wrong), std::invalid_argument);
 }
 
-TEST(MonitorOptions, SettingsReachTheEstimators) {
-  const MonitorOptions paper = paperOptions();
+TEST(MonitorSettings, SettingsReachTheEstimators) {
+  const MonitorSettings paper = paperOptions();
   EXPECT_EQ(paper.filter(0.02).horizon_samples, 30);
   EXPECT_EQ(paper.filter(0.02).period, 0.02);
   EXPECT_EQ(paper.filter(0.02).rule, IntegrationRule::kTrapezoid);
@@ -78,10 +77,10 @@ TEST(MonitorOptions, SettingsReachTheEstimators) {
   EXPECT_EQ(paper.leastAbsolute().small_divisor_rule, SmallDivisor::kAbsolute);
   EXPECT_EQ(paper.leastAbsolute().small_divisor, 1e-8);
   EXPECT_FALSE(paper.leastAbsolute().scale_covariance_at_start);
-  const MonitorOptions live = liveOptions();
+  const MonitorSettings live = liveOptions();
   EXPECT_EQ(live.recursive().initial_variance_rule, InitialVariance::kRelative);
   EXPECT_EQ(live.leastAbsolute().small_divisor_rule, SmallDivisor::kRelative);
-  MonitorOptions health;
+  MonitorSettings health;
   health.nominal_damping_to_mass = 1.0;
   health.nominal_stiffness_to_mass = 2.0;
   health.damping_warn = 0.3;
@@ -98,40 +97,41 @@ TEST(MonitorOptions, SettingsReachTheEstimators) {
   EXPECT_EQ(health.health(0.02).confirm_time, 7.0);
 }
 
-TEST(MonitorOptions, DefaultsAreValidWithAndWithoutASamplePeriod) {
-  EXPECT_NO_THROW(MonitorOptions{}.validate());
+TEST(MonitorSettings, DefaultsAreValidWithAndWithoutASamplePeriod) {
+  EXPECT_NO_THROW(MonitorSettings{}.validate());
   EXPECT_NO_THROW(liveOptions().validate());
   EXPECT_NO_THROW(paperOptions().validate());
 }
 
-TEST(MonitorOptions, MonitorNeedsASamplePeriod) {
-  expectWords(complaint([](MonitorOptions& o) { o.sample_period.reset(); }), "sample_period");
+TEST(MonitorSettings, MonitorNeedsASamplePeriod) {
+  expectWords(complaint([](MonitorSettings& o) { o.sample_period.reset(); }), "sample_period");
 }
 
-TEST(MonitorOptions, AreRefusedByNameAndValue) {
-  expectWords(complaint([](MonitorOptions& o) { o.sample_period = -0.02; }), "sample_period = -0.02 [s], must be in");
-  expectWords(complaint([](MonitorOptions& o) { o.forgetting_factor = 1.2; }),
+TEST(MonitorSettings, AreRefusedByNameAndValue) {
+  expectWords(complaint([](MonitorSettings& o) { o.sample_period = -0.02; }), "sample_period = -0.02 [s], must be in");
+  expectWords(complaint([](MonitorSettings& o) { o.forgetting_factor = 1.2; }),
               "forgetting_factor = 1.2 [-], must be in");
-  expectWords(complaint([](MonitorOptions& o) { o.forgetting_factor = std::nan(""); }), "forgetting_factor = nan");
-  expectWords(complaint([](MonitorOptions& o) { o.preset = "default paper"; }), "preset = \"default paper\"");
-  expectWords(complaint([](MonitorOptions& o) { o.estimators.least_absolute.start_rows = 0; }), "start_rows = 0");
-  expectWords(complaint([](MonitorOptions& o) { o.sprung_mass = 0.0; }), "sprung_mass = 0 [kg]");
+  expectWords(complaint([](MonitorSettings& o) { o.forgetting_factor = std::nan(""); }), "forgetting_factor = nan");
+  expectWords(complaint([](MonitorSettings& o) { o.preset = "default paper"; }), "preset = \"default paper\"");
+  expectWords(complaint([](MonitorSettings& o) { o.estimators.least_absolute.start_rows = 0; }), "start_rows = 0");
+  expectWords(complaint([](MonitorSettings& o) { o.sprung_mass = 0.0; }), "sprung_mass = 0 [kg]");
 }
 
-TEST(MonitorOptions, ThatContradictEachOtherAreRefused) {
-  expectWords(complaint([](MonitorOptions& o) { o.stiffness_error = 0.1; }), "health/stiffness_error = 0.1");
-  expectWords(complaint([](MonitorOptions& o) {
+TEST(MonitorSettings, ThatContradictEachOtherAreRefused) {
+  expectWords(complaint([](MonitorSettings& o) { o.stiffness_error = 0.1; }), "health/stiffness_error = 0.1");
+  expectWords(complaint([](MonitorSettings& o) {
                 o.estimators.rule = IntegrationRule::kSimpson;
                 o.integration_horizon = 0.62;
               }),
               "horizon_samples = 31, must be even");
-  const std::string message = complaint([](MonitorOptions& o) { o.integration_horizon = 0.08; });
+  const std::string message = complaint([](MonitorSettings& o) { o.integration_horizon = 0.08; });
   expectWords(message, "integration_horizon = 0.08");
   expectWords(message, "horizon_samples = 4, must be at least 5");
 }
 
-TEST(MonitorOptions, HorizonOfTooManySamplesIsRefusedNotShortened) {
-  const std::string message = complaint([](MonitorOptions& o) { o.sample_period = 1e-3, o.integration_horizon = 1e3; });
+TEST(MonitorSettings, HorizonOfTooManySamplesIsRefusedNotShortened) {
+  const std::string message =
+      complaint([](MonitorSettings& o) { o.sample_period = 1e-3, o.integration_horizon = 1e3; });
   expectWords(message, "integration_horizon = 1000");
   expectWords(message, "at most 100000 samples");
 }

@@ -2,28 +2,28 @@
 
 #include <optional>
 
-#include "suspension_health_monitor/internal/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
 
 namespace suspension_health_monitor {
 
 /// The defaults at the paper's sampling time.
-inline MonitorOptions liveOptions() {
-  MonitorOptions options;
+inline MonitorSettings liveOptions() {
+  MonitorSettings options;
   options.sample_period = 0.02;
   return options;
 }
 
 /// The defaults with other forgetting factors.
-inline MonitorOptions optionsWith(double slow, std::optional<double> fastest) {
-  MonitorOptions options = liveOptions();
+inline MonitorSettings optionsWith(double slow, std::optional<double> fastest) {
+  MonitorSettings options = liveOptions();
   options.forgetting_factor = slow;
   options.fastest_forgetting_factor = fastest;
   return options;
 }
 
 /// Section 3.2 and 4 of the paper, as in config/paper.yaml.
-inline MonitorOptions paperOptions() {
-  MonitorOptions options = MonitorOptions::of("paper");
+inline MonitorSettings paperOptions() {
+  MonitorSettings options = MonitorOptions::of("paper");
   options.sample_period = 0.02;
   return options;
 }

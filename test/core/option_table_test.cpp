@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {

@@ -73,7 +73,7 @@ TEST(OutsideForce, IsNotSuspectedOnAnyRoad) {
       road.damping_end_fraction = damping;
       road.ramp_start = 20.0;
       road.ramp_end = 20.01;
-      MonitorOptions options;
+      MonitorSettings options;
       options.sample_period = 1.0 / road.rate;
       SuspensionMonitor monitor(options);
       int suspected = 0;
@@ -121,7 +121,7 @@ TEST(Health, ParkedCarThatTheWindRocksHasNoBrokenStrut) {
   const std::vector<DriveSample> driven = drive(road);
   for (const double frequency : {0.8, 1.0, 1.27, 1.5, 2.0})
     for (const double force : {0.1, 0.3}) {
-      MonitorOptions options;
+      MonitorSettings options;
       options.sample_period = 1.0 / RockedCar::kRate;
       options.integration_horizon = 0.3;
       options.forgetting_factor = 0.995;

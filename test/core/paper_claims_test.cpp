@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kNumSeeds = 20;
 
-MonitorOptions liveOptionsWithThePapersDivisor() {
-  MonitorOptions options = liveOptions();
+MonitorSettings liveOptionsWithThePapersDivisor() {
+  MonitorSettings options = liveOptions();
   options.estimators.least_absolute.small_divisor_rule = SmallDivisor::kAbsolute;
   options.estimators.least_absolute.small_divisor = 1e-8;
   return options;
@@ -68,7 +68,7 @@ TEST(PaperClaims, EndStopsThrowLeastSquaresOffAndLeaveLeastAbsoluteAlone) {
 }
 
 TEST(PaperClaims, LiveDefaultsAreThoseOfTheTable) {
-  const MonitorOptions options;
+  const MonitorSettings options;
   EXPECT_EQ(options.forgetting_factor, 0.99);
   EXPECT_EQ(options.leastAbsolute().small_divisor_rule, SmallDivisor::kRelative);
   EXPECT_EQ(options.leastAbsolute().small_divisor, 0.2);

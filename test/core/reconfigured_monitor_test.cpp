@@ -47,7 +47,7 @@ TEST(ReconfiguredMonitor, EstimatesGoOnFromWhereTheyAre) {
   SuspensionMonitor monitor(liveOptions()), left_alone(liveOptions());
   feed(monitor, samples, 0, 1500);
   feed(left_alone, samples, 0, 1501);
-  MonitorOptions options = monitor.options();
+  MonitorSettings options = monitor.options();
   options.forgetting_factor = 0.998;
   monitor.reconfigure(options);
   const MonitorReport* after = monitor.addSample(samples[1500]);
@@ -75,7 +75,7 @@ TEST(ReconfiguredMonitor, TheSameOptionsChangeNothing) {
 }
 
 TEST(ReconfiguredMonitor, ThresholdsHoldAtOnceAndImpossibleOnesAreRefused) {
-  MonitorOptions options = liveOptions();
+  MonitorSettings options = liveOptions();
   options.nominal_damping_to_mass = kPaperB1 / 0.75;
   options.nominal_stiffness_to_mass = kPaperB0;
   options.damping_error = 0.5;

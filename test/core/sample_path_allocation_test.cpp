@@ -69,7 +69,7 @@ TEST(SamplePath, AllocatesNothingInTheStrutRegressionWithBothEstimators) {
 }
 
 TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 0.02;
   options.nominal_damping_to_mass = kPaperB1;
   options.nominal_stiffness_to_mass = kPaperB0;
@@ -94,7 +94,7 @@ TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {
 }
 
 TEST(SamplePath, AllocatesNothingInTheTyreTrackerWhateverTheInput) {
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 0.02;
   TyreTracker tracker(options);
   Stamp stamp{};
@@ -112,7 +112,7 @@ TEST(SamplePath, AllocatesNothingInTheTyreTrackerWhateverTheInput) {
 }
 
 TEST(SamplePath, AllocatesNothingWithAVariableForgettingFactor) {
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 0.02;
   options.fastest_forgetting_factor = 0.97;
   options.nominal_damping_to_mass = kPaperB1;
@@ -172,7 +172,7 @@ TEST(SamplePath, AllocatesNothingInLawsOfTheUser) {
 }
 
 TEST(SamplePath, AllocatesNothingInAMonitorWithEffectsOverGapsAndRunaways) {
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 0.02;
   SuspensionMonitor monitor(options);
   std::vector<ActiveEffect> effects;

@@ -18,7 +18,7 @@ using Change = std::function<void(double& sprung, double& unsprung)>;
 /// @return what is said of the sensors after a drive of 60 s whose readings are changed.
 /// @param gravity  that both of them read [m/s^2].
 /// @param settings  of the monitor, but for the sample period.
-SensorFault faultOf(SimulationOptions options, double gravity, const Change& change, MonitorOptions settings = {}) {
+SensorFault faultOf(SimulationOptions options, double gravity, const Change& change, MonitorSettings settings = {}) {
   options.duration = 60.0;
   options.rate = 100.0;
   settings.sample_period = 0.01;
@@ -71,7 +71,7 @@ TEST(SensorCheck, SuspectsNothingInHealthyDrives) {
 // A mean over less than a sample, and over a few, is none.
 TEST(SensorCheck, SuspectsNothingWithAShortWindowOrALongHorizon) {
   const Change none = [](double&, double&) {};
-  MonitorOptions settings;
+  MonitorSettings settings;
   for (const double window : {0.001, 0.1, 0.3, 1.0, 3.0}) {
     settings.comparison_window = window;
     for (const double gravity : {0.0, 9.81})

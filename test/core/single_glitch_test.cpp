@@ -18,8 +18,8 @@ std::vector<CornerSample> driveWithGlitch(double seconds, double size, int seed)
   return samples;
 }
 
-MonitorOptions options() {
-  MonitorOptions options;
+MonitorSettings options() {
+  MonitorSettings options;
   options.sample_period = kPeriod;
   return options;
 }

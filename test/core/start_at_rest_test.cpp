@@ -13,7 +13,7 @@ namespace {
 // @return what is known after 90 s of the paper's road, driven after so long a rest.
 MonitorReport afterRestOf(double seconds) {
   constexpr double kPeriod = 0.02, kNoise = 0.024;
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = kPeriod;
   SuspensionMonitor monitor(options);
   std::mt19937_64 random(3);

@@ -32,9 +32,9 @@ void expectSameParameters(const StrutEstimate& a, const StrutEstimate& b) {
 
 // As long as every row counts: a second of zeros may be held for rest, a drive without it is not.
 TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
-  MonitorOptions exponential = liveOptions();
+  MonitorSettings exponential = liveOptions();
   exponential.estimators.forgets_unexcited = true;
-  const std::vector<std::pair<MonitorOptions, const char*>> cases{
+  const std::vector<std::pair<MonitorSettings, const char*>> cases{
       {exponential, "paper_outliers"}, {paperOptions(), "paper_outliers"}, {liveOptions(), "paper_clean"}};
   for (const auto& [options, scenario] : cases) {
     SimulationOptions drive;
@@ -67,7 +67,7 @@ TEST(SuspensionMonitor, AnEstimateWhoseFreeRunFailsIsNotValidAtAnySample) {
   drive.vehicle = "ugv";
   drive.rate = 100.0;
   const std::vector<CornerSample> samples = simulate(drive);
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 0.01;
   options.integration_horizon = 0.1;
   SuspensionMonitor monitor(options);
@@ -242,7 +242,7 @@ TEST(SuspensionMonitor, StampsNeedNoCommonOriginWithTheUnixEpoch) {
 }
 
 TEST(SuspensionMonitor, WarnsOfAWornDamper) {
-  MonitorOptions options = liveOptions();
+  MonitorSettings options = liveOptions();
   options.nominal_damping_to_mass = kPaperB1;
   options.nominal_stiffness_to_mass = kPaperB0;
   SuspensionMonitor monitor(options);

@@ -38,7 +38,7 @@ void add(const WheelEstimate& estimate, const QuarterCar& car, std::array<Covera
 
 /// The three sensors read with normal white noise of the same size. Looked at every three memories, from the tenth on.
 void measure(const CleanTyreDrive& clean, double noise, unsigned seed, double lambda, TyreCoverages& coverages) {
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 1.0 / clean.simulation.rate;
   options.forgetting_factor = lambda;
   TyreTracker tracker(options);

@@ -21,8 +21,8 @@ SimulationOptions roadDrive(const std::string& vehicle, double noise, double dur
   return options;
 }
 
-MonitorOptions neverForgetting() {
-  MonitorOptions options;
+MonitorSettings neverForgetting() {
+  MonitorSettings options;
   options.sample_period = 1.0 / kRate;
   options.forgetting_factor = 1.0;
   return options;
@@ -64,7 +64,7 @@ TEST(TyreRegression, EqualsTheIntegralsOfASineInClosedForm) {
 
 // A rest, before the drive and in it, teaches nothing of how the estimates scatter.
 TEST(TyreTracker, KnowsItsSpreadAfterARest) {
-  MonitorOptions options = neverForgetting();
+  MonitorSettings options = neverForgetting();
   options.forgetting_factor = 0.998;
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, 0.024);
@@ -157,7 +157,7 @@ TEST(TyreTracker, OneMissingReadingEmptiesTheFilterAndKeepsTheEstimate) {
 }
 
 TEST(TyreTracker, HorizonIsAnEighthOfTheStrutsOfAtLeastFiveSamples) {
-  MonitorOptions options = neverForgetting();
+  MonitorSettings options = neverForgetting();
   EXPECT_EQ(TyreTracker(options).horizonSamples(), 75);
   options.integration_horizon = 0.02;
   EXPECT_EQ(TyreTracker(options).horizonSamples(), 5);
@@ -165,7 +165,7 @@ TEST(TyreTracker, HorizonIsAnEighthOfTheStrutsOfAtLeastFiveSamples) {
 
 // The same rows with another factor: that of a tracker that has had it from the start, once the rest is forgotten.
 TEST(TyreTracker, TakesOverANewForgettingFactorAndKeepsItsEstimates) {
-  MonitorOptions options = neverForgetting();
+  MonitorSettings options = neverForgetting();
   TyreTracker tracker(options);
   options.forgetting_factor = 0.99;
   TyreTracker forgetting(options);

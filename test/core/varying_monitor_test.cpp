@@ -124,7 +124,7 @@ TEST(VaryingMonitor, TheScaleOfDataAndTimeDoesNotMatter) {
   constexpr double kQuicker = 115.0, kSmaller = 1e-4;
   SimulationOptions drive;
   drive.seed = 303;
-  MonitorOptions options = optionsWith(kSlow, kFastest), small = options;
+  MonitorSettings options = optionsWith(kSlow, kFastest), small = options;
   options.integration_horizon = 30 * *options.sample_period;
   small.sample_period = 0.02 / kQuicker;
   small.integration_horizon = 30 * *small.sample_period;
@@ -144,7 +144,7 @@ TEST(VaryingMonitor, TheScaleOfDataAndTimeDoesNotMatter) {
 
 // As Health.WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp, with the trends over the present memory.
 TEST(VaryingMonitor, HealthWarnsWithinFiveSecondsOnThePapersRamp) {
-  MonitorOptions options = optionsWith(0.99, kFastest);
+  MonitorSettings options = optionsWith(0.99, kFastest);
   options.nominal_damping_to_mass = kPaperB1;
   options.nominal_stiffness_to_mass = kPaperB0;
   for (int seed = 1; seed <= kNumSeeds; ++seed) {

@@ -11,8 +11,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-MonitorOptions optionsAt(double sample_period) {
-  MonitorOptions options = liveOptions();
+MonitorSettings optionsAt(double sample_period) {
+  MonitorSettings options = liveOptions();
   options.sample_period = sample_period;
   options.nominal_damping_to_mass = kPaperB1;
   options.nominal_stiffness_to_mass = kPaperB0;
@@ -69,7 +69,7 @@ TEST(WrongPeriod, SurvivesAnotherForgettingFactor) {
   const auto drive = healthyPaperDrive(20.0, 0.024);
   for (std::size_t k = 0; k < drive.size(); ++k) {
     if (k == 900) {
-      MonitorOptions other = monitor.options();
+      MonitorSettings other = monitor.options();
       other.forgetting_factor = 0.98;
       monitor.reconfigure(other);
     }
@@ -83,7 +83,7 @@ TEST(WrongPeriod, LeavesNoTyreValid) {
   drive.vehicle = "ugv";
   drive.rate = 200.0;
   drive.duration = 30.0;
-  MonitorOptions options;
+  MonitorSettings options;
   options.sample_period = 1.0 / drive.rate;
   for (const bool fits : {true, false}) {
     TyreTracker tyre(options);

@@ -46,7 +46,7 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
     : fit_(&fit), period_(records.front()->period()) {
   StrutModel force = fit.model;
   force.reading.clear();
-  std::vector<std::array<double, StrutState::kMostEffects>> memory;
+  std::vector<std::array<double, kMostEffects>> memory;
   std::vector<double> predicted;
   std::vector<StrutState> states;
   for (const DriveSegment* segment : segmentsOf(records)) {

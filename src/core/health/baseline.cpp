@@ -16,10 +16,11 @@ Baseline baselineOf(const StrutEstimate& la, Stamp stamp) {
 }
 
 std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& estimate, double rows) {
-  if (progress() == 0.0 || stamp < from_) {
+  if (progress() == 0.0 || stamp < newest_) {  // another drive
     halves_[0] = halves_[1] = {};
     from_ = stamp;
   }
+  newest_ = stamp;
   Half& half = halves_[halves_[0].rows >= rows_ / 2.0 ? 1 : 0];
   half.rows += rows;
   const double gain = rows / half.rows;

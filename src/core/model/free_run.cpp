@@ -106,9 +106,9 @@ void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
 }
 
 void FreeRun::setEffects(const std::vector<ActiveEffect>& effects) {
-  if (effects.size() > StrutState::kMostEffects)
+  if (effects.size() > kMostEffects)
     throw std::invalid_argument(std::to_string(effects.size()) + " effects, must be at most " +
-                                std::to_string(StrutState::kMostEffects));
+                                std::to_string(kMostEffects));
   for (const ActiveEffect& active : effects) check(active);
   model_.effects = effects;
   state_.memory = {};

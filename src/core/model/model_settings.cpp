@@ -52,9 +52,9 @@ StrutModel takeModel(OptionMap& values, const EffectLibrary& library) {
   model.stiffness_to_mass = takeParameter(values, "stiffness_to_mass", 1e-15);
   model.effects = takeEffects(values, library.forces, library.readings);
   model.reading = takeReadings(values, library.readings);
-  if (model.effects.size() > StrutState::kMostEffects)
+  if (model.effects.size() > kMostEffects)
     throw std::invalid_argument("effects: " + std::to_string(model.effects.size()) + " of them, must be at most " +
-                                std::to_string(StrutState::kMostEffects));
+                                std::to_string(kMostEffects));
   return model;
 }
 

@@ -8,7 +8,7 @@ namespace {
 /// What changes along a step, or how fast: the body's part of the motion since its beginning, and the memories.
 struct Along {
   double position = 0.0, velocity = 0.0;
-  std::array<double, StrutState::kMostEffects> memory;
+  std::array<double, kMostEffects> memory;
 };
 
 /// Where the strut is at one of the instants of a step. The plain strut leaves out everything about effects: it is on

@@ -28,7 +28,7 @@ bool isModel(const StrutEstimate& la) { return la.valid() || la.doubt == Estimat
 
 }  // namespace
 
-ModelTracker::ModelTracker(const MonitorOptions& options)
+ModelTracker::ModelTracker(const MonitorSettings& options)
     : identifier_(options),
       free_run_(*options.sample_period),
       model_due_(kModelEvery),

@@ -38,7 +38,7 @@ double withDifference(double stddev, double ls, double la) {
 
 }  // namespace
 
-StrutIdentifier::StrutIdentifier(const MonitorOptions& options)
+StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
       regression_(filter_),
       excitation_(filter_.horizon_samples, options.forgetting_factor, RegressorNoise(filter_)),
@@ -168,7 +168,7 @@ void StrutIdentifier::startNewDrive() {
   takeExcitation();
 }
 
-void StrutIdentifier::setForgetting(const MonitorOptions& options) {
+void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   const double slow = options.forgetting_factor, fastest = options.fastestForgetting(), now = forgettingFactor();
   least_squares_.setForgettingFactor(slow);
   least_absolute_.setForgettingFactor(slow);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kRowsOfSensorCheck = 500.0;  // that an estimate needs before it may accuse a sensor
 constexpr double kFewestUpdates = 25.0;  // of health, that readings are averaged over: of fewer nobody knows a mean
 
-const MonitorOptions& checked(const MonitorOptions& options) {
+const MonitorSettings& checked(const MonitorSettings& options) {
   if (!options.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
   options.validate();
   return options;
@@ -20,7 +20,7 @@ const MonitorOptions& checked(const MonitorOptions& options) {
 
 }  // namespace
 
-SuspensionMonitor::SuspensionMonitor(const MonitorOptions& options)
+SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options)
     : options_(checked(options)),
       series_(fromSeconds(*options.sample_period)),
       plain_(options),
@@ -53,7 +53,7 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
   extended_.emplace(std::move(next));
 }
 
-void SuspensionMonitor::reconfigure(const MonitorOptions& options) {
+void SuspensionMonitor::reconfigure(const MonitorSettings& options) {
   options_ = checked(options);
   health_.setOptions(options.health(period()));
   changeModels([&](ModelTracker& model, ModelReport&) { model.setForgetting(options); });

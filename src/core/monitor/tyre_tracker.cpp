@@ -31,7 +31,7 @@ std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate&
   return strut.damping_to_mass / tyre.damping_to_wheel_mass;
 }
 
-TyreTracker::TyreTracker(const MonitorOptions& options)
+TyreTracker::TyreTracker(const MonitorSettings& options)
     : horizon_samples_(options.tyreFilter(*options.sample_period).horizon_samples),
       period_(fromSeconds(*options.sample_period)),
       fewest_rows_(fewestRows(kFewestRows, options.forgetting_factor)),
@@ -56,7 +56,7 @@ const TyreReport& TyreTracker::add(const CornerSample& sample, const std::option
   return report_;
 }
 
-void TyreTracker::reconfigure(const MonitorOptions& options) {
+void TyreTracker::reconfigure(const MonitorSettings& options) {
   least_squares_.setForgettingFactor(options.forgetting_factor);
   least_absolute_.setForgettingFactor(options.forgetting_factor);
   fewest_rows_ = fewestRows(kFewestRows, options.forgetting_factor);

@@ -31,7 +31,7 @@ ModelEvaluator::ModelEvaluator(const Records& records, const HoldOut& held_out, 
     : records_(records),
       held_out_(held_out),
       outlier_(outlier),
-      most_forces_(std::min(most_forces, StrutState::kMostEffects)),
+      most_forces_(std::min(most_forces, kMostEffects)),
       options_(options) {}
 
 EvaluatedModel ModelEvaluator::weighed(const StrutModel& model, const Residuals& residuals) const {

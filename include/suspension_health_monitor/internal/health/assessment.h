@@ -2,34 +2,23 @@
 
 #include <cmath>
 #include <optional>
-#include <string>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/early_warning.h"
 #include "suspension_health_monitor/internal/health/followed_parameter.h"
 #include "suspension_health_monitor/internal/health/level_confirmation.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/health/strut_change.h"
-#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
+#include "suspension_health_monitor/monitor_options.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
-struct HealthOptions {
-  std::optional<double> nominal_damping_to_mass;    ///< b1 of the healthy strut [1/s]
-  std::optional<double> nominal_stiffness_to_mass;  ///< b0 of the healthy strut [1/s^2]
-  double damping_warn = 0.15;                       ///< relative change that is a warning [-]
-  double damping_error = 0.30;                      ///< relative change that is an error [-]
-  double stiffness_warn = 0.15;
-  double stiffness_error = 0.30;
-  double confirm_time = 0.5;          ///< a new level must last this long before it is reported [s]
+struct HealthOptions : HealthThresholds {
   double hysteresis = 0.02;           ///< a level ends this far below its threshold, or a standard deviation [-]
   double min_significance = 4.0;      ///< standard deviations that a change must have to be one
-  double payload_range = 0.35;        ///< relative change of the body's mass that may be payload; 0: none
-  double learn_time = 60.0;           ///< of valid estimates, when there are no nominal values [s]; 0: never
   double early_change = 0.03;         ///< smaller changes need no early warning [-]
   double false_alarm_interval = 1e6;  ///< mean time between two early warnings of a healthy strut [s]
-  double gravity_tolerance = 0.1;     ///< of a mean reading, as a share of g; 0: not judged
   double forgetting_factor = 0.99;    ///< of the estimates that are judged
   int horizon_samples = 30;           ///< L of their filter
   double period = 0.02;               ///< of a row [s]
@@ -37,26 +26,6 @@ struct HealthOptions {
 
   /// @throws std::invalid_argument  if an error threshold is below its warning threshold.
   void validate() const;
-};
-
-struct HealthReport {
-  HealthLevel level = HealthLevel::kStale;
-  std::optional<double> damping_change;        ///< beta / healthy - 1 [-]; empty without healthy value or estimate
-  std::optional<double> stiffness_change;      ///< K / healthy - 1 [-]
-  std::optional<double> payload_change;        ///< M / healthy - 1 [-]; needs both healthy values
-  double damping_significance = std::nan("");  ///< change in its standard deviations; NaN: not known
-  double stiffness_significance = std::nan("");
-  HealthLevel damping_level = HealthLevel::kOk;
-  HealthLevel stiffness_level = HealthLevel::kOk;
-  bool estimate_valid = false;                   ///< of LA
-  EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not
-  bool uncertain = false;      ///< valid, but a change as large as the error threshold would not be significant
-  bool early_warning = false;  ///< a small change is certain before it reaches a threshold; raises no level
-  bool outliers = false;       ///< LS and LA have disagreed for long: outliers or saturation
-  SensorReport sensor;
-  bool learned = false;             ///< judged by a baseline from a drive, else by nominal values
-  std::optional<double> learning;   ///< progress 0..1 of learning the baseline
-  bool learning_restarted = false;  ///< because the strut was changing
 };
 
 /// Judges damping and stiffness by their change from the healthy strut: nominal values, or a baseline that it learns.
@@ -124,9 +93,4 @@ class HealthAssessment {
   SensorReport sensor_;
   HealthReport report_;
 };
-
-/// @return the report in one sentence for a person, e.g. "damping 31 % below baseline (12 sigma), stiffness at
-/// baseline".
-std::string describe(const HealthReport& report);
-
 }  // namespace suspension_health_monitor

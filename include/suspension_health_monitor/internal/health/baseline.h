@@ -2,22 +2,9 @@
 
 #include <optional>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-/// The healthy strut, to judge changes by. Standard deviations are 0 for values that somebody has given.
-struct Baseline {
-  std::optional<double> damping_to_mass;    ///< b1 [1/s]
-  std::optional<double> stiffness_to_mass;  ///< b0 [1/s^2]
-  double damping_to_mass_stddev = 0.0;      ///< [1/s]
-  double stiffness_to_mass_stddev = 0.0;    ///< [1/s^2]
-  bool learned = false;                     ///< from a drive; false: nominal values
-  Stamp from{}, to{};                       ///< the drive that it was learned from
-
-  bool isEmpty() const { return !damping_to_mass && !stiffness_to_mass; }
-};
 
 /// @return the strut as LA estimates it at `stamp`, as healthy: after a service.
 Baseline baselineOf(const StrutEstimate& la, Stamp stamp);
@@ -25,10 +12,10 @@ Baseline baselineOf(const StrutEstimate& la, Stamp stamp);
 /// Learns the baseline from a stretch of estimates of LS that LA agrees with: their mean, over halves that must agree.
 ///
 /// A strut that changes while it is learned is not taken as healthy: if the means of the two halves differ by more than
-/// kDrift standard deviations and 3 %, learning begins anew.
-/// Standard deviation of a mean over n rows: that of one estimate times sqrt(2 m / n), with m the estimator's memory:
-/// exponential forgetting correlates estimates over 2 m rows.
-/// Cost per estimate: O(1), no allocation.
+/// kDrift standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another
+/// drive, perhaps of another vehicle. Standard deviation of a mean over n rows: that of one estimate times sqrt(2 m /
+/// n), with m the estimator's memory: exponential forgetting correlates estimates over 2 m rows. Cost per estimate:
+/// O(1), no allocation.
 class BaselineLearner {
  public:
   /// @param rows  to learn from, > 0.  @param memory  m of the estimator in rows.
@@ -56,7 +43,7 @@ class BaselineLearner {
 
   double rows_, memory_;
   Half halves_[2];
-  Stamp from_{};
+  Stamp from_{}, newest_{};
   int restarts_ = 0;
 };
 

@@ -1,11 +1,8 @@
 #pragma once
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-/// Severity, numbered as in diagnostic_msgs/DiagnosticStatus.
-enum class HealthLevel : unsigned char { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
 
 /// Lets a level pass once it has lasted for the confirm time. While levels alternate that are all worse (or all better)
 /// than the confirmed one, the one nearest to it counts as lasting, so that noise at a threshold hides nothing.

@@ -3,33 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-/// What is wrong with the sensors, or how they are read, rather than with the strut.
-enum class SensorFault : unsigned char {
-  kNone,
-  kSprungStuck,       ///< the body's IMU reads one value while the other moves
-  kUnsprungStuck,     ///< the wheel carrier's IMU, likewise
-  kSprungGravity,     ///< the body's IMU reads on average neither gravity nor 0: gain, offset or mount
-  kUnsprungGravity,   ///< the wheel carrier's IMU, likewise
-  kGravityOnOneSide,  ///< one reads gravity, the other does not
-  kGravityOpposed,    ///< one reads gravity upward, the other downward
-  kSprungInG,         ///< the body's IMU reads 1 where the other reads gravity
-  kUnsprungInG,       ///< the wheel carrier's IMU, likewise
-  kNegativeDamping,   ///< damping is certainly negative
-  kUnrelated,         ///< both move, but the one is not what a strut makes of the other
-};
-
-/// What was found, with the mean readings [m/s^2] that say so.
-struct SensorReport {
-  SensorFault fault = SensorFault::kNone;
-  std::array<double, 2> mean{};  ///< sprung, unsprung
-};
 
 /// Tells faults of a sensor from those of the strut, by what a strut cannot do:
 /// - a vehicle does not climb for good, so a mean reading is gravity (REP 145: +9.81 at rest on the up axis) or 0
@@ -85,8 +63,4 @@ class SensorCheck {
   std::array<Reading, 2> readings_;
   SensorReport report_;
 };
-
-/// @return the finding in words for a person; empty for kNone.
-std::string describe(const SensorReport& report);
-
 }  // namespace suspension_health_monitor

@@ -58,7 +58,7 @@ class FreeRun {
   void setModel(double damping_to_mass, double stiffness_to_mass);
 
   /// Replaces the model's effects; the run goes on, their memories start at 0. Allocates.
-  /// @throws std::invalid_argument  if there are more than StrutState::kMostEffects, if an effect has not its number of
+  /// @throws std::invalid_argument  if there are more than kMostEffects, if an effect has not its number of
   ///         shapes, or if a value is not finite.
   void setEffects(const std::vector<ActiveEffect>& effects);
 
@@ -121,7 +121,7 @@ class FreeRun {
   double decay_rate_ = 0.0;                                       // of the slowest free motion [1/s]
   double mean_memory_ = std::numeric_limits<double>::infinity();  // [samples]
   StrutState state_;
-  std::array<double, StrutState::kMostEffects> forces_{};
+  std::array<double, kMostEffects> forces_{};
   std::array<double, 2 * kWindow> input_{};  // every sample twice, kWindow apart: always kWindow in a row
   std::size_t newest_ = kWindow - 1;         // its first place, < kWindow
   std::size_t num_inputs_ = 0;

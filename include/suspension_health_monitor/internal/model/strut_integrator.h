@@ -11,8 +11,6 @@ namespace suspension_health_monitor {
 
 /// Travel, travel rate and the memories of the effects.
 struct StrutState {
-  static constexpr std::size_t kMostEffects = 8;
-
   double travel = 0.0;       ///< d [m]
   double travel_rate = 0.0;  ///< v [m/s]
   std::array<double, kMostEffects> memory{};
@@ -80,7 +78,7 @@ class WheelInterpolator {
 /// Only the body's part of the motion is integrated numerically (classical Runge-Kutta); the wheel's part, which
 /// oscillates much faster, comes in as what it exactly is in the middle and at the end. A step is taken in parts where
 /// a memory forgets faster than that, by as many as 32.
-/// @pre model.effects.size() <= StrutState::kMostEffects.
+/// @pre model.effects.size() <= kMostEffects.
 void integrateStrut(const StrutModel& model, double time, double step, const WheelStep& wheel, StrutState& state);
 
 }  // namespace suspension_health_monitor

@@ -8,30 +8,11 @@
 #include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/identification/running_comparison.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
-#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
 #include "suspension_health_monitor/internal/monitor/strut_identifier.h"
-#include "suspension_health_monitor/internal/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-/// The model, driven by the measured wheel acceleration, against the measured body acceleration at one sample.
-struct ComparisonReport {
-  bool has_sample = false;          ///< false at the first FreeRun::kDelay samples of a series: the rest then holds
-  Stamp stamp{};                    ///< of the compared sample, FreeRun::kDelay before the newest
-  double measured = std::nan("");   ///< z'' [m/s^2]
-  std::optional<double> predicted;  ///< by the free run with LA's parameters [m/s^2]; empty until it has settled
-  double rmse = std::nan("");       ///< over the window [m/s^2]; renewed every few samples, as what follows
-  double fit_percent = std::nan("");
-  double base_rmse = std::nan("");  ///< the same of the model without effects
-  double base_fit_percent = std::nan("");
-};
-
-/// What is known of one model after one sample.
-struct ModelReport {
-  bool has_row = false;  ///< the sample gave a regression row; false while the filter fills: the estimates then hold
-  StrutEstimate ls, la;
-  ComparisonReport comparison;
-};
 
 /// One model of the strut, plain or with effects, followed through a drive: the estimation (StrutIdentifier), the
 /// decision whether its estimates are valid (doubtOf()), and the free run with LA's parameters against the measurement.
@@ -43,7 +24,7 @@ class ModelTracker {
  public:
   /// The plain model.
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  explicit ModelTracker(const MonitorOptions& options);
+  explicit ModelTracker(const MonitorSettings& options);
 
   /// Goes on with other effects: estimates and covariance of b1, b0 and of the effects that stay (same name and shapes)
   /// carry over, as does the free run. Coefficients of the others are start values. The estimates are valid again after
@@ -71,7 +52,7 @@ class ModelTracker {
   void setPeriodFits(bool fits, ModelReport& report);
 
   /// As StrutIdentifier::setForgetting().
-  void setForgetting(const MonitorOptions& options) { identifier_.setForgetting(options); }
+  void setForgetting(const MonitorSettings& options) { identifier_.setForgetting(options); }
 
   /// @return true while what is measured tells nothing of the strut, and the estimates stay as they are.
   bool holds() const { return identifier_.holdsAll(); }

@@ -9,20 +9,9 @@
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/mean_spacing.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-/// How the input has been so far.
-struct InputStatus {
-  std::uint64_t samples = 0;   ///< taken in
-  std::uint64_t rows = 0;      ///< regression rows that they gave
-  std::uint64_t gaps = 0;      ///< interruptions of at least one sample, after which the filter filled anew
-  std::uint64_t restarts = 0;  ///< times that the clock went back and the series began anew
-  double mean_period = 0.0;    ///< of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
-  bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
-
-  static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
-};
 
 /// The samples as uninterrupted uniform series: what may be taken in, where a series ends, whether the period is the
 /// one that was said. Cost per sample: O(1), no allocation.

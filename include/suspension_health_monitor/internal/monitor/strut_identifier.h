@@ -11,9 +11,9 @@
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 #include "suspension_health_monitor/internal/identification/variable_forgetting.h"
 #include "suspension_health_monitor/internal/monitor/silent_rows.h"
-#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
-#include "suspension_health_monitor/internal/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
@@ -24,7 +24,7 @@ namespace suspension_health_monitor {
 class StrutIdentifier {
  public:
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  explicit StrutIdentifier(const MonitorOptions& options);
+  explicit StrutIdentifier(const MonitorSettings& options);
 
   /// Goes on with other effects: one column for each beside b1 and b0. Allocates.
   void changeColumns(const std::vector<ColumnOrigin>& columns);
@@ -61,7 +61,7 @@ class StrutIdentifier {
   /// From the next row on; the estimates stay.
   /// @param options  of which forgetting_factor and fastest_forgetting_factor count.
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
-  void setForgetting(const MonitorOptions& options);
+  void setForgetting(const MonitorSettings& options);
 
   /// @return the factor that rows are forgotten by now.
   double forgettingFactor() const { return least_absolute_.forgettingFactor(); }

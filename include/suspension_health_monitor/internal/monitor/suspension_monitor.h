@@ -8,16 +8,9 @@
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/monitor/model_tracker.h"
 #include "suspension_health_monitor/internal/monitor/sample_series.h"
-#include "suspension_health_monitor/internal/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
 
 namespace suspension_health_monitor {
-
-/// Everything that is known after one sample.
-struct MonitorReport : ModelReport {
-  Stamp stamp{};          ///< of the row's sample: the newest; with effects in the model FreeRun::kDelay before it
-  double measured = 0.0;  ///< z'' at this stamp [m/s^2]
-  HealthReport health;
-};
 
 /// Identifies one strut from a series of samples: the facade that the nodelet, the command line and the tests share.
 ///
@@ -30,7 +23,7 @@ class SuspensionMonitor {
  public:
   /// @param options  with sample_period given.
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  explicit SuspensionMonitor(const MonitorOptions& options);
+  explicit SuspensionMonitor(const MonitorSettings& options);
 
   /// Has these effects in the model from now on; none: the plain model. Estimates carry over, coefficients are start
   /// values, shapes stay as they are given. Not for the sample path: allocates.
@@ -43,7 +36,7 @@ class SuspensionMonitor {
   /// Goes on with other forgetting factors and other thresholds of health; estimates and filters are kept.
   /// @param options  which differ from options() in nothing else.
   /// @throws std::invalid_argument  naming the option, its value and what is allowed; all then stays as it was.
-  void reconfigure(const MonitorOptions& options);
+  void reconfigure(const MonitorSettings& options);
 
   /// Takes in the next sample. A gap or a clock that goes back empties the filter (2 L samples without rows follow);
   /// estimates hold meanwhile, marked as not valid.
@@ -59,7 +52,7 @@ class SuspensionMonitor {
   const MonitorReport& report() const { return report_; }
   const InputStatus& input() const { return series_.status(); }
   const RejectCounts& rejected() const { return series_.rejected(); }
-  const MonitorOptions& options() const { return options_; }
+  const MonitorSettings& options() const { return options_; }
   /// @return lambda for the rows to come, between fastest_forgetting_factor and forgetting_factor.
   double forgettingFactor() const { return tracker().forgettingFactor(); }
   double period() const { return toSeconds(series_.period()); }
@@ -72,7 +65,7 @@ class SuspensionMonitor {
   void changeModels(const Change& change);
   const ModelTracker& tracker() const { return extended_ ? *extended_ : plain_; }
 
-  MonitorOptions options_;
+  MonitorSettings options_;
   SampleSeries series_;
   ModelTracker plain_;
   std::optional<ModelTracker> extended_;  // with effects

@@ -8,36 +8,11 @@
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/tyre_regression.h"
 #include "suspension_health_monitor/internal/monitor/silent_rows.h"
-#include "suspension_health_monitor/internal/monitor/strut_estimate.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
-#include "suspension_health_monitor/internal/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-/// What one estimator knows of wheel and tyre. NaN: nothing yet.
-struct WheelEstimate {
-  double damping_to_wheel_mass = std::nan("");           ///< beta/m [1/s]
-  double stiffness_to_wheel_mass = std::nan("");         ///< K/m [1/s^2]
-  double tyre_to_wheel_mass = std::nan("");              ///< K0/m [1/s^2]
-  double damping_to_wheel_mass_stddev = std::nan("");    ///< [1/s], with the residuals' correlation
-  double stiffness_to_wheel_mass_stddev = std::nan("");  ///< [1/s^2], likewise
-  double tyre_to_wheel_mass_stddev = std::nan("");       ///< [1/s^2], likewise
-  double effective_rows = 0.0;                           ///< rows in the estimator's memory
-  double explained = 0.0;                                ///< 1 - mean|epsilon| / mean|psi| over the memory
-  EstimateDoubt doubt = EstimateDoubt::kNoRows;          ///< why it is not valid (validity_gate.h)
-
-  bool valid() const { return doubt == EstimateDoubt::kNone; }
-  /// @return undamped natural frequency of the wheel between strut and tyre, the body held fast [Hz].
-  double wheelHopFrequency() const { return std::sqrt(stiffness_to_wheel_mass + tyre_to_wheel_mass) / (2 * M_PI); }
-};
-
-/// @return m/M = b1 / (beta/m) [-], the share of the wheel's mass in the body's; none unless both are valid.
-std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate& tyre);
-
-struct TyreReport {
-  bool has_row = false;  ///< the newest sample gave a regression row
-  WheelEstimate ls, la;
-};
 
 /// Wheel and tyre of one strut, followed through a drive by LS and LA side by side, with a third accelerometer where
 /// the tyre touches the road. Samples without a reading of it empty the filter, as does a gap: estimates hold
@@ -46,7 +21,7 @@ class TyreTracker {
  public:
   /// @param options  with sample_period given.
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  explicit TyreTracker(const MonitorOptions& options);
+  explicit TyreTracker(const MonitorSettings& options);
 
   /// Takes in the next sample of the strut.
   /// @param road_acceleration  mu'' at this sample [m/s^2]; none: the road's sensor is silent.
@@ -54,7 +29,7 @@ class TyreTracker {
 
   /// Takes over the forgetting factor, from the next row on; estimates stay. Nothing else changes.
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
-  void reconfigure(const MonitorOptions& options);
+  void reconfigure(const MonitorSettings& options);
 
   /// @param fits  false: no estimate is valid from the next sample on, as samples do not come at the sample period.
   void setPeriodFits(bool fits) { period_fits_ = fits; }

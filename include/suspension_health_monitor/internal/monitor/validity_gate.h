@@ -1,6 +1,6 @@
 #pragma once
 
-#include "suspension_health_monitor/internal/monitor/estimate_doubt.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <string_view>
 
+#include "suspension_health_monitor/drive.h"
+
 namespace suspension_health_monitor {
 
-/// The sensors of a strut. The road's, at the tyre's contact, is optional.
-enum class Side : std::size_t { kSprung = 0, kUnsprung = 1, kRoad = 2 };
 inline constexpr std::size_t kMostStreams = 3;
 
 /// How the readings of several sensors come onto one clock, see UniformGrid.

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <string_view>
 
 namespace suspension_health_monitor {
@@ -31,6 +33,8 @@ class RejectCounts {
   void add(RejectReason reason) { ++counts_[static_cast<std::size_t>(reason)]; }
   std::uint64_t count(RejectReason reason) const { return counts_[static_cast<std::size_t>(reason)]; }
   std::uint64_t total() const;
+  /// @return the counts by name; only of reasons that occurred.
+  std::map<std::string, std::uint64_t> byName() const;
   RejectCounts& operator+=(const RejectCounts& other);
 
  private:

@@ -8,6 +8,8 @@
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
+#include "suspension_health_monitor/monitor_options.h"
 
 namespace suspension_health_monitor {
 
@@ -19,35 +21,12 @@ struct EstimatorOptions {
   LeastAbsoluteOptions least_absolute;
 };
 
-/// All settings of a SuspensionMonitor, flat as users write them. Group, name, unit, meaning and range of each stand in
-/// kMonitorFields only. Settings that an estimator has, too, take its default.
-struct MonitorOptions {
-  std::string preset = "default";
+/// The options of a monitor with what follows from them: the preset's way to make rows and to estimate, and the
+/// settings of each part. Group, name, unit, meaning and range of each option stand in kMonitorFields only.
+struct MonitorSettings : MonitorOptions {
   EstimatorOptions estimators;  ///< the preset's; no options of users
-  std::optional<double> sample_period;
-  std::optional<double> integration_horizon;
-  double forgetting_factor = 0.99;
-  std::optional<double> fastest_forgetting_factor;
-  double comparison_window = 10.0;
-  std::optional<double> sprung_mass;
-  std::optional<double> nominal_damping_to_mass;
-  std::optional<double> nominal_stiffness_to_mass;
-  double damping_warn = HealthOptions{}.damping_warn;
-  double damping_error = HealthOptions{}.damping_error;
-  double stiffness_warn = HealthOptions{}.stiffness_warn;
-  double stiffness_error = HealthOptions{}.stiffness_error;
-  double confirm_time = HealthOptions{}.confirm_time;
-  double payload_range = HealthOptions{}.payload_range;
-  double gravity_tolerance = HealthOptions{}.gravity_tolerance;
-  double learn_time = HealthOptions{}.learn_time;
 
-  /// @param preset  "default", or "paper": sections 3.2 and 4 of the paper.
-  /// @return the values of a preset, to which options are set.
-  static MonitorOptions of(const std::string& preset);
-
-  /// Takes the options that `values` names out of it; what is not among them is the preset's.
-  /// @throws std::invalid_argument  as takeOptions().
-  static MonitorOptions takeFrom(OptionMap& values);
+  MonitorSettings(const MonitorOptions& options = {});  // NOLINT(google-explicit-constructor): options in other words
 
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   void validate() const;
@@ -63,6 +42,9 @@ struct MonitorOptions {
   /// least 5 samples.
   IntegralFilterOptions tyreFilter(double period) const;
 
+  /// How readings become samples.
+  GridOptions grid(double period) const;
+
   /// @param correlated_rows  2 L for rows of a filter, as each reading of a sensor is in 2 L + 1 of them.
   RecursiveOptions recursive(int correlated_rows = 0) const;
   /// @return the smallest lambda that rows may be forgotten by.
@@ -72,10 +54,17 @@ struct MonitorOptions {
   HealthOptions health(double period) const;
 };
 
+/// Takes the options that `values` names out of it; what is not among them is the preset's.
+/// @throws std::invalid_argument  as takeOptions().
+MonitorOptions takeMonitorOptions(OptionMap& values);
+
 using MonitorField = OptionField<MonitorOptions>;
 inline constexpr std::array kMonitorFields{
     MonitorField{"input", "sample_period", "s", "sampling time T; left out: measured from the stamps",
                  &MonitorOptions::sample_period, 1e-5, 10.0},
+    MonitorField{"input", "alignment", "-",
+                 "readings paired by stamp, resampled onto a grid, or auto: paired until that does badly",
+                 &MonitorOptions::alignment, 0, 0, kAlignmentNames},
     MonitorField{"estimation", "preset", "-",
                  "paper: estimators as in the paper, forgetting_factor 0.98 and integration_horizon 0.6 unless given",
                  &MonitorOptions::preset, 0, 0, "default paper"},
@@ -112,6 +101,9 @@ inline constexpr std::array kMonitorFields{
     MonitorField{"health", "baseline/learn_time", "s",
                  "valid driving that a baseline is learned from; 0: none is learned", &MonitorOptions::learn_time, 0.0,
                  1e6},
+    MonitorField{"tyre", "tyre/enabled", "-",
+                 "listen to road/imu, an IMU where the tyre touches the road, and identify the tyre",
+                 &MonitorOptions::tyre},
     MonitorField{"output", "comparison_window", "s",
                  "memory of rmse and fit of the free run, and of the check of the sensors",
                  &MonitorOptions::comparison_window, 1e-3, 1e5},

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/monitor_options.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,27 +17,33 @@ MonitorOptions MonitorOptions::of(const std::string& preset) {
   MonitorOptions options;
   options.preset = preset;
   if (preset != "paper") return options;
-  options.integration_horizon = kDefaultHorizon;          // L = 30 at its T = 0.02 s
-  options.forgetting_factor = 0.98;                       // lambda, memory of 50 rows
-  options.estimators.rule = IntegrationRule::kTrapezoid;  // Eq. (9)
-  options.estimators.forgets_unexcited = true;
-  options.estimators.recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
-  options.estimators.recursive.initial_variance_rule = InitialVariance::kAbsolute;
-  options.estimators.least_absolute = {150, SmallDivisor::kAbsolute, 1e-8, false};  // k0, eps_min: section 3.2
+  options.integration_horizon = kDefaultHorizon;  // L = 30 at its T = 0.02 s
+  options.forgetting_factor = 0.98;               // lambda, memory of 50 rows
   return options;
 }
 
-MonitorOptions MonitorOptions::takeFrom(OptionMap& values) {
+void MonitorOptions::validate() const { MonitorSettings(*this).validate(); }
+
+MonitorOptions takeMonitorOptions(OptionMap& values) {
   MonitorOptions given;
   OptionMap copy = values;
   takeOptions(copy, kMonitorFields, given);
-  MonitorOptions options = of(given.preset);
+  MonitorOptions options = MonitorOptions::of(given.preset);
   takeOptions(values, kMonitorFields, options);
   return options;
 }
 
-void MonitorOptions::validate() const {
-  suspension_health_monitor::validate(*this, kMonitorFields);
+MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions(options) {
+  if (preset != "paper") return;
+  estimators.rule = IntegrationRule::kTrapezoid;  // Eq. (9)
+  estimators.forgets_unexcited = true;
+  estimators.recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
+  estimators.recursive.initial_variance_rule = InitialVariance::kAbsolute;
+  estimators.least_absolute = {150, SmallDivisor::kAbsolute, 1e-8, false};  // k0, eps_min: section 3.2
+}
+
+void MonitorSettings::validate() const {
+  suspension_health_monitor::validate<MonitorOptions>(*this, kMonitorFields);
   if (fastest_forgetting_factor && *fastest_forgetting_factor > forgetting_factor)
     throw std::invalid_argument("fastest_forgetting_factor = " + std::to_string(*fastest_forgetting_factor) +
                                 ", must be at most forgetting_factor = " + std::to_string(forgetting_factor));
@@ -45,7 +51,7 @@ void MonitorOptions::validate() const {
   if (sample_period) filter(*sample_period);
 }
 
-int MonitorOptions::horizonSamples(double period) const {
+int MonitorSettings::horizonSamples(double period) const {
   const double horizon = integration_horizon.value_or(kDefaultHorizon);
   if (horizon / period > kMostSamples)
     throw std::invalid_argument("integration_horizon = " + std::to_string(horizon) + " [s], must be at most " +
@@ -54,7 +60,7 @@ int MonitorOptions::horizonSamples(double period) const {
   return static_cast<int>(std::lround(horizon / period));
 }
 
-IntegralFilterOptions MonitorOptions::filter(double period) const {
+IntegralFilterOptions MonitorSettings::filter(double period) const {
   const IntegralFilterOptions filter{horizonSamples(period), period, estimators.rule};
   try {
     HorizonIntegral(filter.horizon_samples, filter.period, filter.rule);
@@ -66,32 +72,27 @@ IntegralFilterOptions MonitorOptions::filter(double period) const {
   return filter;
 }
 
-IntegralFilterOptions MonitorOptions::tyreFilter(double period) const {
+IntegralFilterOptions MonitorSettings::tyreFilter(double period) const {
   constexpr double kShare = 1.0 / 8.0;
   constexpr int kFewestSamples = 5;
   const auto samples = static_cast<int>(std::lround(kShare * horizonSamples(period)));
   return {std::max(kFewestSamples, samples), period, estimators.rule};
 }
 
-RecursiveOptions MonitorOptions::recursive(int correlated_rows) const {
+GridOptions MonitorSettings::grid(double period) const {
+  return {suspension_health_monitor::alignment(alignment), tyre, 2 * horizonSamples(period)};
+}
+
+RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {
   RecursiveOptions recursive = estimators.recursive;
   recursive.forgetting_factor = forgetting_factor;
   recursive.correlated_rows = correlated_rows;
   return recursive;
 }
 
-HealthOptions MonitorOptions::health(double period) const {
+HealthOptions MonitorSettings::health(double period) const {
   HealthOptions health;
-  health.nominal_damping_to_mass = nominal_damping_to_mass;
-  health.nominal_stiffness_to_mass = nominal_stiffness_to_mass;
-  health.damping_warn = damping_warn;
-  health.damping_error = damping_error;
-  health.stiffness_warn = stiffness_warn;
-  health.stiffness_error = stiffness_error;
-  health.confirm_time = confirm_time;
-  health.payload_range = payload_range;
-  health.learn_time = learn_time;
-  health.gravity_tolerance = gravity_tolerance;
+  static_cast<HealthThresholds&>(health) = *this;
   health.forgetting_factor = forgetting_factor;
   health.horizon_samples = horizonSamples(period);
   health.period = period;

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/drive_identification.h"
+#include "suspension_health_monitor/internal/monitor/drive_identification.h"
 
 #include <cmath>
 #include <cstdio>
@@ -39,34 +39,19 @@ std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
   return text;
 }
 
-DriveIdentification::DriveIdentification(const MonitorOptions& options, const GridOptions& grid, Sink sink)
-    : grid_(*options.sample_period, grid),
-      monitor_(options),
-      whole_drive_(std::in_place, options.filter(*options.sample_period)),
-      sink_(std::move(sink)) {
-  if (grid.has_road) tyre_.emplace(options);
-}
+DriveIdentification::DriveIdentification(const MonitorSettings& settings, Sink sink)
+    : strut_(settings, {std::move(sink), [this](const CornerSample& sample) { take(sample); }}),
+      whole_drive_(std::in_place, settings.filter(*settings.sample_period)) {}
 
 void DriveIdentification::setEffects(const std::vector<ActiveEffect>& effects) {
-  monitor_.setEffects(effects);
+  strut_.setEffects(effects);
   if (!effects.empty()) whole_drive_.reset();
 }
 
-void DriveIdentification::push(Side side, Stamp stamp, double acceleration) {
-  for (auto sample = grid_.push(side, stamp, acceleration); sample; sample = grid_.next()) take(*sample);
-}
-
 void DriveIdentification::take(const CornerSample& sample) {
-  if (tyre_) {
-    tyre_->setPeriodFits(monitor_.input().period_fits);
-    tyre_->add(sample, grid_.roadAcceleration());
-  }
-  const InputStatus before = monitor_.input();
-  const MonitorReport* report = monitor_.addSample(sample);
-  if (report != nullptr && sink_) sink_(*report);
-  const InputStatus& now = monitor_.input();
-  if (!whole_drive_ || now.samples == before.samples) return;  // the monitor has rejected it
-  if (now.gaps + now.restarts > before.gaps + before.restarts) whole_drive_->interrupt();
+  const InputStatus before = std::exchange(seen_, monitor().input());
+  if (!whole_drive_ || seen_.samples == before.samples) return;  // the monitor has rejected it
+  if (seen_.gaps + seen_.restarts > before.gaps + before.restarts) whole_drive_->interrupt();
   whole_drive_->push(sample);
 }
 
@@ -86,7 +71,7 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
     strut.rows = solution->rows;
   }
   EstimateFacts facts;
-  facts.period_fits = monitor_.input().period_fits;
+  facts.period_fits = monitor().input().period_fits;
   facts.has_row = solution.has_value();
   facts.rows = strut.rows;
   facts.fewest_rows = kFewestRows;
@@ -100,29 +85,20 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   return strut;
 }
 
-RejectCounts DriveIdentification::rejected() const {
-  RejectCounts all = grid_.rejected();
-  all += monitor_.rejected();
-  return all;
-}
-
 IdentifyResult DriveIdentification::result() const {
   IdentifyResult result;
-  result.sample_period = monitor_.period();
-  result.horizon_samples = monitor_.horizonSamples();
-  result.ls = atTheEnd(monitor_.report().ls);
-  result.la = atTheEnd(monitor_.report().la);
+  result.sample_period = monitor().period();
+  result.horizon_samples = monitor().horizonSamples();
+  result.ls = atTheEnd(monitor().report().ls);
+  result.la = atTheEnd(monitor().report().la);
   result.iv = overTheDrive();
-  result.samples = monitor_.input().samples;
-  result.rows = monitor_.input().rows;
-  result.gaps = monitor_.input().gaps;
-  result.clock_jumps = monitor_.input().restarts;
-  const RejectCounts counts = rejected();
-  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
-    if (const std::uint64_t count = counts.count(static_cast<RejectReason>(i)))
-      result.rejected[std::string(kRejectReasonNames[i])] = count;
-  if (const auto warning = periodWarning(monitor_)) result.warnings.push_back(*warning);
-  const SensorReport& sensor = monitor_.report().health.sensor;
+  result.samples = monitor().input().samples;
+  result.rows = monitor().input().rows;
+  result.gaps = monitor().input().gaps;
+  result.clock_jumps = monitor().input().restarts;
+  result.rejected = rejected().byName();
+  if (const auto warning = periodWarning(monitor())) result.warnings.push_back(*warning);
+  const SensorReport& sensor = monitor().report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated)
     result.warnings.push_back(describe(sensor));
   return result;

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
+#include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+
+namespace suspension_health_monitor {
+
+/// From the readings of a strut's sensors to reports, the one way for a live robot, a bag, arrays and tests:
+/// reading -> UniformGrid -> sample -> TyreTracker, SuspensionMonitor::addSample -> sinks.
+/// Without a sample_period the first readings wait until their stamps have told it; until then there is no monitor.
+/// Cost per reading: O(1) amortised; after the sample period is known no allocation and no lock.
+class StrutPipeline {
+ public:
+  struct Sinks {
+    std::function<void(const MonitorReport&)> report;  ///< after every sample that gave one
+    std::function<void(const CornerSample&)> sample;   ///< after every sample, those included that the monitor rejects
+  };
+
+  /// @throws std::invalid_argument  as MonitorOptions::validate().
+  StrutPipeline(const MonitorSettings& settings, Sinks sinks);
+
+  /// Takes in one reading of one sensor; each stream comes in the order in which it was measured.
+  /// @param acceleration  along the strut, up positive [m/s^2].
+  /// @throws std::invalid_argument  if settings or effects do not fit the sample period that was measured.
+  void push(Side side, Stamp stamp, double acceleration);
+
+  /// As SuspensionMonitor::setEffects(); while the sample period is being measured, the reading that ends this throws.
+  void setEffects(const std::vector<ActiveEffect>& effects);
+
+  void setBaseline(const Baseline& baseline);
+
+  /// As SuspensionMonitor::reconfigure().
+  void reconfigure(const MonitorSettings& settings);
+
+  /// @return nullptr while the sample period is being measured; so with the next two.
+  const SuspensionMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
+  const UniformGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
+  const TyreTracker* tyre() const { return tyre_ ? &*tyre_ : nullptr; }  ///< nullptr without a road sensor, too
+
+  /// @return readings that were kept out so far, wherever it was noticed.
+  RejectCounts rejected() const;
+
+ private:
+  struct Reading {
+    Side side;
+    Stamp stamp;
+    double acceleration;
+  };
+
+  static constexpr std::size_t kSpacingsForPeriod = 50;
+  static constexpr std::size_t kMostEarly = 2 * UniformGrid::kMostWaiting;
+
+  void measurePeriod(const Reading& reading);
+  void start(double period);
+  void take(const Reading& reading);
+
+  MonitorSettings settings_;
+  Sinks sinks_;
+  PeriodMeasurement measurement_{kSpacingsForPeriod};
+  std::vector<Reading> early_;         // that wait for the sample period
+  std::vector<ActiveEffect> effects_;  // until there is a monitor, as is the baseline
+  std::optional<Baseline> baseline_;
+  std::optional<UniformGrid> grid_;
+  std::optional<SuspensionMonitor> monitor_;
+  std::optional<TyreTracker> tyre_;
+  RejectCounts rejected_;  // while the sample period is being measured
+};
+
+}  // namespace suspension_health_monitor

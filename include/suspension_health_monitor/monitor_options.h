@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace suspension_health_monitor {
+
+/// When a change of the strut counts, and what it is a change from.
+struct HealthThresholds {
+  std::optional<double> nominal_damping_to_mass;    ///< b1 of the healthy strut [1/s]
+  std::optional<double> nominal_stiffness_to_mass;  ///< b0 of the healthy strut [1/s^2]
+  double damping_warn = 0.15;                       ///< relative change that is a warning [-]
+  double damping_error = 0.30;                      ///< relative change that is an error [-]
+  double stiffness_warn = 0.15;                     ///< [-]
+  double stiffness_error = 0.30;                    ///< [-]
+  double confirm_time = 0.5;                        ///< a new level must last this long before it is reported [s]
+  double payload_range = 0.35;                      ///< relative change of the body's mass that may be payload; 0: none
+  double gravity_tolerance = 0.1;                   ///< of a mean reading, as a share of g; 0: not judged
+  double learn_time = 60.0;                         ///< of valid estimates for a baseline [s]; 0: none is learned
+};
+
+/// All settings of a StrutMonitor, flat as users write them. Unit, meaning and range of each are told by
+/// `suspension_bag options monitor`, by config/monitor.yaml and by what validate() says of a value that is wrong.
+struct MonitorOptions : HealthThresholds {
+  std::string preset = "default";                   ///< or "paper": estimators as in sections 3.2 and 4 of the paper
+  std::optional<double> sample_period;              ///< T [s]; left out: measured from the stamps
+  std::string alignment = "auto";                   ///< or "paired", "resampled": how readings become samples
+  bool tyre = false;                                ///< there is a third sensor, where the tyre touches the road
+  std::optional<double> integration_horizon;        ///< h of the integral filter [s]; left out: 0.6
+  double forgetting_factor = 0.99;                  ///< lambda: memory 1/(1 - lambda) rows
+  std::optional<double> fastest_forgetting_factor;  ///< lambda while the strut changes; left out: lambda stays
+  double comparison_window = 10.0;                  ///< memory of the free run's rmse [s]
+  std::optional<double> sprung_mass;                ///< [kg], for results in SI
+
+  /// @param preset  "default" or "paper".
+  /// @return the values of a preset, to which options are set.
+  static MonitorOptions of(const std::string& preset);
+
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
+  void validate() const;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,186 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/strut_model.h"
+
+namespace suspension_health_monitor {
+
+/// Why an estimate is not valid: the first that holds, in this order. The rules stand in validity_gate.cpp.
+enum class EstimateDoubt {
+  kNone,                 ///< it is valid
+  kWrongPeriod,          ///< samples do not come at the sample period
+  kNoRows,               ///< the integral filter fills, at the start and after a gap
+  kSensorStuck,          ///< the body's acceleration has not changed for a whole horizon
+  kFewRows,              ///< fewer rows than an estimate needs
+  kNotExcited,           ///< parked: the rows are the sensors' noise; the estimate is held
+  kDampingNotExcited,    ///< the same of the damping alone; the stiffness goes on
+  kStiffnessNotExcited,  ///< the same of the stiffness alone; the damping goes on
+  kOutsideForce,         ///< something else than the wheel moves the body
+  kNotExplained,         ///< the model explains less than half of what was measured
+  kNotAStrut,            ///< a parameter that has to be above 0 is not
+  kNoSpread,             ///< no standard deviation can be told
+  kFreeRunFails,         ///< the model, driven by the wheel, fits worse than a constant
+};
+
+/// @return a sentence for people.
+std::string_view describe(EstimateDoubt doubt);
+
+/// What one estimator knows of the strut. NaN: nothing yet.
+struct StrutEstimate {
+  double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
+  double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
+  double damping_to_mass_stddev = std::nan("");    ///< [1/s], with the residuals' correlation and the shift by noise in
+                                                   ///< the regressors; renewed every few rows
+  double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
+  std::size_t num_effects = 0;                     ///< in the model
+  std::array<double, kMostEffects> coefficients{};         ///< c_j [unit of the effect's coefficient]
+  std::array<double, kMostEffects> coefficient_stddevs{};  ///< likewise
+  double effective_rows = 0.0;                             ///< rows in the estimator's memory
+  double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
+  EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
+  double damping_excitation = std::nan("");      ///< information of phi_1 of late over that of noise (Excitation) [-]
+  double stiffness_excitation = std::nan("");    ///< that of phi_0 likewise
+
+  bool valid() const { return doubt == EstimateDoubt::kNone; }
+  /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
+  double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }
+  /// Damping ratio b1 / (2 sqrt(b0)) [-]; NaN unless b0 > 0.
+  double dampingRatio() const { return damping_to_mass / (2 * std::sqrt(stiffness_to_mass)); }
+};
+
+/// What one estimator knows of wheel and tyre. NaN: nothing yet.
+struct WheelEstimate {
+  double damping_to_wheel_mass = std::nan("");           ///< beta/m [1/s]
+  double stiffness_to_wheel_mass = std::nan("");         ///< K/m [1/s^2]
+  double tyre_to_wheel_mass = std::nan("");              ///< K0/m [1/s^2]
+  double damping_to_wheel_mass_stddev = std::nan("");    ///< [1/s], with the residuals' correlation
+  double stiffness_to_wheel_mass_stddev = std::nan("");  ///< [1/s^2], likewise
+  double tyre_to_wheel_mass_stddev = std::nan("");       ///< [1/s^2], likewise
+  double effective_rows = 0.0;                           ///< rows in the estimator's memory
+  double explained = 0.0;                                ///< 1 - mean|epsilon| / mean|psi| over the memory
+  EstimateDoubt doubt = EstimateDoubt::kNoRows;          ///< why it is not valid (validity_gate.h)
+
+  bool valid() const { return doubt == EstimateDoubt::kNone; }
+  /// @return undamped natural frequency of the wheel between strut and tyre, the body held fast [Hz].
+  double wheelHopFrequency() const { return std::sqrt(stiffness_to_wheel_mass + tyre_to_wheel_mass) / (2 * M_PI); }
+};
+
+/// @return m/M = b1 / (beta/m) [-], the share of the wheel's mass in the body's; none unless both are valid.
+std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate& tyre);
+
+struct TyreReport {
+  bool has_row = false;  ///< the newest sample gave a regression row
+  WheelEstimate ls, la;
+};
+
+/// The model, driven by the measured wheel acceleration, against the measured body acceleration at one sample.
+struct ComparisonReport {
+  bool has_sample = false;          ///< false at the first FreeRun::kDelay samples of a series: the rest then holds
+  Stamp stamp{};                    ///< of the compared sample, FreeRun::kDelay before the newest
+  double measured = std::nan("");   ///< z'' [m/s^2]
+  std::optional<double> predicted;  ///< by the free run with LA's parameters [m/s^2]; empty until it has settled
+  double rmse = std::nan("");       ///< over the window [m/s^2]; renewed every few samples, as what follows
+  double fit_percent = std::nan("");
+  double base_rmse = std::nan("");  ///< the same of the model without effects
+  double base_fit_percent = std::nan("");
+};
+
+/// What is known of one model after one sample.
+struct ModelReport {
+  bool has_row = false;  ///< the sample gave a regression row; false while the filter fills: the estimates then hold
+  StrutEstimate ls, la;
+  ComparisonReport comparison;
+};
+
+/// Severity, numbered as in diagnostic_msgs/DiagnosticStatus.
+enum class HealthLevel : unsigned char { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
+
+/// What is wrong with the sensors, or how they are read, rather than with the strut.
+enum class SensorFault : unsigned char {
+  kNone,
+  kSprungStuck,       ///< the body's IMU reads one value while the other moves
+  kUnsprungStuck,     ///< the wheel carrier's IMU, likewise
+  kSprungGravity,     ///< the body's IMU reads on average neither gravity nor 0: gain, offset or mount
+  kUnsprungGravity,   ///< the wheel carrier's IMU, likewise
+  kGravityOnOneSide,  ///< one reads gravity, the other does not
+  kGravityOpposed,    ///< one reads gravity upward, the other downward
+  kSprungInG,         ///< the body's IMU reads 1 where the other reads gravity
+  kUnsprungInG,       ///< the wheel carrier's IMU, likewise
+  kNegativeDamping,   ///< damping is certainly negative
+  kUnrelated,         ///< both move, but the one is not what a strut makes of the other
+};
+
+/// What was found, with the mean readings [m/s^2] that say so.
+struct SensorReport {
+  SensorFault fault = SensorFault::kNone;
+  std::array<double, 2> mean{};  ///< sprung, unsprung
+};
+
+/// @return the finding in words for a person; empty for kNone.
+std::string describe(const SensorReport& report);
+
+/// The healthy strut, to judge changes by. Standard deviations are 0 for values that somebody has given.
+struct Baseline {
+  std::optional<double> damping_to_mass;    ///< b1 [1/s]
+  std::optional<double> stiffness_to_mass;  ///< b0 [1/s^2]
+  double damping_to_mass_stddev = 0.0;      ///< [1/s]
+  double stiffness_to_mass_stddev = 0.0;    ///< [1/s^2]
+  bool learned = false;                     ///< from a drive; false: nominal values
+  Stamp from{}, to{};                       ///< the drive that it was learned from
+
+  bool isEmpty() const { return !damping_to_mass && !stiffness_to_mass; }
+};
+
+/// What is known of the strut's condition.
+struct HealthReport {
+  HealthLevel level = HealthLevel::kStale;
+  std::optional<double> damping_change;        ///< beta / healthy - 1 [-]; empty without healthy value or estimate
+  std::optional<double> stiffness_change;      ///< K / healthy - 1 [-]
+  std::optional<double> payload_change;        ///< M / healthy - 1 [-]; needs both healthy values
+  double damping_significance = std::nan("");  ///< change in its standard deviations; NaN: not known
+  double stiffness_significance = std::nan("");
+  HealthLevel damping_level = HealthLevel::kOk;
+  HealthLevel stiffness_level = HealthLevel::kOk;
+  bool estimate_valid = false;                   ///< of LA
+  EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not
+  bool uncertain = false;      ///< valid, but a change as large as the error threshold would not be significant
+  bool early_warning = false;  ///< a small change is certain before it reaches a threshold; raises no level
+  bool outliers = false;       ///< LS and LA have disagreed for long: outliers or saturation
+  SensorReport sensor;
+  bool learned = false;             ///< judged by a baseline from a drive, else by nominal values
+  std::optional<double> learning;   ///< progress 0..1 of learning the baseline
+  bool learning_restarted = false;  ///< because the strut was changing
+};
+
+/// @return the report in one sentence for a person, e.g. "damping 31 % below baseline (12 sigma), stiffness at
+/// baseline".
+std::string describe(const HealthReport& report);
+
+/// Everything that is known after one sample.
+struct MonitorReport : ModelReport {
+  Stamp stamp{};          ///< of the row's sample: the newest; with effects in the model FreeRun::kDelay before it
+  double measured = 0.0;  ///< z'' at this stamp [m/s^2]
+  HealthReport health;
+};
+
+/// How the input has been so far.
+struct InputStatus {
+  std::uint64_t samples = 0;   ///< taken in
+  std::uint64_t rows = 0;      ///< regression rows that they gave
+  std::uint64_t gaps = 0;      ///< interruptions of at least one sample, after which the filter filled anew
+  std::uint64_t restarts = 0;  ///< times that the clock went back and the series began anew
+  double mean_period = 0.0;    ///< of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
+  bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
+
+  static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
+};
+
+}  // namespace suspension_health_monitor

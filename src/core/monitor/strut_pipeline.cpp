@@ -1,0 +1,92 @@
+#include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
+
+#include <utility>
+
+namespace suspension_health_monitor {
+
+StrutPipeline::StrutPipeline(const MonitorSettings& settings, Sinks sinks)
+    : settings_(settings), sinks_(std::move(sinks)) {
+  settings_.validate();
+  if (settings_.sample_period) start(*settings_.sample_period);
+}
+
+void StrutPipeline::start(double period) {
+  settings_.sample_period = period;
+  monitor_.emplace(settings_);
+  grid_.emplace(period, settings_.grid(period));
+  if (settings_.tyre) tyre_.emplace(settings_);
+  if (!effects_.empty()) monitor_->setEffects(effects_);
+  if (baseline_) monitor_->setBaseline(*baseline_);
+}
+
+void StrutPipeline::setEffects(const std::vector<ActiveEffect>& effects) {
+  if (monitor_)
+    monitor_->setEffects(effects);
+  else
+    effects_ = effects;
+}
+
+void StrutPipeline::setBaseline(const Baseline& baseline) {
+  if (monitor_)
+    monitor_->setBaseline(baseline);
+  else
+    baseline_ = baseline;
+}
+
+void StrutPipeline::reconfigure(const MonitorSettings& settings) {
+  MonitorSettings changed = settings;
+  changed.sample_period = settings_.sample_period;
+  if (monitor_) monitor_->reconfigure(changed);
+  if (tyre_) tyre_->reconfigure(changed);
+  settings_ = changed;
+}
+
+void StrutPipeline::push(Side side, Stamp stamp, double acceleration) {
+  if (monitor_)
+    take({side, stamp, acceleration});
+  else
+    measurePeriod({side, stamp, acceleration});
+}
+
+void StrutPipeline::measurePeriod(const Reading& reading) {
+  const bool goes_back = measurement_.goesBack(reading.side, reading.stamp);
+  if (!measurement_.add(reading.side, reading.stamp)) {
+    rejected_.add(reading.stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp);
+    return;
+  }
+  if (goes_back) {
+    rejected_.add(RejectReason::kTimeWentBack);
+    return;
+  }
+  if (early_.size() == kMostEarly) {  // one IMU is silent
+    for (std::size_t i = 0; i < early_.size(); ++i) rejected_.add(RejectReason::kMissingPartner);
+    early_.clear();
+    measurement_ = PeriodMeasurement(kSpacingsForPeriod);
+  }
+  early_.push_back(reading);
+  if (const std::optional<double> period = measurement_.period()) {
+    start(*period);
+    for (const Reading& waiting : std::exchange(early_, {})) take(waiting);
+  }
+}
+
+void StrutPipeline::take(const Reading& reading) {
+  for (auto sample = grid_->push(reading.side, reading.stamp, reading.acceleration); sample; sample = grid_->next()) {
+    if (tyre_) {
+      tyre_->setPeriodFits(monitor_->input().period_fits);
+      tyre_->add(*sample, grid_->roadAcceleration());
+    }
+    const MonitorReport* report = monitor_->addSample(*sample);
+    if (sinks_.sample) sinks_.sample(*sample);
+    if (report != nullptr && sinks_.report) sinks_.report(*report);
+  }
+}
+
+RejectCounts StrutPipeline::rejected() const {
+  RejectCounts all = rejected_;
+  if (grid_) all += grid_->rejected();
+  if (monitor_) all += monitor_->rejected();
+  return all;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,46 @@
+#include "suspension_health_monitor/strut_monitor.h"
+
+#include <utility>
+
+#include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
+
+namespace suspension_health_monitor {
+
+StrutMonitor::StrutMonitor(const MonitorOptions& options, Sink sink)
+    : pipeline_(std::make_unique<StrutPipeline>(options, StrutPipeline::Sinks{std::move(sink), {}})) {}
+
+StrutMonitor::~StrutMonitor() = default;
+StrutMonitor::StrutMonitor(StrutMonitor&& other) noexcept = default;
+StrutMonitor& StrutMonitor::operator=(StrutMonitor&& other) noexcept = default;
+
+void StrutMonitor::push(Side side, Stamp stamp, double acceleration) { pipeline_->push(side, stamp, acceleration); }
+
+void StrutMonitor::setEffects(const std::vector<ActiveEffect>& effects) { pipeline_->setEffects(effects); }
+
+void StrutMonitor::setBaseline(const Baseline& baseline) { pipeline_->setBaseline(baseline); }
+
+Baseline StrutMonitor::baseline() const {
+  return pipeline_->monitor() != nullptr ? pipeline_->monitor()->baseline() : Baseline{};
+}
+
+MonitorReport StrutMonitor::report() const {
+  return pipeline_->monitor() != nullptr ? pipeline_->monitor()->report() : MonitorReport{};
+}
+
+std::optional<TyreReport> StrutMonitor::tyre() const {
+  if (pipeline_->tyre() == nullptr) return std::nullopt;
+  return pipeline_->tyre()->report();
+}
+
+InputStatus StrutMonitor::input() const {
+  return pipeline_->monitor() != nullptr ? pipeline_->monitor()->input() : InputStatus{};
+}
+
+std::map<std::string, std::uint64_t> StrutMonitor::rejected() const { return pipeline_->rejected().byName(); }
+
+std::optional<double> StrutMonitor::samplePeriod() const {
+  if (pipeline_->monitor() == nullptr) return std::nullopt;
+  return pipeline_->monitor()->period();
+}
+
+}  // namespace suspension_health_monitor
