@@ -1,10 +1,7 @@
 // How healthy is a strut, while it drives? Readings of two accelerometers go in one by one, as they come.
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <random>
-#include <vector>
 
+#include "simulated_strut.h"
 #include "suspension_health_monitor/strut_monitor.h"
 
 int main() {
@@ -20,28 +17,13 @@ int main() {
                 describe(report.health).c_str());
   });
 
-  // Four minutes of rough ground, read at 100 Hz; half way the damper loses half of its oil.
-  constexpr double kPeriod = 0.01, kStep = kPeriod / 20, kStiffness = 40.0;
-  std::mt19937 engine(1);
-  std::normal_distribution<double> noise(0.0, 0.03);
-  std::uniform_real_distribution<double> phase(0.0, 6.28);
-  std::vector<double> frequencies, phases;
-  for (double f = 0.15; f < 10.0; f *= 1.07) {
-    frequencies.push_back(6.2832 * f);
-    phases.push_back(phase(engine));
-  }
-  double travel = 0.0, rate = 0.0;  // [m], [m/s], compression positive
-  for (int i = 0; i < 480000; ++i) {
-    double wheel = 0.0;  // w'' [m/s^2]
-    for (std::size_t j = 0; j < phases.size(); ++j) wheel += 0.1 * std::sin(frequencies[j] * i * kStep + phases[j]);
-    const double body = (i < 240000 ? 4.0 : 2.0) * rate + kStiffness * travel;
-    if (i % 20 == 0) {
-      const shm::Stamp stamp = shm::fromSeconds((i / 20 + 1) * kPeriod);
-      monitor.push(shm::Side::kSprung, stamp, 9.81 + body + noise(engine));
-      monitor.push(shm::Side::kUnsprung, stamp, 9.81 + wheel + noise(engine));
-    }
-    rate += kStep * (wheel - body);
-    travel += kStep * rate;
+  SimulatedStrut strut(0.1);
+  for (int i = 1; i <= 24000; ++i) {      // four minutes
+    if (i == 12000) strut.damping = 2.0;  // half way the damper loses half of its oil
+    const SimulatedStrut::Readings readings = strut.next();
+    const shm::Stamp stamp = shm::fromSeconds(i * SimulatedStrut::kPeriod);
+    monitor.push(shm::Side::kSprung, stamp, readings.body);
+    monitor.push(shm::Side::kUnsprung, stamp, readings.wheel);
   }
   const shm::StrutEstimate last = monitor.report().la;
   std::printf("at the end: damping/mass %.2f +- %.2f 1/s, stiffness/mass %.1f +- %.1f 1/s^2%s\n", last.damping_to_mass,

@@ -3,13 +3,10 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "conversions.h"
 #include "parameters.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr std::uint32_t kQueueSize = 100000;  // messages of either IMU that may wait: 100 s at 1 kHz, some 50 MB
 
 LiveModel::Shapes shapesOf(const SetEffectsRequest& request) {
   if (request.shape_names.size() != request.shape_values.size())
@@ -27,57 +24,48 @@ MonitorNodelet::~MonitorNodelet() {
   diagnose_.reset();
   reconfigure_.reset();
   tick_.stop();
-  static_transforms_.shutdown();
-  for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
-  road_.shutdown();
+  imus_.reset();
   for (ros::ServiceServer& service : services_) service.shutdown();
 }
 
 void MonitorNodelet::onInit() {
-  node_ = thread_->serve(getNodeHandle());
-  private_node_ = thread_->serve(getPrivateNodeHandle());
-  startOrRefuse(private_node_, [&] {
-    options_ = PipelineOptions::fromValues(readParameters(private_node_));
+  ros::NodeHandle node = thread_->serve(getNodeHandle()), private_node = thread_->serve(getPrivateNodeHandle());
+  startOrRefuse(private_node, [&] {
+    options_ = PipelineOptions::fromValues(readParameters(private_node));
     model_.emplace(options_.shell);
     baseline_.emplace(options_);
+    imus_.emplace(node, options_, [this](Side side, const sensor_msgs::Imu& imu) { onImu(side, imu); });
     makePipeline();
   });
   for (const std::string& remark : model_->remarks()) NODELET_WARN("%s", remark.c_str());
-  thread_->run([this] { start(); });  // there, so that no callback comes before all is set up
+  thread_->run([&] { start(node, private_node); });  // there, so that no callback comes before all is set up
 }
 
-void MonitorNodelet::start() {
-  ls_ = private_node_.advertise<ParameterEstimate>("ls", kQueueSize);
-  la_ = private_node_.advertise<ParameterEstimate>("la", kQueueSize);
-  comparison_ = private_node_.advertise<ModelComparison>("comparison", kQueueSize);
-  health_ = private_node_.advertise<SuspensionHealth>("health", kQueueSize);
-  if (!options_.shell.target_frame.empty())
-    static_transforms_ = node_.subscribe("/tf_static", kQueueSize, &MonitorNodelet::onTransforms, this);
-  if (options_.monitor.tyre) tyre_.emplace(private_node_, kQueueSize);
-  model_topic_.emplace(private_node_);
+void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
+  reports_.emplace(private_node, options_);
   publishModel();
-  subscribe();
-  diagnostics_.emplace(node_, private_node_, getName(), options_, imu_, *model_);
-  advertiseServices();
-  tick_ = node_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
+  imus_->listen();
+  diagnostics_.emplace(node, private_node, getName(), options_, imus_->strut(), *model_);
+  advertiseServices(private_node);
+  tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
 }
 
 void MonitorNodelet::makePipeline() {
   pipeline_.emplace(
-      options_, [this](const MonitorReport& report) { publish(report); }, &transforms_);
+      options_, [this](const MonitorReport& report) { publish(report); }, &imus_->transforms());
   pipeline_->strut().setEffects(model_->effects());
   if (baseline_->known()) pipeline_->strut().setBaseline(*baseline_->known());
 }
 
-void MonitorNodelet::advertiseServices() {
-  services_ = {private_node_.advertiseService("reset", &MonitorNodelet::onReset, this),
-               private_node_.advertiseService("set_effects", &MonitorNodelet::onSetEffects, this),
-               private_node_.advertiseService("save_model", &MonitorNodelet::onSaveModel, this),
-               private_node_.advertiseService("save_baseline", &MonitorNodelet::onSaveBaseline, this)};
-  diagnose_.emplace(private_node_, thread_->queue(),
+void MonitorNodelet::advertiseServices(ros::NodeHandle& private_node) {
+  services_ = {private_node.advertiseService("reset", &MonitorNodelet::onReset, this),
+               private_node.advertiseService("set_effects", &MonitorNodelet::onSetEffects, this),
+               private_node.advertiseService("save_model", &MonitorNodelet::onSaveModel, this),
+               private_node.advertiseService("save_baseline", &MonitorNodelet::onSaveBaseline, this)};
+  diagnose_.emplace(private_node, thread_->queue(),
                     DiagnoseService::Nodelet{[this](double window) { return giveSamples(window); },
                                              [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); }});
-  reconfigure_.emplace(private_node_);  // writes down the parameters as they were given, and defaults
+  reconfigure_.emplace(private_node);  // writes down the parameters as they were given, and defaults
   reconfigure_->setCallback([this](LiveSettings& settings, std::uint32_t) { onReconfigure(settings); });
 }
 
@@ -94,36 +82,19 @@ void MonitorNodelet::onReconfigure(LiveSettings& settings) {
 
 void MonitorNodelet::publishModel() {
   const SuspensionMonitor* monitor = pipeline_->monitor();
-  model_topic_->change(monitor != nullptr ? monitor->effects() : model_->effects(), monitor, frames_.front());
-}
-
-void MonitorNodelet::subscribe() {
-  const auto listen = [&](Side side, const char* topic) {
-    return node_.subscribe<sensor_msgs::Imu>(
-        topic, kQueueSize, [this, side](const sensor_msgs::ImuConstPtr& imu) { onImu(side, imu); }, nullptr,
-        ros::TransportHints().tcpNoDelay());
-  };
-  imu_ = {listen(Side::kSprung, "sprung/imu"), listen(Side::kUnsprung, "unsprung/imu")};
-  if (options_.monitor.tyre) road_ = listen(Side::kRoad, "road/imu");
+  reports_->model().change(monitor != nullptr ? monitor->effects() : model_->effects(), monitor, imus_->bodyFrame());
 }
 
 void MonitorNodelet::stopListening(const std::string& reason) {
   NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
   diagnostics_->input().setRefusal(reason);
-  for (ros::Subscriber& subscriber : imu_) subscriber.shutdown();
-  road_.shutdown();
+  imus_->stop();
 }
 
-void MonitorNodelet::onTransforms(const tf2_msgs::TFMessageConstPtr& tree) {
-  for (const geometry_msgs::TransformStamped& transform : tree->transforms)
-    transforms_.setTransform(transform, "/tf_static", true);
-}
-
-void MonitorNodelet::onImu(Side side, const sensor_msgs::ImuConstPtr& imu) {
-  frames_[static_cast<std::size_t>(side)] = imu->header.frame_id;
-  if (side != Side::kRoad) diagnostics_->input().noteMessage(side, imu->header.stamp);
+void MonitorNodelet::onImu(Side side, const sensor_msgs::Imu& imu) {
+  if (side != Side::kRoad) diagnostics_->input().noteMessage(side, imu.header.stamp);
   try {
-    pipeline_->push(side, *imu);
+    pipeline_->push(side, imu);
   } catch (const std::invalid_argument& error) {  // the options do not fit the sample period that was measured
     stopListening(error.what());
   }
@@ -131,24 +102,8 @@ void MonitorNodelet::onImu(Side side, const sensor_msgs::ImuConstPtr& imu) {
 
 void MonitorNodelet::publish(const MonitorReport& report) {
   if (diagnostics_->noteLevel(report.health.level)) onTick();
-  model_topic_->note(*pipeline_->monitor(), frames_.front());
   if (report.health.learned && !baseline_->known()) keepBaseline();
-  if (reports_++ % static_cast<std::uint64_t>(options_.shell.publish_every) != 0) return;
-  std_msgs::Header header;
-  header.stamp = toRosTime(report.stamp);
-  header.frame_id = frames_.front();
-  const std::optional<double>& mass = options_.monitor.sprung_mass;
-  const auto send = [](ros::Publisher& publisher, const auto& make) {
-    if (publisher.getNumSubscribers() == 0) return;
-    auto msg = make();
-    publisher.publish(boost::make_shared<const decltype(msg)>(std::move(msg)));
-  };
-  const std::vector<ActiveEffect>& effects = pipeline_->monitor()->effects();
-  send(ls_, [&] { return toMsg(report.ls, "ls", header, effects, mass); });
-  send(la_, [&] { return toMsg(report.la, "la", header, effects, mass); });
-  if (report.comparison.has_sample) send(comparison_, [&] { return toMsg(report.comparison, header.frame_id); });
-  if (tyre_) tyre_->publish(*pipeline_->strut().tyre(), report.la, header);
-  send(health_, [&] { return toMsg(report, pipeline_->monitor()->baseline(), header); });
+  reports_->publish(report, pipeline_->strut(), imus_->bodyFrame());
 }
 
 void MonitorNodelet::onTick() { diagnostics_->publish(*pipeline_); }
@@ -157,7 +112,7 @@ bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   makePipeline();
   publishModel();
   diagnostics_->input().restart();
-  if (!imu_.front()) subscribe();
+  imus_->listen();
   response.success = true;
   response.message = "estimates, filters and counters start anew";
   return true;

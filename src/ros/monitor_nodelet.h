@@ -6,8 +6,6 @@
 #include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
 #include <suspension_health_monitor/SetEffects.h>
-#include <tf2/buffer_core.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <array>
 #include <memory>
@@ -16,13 +14,13 @@
 
 #include "diagnose_service.h"
 #include "imu_pipeline.h"
+#include "imu_topics.h"
 #include "live_baseline.h"
 #include "live_model.h"
 #include "live_settings.h"
-#include "model_topic.h"
 #include "monitor_diagnostics.h"
 #include "monitor_thread.h"
-#include "tyre_output.h"
+#include "report_topics.h"
 
 namespace suspension_health_monitor {
 
@@ -37,10 +35,9 @@ class MonitorNodelet : public nodelet::Nodelet {
   /// @throws std::invalid_argument  on a wrong parameter, after logging it: the loader drops the nodelet and lives on.
   void onInit() override;
 
-  void start();
+  void start(ros::NodeHandle node, ros::NodeHandle private_node);
 
-  void onTransforms(const tf2_msgs::TFMessageConstPtr& tree);
-  void onImu(Side side, const sensor_msgs::ImuConstPtr& imu);
+  void onImu(Side side, const sensor_msgs::Imu& imu);
   void publish(const MonitorReport& report);
   void onTick();
   void onReconfigure(LiveSettings& settings);
@@ -53,31 +50,22 @@ class MonitorNodelet : public nodelet::Nodelet {
   void takeDiagnosis(const Diagnosis& diagnosis);
   std::optional<MotionScale> motionScaleNow() const;
   void publishModel();
-  void advertiseServices();
+  void advertiseServices(ros::NodeHandle& private_node);
   void makePipeline();
-  void subscribe();
   void stopListening(const std::string& reason);
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
-  ros::NodeHandle node_, private_node_;
   PipelineOptions options_;
-  tf2::BufferCore transforms_;  // static ones
   std::optional<LiveModel> model_;
   std::optional<LiveBaseline> baseline_;
+  std::optional<ImuTopics> imus_;
   std::optional<ImuPipeline> pipeline_;
+  std::optional<ReportTopics> reports_;
   std::optional<MonitorDiagnostics> diagnostics_;
-  std::uint64_t reports_ = 0;
-  std::array<std::string, kMostStreams> frames_;
-  ros::Publisher ls_, la_, comparison_, health_;
-  std::optional<ModelTopic> model_topic_;
   std::array<ros::ServiceServer, 4> services_;
   std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
   std::optional<DiagnoseService> diagnose_;
   ros::WallTimer tick_;
-  ros::Subscriber static_transforms_;
-  std::array<ros::Subscriber, 2> imu_;
-  ros::Subscriber road_;
-  std::optional<TyreOutput> tyre_;
 };
 
 }  // namespace suspension_health_monitor

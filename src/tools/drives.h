@@ -15,7 +15,7 @@ std::vector<Drive> readDrives(const BagOptions& options);
 template <class Options>
 void takeSettings(const BagOptions& bags, const ModelOptions& models, Options& options) {
   options.sample_period = bags.pipeline.monitor.sample_period;
-  options.horizon_samples = bags.pipeline.monitor.filter(*options.sample_period).horizon_samples;
+  options.horizon_samples = MonitorSettings(bags.pipeline.monitor).horizonSamples(*options.sample_period);
   options.model = models.model;
 }
 

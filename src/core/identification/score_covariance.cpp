@@ -36,9 +36,10 @@ double quadratic(const Eigen::MatrixXd& m, const Eigen::VectorXd& x) {
 
 }  // namespace
 
-ScoreCovariance::Rows::Rows(int num_parameters)
+ScoreCovariance::Rows::Rows(int num_parameters, double forgetting_factor)
     : scores(Eigen::VectorXd::Zero(num_parameters)),
-      information(Eigen::MatrixXd::Zero(num_parameters, num_parameters)) {}
+      information(Eigen::MatrixXd::Zero(num_parameters, num_parameters)),
+      decay(forgetting_factor) {}
 
 void ScoreCovariance::Rows::clear() {
   scores.setZero();
@@ -50,13 +51,12 @@ void ScoreCovariance::Rows::clear() {
 ScoreCovariance::ScoreCovariance(int num_parameters, int correlated_rows, double forgetting_factor)
     : block_rows_(std::max(correlated_rows + 1, kFewestRows)),
       forgetting_factor_(forgetting_factor),
-      decay_(forgetting_factor),
       course_(Eigen::MatrixXd::Zero(num_parameters, 2)),
-      block_(num_parameters),
-      before_(block_.scores),
+      block_(num_parameters, forgetting_factor),
+      before_{block_.scores},
       means_{block_.information, block_.information, block_.information},
-      factor_(Eigen::MatrixXd::Identity(num_parameters, num_parameters)),  // without a matrix it has no state to copy
-      column_(before_),
+      work_{Eigen::LLT<Eigen::MatrixXd>(Eigen::MatrixXd::Identity(num_parameters, num_parameters)),  // else no copy
+            block_.scores},
       prior_(Eigen::VectorXd::Constant(num_parameters, kWhiteRatio)),
       ratio_(prior_) {}
 
@@ -70,12 +70,13 @@ ScoreCovariance::ScoreCovariance(const ScoreCovariance& before, const std::vecto
 
 void ScoreCovariance::interrupt() {
   block_.clear();
-  has_before_ = false;
+  before_.is_known = false;
 }
 
 void ScoreCovariance::restart() {
   interrupt();
-  usual_ = seen_ = means_.blocks = 0.0;
+  usual_ = {};
+  means_.blocks = 0.0;
   strange_blocks_ = 0;
   ratio_ = prior_;
 }
@@ -87,9 +88,9 @@ double ScoreCovariance::longestMemory() const {
 
 bool ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta, const RowWeight& weight,
                           double innovation) {
-  if (seen_ == 0.0) course_.colwise() = theta;
+  if (usual_.rows == 0.0) course_.colwise() = theta;
   const double residual = row.output - 2.0 * row.regressor.dot(course_.col(0)) + row.regressor.dot(course_.col(1));
-  block_.scores *= decay_;
+  block_.scores *= block_.decay;
   ++block_.all;
   if (isUsual(residual, innovation)) {
     const bool by_residual = weight.smallest_divisor > 0.0;
@@ -108,14 +109,16 @@ bool ScoreCovariance::add(const RegressionRow& row, const Eigen::VectorXd& theta
 // Also learns what is usual, of which an outlier becomes part slowly, by kFar of it at most.
 bool ScoreCovariance::isUsual(double residual, double innovation) {
   const double size = std::abs(residual);
-  if (usual_ == 0.0) usual_ = size;
-  const double most = kFar * usual_;
-  seen_ = std::min(seen_ + 1.0, longestMemory() * block_rows_);
-  usual_ += (std::min(size, most) - usual_) / seen_;
+  if (usual_.mean == 0.0) usual_.mean = size;
+  const double most = kFar * usual_.mean;
+  usual_.rows = std::min(usual_.rows + 1.0, longestMemory() * block_rows_);
+  usual_.mean += (std::min(size, most) - usual_.mean) / usual_.rows;
   return size <= most && std::abs(innovation) <= most;
 }
 
-double ScoreCovariance::limited(double size) const { return usual_ > 0.0 ? std::min(size, kFar * usual_) : size; }
+double ScoreCovariance::limited(double size) const {
+  return usual_.mean > 0.0 ? std::min(size, kFar * usual_.mean) : size;
+}
 
 bool ScoreCovariance::closeBlock(const Eigen::VectorXd& theta) {
   if (2 * block_.usual < block_.all) {
@@ -131,7 +134,7 @@ bool ScoreCovariance::closeBlock(const Eigen::VectorXd& theta) {
     return false;
   }
   strange_blocks_ = 0;
-  if (has_before_) {
+  if (before_.is_known) {
     limitScores();
     means_.blocks += 1.0;
     const double gain = std::max(1.0 / longestMemory(), kFading / (means_.blocks + kFading - 1.0));
@@ -144,10 +147,10 @@ bool ScoreCovariance::closeBlock(const Eigen::VectorXd& theta) {
   } else if (means_.blocks == 0.0) {
     course_.colwise() = theta;  // the first block, in which the estimate may still come from its start, tells no more
   }
-  before_ = block_.scores;
-  has_before_ = true;
+  before_.scores = block_.scores;
+  before_.is_known = true;
   block_.clear();
-  decay_ = 1.0 - (1.0 - forgetting_factor_) * slope_;
+  block_.decay = 1.0 - (1.0 - forgetting_factor_) * slope_;
   return true;
 }
 
@@ -165,8 +168,8 @@ void ScoreCovariance::average(double gain) {
   means_.own *= 1.0 - gain;
   addProduct(block_.scores, block_.scores, gain, means_.own);
   means_.neighbours *= 1.0 - gain;
-  addProduct(block_.scores, before_, gain, means_.neighbours);
-  addProduct(before_, block_.scores, gain, means_.neighbours);
+  addProduct(block_.scores, before_.scores, gain, means_.neighbours);
+  addProduct(before_.scores, block_.scores, gain, means_.neighbours);
   means_.information *= 1.0 - gain;
   means_.information += (gain / rows) * block_.information;
   means_.square += gain * (block_.squares / rows - means_.square);
@@ -176,18 +179,20 @@ void ScoreCovariance::average(double gain) {
 // ratio_i = (R^-1 G R^-1)_ii / (R^-1)_ii / scale, by the columns of R^-1; all of one row, so that G is over what it
 // would be of one row for white scores, sum mu^2j over a block.
 void ScoreCovariance::compareWithWhiteResiduals() {
-  factor_.compute(means_.information);
-  if (factor_.info() != Eigen::Success || !(means_.square > 0.0)) return;  // some parameter has not been excited yet
-  const double of_block = std::pow(decay_, block_rows_);
-  const double rows = decay_ < 1.0 ? (1.0 - of_block * of_block) / (1.0 - decay_ * decay_) : block_rows_;
+  work_.factor.compute(means_.information);
+  if (work_.factor.info() != Eigen::Success || !(means_.square > 0.0))
+    return;  // some parameter has not been excited yet
+  const double of_block = std::pow(block_.decay, block_rows_);
+  const double rows =
+      block_.decay < 1.0 ? (1.0 - of_block * of_block) / (1.0 - block_.decay * block_.decay) : block_rows_;
   const double trust = means_.blocks * means_.blocks / (means_.blocks * means_.blocks + kPriorBlocks * kPriorBlocks);
   for (Eigen::Index i = 0; i < ratio_.size(); ++i) {
-    column_.setZero();
-    column_[i] = 1.0;
-    factor_.solveInPlace(column_);
-    const double own = quadratic(means_.own, column_), of_neighbours = quadratic(means_.neighbours, column_);
+    work_.column.setZero();
+    work_.column[i] = 1.0;
+    work_.factor.solveInPlace(work_.column);
+    const double own = quadratic(means_.own, work_.column), of_neighbours = quadratic(means_.neighbours, work_.column);
     const double correlated = std::max(own + of_block * of_neighbours, kSmallestShare * own) / rows;
-    const double found = correlated / (column_[i] * means_.square / means_.weight);
+    const double found = correlated / (work_.column[i] * means_.square / means_.weight);
     if (std::isfinite(found)) ratio_[i] = prior_[i] + trust * (found - prior_[i]);
   }
 }

@@ -83,18 +83,16 @@ bool FreeRun::trySetModel(double damping_to_mass, double stiffness_to_mass) {
   if (hasModel()) state_.travel *= model_.stiffness_to_mass / stiffness_to_mass;
   model_.damping_to_mass = damping_to_mass;
   model_.stiffness_to_mass = stiffness_to_mass;
-  if (!hasModel() || !(steps <= num_steps_ && 2 * steps > num_steps_)) split(steps);
+  if (!hasModel() || !(steps <= steps_.count && 2 * steps > steps_.count)) split(steps);
   decay_rate_ = slowestDecay(damping_to_mass, stiffness_to_mass);
-  mean_memory_ = kMeanMemory * 2 * kPi / (period_ * frequency);
+  mean_.memory = kMeanMemory * 2 * kPi / (period_ * frequency);
   return true;
 }
 
 void FreeRun::split(double steps) {
   std::size_t i = 0;
   while (steps > 1 << i) ++i;
-  num_steps_ = 1 << i;
-  step_ = period_ / num_steps_;
-  steps_ = splits()[i].data();
+  steps_ = {splits()[i].data(), 1 << i, period_ / (1 << i)};
 }
 
 void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
@@ -113,7 +111,7 @@ void FreeRun::setEffects(const std::vector<ActiveEffect>& effects) {
   model_.effects = effects;
   state_.memory = {};
   forces_ = {};
-  if (decayed_ > 0.0) countTravelFrom(effects.empty() ? 0.0 : mean_);
+  if (decayed_ > 0.0) countTravelFrom(effects.empty() ? 0.0 : mean_.value);
 }
 
 bool FreeRun::follow(const StrutModel& model, const RecordedWheel& wheel, StrutState state, double bound,
@@ -136,8 +134,9 @@ bool FreeRun::follow(const StrutModel& model, const RecordedWheel& wheel, StrutS
 std::optional<double> FreeRun::push(double unsprung_acceleration, double time) {
   const double answered = time - kDelay * period_;
   if (decayed_ > 0.0) advance(answered - period_);
-  insert(unsprung_acceleration);
-  if (num_inputs_ < kWindow || !hasModel()) return std::nullopt;
+  input_.push(unsprung_acceleration);
+  mean_.add(unsprung_acceleration);
+  if (!input_.full() || !hasModel()) return std::nullopt;
   if (decayed_ == 0.0) startAnew();
   const double prediction = predict(answered);
   decayed_ += decay_rate_ * period_;
@@ -149,31 +148,23 @@ std::optional<double> FreeRun::push(double unsprung_acceleration, double time) {
   return prediction;
 }
 
-void FreeRun::insert(double unsprung_acceleration) {
-  newest_ = newest_ + 1 == kWindow ? 0 : newest_ + 1;
-  input_[newest_] = input_[newest_ + kWindow] = unsprung_acceleration;
-  if (num_inputs_ < kWindow) ++num_inputs_;
-  mean_weight_ = std::min(mean_weight_, mean_memory_) + 1.0;
-  mean_ += (unsprung_acceleration - mean_) / mean_weight_;
-}
-
 // From the sample at `time` to the next.
 void FreeRun::advance(double time) {
   const double square = period_ * period_;
-  for (int i = 0; i < num_steps_; ++i) {
-    WheelStep wheel = steps_[i](window());  // in samples
+  for (int i = 0; i < steps_.count; ++i) {
+    WheelStep wheel = steps_.first[i](input_.data());  // in samples
     wheel.middle_position *= square;
     wheel.middle_velocity *= period_;
     wheel.end_position *= square;
     wheel.end_velocity *= period_;
-    if (withEffects()) takeOff(offset_, step_, wheel);
-    integrateStrut(model_, time + i * step_, step_, wheel, state_);
+    if (withEffects()) takeOff(offset_, steps_.length, wheel);
+    integrateStrut(model_, time + i * steps_.length, steps_.length, wheel, state_);
   }
 }
 
 double FreeRun::predict(double time) {
   if (!withEffects()) return model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
-  countTravelFrom(mean_);
+  countTravelFrom(mean_.value);
   double prediction = offset_ + model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
   for (std::size_t j = 0; j < model_.effects.size(); ++j) {
     const ActiveEffect& active = model_.effects[j];
@@ -189,7 +180,7 @@ void FreeRun::countTravelFrom(double offset) {
 }
 
 bool FreeRun::ranAway(double prediction) {
-  largest_ = std::max(largest_, std::abs(input_[newest_]));
+  largest_ = std::max(largest_, std::abs(input_.newest()));
   // Forces that cancel each other in the prediction stand in columns of the regression one by one.
   const bool usable = std::all_of(forces_.begin(), forces_.begin() + static_cast<std::ptrdiff_t>(model_.effects.size()),
                                   [](double force) { return isUsable(force); });
@@ -199,7 +190,7 @@ bool FreeRun::ranAway(double prediction) {
 // At rest under the constant part of the input.
 void FreeRun::startAnew() {
   state_ = {};
-  offset_ = mean_;
+  offset_ = mean_.value;
   if (!withEffects()) countTravelFrom(0.0);
   decayed_ = 0.0;
 }
@@ -207,7 +198,7 @@ void FreeRun::startAnew() {
 void FreeRun::reset() {
   state_ = {};
   decayed_ = 0.0;
-  num_inputs_ = 0;
+  input_.clear();
   largest_ = 0.0;
 }
 

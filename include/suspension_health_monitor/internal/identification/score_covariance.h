@@ -77,8 +77,9 @@ class ScoreCovariance {
     Eigen::MatrixXd information;         // w phi phi'
     double squares = 0.0, weight = 0.0;  // (w epsilon)^2, w
     int usual = 0, all = 0;              // number of rows
+    double decay;                        // mu, the same for all of its rows
 
-    explicit Rows(int num_parameters);
+    Rows(int num_parameters, double forgetting_factor);
     void clear();
   };
 
@@ -90,6 +91,23 @@ class ScoreCovariance {
     double blocks = 0.0;
   };
 
+  /// The block before.
+  struct Neighbour {
+    Eigen::VectorXd scores;
+    bool is_known = false;
+  };
+
+  /// Mean size of a residual, and the rows that it rests on.
+  struct UsualSize {
+    double mean = 0.0, rows = 0.0;
+  };
+
+  /// What a step takes its memory from, so that none is allocated.
+  struct Workspace {
+    Eigen::LLT<Eigen::MatrixXd> factor;
+    Eigen::VectorXd column;
+  };
+
   bool isUsual(double residual, double innovation);
   bool closeBlock(const Eigen::VectorXd& theta);
   void limitScores();
@@ -99,16 +117,14 @@ class ScoreCovariance {
 
   int block_rows_;
   double forgetting_factor_, slope_ = 1.0;
-  double decay_;                     // mu
-  double usual_ = 0.0, seen_ = 0.0;  // mean size of a residual; rows in it
-  Eigen::MatrixXd course_;           // (p, 2): mean of the estimate, mean of that mean
+  UsualSize usual_;
+  Eigen::MatrixXd course_;  // (p, 2): mean of the estimate, mean of that mean
   Rows block_;
-  Eigen::VectorXd before_;  // g of the block before
-  bool has_before_ = false;
+  Neighbour before_;
   int strange_blocks_ = 0;  // in a row
   Means means_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd column_, prior_, ratio_;
+  Workspace work_;
+  Eigen::VectorXd prior_, ratio_;
 };
 
 }  // namespace suspension_health_monitor

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
+#include "suspension_health_monitor/internal/signal/sliding_window.h"
 
 namespace suspension_health_monitor {
 
@@ -72,7 +74,7 @@ class FreeRun {
   static bool follow(const StrutModel& model, const RecordedWheel& wheel, StrutState state, double bound,
                      std::vector<double>& predicted, std::vector<StrutState>* motion = nullptr);
 
-  bool hasModel() const { return num_steps_ > 0; }
+  bool hasModel() const { return steps_.count > 0; }
   const StrutModel& model() const { return model_; }
 
   /// Takes in the next sample of an uninterrupted uniform series of w'' [m/s^2].
@@ -90,9 +92,9 @@ class FreeRun {
   std::uint64_t runaways() const { return runaways_; }
 
   /// At the sample that the last prediction belongs to:
-  double travel() const { return state_.travel; }                       ///< d [m]; with effects less a / b0
-  double travelRate() const { return state_.travel_rate; }              ///< v [m/s]
-  double unsprungAcceleration() const { return window()[kDelay - 1]; }  ///< w'' as measured [m/s^2]
+  double travel() const { return state_.travel; }                            ///< d [m]; with effects less a / b0
+  double travelRate() const { return state_.travel_rate; }                   ///< v [m/s]
+  double unsprungAcceleration() const { return input_.data()[kDelay - 1]; }  ///< w'' as measured [m/s^2]
   /// f_j, one per effect, per unit of its coefficient.
   const double* effectForces() const { return forces_.data(); }
 
@@ -105,30 +107,40 @@ class FreeRun {
 
   bool withEffects() const { return !model_.effects.empty(); }
   void split(double steps);
-  const double* window() const { return &input_[newest_ + 1]; }  // kWindow samples, the oldest first
-  void insert(double unsprung_acceleration);
   void advance(double time);
   double predict(double time);
   void countTravelFrom(double offset);
   void startAnew();
   bool ranAway(double prediction);
 
+  /// How a sample is split into steps of integration.
+  struct Steps {
+    const WheelInterpolator* first = nullptr;
+    int count = 0;        // 0: no model yet
+    double length = 0.0;  // [s]
+  };
+
+  /// A mean with a memory.
+  struct Mean {
+    double value = 0.0, weight = 0.0;
+    double memory = std::numeric_limits<double>::infinity();  // [samples]
+    void add(double sample) {
+      weight = std::min(weight, memory) + 1.0;
+      value += (sample - value) / weight;
+    }
+  };
+
   double period_;
   StrutModel model_;
-  const WheelInterpolator* steps_ = nullptr;                      // of one sample
-  int num_steps_ = 0;                                             // 0: no model yet
-  double step_ = 0.0;                                             // [s]
-  double decay_rate_ = 0.0;                                       // of the slowest free motion [1/s]
-  double mean_memory_ = std::numeric_limits<double>::infinity();  // [samples]
+  Steps steps_;
+  double decay_rate_ = 0.0;  // of the slowest free motion [1/s]
   StrutState state_;
   std::array<double, kMostEffects> forces_{};
-  std::array<double, 2 * kWindow> input_{};  // every sample twice, kWindow apart: always kWindow in a row
-  std::size_t newest_ = kWindow - 1;         // its first place, < kWindow
-  std::size_t num_inputs_ = 0;
-  double mean_ = 0.0, mean_weight_ = 0.0;
-  double offset_ = 0.0;   // travel is counted from where this constant holds it [m/s^2]
-  double largest_ = 0.0;  // |w''| of this run [m/s^2]
-  double decayed_ = 0.0;  // e-foldings since the start; 0: not running
+  SlidingWindow<kWindow> input_;  // w''
+  Mean mean_;                     // of it
+  double offset_ = 0.0;           // travel is counted from where this constant holds it [m/s^2]
+  double largest_ = 0.0;          // |w''| of this run [m/s^2]
+  double decayed_ = 0.0;          // e-foldings since the start; 0: not running
   std::uint64_t runaways_ = 0;
 };
 

@@ -1,0 +1,45 @@
+#include "report_topics.h"
+
+#include <boost/make_shared.hpp>
+#include <utility>
+
+#include "conversions.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+template <class Make>
+void send(ros::Publisher& publisher, const Make& make) {
+  if (publisher.getNumSubscribers() == 0) return;
+  auto msg = make();
+  publisher.publish(boost::make_shared<const decltype(msg)>(std::move(msg)));
+}
+
+}  // namespace
+
+ReportTopics::ReportTopics(ros::NodeHandle& private_node, const PipelineOptions& options)
+    : stride_(static_cast<std::uint64_t>(options.shell.publish_every)),
+      sprung_mass_(options.monitor.sprung_mass),
+      ls_(private_node.advertise<ParameterEstimate>("ls", kQueueSize)),
+      la_(private_node.advertise<ParameterEstimate>("la", kQueueSize)),
+      comparison_(private_node.advertise<ModelComparison>("comparison", kQueueSize)),
+      health_(private_node.advertise<SuspensionHealth>("health", kQueueSize)),
+      model_(private_node) {
+  if (options.monitor.tyre) tyre_.emplace(private_node, kQueueSize);
+}
+
+void ReportTopics::publish(const MonitorReport& report, const StrutPipeline& strut, const std::string& frame) {
+  model_.note(*strut.monitor(), frame);
+  if (reports_++ % stride_ != 0) return;
+  std_msgs::Header header;
+  header.stamp = toRosTime(report.stamp);
+  header.frame_id = frame;
+  const std::vector<ActiveEffect>& effects = strut.monitor()->effects();
+  send(ls_, [&] { return toMsg(report.ls, "ls", header, effects, sprung_mass_); });
+  send(la_, [&] { return toMsg(report.la, "la", header, effects, sprung_mass_); });
+  if (report.comparison.has_sample) send(comparison_, [&] { return toMsg(report.comparison, frame); });
+  if (tyre_) tyre_->publish(*strut.tyre(), report.la, header);
+  send(health_, [&] { return toMsg(report, strut.monitor()->baseline(), header); });
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <ros/ros.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "imu_pipeline.h"
+#include "model_topic.h"
+#include "tyre_output.h"
+
+namespace suspension_health_monitor {
+
+/// What is told of every sample: ~ls, ~la, ~comparison, ~health and those of the tyre; and ~model, when it changes.
+class ReportTopics {
+ public:
+  static constexpr std::uint32_t kQueueSize = 100000;  // messages
+
+  ReportTopics(ros::NodeHandle& private_node, const PipelineOptions& options);
+
+  /// Publishes what has subscribers, of every publish_every-th report.
+  /// @param frame  frame_id of the body's IMU.
+  void publish(const MonitorReport& report, const StrutPipeline& strut, const std::string& frame);
+
+  ModelTopic& model() { return model_; }
+
+ private:
+  std::uint64_t stride_, reports_ = 0;
+  std::optional<double> sprung_mass_;  // [kg]
+  ros::Publisher ls_, la_, comparison_, health_;
+  ModelTopic model_;
+  std::optional<TyreOutput> tyre_;
+};
+
+}  // namespace suspension_health_monitor
