@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+
 namespace suspension_health_monitor {
 namespace {
 

@@ -133,9 +133,7 @@ void LiveBaseline::save(const SuspensionMonitor* monitor) {
 }
 
 void LiveBaseline::write(const Baseline& baseline, const SuspensionMonitor& monitor) const {
-  TextFile file(path_);
-  std::fputs(toYaml(baseline, monitor.horizonSamples() * monitor.period(), monitor.period()).c_str(), file.stream());
-  file.commit();
+  TextFile(path_).commit(toYaml(baseline, monitor.horizonSamples() * monitor.period(), monitor.period()));
 }
 
 }  // namespace suspension_health_monitor

@@ -150,9 +150,7 @@ std::vector<std::string> LiveModel::missing() const {
 void LiveModel::save(StrutModel model) const {
   if (model_file_.empty()) throw std::runtime_error("no file to write to: set the parameter model_file");
   if (loaded_) model.reading = loaded_->reading;
-  TextFile file(model_file_);
-  std::fputs(toYaml(model).c_str(), file.stream());
-  file.commit();
+  TextFile(model_file_).commit(toYaml(model));
 }
 
 }  // namespace suspension_health_monitor

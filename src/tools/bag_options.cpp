@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "../ros/model_file.h"
-#include "option_sources.h"
+#include "command.h"
 #include "survey.h"
 
 namespace suspension_health_monitor {
@@ -34,7 +34,6 @@ BagOptions readBagOptions(const po::variables_map& values) {
   bags.paths = values["bag"].as<std::vector<std::string>>();
   bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
   if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
-  static constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
   for (std::size_t i = 0; i < bags.topics.size(); ++i)
     if (bags.topics[i].empty())
       throw std::invalid_argument(std::string(kTopicOptions[i]) + " is empty, must be a topic");
@@ -47,8 +46,7 @@ BagOptions readBagOptions(const po::variables_map& values) {
   if (!(bags.start >= 0.0 && bags.end > bags.start))
     throw std::invalid_argument("--start " + std::to_string(bags.start) + " --end " + std::to_string(bags.end) +
                                 " [s], must be 0 <= start < end");
-  const OptionMap settings =
-      gatherOptions(values["config"].as<std::string>(), values["set"].as<std::vector<std::string>>());
+  const OptionMap settings = gatherOptions(values);
   options.pipeline = PipelineOptions::fromValues(settings);
   options.pipeline.shell.tyre = bags.topics.size() > 2;
   if (!options.pipeline.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);

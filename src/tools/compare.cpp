@@ -3,11 +3,10 @@
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
-#include "comparison_report.h"
 #include "drives.h"
 #include "interruption.h"
 #include "progress.h"
-#include "separate_files.h"
+#include "results.h"
 
 namespace suspension_health_monitor {
 
@@ -39,9 +38,7 @@ void compare(const Arguments& arguments) {
   }
   requireEnough(comparison.shortcoming, comparison.reason);
   printComparison(comparison);
-  if (!json) return;
-  std::fprintf(json->stream(), "%s\n", toJson(comparison).dump(2).c_str());
-  json->commit();
+  if (json) json->commit(toJson(comparison).dump(2) + '\n');
 }
 
 }  // namespace suspension_health_monitor

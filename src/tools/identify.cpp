@@ -12,10 +12,9 @@
 #include "command.h"
 #include "errors.h"
 #include "identify_tables.h"
-#include "identify_verdict.h"
 #include "interruption.h"
-#include "separate_files.h"
 #include "suspension_health_monitor/internal/drive_identification.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,5 +1,3 @@
-#include "report_series.h"
-
 #include <algorithm>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
@@ -7,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "report_parts.h"
 #include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {

@@ -4,9 +4,8 @@
 #include "../ros/whole_bag.h"
 #include "command.h"
 #include "interruption.h"
-#include "option_sources.h"
 #include "progress.h"
-#include "separate_files.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -34,12 +33,8 @@ void writeBag(const SimulatorOptions& options, const std::string& path) {
 
 std::string describeRates(const SimulationOptions& drive) {
   const double sprung = drive.rate, unsprung = drive.unsprung_rate.value_or(drive.rate);
-  char text[80];
-  if (sprung == unsprung)
-    std::snprintf(text, sizeof text, "%g Hz", sprung);
-  else
-    std::snprintf(text, sizeof text, "%g Hz (sprung) and %g Hz (unsprung)", sprung, unsprung);
-  return text;
+  return sprung == unsprung ? formatted("%g Hz", sprung)
+                            : formatted("%g Hz (sprung) and %g Hz (unsprung)", sprung, unsprung);
 }
 
 }  // namespace
@@ -62,8 +57,7 @@ void simulate(const Arguments& arguments) {
   if (!values) return;
 
   requireSeparateFiles(*values, {"config", "effects-file"}, {"output"});
-  OptionMap settings =
-      gatherOptions((*values)["config"].as<std::string>(), (*values)["set"].as<std::vector<std::string>>());
+  OptionMap settings = gatherOptions(*values);
   for (const std::string& effect : (*values)["effect"].as<std::vector<std::string>>())
     setEffect(settings, effect, measurementEffects());
   for (const char* flag : kFlags)

@@ -1,25 +1,21 @@
 #include "suspension_health_monitor/internal/simulation/accelerometer.h"
 
+#include <array>
 #include <cmath>
 
 namespace suspension_health_monitor {
 namespace {
 
-RandomPurpose noisePurpose(Accelerometer::Place place) {
-  if (place == Accelerometer::Place::kRoad) return RandomPurpose::kRoadNoise;
-  return place == Accelerometer::Place::kSprung ? RandomPurpose::kSprungNoise : RandomPurpose::kUnsprungNoise;
-}
-
-RandomPurpose deliveryPurpose(Accelerometer::Place place) {
-  if (place == Accelerometer::Place::kRoad) return RandomPurpose::kRoadDelivery;
-  return place == Accelerometer::Place::kSprung ? RandomPurpose::kSprungDelivery : RandomPurpose::kUnsprungDelivery;
-}
+// By place.
+constexpr std::array kNoise{RandomPurpose::kSprungNoise, RandomPurpose::kUnsprungNoise, RandomPurpose::kRoadNoise};
+constexpr std::array kDelivery{RandomPurpose::kSprungDelivery, RandomPurpose::kUnsprungDelivery,
+                               RandomPurpose::kRoadDelivery};
 
 }  // namespace
 
 Accelerometer::Accelerometer(const SimulationOptions& options, Place place)
-    : noise_random_(options.seed, noisePurpose(place)),
-      delivery_random_(options.seed, deliveryPurpose(place)),
+    : noise_random_(options.seed, kNoise[static_cast<std::size_t>(place)]),
+      delivery_random_(options.seed, kDelivery[static_cast<std::size_t>(place)]),
       noise_(options.noise),
       gaussian_(options.gaussian_noise),
       dropout_(options.dropout),

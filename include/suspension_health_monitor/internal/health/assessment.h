@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
@@ -124,9 +123,5 @@ class HealthAssessment {
   SensorReport sensor_;
   HealthReport report_;
 };
-
-/// @return the report in one sentence for a person, e.g. "damping 31 % below baseline (12 sigma), stiffness at
-/// baseline".
-std::string describe(const HealthReport& report);
 
 }  // namespace suspension_health_monitor

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/monitor/strut_estimate.h"
@@ -85,8 +84,5 @@ class SensorCheck {
   std::array<Reading, 2> readings_;
   SensorReport report_;
 };
-
-/// @return the finding in words for a person; empty for kNone.
-std::string describe(const SensorReport& report);
 
 }  // namespace suspension_health_monitor

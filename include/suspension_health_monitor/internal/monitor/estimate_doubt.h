@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 namespace suspension_health_monitor {
 
 /// Why an estimate is not valid: the first that holds, in this order. The rules stand in validity_gate.cpp.
@@ -20,8 +18,5 @@ enum class EstimateDoubt {
   kNoSpread,             ///< no standard deviation can be told
   kFreeRunFails,         ///< the model, driven by the wheel, fits worse than a constant
 };
-
-/// @return a sentence for people.
-std::string_view describe(EstimateDoubt doubt);
 
 }  // namespace suspension_health_monitor

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string_view>
 
 namespace suspension_health_monitor {
@@ -30,8 +31,11 @@ class RejectCounts {
  public:
   void add(RejectReason reason) { ++counts_[static_cast<std::size_t>(reason)]; }
   std::uint64_t count(RejectReason reason) const { return counts_[static_cast<std::size_t>(reason)]; }
-  std::uint64_t total() const;
-  RejectCounts& operator+=(const RejectCounts& other);
+  std::uint64_t total() const { return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}); }
+  RejectCounts& operator+=(const RejectCounts& other) {
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+    return *this;
+  }
 
  private:
   std::array<std::uint64_t, kRejectReasonNames.size()> counts_{};
