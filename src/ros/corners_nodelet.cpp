@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
+#include "conversions.h"
 #include "parameters.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
@@ -101,7 +101,6 @@ std::array<CornerState, kNumCorners> CornersNodelet::states() const {
 }
 
 void CornersNodelet::publishComparison() {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const auto msg = boost::make_shared<CornerComparison>();
   for (const Corner& corner : corners_)
     if (corner.estimate) msg->header.stamp = std::max(msg->header.stamp, corner.estimate->header.stamp);

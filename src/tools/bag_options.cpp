@@ -2,9 +2,12 @@
 
 #include <array>
 #include <stdexcept>
+#include <string>
 
 #include "../ros/model_file.h"
+#include "bag_samples.h"
 #include "command.h"
+#include "errors.h"
 #include "survey.h"
 
 namespace suspension_health_monitor {
@@ -76,6 +79,26 @@ ModelOptions readModelOptions(const po::variables_map& values) {
   ModelOptions options{readEffects(values), std::nullopt};
   if (values.count(kModel) != 0) options.model = readModelFile(values[kModel].as<std::string>(), options.library);
   return options;
+}
+
+std::vector<Drive> readDrives(const BagOptions& options) {
+  std::vector<Drive> drives;
+  for (const std::string& path : options.bags.paths) {
+    ImuBags bag = options.bags;
+    bag.paths = {path};
+    Drive& drive = drives.emplace_back();
+    const auto take = [&](const CornerSample& sample) {
+      drive.samples.push_back(sample);
+      return true;
+    };
+    readSamples(bag, options.pipeline, take, [&](const BodyMotion& motion) { drive.body.push_back(motion); });
+  }
+  return drives;
+}
+
+void requireEnough(Shortcoming shortcoming, const std::string& reason) {
+  if (shortcoming == Shortcoming::kModelUntestable) throw InputError("the drives " + reason);
+  if (shortcoming != Shortcoming::kNone) throw TooLittleError("the drives " + reason);
 }
 
 }  // namespace suspension_health_monitor

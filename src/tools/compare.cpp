@@ -3,9 +3,7 @@
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
-#include "drives.h"
-#include "interruption.h"
-#include "progress.h"
+#include "long_work.h"
 #include "results.h"
 
 namespace suspension_health_monitor {
@@ -30,10 +28,7 @@ void compare(const Arguments& arguments) {
   Comparison comparison;
   {
     Progress progress("comparing", 1.0);
-    comparing.progress = [&](double share) {
-      Interruption::check();
-      progress.update(share);
-    };
+    comparing.progress = [&](double share) { progress.update(share); };
     comparison = compare(drives, comparing);
   }
   requireEnough(comparison.shortcoming, comparison.reason);

@@ -5,9 +5,7 @@
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
-#include "drives.h"
-#include "interruption.h"
-#include "progress.h"
+#include "long_work.h"
 #include "report_page.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
@@ -68,10 +66,7 @@ void diagnose(const Arguments& arguments) {
   searching.threads = threads;
   const std::vector<Drive> drives = readDrives(options);
   Progress progress("fitting", 1.0);
-  searching.progress = [&](double share) {
-    Interruption::check();
-    progress.update(share);
-  };
+  searching.progress = [&](double share) { progress.update(share); };
   const Diagnosis found = diagnose(drives, searching);
   requireEnough(found.shortcoming, found.reason);
 

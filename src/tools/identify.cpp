@@ -12,7 +12,7 @@
 #include "command.h"
 #include "errors.h"
 #include "identify_tables.h"
-#include "interruption.h"
+#include "long_work.h"
 #include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 

@@ -9,8 +9,7 @@
 
 #include "bag_file.h"
 #include "errors.h"
-#include "interruption.h"
-#include "progress.h"
+#include "long_work.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {

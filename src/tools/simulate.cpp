@@ -3,8 +3,7 @@
 #include "../ros/drive_messages.h"
 #include "../ros/whole_bag.h"
 #include "command.h"
-#include "interruption.h"
-#include "progress.h"
+#include "long_work.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -26,7 +25,6 @@ void writeBag(const SimulatorOptions& options, const std::string& path) {
     if (messages->road) bag.write("/road/imu", messages->time, *messages->road);
     bag.write("/simulator/truth", messages->time, messages->truth);
     progress.update(messages->time.toSec() - options.publishing.start_time);
-    Interruption::check();
   }
   bag.commit();
 }

@@ -5,7 +5,7 @@
 
 #include "command.h"
 #include "errors.h"
-#include "interruption.h"
+#include "long_work.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,9 +1,8 @@
-#include "suspension_health_monitor/internal/compare/failure_regions.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "noise_test.h"
+#include "suspension_health_monitor/internal/compare/residual_analysis.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/simulation/iso_road.h"
-#include "suspension_health_monitor/internal/simulation/sensor_faults.h"
+#include "suspension_health_monitor/internal/simulation/road.h"
+#include "suspension_health_monitor/internal/simulation/sensors.h"
 
 namespace suspension_health_monitor {
 namespace {
