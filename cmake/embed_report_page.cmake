@@ -15,7 +15,7 @@ endforeach()
 string(REPLACE "@@style@@" "${style}" page "${page}")
 string(REPLACE "@@scripts@@" "${script}" page "${page}")
 
-file(WRITE ${OUTPUT} "#include \"tools/report_template.h\"
+file(WRITE ${OUTPUT} "#include \"tools/report_parts.h\"
 
 namespace suspension_health_monitor {
 

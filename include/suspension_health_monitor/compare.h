@@ -41,6 +41,9 @@ struct ComparedSegment {
 
   /// @return measured - predicted [m/s^2]: positive where the body is pushed up harder than the free run says.
   double residual(std::size_t sample) const { return measured[sample] - predicted[sample]; }
+
+  /// @return the residuals of all samples.
+  std::vector<double> residuals() const;
 };
 
 /// From which side a failure of the model is seen.

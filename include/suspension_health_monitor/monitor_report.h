@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/strut_model.h"
@@ -31,7 +30,7 @@ enum class EstimateDoubt {
 };
 
 /// @return a sentence for people.
-std::string_view describe(EstimateDoubt doubt);
+std::string describe(EstimateDoubt doubt);
 
 /// What one estimator knows of the strut. NaN: nothing yet.
 struct StrutEstimate {

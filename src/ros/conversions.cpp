@@ -1,14 +1,10 @@
 #include "conversions.h"
 
 #include <cmath>
-#include <limits>
+
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 Stamp toStamp(const ros::Time& time) { return std::chrono::seconds(time.sec) + Stamp(time.nsec); }
 

@@ -7,6 +7,7 @@
 #include <suspension_health_monitor/SimulationTruth.h>
 #include <suspension_health_monitor/SuspensionHealth.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
+
+/// What a message says where there is no value.
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Messages to the library's types and back: the only place that knows both.
 

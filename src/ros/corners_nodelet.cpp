@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
+#include "conversions.h"
 #include "parameters.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -100,12 +101,11 @@ std::array<CornerState, kNumCorners> CornersNodelet::states() const {
 }
 
 void CornersNodelet::publishComparison() {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const auto msg = boost::make_shared<CornerComparison>();
   for (const Corner& corner : corners_)
     if (corner.estimate) msg->header.stamp = std::max(msg->header.stamp, corner.estimate->header.stamp);
   msg->level = static_cast<CornerComparison::_level_type>(report_.level);
-  msg->sentence = report_.sentence;
+  msg->sentence = suspension_health_monitor::describe(report_);
   for (std::size_t i = 0; i < kNumCorners; ++i) {
     msg->corners[i] = std::string(kCornerNames[i]);
     msg->verdicts[i] = static_cast<std::uint8_t>(report_.verdicts[i]);
@@ -116,7 +116,7 @@ void CornersNodelet::publishComparison() {
 }
 
 void CornersNodelet::describe(diagnostic_updater::DiagnosticStatusWrapper& status) const {
-  status.summary(static_cast<unsigned char>(report_.level), report_.sentence);
+  status.summary(static_cast<unsigned char>(report_.level), suspension_health_monitor::describe(report_));
   for (std::size_t i = 0; i < kNumCorners; ++i) {
     const std::string name(kCornerNames[i]);
     status.add(name, kVerdictNames[static_cast<std::size_t>(report_.verdicts[i])]);

@@ -2,13 +2,20 @@
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <suspension_health_monitor/Diagnose.h>
 
 #include <atomic>
 #include <functional>
 
-#include "diagnosis.h"
+#include "suspension_health_monitor/diagnose.h"
 
 namespace suspension_health_monitor {
+
+/// What a live search works on.
+struct SearchTask {
+  Drive drive;
+  DiagnoseOptions options;
+};
 
 /// ~diagnose: a search that takes seconds, beside a nodelet that must not wait for it.
 ///

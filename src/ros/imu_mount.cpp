@@ -4,14 +4,12 @@
 #include <tf2/LinearMath/Quaternion.h>
 
 #include <cmath>
-#include <limits>
 
 #include "conversions.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // The share of a sensor's range at which a reading counts as clipped. It is below the largest number that a sensor of
 // 12 bits can send, which is 0.9995 of its range.
 constexpr double kEndOfRange = 0.999;

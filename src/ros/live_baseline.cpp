@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/wording/words.h"
 #include "whole_file.h"
 #include "yaml_settings.h"
 
@@ -66,39 +67,40 @@ Baseline toBaseline(const BaselineSettings& settings) {
 // Damage as large as its error threshold must be significant against a baseline: else it could never be proved.
 void checkCertain(const char* name, double value, double stddev, double error, double min_significance) {
   if (stddev / value * min_significance <= std::log1p(error)) return;
-  std::ostringstream text;
-  text << std::setprecision(3) << "too uncertain to judge by: " << name << " = " << value << " +- " << stddev
-       << ", so that damage of " << 100.0 * error << " % would not be significant; drive on, or on a rougher road";
-  throw std::runtime_error(text.str());
+  throw std::runtime_error(formatted(
+      "too uncertain to judge by: %s = %.3g +- %.3g, so that damage of %.3g %% would not be significant; drive "
+      "on, or on a rougher road",
+      name, value, stddev, 100.0 * error));
 }
 
 }  // namespace
 
 std::string toYaml(const Baseline& baseline, double horizon, double sample_period) {
+  const BaselineSettings settings{baseline.damping_to_mass,
+                                  baseline.stiffness_to_mass,
+                                  baseline.damping_to_mass_stddev,
+                                  baseline.stiffness_to_mass_stddev,
+                                  horizon,
+                                  sample_period,
+                                  toSeconds(baseline.from),
+                                  toSeconds(baseline.to)};
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << std::setprecision(17) << "# The healthy strut, written by the monitor.\n"
-       << "damping_to_mass: " << *baseline.damping_to_mass << "  # [1/s]\n"
-       << "damping_to_mass_stddev: " << baseline.damping_to_mass_stddev << '\n'
-       << "stiffness_to_mass: " << *baseline.stiffness_to_mass << "  # [1/s^2]\n"
-       << "stiffness_to_mass_stddev: " << baseline.stiffness_to_mass_stddev << '\n'
-       << "integration_horizon: " << horizon << "  # [s]\n"
-       << "sample_period: " << sample_period << "  # [s]\n"
-       << "learned_from: " << toSeconds(baseline.from) << "  # [s], stamp\n"
-       << "learned_to: " << toSeconds(baseline.to) << "  # [s], stamp\n";
+  text << std::setprecision(17) << "# The healthy strut, written by the monitor.\n";
+  for (const BaselineField& field : kBaselineFields)
+    text << field.name << ": " << *(settings.*std::get<std::optional<double> BaselineSettings::*>(field.member))
+         << "  # [" << field.unit << "] " << field.help << '\n';
   return text.str();
 }
 
 Baseline readBaselineFile(const std::string& path) {
   OptionMap values = readYaml(path);
-  try {
+  return prefixed(path + ": ", [&] {
     BaselineSettings settings;
     takeOptions(values, kBaselineFields, settings);
     refuseUnknown(values, describeOptions(kBaselineFields));
     return toBaseline(settings);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(path + ": " + error.what());
-  }
+  });
 }
 
 LiveBaseline::LiveBaseline(const PipelineOptions& options) : path_(options.shell.baseline_file) {
@@ -133,9 +135,7 @@ void LiveBaseline::save(const SuspensionMonitor* monitor) {
 }
 
 void LiveBaseline::write(const Baseline& baseline, const SuspensionMonitor& monitor) const {
-  TextFile file(path_);
-  std::fputs(toYaml(baseline, monitor.horizonSamples() * monitor.period(), monitor.period()).c_str(), file.stream());
-  file.commit();
+  TextFile(path_).commit(toYaml(baseline, monitor.horizonSamples() * monitor.period(), monitor.period()));
 }
 
 }  // namespace suspension_health_monitor

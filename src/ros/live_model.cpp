@@ -11,18 +11,10 @@
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "whole_file.h"
+#include "yaml_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-/// Puts the option's name before the words of what take() throws.
-void named(const std::string& option, const std::function<void()>& take) {
-  try {
-    take();
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(option + error.what());
-  }
-}
 
 /// The names of a text with commas.
 std::vector<std::string> split(const std::string& text) {
@@ -65,15 +57,16 @@ double middle(const std::string& name, const ShapeParameter& shape, const LiveMo
 }  // namespace
 
 LiveModel::LiveModel(const ShellOptions& options) : model_file_(options.model_file) {
-  named("effects_file = ", [&] { library_ = readEffectsFile(options.effects_file); });
+  prefixed("effects_file = ", [&] { library_ = readEffectsFile(options.effects_file); });
   if (!model_file_.empty() && std::filesystem::exists(model_file_))
-    named("model_file = ", [&] { loaded_ = readModelFile(model_file_, library_); });
+    prefixed("model_file = ", [&] { loaded_ = readModelFile(model_file_, library_); });
   if (loaded_) effects_ = loaded_->effects;
   std::vector<std::string> names;
   for (const ActiveEffect& active : effects_) names.push_back(active.effect.name);
   for (const std::string& name : split(options.effects))
     if (find(effects_, name) == nullptr) names.push_back(name);
-  named("effects = \"" + options.effects + "\": ", [&] { effects_ = choose(names, {}, [] { return std::nullopt; }); });
+  prefixed("effects = \"" + options.effects + "\": ",
+           [&] { effects_ = choose(names, {}, [] { return std::nullopt; }); });
 }
 
 const ActiveEffect* LiveModel::known(const std::string& name) const {
@@ -150,9 +143,7 @@ std::vector<std::string> LiveModel::missing() const {
 void LiveModel::save(StrutModel model) const {
   if (model_file_.empty()) throw std::runtime_error("no file to write to: set the parameter model_file");
   if (loaded_) model.reading = loaded_->reading;
-  TextFile file(model_file_);
-  std::fputs(toYaml(model).c_str(), file.stream());
-  file.commit();
+  TextFile(model_file_).commit(toYaml(model));
 }
 
 }  // namespace suspension_health_monitor

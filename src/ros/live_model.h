@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis.h"
 #include "shell_options.h"
+#include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/internal/record/motion_scale.h"
 
 namespace suspension_health_monitor {

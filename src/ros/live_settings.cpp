@@ -28,24 +28,6 @@ std::vector<Bound> bindLive(PipelineOptions& options) {
 
 bool isWhole(const Bound& option) { return std::holds_alternative<int*>(option.member); }
 
-dynamic_reconfigure::ConfigDescription describeAll() {
-  dynamic_reconfigure::ConfigDescription description;
-  description.groups.resize(1);
-  description.groups.front().name = "Default";
-  PipelineOptions options;
-  for (const Bound& option : bindLive(options)) {
-    dynamic_reconfigure::ParamDescription parameter;
-    parameter.name = std::string(option.name);
-    parameter.type = isWhole(option) ? "int" : "double";
-    parameter.description = '[' + std::string(option.unit) + "] " + std::string(option.help);
-    description.groups.front().parameters.push_back(std::move(parameter));
-  }
-  LiveSettings::__getMin__().__toMessage__(description.min);
-  LiveSettings::__getMax__().__toMessage__(description.max);
-  LiveSettings::__getDefault__().__toMessage__(description.dflt);
-  return description;
-}
-
 }  // namespace
 
 LiveSettings::LiveSettings(PipelineOptions options) {
@@ -73,24 +55,22 @@ PipelineOptions LiveSettings::appliedTo(PipelineOptions options) const {
   return options;
 }
 
-const dynamic_reconfigure::ConfigDescription& LiveSettings::__getDescriptionMessage__() {
-  static const dynamic_reconfigure::ConfigDescription description = describeAll();
+dynamic_reconfigure::ConfigDescription LiveSettings::__getDescriptionMessage__() {
+  dynamic_reconfigure::ConfigDescription description;
+  description.groups.resize(1);
+  description.groups.front().name = "Default";
+  PipelineOptions options;
+  for (const Bound& option : bindLive(options)) {
+    dynamic_reconfigure::ParamDescription parameter;
+    parameter.name = std::string(option.name);
+    parameter.type = isWhole(option) ? "int" : "double";
+    parameter.description = '[' + std::string(option.unit) + "] " + std::string(option.help);
+    description.groups.front().parameters.push_back(std::move(parameter));
+  }
+  __getMin__().__toMessage__(description.min);
+  __getMax__().__toMessage__(description.max);
+  __getDefault__().__toMessage__(description.dflt);
   return description;
-}
-
-const LiveSettings& LiveSettings::__getMin__() {
-  static const LiveSettings settings = ends(&Bound::min);
-  return settings;
-}
-
-const LiveSettings& LiveSettings::__getMax__() {
-  static const LiveSettings settings = ends(&Bound::max);
-  return settings;
-}
-
-const LiveSettings& LiveSettings::__getDefault__() {
-  static const LiveSettings settings;
-  return settings;
 }
 
 void LiveSettings::__fromServer__(const ros::NodeHandle& node) {

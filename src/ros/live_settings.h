@@ -29,10 +29,10 @@ class LiveSettings {
   PipelineOptions appliedTo(PipelineOptions options) const;
 
   // The names that dynamic_reconfigure::Server calls.
-  static const dynamic_reconfigure::ConfigDescription& __getDescriptionMessage__();
-  static const LiveSettings& __getMin__();
-  static const LiveSettings& __getMax__();
-  static const LiveSettings& __getDefault__();
+  static dynamic_reconfigure::ConfigDescription __getDescriptionMessage__();
+  static LiveSettings __getMin__() { return ends(&option_table::Bound::min); }
+  static LiveSettings __getMax__() { return ends(&option_table::Bound::max); }
+  static LiveSettings __getDefault__() { return {}; }
   void __fromServer__(
       const ros::NodeHandle& node);  ///< @throws std::invalid_argument  as PipelineOptions::fromValues()
   void __toServer__(const ros::NodeHandle& node) const;

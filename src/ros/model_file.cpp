@@ -1,7 +1,5 @@
 #include "model_file.h"
 
-#include <stdexcept>
-
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/model/user_effects.h"
 #include "yaml_settings.h"
@@ -13,13 +11,11 @@ namespace {
 template <class Take>
 auto takeFile(const std::string& path, const Take& take) {
   OptionMap values = readYaml(path);
-  try {
+  return prefixed(path + ": ", [&] {
     auto taken = take(values);
     refuseUnknown(values, {});
     return taken;
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(path + ": " + error.what());
-  }
+  });
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "monitor_diagnostics.h"
 
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "tyre_output.h"

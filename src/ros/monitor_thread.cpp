@@ -4,8 +4,6 @@
 #include <mutex>
 #include <utility>
 
-#include "queued_work.h"
-
 namespace suspension_health_monitor {
 namespace {
 

@@ -2,14 +2,12 @@
 
 #include <suspension_health_monitor/TyreEstimate.h>
 
-#include <limits>
+#include "conversions.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 boost::shared_ptr<const TyreEstimate> toMsg(const WheelEstimate& estimate, const char* estimator,
                                             const StrutEstimate& strut, const std_msgs::Header& header) {

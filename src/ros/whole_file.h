@@ -43,6 +43,12 @@ class TextFile {
   /// @throws std::runtime_error  naming the file, if anything could not be written.
   void commit();
 
+  /// Writes all that there is to write, and commits it.
+  void commit(const std::string& text) {
+    std::fputs(text.c_str(), stream_);
+    commit();
+  }
+
  private:
   std::string path_;
   WholeFile file_;

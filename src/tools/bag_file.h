@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/serialization.h>
 #include <rosbag/chunked_file.h>
 
 #include <algorithm>
@@ -105,5 +106,32 @@ class BagFile {
   std::vector<BagChunk> chunks_;
   BagBytes header_, compressed_;
 };
+
+/// @return true if the connection carries such messages.
+template <class Message>
+bool carries(const BagConnection& connection) {
+  return connection.md5sum == ros::message_traits::MD5Sum<Message>::value();
+}
+
+/// @throws InputError  if the connection carries others.
+template <class Message>
+void requireType(const BagFile& file, const BagConnection& connection) {
+  if (!carries<Message>(connection))
+    throw InputError(file.path() + ": topic " + connection.topic + " is " + connection.type + ", must be " +
+                     ros::message_traits::DataType<Message>::value());
+}
+
+/// @param where  " on TOPIC", for the error, or empty.
+/// @throws InputError  if the message is damaged.
+template <class Message>
+void decode(const BagFile& file, const BagMessage& message, const std::string& where, Message& into) {
+  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(const_cast<char*>(message.body.data())),
+                                     static_cast<std::uint32_t>(message.body.size()));
+  try {
+    ros::serialization::deserialize(stream, into);
+  } catch (const ros::Exception&) {
+    throw InputError(file.path() + ": a message" + where + " is damaged");
+  }
+}
 
 }  // namespace suspension_health_monitor

@@ -2,9 +2,12 @@
 
 #include <array>
 #include <stdexcept>
+#include <string>
 
 #include "../ros/model_file.h"
-#include "option_sources.h"
+#include "bag_samples.h"
+#include "command.h"
+#include "errors.h"
 #include "survey.h"
 
 namespace suspension_health_monitor {
@@ -34,7 +37,6 @@ BagOptions readBagOptions(const po::variables_map& values) {
   bags.paths = values["bag"].as<std::vector<std::string>>();
   bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
   if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
-  static constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
   for (std::size_t i = 0; i < bags.topics.size(); ++i)
     if (bags.topics[i].empty())
       throw std::invalid_argument(std::string(kTopicOptions[i]) + " is empty, must be a topic");
@@ -47,8 +49,7 @@ BagOptions readBagOptions(const po::variables_map& values) {
   if (!(bags.start >= 0.0 && bags.end > bags.start))
     throw std::invalid_argument("--start " + std::to_string(bags.start) + " --end " + std::to_string(bags.end) +
                                 " [s], must be 0 <= start < end");
-  const OptionMap settings =
-      gatherOptions(values["config"].as<std::string>(), values["set"].as<std::vector<std::string>>());
+  const OptionMap settings = gatherOptions(values);
   options.pipeline = PipelineOptions::fromValues(settings);
   options.pipeline.monitor.tyre = bags.topics.size() > 2;
   if (!options.pipeline.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
@@ -78,6 +79,26 @@ ModelOptions readModelOptions(const po::variables_map& values) {
   ModelOptions options{readEffects(values), std::nullopt};
   if (values.count(kModel) != 0) options.model = readModelFile(values[kModel].as<std::string>(), options.library);
   return options;
+}
+
+std::vector<Drive> readDrives(const BagOptions& options) {
+  std::vector<Drive> drives;
+  for (const std::string& path : options.bags.paths) {
+    ImuBags bag = options.bags;
+    bag.paths = {path};
+    Drive& drive = drives.emplace_back();
+    const auto take = [&](const CornerSample& sample) {
+      drive.samples.push_back(sample);
+      return true;
+    };
+    readSamples(bag, options.pipeline, take, [&](const BodyMotion& motion) { drive.body.push_back(motion); });
+  }
+  return drives;
+}
+
+void requireEnough(Shortcoming shortcoming, const std::string& reason) {
+  if (shortcoming == Shortcoming::kModelUntestable) throw InputError("the drives " + reason);
+  if (shortcoming != Shortcoming::kNone) throw TooLittleError("the drives " + reason);
 }
 
 }  // namespace suspension_health_monitor

@@ -3,9 +3,11 @@
 #include <boost/program_options.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "../ros/shell_options.h"
 #include "imu_bags.h"
+#include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/strut_model.h"
 
@@ -46,5 +48,20 @@ EffectLibrary readEffects(const boost::program_options::variables_map& values);
 
 /// Adds --effects-file alone.
 void addEffectsFile(boost::program_options::options_description& description);
+
+/// Reads bags as drives, one each: both accelerations and what else the body's IMU measures.
+/// @throws InputError, TooLittleError  as readSamples().
+std::vector<Drive> readDrives(const BagOptions& options);
+
+/// Takes the settings of the command line over that the options of diagnose() and compare() share.
+template <class Options>
+void takeSettings(const BagOptions& bags, const ModelOptions& models, Options& options) {
+  options.sample_period = bags.pipeline.monitor.sample_period;
+  options.horizon_samples = MonitorSettings(bags.pipeline.monitor).horizonSamples(*options.sample_period);
+  options.model = models.model;
+}
+
+/// @throws InputError, TooLittleError  in words for people, if a diagnosis or comparison has a shortcoming.
+void requireEnough(Shortcoming shortcoming, const std::string& reason);
 
 }  // namespace suspension_health_monitor

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/internal/option_table.h"
+
 namespace suspension_health_monitor {
 
 using Arguments = std::vector<std::string>;
@@ -31,5 +33,15 @@ void options(const Arguments& arguments);
 std::optional<boost::program_options::variables_map> parse(const Arguments& arguments, const std::string& usage,
                                                            boost::program_options::options_description options,
                                                            const std::string& positional = {});
+
+/// @return the settings of the file --config, if there is one, and of --set NAME=VALUE, which override them.
+/// @throws std::invalid_argument  naming what is wrong.
+OptionMap gatherOptions(const boost::program_options::variables_map& values);
+
+/// Refuses to write a file that is read, too, or to write two results into one file.
+/// @param inputs, outputs  names of options with a path, or several, as their value; those not given do not matter.
+/// @throws std::invalid_argument  naming option and path.
+void requireSeparateFiles(const boost::program_options::variables_map& values, const std::vector<std::string>& inputs,
+                          const std::vector<std::string>& outputs);
 
 }  // namespace suspension_health_monitor

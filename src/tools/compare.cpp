@@ -3,11 +3,8 @@
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
-#include "comparison_report.h"
-#include "drives.h"
-#include "interruption.h"
-#include "progress.h"
-#include "separate_files.h"
+#include "long_work.h"
+#include "results.h"
 
 namespace suspension_health_monitor {
 
@@ -31,17 +28,12 @@ void compare(const Arguments& arguments) {
   Comparison comparison;
   {
     Progress progress("comparing", 1.0);
-    comparing.progress = [&](double share) {
-      Interruption::check();
-      progress.update(share);
-    };
+    comparing.progress = [&](double share) { progress.update(share); };
     comparison = compare(drives, comparing);
   }
   requireEnough(comparison.shortcoming, comparison.reason);
   printComparison(comparison);
-  if (!json) return;
-  std::fprintf(json->stream(), "%s\n", toJson(comparison).dump(2).c_str());
-  json->commit();
+  if (json) json->commit(toJson(comparison).dump(2) + '\n');
 }
 
 }  // namespace suspension_health_monitor

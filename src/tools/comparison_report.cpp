@@ -1,18 +1,14 @@
-#include "comparison_report.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
-#include "model_numbers.h"
+#include "results.h"
 #include "suspension_health_monitor/internal/wording/readable_unit.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-using nlohmann::json;
 
 constexpr int kFewestInCell = 10;
 constexpr double kSure = 3.0;  // standard errors, for a mark in the map
@@ -85,30 +81,26 @@ void printMap(const ForceSurface& surface) {
   std::printf("%12s  %s%*s travel\n", "rate", left.c_str(), std::max(1, width), right.c_str());
 }
 
-json toJson(const ResidualBin& bin) {
-  return {{"from", bin.from}, {"to", bin.to},      {"mean", bin.mean}, {"standard_error", bin.standard_error},
+}  // namespace
+
+using nlohmann::json;
+
+static void to_json(json& into, const ResidualBin& bin) {
+  into = {{"from", bin.from}, {"to", bin.to},      {"mean", bin.mean}, {"standard_error", bin.standard_error},
           {"rms", bin.rms},   {"count", bin.count}};
 }
 
-json toJson(const TimeBin& bin) {
-  json row = toJson(static_cast<const ResidualBin&>(bin));
-  row["drive"] = bin.record;
-  row["damping_error"] = bin.damping_error;
-  row["damping_error_stddev"] = bin.damping_error_stddev;
-  row["stiffness_error"] = bin.stiffness_error;
-  row["stiffness_error_stddev"] = bin.stiffness_error_stddev;
-  return row;
+static void to_json(json& into, const TimeBin& bin) {
+  into = static_cast<const ResidualBin&>(bin);
+  into.update({{"drive", bin.record},
+               {"damping_error", bin.damping_error},
+               {"damping_error_stddev", bin.damping_error_stddev},
+               {"stiffness_error", bin.stiffness_error},
+               {"stiffness_error_stddev", bin.stiffness_error_stddev}});
 }
 
-template <class Bin>
-json binsToJson(const std::vector<Bin>& bins) {
-  json rows = json::array();
-  for (const Bin& bin : bins) rows.push_back(toJson(bin));
-  return rows;
-}
-
-json toJson(const ResidualCorrelation& correlation) {
-  return {{"lag", correlation.lag},
+static void to_json(json& into, const ResidualCorrelation& correlation) {
+  into = {{"lag", correlation.lag},
           {"value", correlation.value},
           {"lower", correlation.lower},
           {"upper", correlation.upper},
@@ -117,7 +109,7 @@ json toJson(const ResidualCorrelation& correlation) {
 }
 
 template <class Matrix>
-json matrixToJson(const Matrix& matrix) {
+json rowsOf(const Matrix& matrix) {
   json rows = json::array();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     rows.push_back(json::array());
@@ -126,41 +118,46 @@ json matrixToJson(const Matrix& matrix) {
   return rows;
 }
 
-json toJson(const ForceSurface& surface) {
-  return {{"travel_edges", surface.travel_edges},      {"rate_edges", surface.rate_edges},
-          {"mean", matrixToJson(surface.mean)},        {"standard_error", matrixToJson(surface.standard_error)},
-          {"rms", matrixToJson(surface.rms)},          {"count", matrixToJson(surface.count)},
+static void to_json(json& into, const ForceSurface& surface) {
+  into = {{"travel_edges", surface.travel_edges},
+          {"rate_edges", surface.rate_edges},
+          {"mean", rowsOf(surface.mean)},
+          {"standard_error", rowsOf(surface.standard_error)},
+          {"rms", rowsOf(surface.rms)},
+          {"count", rowsOf(surface.count)},
           {"explained_share", surface.explained_share}};
 }
 
-json toJson(const DirectionLoop& loop) {
-  return {{"compressing", binsToJson(loop.compressing)},
-          {"extending", binsToJson(loop.extending)},
+static void to_json(json& into, const DirectionLoop& loop) {
+  into = {{"compressing", loop.compressing},
+          {"extending", loop.extending},
           {"gap", loop.gap},
           {"gap_standard_error", loop.gap_standard_error},
           {"area", loop.area}};
 }
 
-json toJson(const ResidualSpectrum& spectrum) {
-  return {{"frequency", spectrum.frequency}, {"residual", spectrum.residual},
+static void to_json(json& into, const ResidualSpectrum& spectrum) {
+  into = {{"frequency", spectrum.frequency}, {"residual", spectrum.residual},
           {"measured", spectrum.measured},   {"noise", spectrum.noise},
           {"coherence", spectrum.coherence}, {"coherence_threshold", spectrum.coherence_threshold}};
 }
 
-json toJson(const ResidualViews& views) {
-  json result{{"offset", views.offset},
-              {"time", binsToJson(views.time)},
-              {"travel", binsToJson(views.travel)},
-              {"travel_rate", binsToJson(views.travel_rate)},
-              {"surface", toJson(views.surface)},
-              {"direction", toJson(views.direction)},
-              {"whiteness", toJson(views.whiteness)},
-              {"cross_correlation", toJson(views.cross_correlation)}};
-  if (views.spectrum) result["spectrum"] = toJson(*views.spectrum);
-  return result;
+static void to_json(json& into, const ResidualViews& views) {
+  into = {{"offset", views.offset},       {"time", views.time},
+          {"travel", views.travel},       {"travel_rate", views.travel_rate},
+          {"surface", views.surface},     {"direction", views.direction},
+          {"whiteness", views.whiteness}, {"cross_correlation", views.cross_correlation}};
+  if (views.spectrum) into["spectrum"] = *views.spectrum;
 }
 
-}  // namespace
+static void to_json(json& into, const FailureRegion& region) {
+  into = {{"region", region.region}, {"sentence", region.sentence}, {"rmse", region.rmse},
+          {"mean", region.mean},     {"share", region.share},       {"rmse_elsewhere", region.rmse_elsewhere}};
+}
+
+static void to_json(json& into, const PredictionError& error) {
+  into = {{"rmse", error.rmse}, {"fit_percent", error.fit_percent}};
+}
 
 void printComparison(const Comparison& comparison) {
   printModel(comparison);
@@ -175,29 +172,19 @@ void printComparison(const Comparison& comparison) {
 json toJson(const Comparison& comparison) {
   json model{{"parameters", parametersOf(comparison.model)}, {"fitted", !comparison.stddev.empty()}};
   addNumbers(comparison.model, model);
-  json free_run{
-      {"rmse", comparison.free_run.rmse}, {"fit_percent", comparison.free_run.fit_percent}, {"held_out_rmse", nullptr}};
-  if (comparison.held_out_rmse) free_run["held_out_rmse"] = *comparison.held_out_rmse;
-  json one_step = nullptr;
-  if (comparison.one_step)
-    one_step = {{"rmse", comparison.one_step->rmse},
-                {"fit_percent", comparison.one_step->fit_percent},
-                {"horizon_samples", comparison.horizon_samples}};
-  json where = json::array();
-  for (const FailureRegion& region : comparison.where)
-    where.push_back({{"region", region.region},
-                     {"sentence", region.sentence},
-                     {"rmse", region.rmse},
-                     {"rmse_elsewhere", region.rmse_elsewhere},
-                     {"mean", region.mean},
-                     {"share", region.share}});
+  json free_run = comparison.free_run, one_step;
+  free_run["held_out_rmse"] = comparison.held_out_rmse ? json(*comparison.held_out_rmse) : json();
+  if (comparison.one_step) {
+    one_step = *comparison.one_step;
+    one_step["horizon_samples"] = comparison.horizon_samples;
+  }
   return {{"model", model},
           {"free_run", free_run},
           {"one_step", one_step},
           {"noise_floor", comparison.noise_floor},
           {"structured_share", comparison.structured_share},
-          {"where", where},
-          {"views", toJson(comparison.views)}};
+          {"where", comparison.where},
+          {"views", comparison.views}};
 }
 
 }  // namespace suspension_health_monitor

@@ -1,26 +1,19 @@
 #include <cstdio>
+#include <filesystem>
 #include <thread>
 
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
-#include "drives.h"
-#include "interruption.h"
-#include "progress.h"
+#include "long_work.h"
 #include "report_page.h"
-#include "search_report.h"
-#include "separate_files.h"
+#include "results.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 namespace po = boost::program_options;
-
-std::string fileName(const std::string& path) {
-  const std::size_t slash = path.find_last_of('/');
-  return slash == std::string::npos ? path : path.substr(slash + 1);
-}
 
 /// The page for people; what the search found is compared with the drives before and after.
 void report(ReportPage& page, const Diagnosis& found, const std::vector<Drive>& drives, const DiagnoseOptions& options,
@@ -37,7 +30,7 @@ void report(ReportPage& page, const Diagnosis& found, const std::vector<Drive>& 
     after = compare(drives, comparing);
   }
   std::vector<std::string> names;
-  for (const std::string& path : paths) names.push_back(fileName(path));
+  for (const std::string& path : paths) names.push_back(std::filesystem::path(path).filename());
   page.write({found, options.candidates, *options.sample_period, names, before, after && *after ? &*after : nullptr});
 }
 
@@ -73,10 +66,7 @@ void diagnose(const Arguments& arguments) {
   searching.threads = threads;
   const std::vector<Drive> drives = readDrives(options);
   Progress progress("fitting", 1.0);
-  searching.progress = [&](double share) {
-    Interruption::check();
-    progress.update(share);
-  };
+  searching.progress = [&](double share) { progress.update(share); };
   const Diagnosis found = diagnose(drives, searching);
   requireEnough(found.shortcoming, found.reason);
 
@@ -86,13 +76,9 @@ void diagnose(const Arguments& arguments) {
     nlohmann::json whole = toJson(found);
     whole["not_tried"] = nlohmann::json::object();
     for (const auto& [name, reason] : found.not_tried) whole["not_tried"][name] = reason;
-    std::fprintf(json->stream(), "%s\n", whole.dump(2).c_str());
-    json->commit();
+    json->commit(whole.dump(2) + '\n');
   }
-  if (model) {
-    std::fputs(toYaml(found.model()).c_str(), model->stream());
-    model->commit();
-  }
+  if (model) model->commit(toYaml(found.model()));
   if (page) report(*page, found, drives, searching, options.bags.paths);
 }
 

@@ -2,6 +2,7 @@
 
 #include "bag_options.h"
 #include "command.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 
@@ -19,16 +20,15 @@ void effects(const Arguments& arguments) {
                 finding.c_str());
   };
   for (const ForceEffect& effect : library.forces) {
-    std::string shapes;
-    for (const ShapeParameter& shape : effect.shapes)
-      shapes += (shapes.empty() ? "" : ", ") + shape.name + " [" + shape.unit + "]";
-    row(effect.name, effect.law, effect.unit, shapes, effect.finding);
+    std::vector<std::string> shapes;
+    for (const ShapeParameter& shape : effect.shapes) shapes.push_back(shape.name + " [" + shape.unit + "]");
+    row(effect.name, effect.law, effect.unit, join(shapes), effect.finding);
   }
   for (const MeasurementEffect& effect : library.readings) {
-    std::string units;
+    std::vector<std::string> units;
     for (const MeasurementEffect::Coefficient& c : effect.coefficients)
-      units += effect.coefficients.size() == 1 ? c.unit : (units.empty() ? "" : ", ") + c.name + " [" + c.unit + "]";
-    row(effect.name, effect.law, units, "", effect.finding);
+      units.push_back(effect.coefficients.size() == 1 ? c.unit : c.name + " [" + c.unit + "]");
+    row(effect.name, effect.law, join(units), "", effect.finding);
   }
 }
 

@@ -32,15 +32,11 @@ void plot(const HorizonProposal& proposal) {
   }
 }
 
-void writeJson(const std::string& path, const HorizonProposal& proposal) {
+nlohmann::json toJson(const HorizonProposal& proposal) {
   nlohmann::json curves = nlohmann::json::array();
   for (const MagnitudePoint& point : proposal.curves)
     curves.push_back({{"frequency_hz", point.frequency_hz}, {"strut", point.system}, {"filter", point.filter}});
-  TextFile file(path);
-  const nlohmann::json result{
-      {"horizon", proposal.horizon}, {"bandwidth_hz", proposal.bandwidth_hz}, {"curves", curves}};
-  std::fprintf(file.stream(), "%s\n", result.dump(2).c_str());
-  file.commit();
+  return {{"horizon", proposal.horizon}, {"bandwidth_hz", proposal.bandwidth_hz}, {"curves", curves}};
 }
 
 }  // namespace
@@ -56,7 +52,7 @@ void horizon(const Arguments& arguments) {
   if (!values) return;
   const HorizonProposal proposal =
       proposeHorizon((*values)["damping-to-mass"].as<double>(), (*values)["stiffness-to-mass"].as<double>());
-  if (values->count("json") != 0) writeJson((*values)["json"].as<std::string>(), proposal);
+  if (values->count("json") != 0) TextFile((*values)["json"].as<std::string>()).commit(toJson(proposal).dump(2) + '\n');
   plot(proposal);
   std::printf("\nintegration_horizon: %.3g   # [s] strut and filter both reach to %.3g Hz (3 dB)\n", proposal.horizon,
               proposal.bandwidth_hz);

@@ -13,10 +13,9 @@
 #include "command.h"
 #include "errors.h"
 #include "identify_tables.h"
-#include "identify_verdict.h"
-#include "interruption.h"
-#include "separate_files.h"
+#include "long_work.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -4,16 +4,15 @@
 #include <cstdio>
 #include <string>
 
+#include "suspension_health_monitor/internal/monitor/drive_identification.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
 namespace suspension_health_monitor {
 namespace {
 
 std::string cell(int width, int precision, double value) {
-  char text[400];  // more than any double has digits
-  if (std::isnan(value))
-    std::snprintf(text, sizeof text, "%*s", width, "-");
-  else
-    std::snprintf(text, sizeof text, "%*.*f", width, precision, value);
-  return text;
+  return std::isnan(value) ? formatted("%*s", width, "-") : formatted("%*.*f", width, precision, value);
 }
 
 // A negative stiffness has no frequency.
@@ -25,6 +24,12 @@ std::string describeOscillation(const IdentifiedStrut& estimate) {
 std::string describeHop(const WheelEstimate& estimate) {
   const double frequency = estimate.wheelHopFrequency();
   return std::isnan(frequency) ? "no wheel hop" : "wheel hop " + cell(0, 3, frequency) + " Hz";
+}
+
+// Parked at the end: what was learned on the drive still holds.
+bool isHeld(EstimateDoubt doubt) {
+  return doubt == EstimateDoubt::kNotExcited || doubt == EstimateDoubt::kDampingNotExcited ||
+         doubt == EstimateDoubt::kStiffnessNotExcited;
 }
 
 }  // namespace
@@ -69,6 +74,14 @@ void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstim
       cell(0, 2, estimate.stiffness_to_wheel_mass_stddev).c_str(), cell(0, 2, estimate.tyre_to_wheel_mass).c_str(),
       cell(0, 2, estimate.tyre_to_wheel_mass_stddev).c_str(), describeHop(estimate).c_str(), doubt);
   if (const auto ratio = massRatio(strut, estimate)) std::printf("    wheel mass / body mass %.4f\n", *ratio);
+}
+
+std::optional<std::string> whyNotValid(const SuspensionMonitor& monitor, bool was_valid) {
+  if (monitor.report().ls.valid() || monitor.report().la.valid()) return std::nullopt;
+  if (auto warning = periodWarning(monitor)) return warning;
+  if (was_valid && isHeld(monitor.report().la.doubt)) return std::nullopt;
+  if (!was_valid) return "no estimate was ever valid: too short, too little motion, or not the two sides of one strut";
+  return "no estimate is valid at the end of the drive: " + describe(monitor.report().la.doubt) + " (column \"valid\")";
 }
 
 }  // namespace suspension_health_monitor

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "suspension_health_monitor/identify.h"
@@ -17,5 +18,10 @@ void printResult(const char* name, const IdentifiedStrut& estimate, const std::o
 
 /// @param strut  by the same estimator.
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);
+
+/// @param was_valid  an estimate was valid at some time.
+/// @return why neither LS nor LA is valid at the end of the drive, in words; nothing: one of them is, or both
+///         are held, since the drive ends parked.
+std::optional<std::string> whyNotValid(const SuspensionMonitor& monitor, bool was_valid);
 
 }  // namespace suspension_health_monitor

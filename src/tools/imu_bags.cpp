@@ -1,7 +1,5 @@
 #include "imu_bags.h"
 
-#include <ros/serialization.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -11,41 +9,38 @@
 
 #include "bag_file.h"
 #include "errors.h"
-#include "interruption.h"
-#include "progress.h"
+#include "long_work.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using Take = std::function<bool(Side, const sensor_msgs::Imu&)>;
-using ImuTraits = ros::message_traits::MD5Sum<sensor_msgs::Imu>;
 
 std::string listImuTopics(const std::vector<BagConnection>& connections) {
-  std::string list;
+  std::vector<std::string> list;
   for (const BagConnection& connection : connections)
-    if (connection.md5sum == ImuTraits::value() && list.find(connection.topic) == std::string::npos)
-      list += (list.empty() ? "" : ", ") + connection.topic;
-  return list.empty() ? "none" : list;
+    if (carries<sensor_msgs::Imu>(connection) && std::find(list.begin(), list.end(), connection.topic) == list.end())
+      list.push_back(connection.topic);
+  return list.empty() ? "none" : join(list);
 }
 
 /// For every connection of a bag the IMU that it carries, if any.
 using Sides = std::map<std::uint32_t, std::optional<Side>>;
 
 Sides findSides(const BagFile& file, const std::vector<std::string>& topics) {
-  static constexpr std::array<const char*, 3> kOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
   Sides sides;
   for (const BagConnection& connection : file.connections()) sides[connection.id] = std::nullopt;
   for (std::size_t i = 0; i < topics.size(); ++i) {
     bool found = false;
     for (const BagConnection& connection : file.connections()) {
       if (connection.topic != topics[i]) continue;
-      if (connection.md5sum != ImuTraits::value())
-        throw InputError(file.path() + ": topic " + topics[i] + " is " + connection.type + ", must be sensor_msgs/Imu");
+      requireType<sensor_msgs::Imu>(file, connection);
       sides[connection.id] = static_cast<Side>(i);
       found = true;
     }
     if (!found)
-      throw InputError(file.path() + ": no topic " + topics[i] + " (" + kOptions[i] +
+      throw InputError(file.path() + ": no topic " + topics[i] + " (" + kTopicOptions[i] +
                        "); Imu topics in this bag: " + listImuTopics(file.connections()));
   }
   return sides;
@@ -129,13 +124,7 @@ class Delivery {
     const auto side = sides_.find(message.connection);
     if (side == sides_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
     if (!side->second || !range_.contains(message.time)) return true;
-    ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(const_cast<char*>(message.body.data())),
-                                       static_cast<std::uint32_t>(message.body.size()));
-    try {
-      ros::serialization::deserialize(stream, imu_);
-    } catch (const ros::Exception&) {
-      throw InputError(file_.path() + ": a message is damaged");
-    }
+    decode(file_, message, "", imu_);
     return take_(*side->second, imu_);
   }
 

@@ -15,6 +15,9 @@
 
 namespace suspension_health_monitor {
 
+/// Options that name the topics, by Side.
+inline constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
+
 /// What to read: one or more bags, the topics of the two IMUs, and a part of each bag.
 struct ImuBags {
   std::vector<std::string> paths;

@@ -1,9 +1,8 @@
-#include "report_adding.h"
-
-#include <cstdio>
 #include <string>
 
+#include "report_parts.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -25,18 +24,16 @@ std::string quoted(const std::string& word) {
 
 /// The request of ~set_effects.
 std::string settingOf(const StrutModel& model) {
-  std::string names, shape_names, shape_values;
-  const auto append = [](std::string& list, const std::string& item) { list += (list.empty() ? "" : ", ") + item; };
+  std::vector<std::string> names, shape_names, shape_values;
   for (const ActiveEffect& active : model.effects) {
-    append(names, active.effect.name);
+    names.push_back(active.effect.name);
     for (std::size_t i = 0; i < active.shapes.size(); ++i) {
-      char value[32];
-      std::snprintf(value, sizeof value, "%.6g", active.shapes[i]);
-      append(shape_names, active.effect.name + "/" + active.effect.shapes[i].name);
-      append(shape_values, value);
+      shape_names.push_back(active.effect.name + "/" + active.effect.shapes[i].name);
+      shape_values.push_back(formatted("%.6g", active.shapes[i]));
     }
   }
-  return "{names: [" + names + "], shape_names: [" + shape_names + "], shape_values: [" + shape_values + "]}";
+  return "{names: [" + join(names) + "], shape_names: [" + join(shape_names) + "], shape_values: [" +
+         join(shape_values) + "]}";
 }
 
 }  // namespace

@@ -6,12 +6,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "report_adding.h"
-#include "report_series.h"
-#include "report_tables.h"
-#include "report_template.h"
-#include "report_views.h"
-#include "search_report.h"
+#include "report_parts.h"
+#include "results.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -20,22 +17,30 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 std::string sourceOf(const ReportContent& content) {
-  std::string text;
   double duration = 0.0;
   for (const ComparedSegment& segment : content.before.segments)
     duration += static_cast<double>(segment.size()) * content.period;
-  for (const std::string& name : content.drive_names) text += (text.empty() ? "" : ", ") + name;
-  char size[64];
-  std::snprintf(size, sizeof size, ": %.4g s at %.4g Hz", duration, 1.0 / content.period);
-  return text + size;
+  return join(content.drive_names) + formatted(": %.4g s at %.4g Hz", duration, 1.0 / content.period);
+}
+
+/// Numbers to five digits: a figure shows no more, and the page stays small.
+json shortened(json value) {
+  if (value.is_number_float()) return std::stod(formatted("%.5g", value.get<double>()));
+  if (value.is_structured())
+    for (json& each : value) each = shortened(std::move(each));
+  return value;
 }
 
 json findingsOf(const ReportContent& content) {
-  json findings{{"search", toJson(content.found)},         {"source", sourceOf(content)},
-                {"effects", effectsJson(content.library)}, {"parameters", parametersJson(content)},
-                {"drives", drivesJson(content)},           {"before", viewsJson(content.before)},
-                {"forces", forcesJson(content)},           {"adding", addingJson(content)}};
-  if (content.after != nullptr) findings["after"] = viewsJson(*content.after);
+  json findings{{"search", toJson(content.found)},
+                {"source", sourceOf(content)},
+                {"effects", effectsJson(content.library)},
+                {"parameters", parametersJson(content)},
+                {"drives", drivesJson(content)},
+                {"before", shortened(toJson(content.before))},
+                {"forces", shortened(forcesJson(content))},
+                {"adding", addingJson(content)}};
+  if (content.after != nullptr) findings["after"] = shortened(toJson(*content.after));
   return findings;
 }
 

@@ -1,5 +1,3 @@
-#include "report_series.h"
-
 #include <algorithm>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
@@ -7,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "report_parts.h"
 #include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
@@ -52,12 +51,6 @@ std::vector<double> thinned(const std::vector<double>& values, std::size_t range
   return result;
 }
 
-std::vector<double> residualsOf(const ComparedSegment& segment) {
-  std::vector<double> residuals;
-  for (std::size_t k = 0; k < segment.size(); ++k) residuals.push_back(segment.residual(k));
-  return residuals;
-}
-
 /// How many samples share two values, so that all drives fit into the page; 1: all are kept.
 std::size_t thinning(const ReportContent& content) {
   std::size_t samples = 0;
@@ -69,8 +62,8 @@ std::size_t thinning(const ReportContent& content) {
 
 /// One segment. Unthinned, the page itself takes the residual off the measurement to get the prediction.
 json stretchJson(const ComparedSegment& before, const ComparedSegment* after, std::size_t range) {
-  Series series{{"measured", before.measured}, {"residual_before", residualsOf(before)}};
-  if (after != nullptr) series.emplace_back("residual_after", residualsOf(*after));
+  Series series{{"measured", before.measured}, {"residual_before", before.residuals()}};
+  if (after != nullptr) series.emplace_back("residual_after", after->residuals());
   if (range > 1) {
     series.emplace_back("before", before.predicted);
     if (after != nullptr) series.emplace_back("after", after->predicted);

@@ -1,7 +1,7 @@
-#include "report_tables.h"
-
 #include <string>
 #include <vector>
+
+#include "report_parts.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -17,17 +17,15 @@ json rowOf(const ModelNumber& number) {
       {"symbol", number.symbol}, {"title", "of " + (is_shape ? number.effect : number.name)}, {"unit", number.unit}};
 }
 
-/// Puts a model's numbers under `when` into the rows of the same symbol and title.
-void fill(json& rows, const char* when, const StrutModel& model, const std::vector<double>& stddevs) {
-  const std::vector<ModelNumber> numbers = numbersOf(model);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const json own = rowOf(numbers[i]);
-    for (json& line : rows)
-      if (line["symbol"] == own["symbol"] && line["title"] == own["title"]) {
-        line[when] = {{"value", numbers[i].value}};
-        if (i < stddevs.size()) line[when]["stddev"] = stddevs[i];
-      }
+/// A model's numbers by name.
+json valuesOf(const StrutModel& model, const std::vector<double>& stddevs) {
+  json values;
+  auto stddev = stddevs.begin();
+  for (const ModelNumber& number : numbersOf(model)) {
+    values[number.name] = {{"value", number.value}};
+    if (stddev != stddevs.end()) values[number.name]["stddev"] = *stddev++;
   }
+  return values;
 }
 
 }  // namespace
@@ -53,11 +51,14 @@ json effectsJson(const EffectLibrary& library) {
 }
 
 json parametersJson(const ReportContent& content) {
-  const Comparison& before = content.before;
+  json values{{"before", valuesOf(content.before.model, content.before.stddev)}};
+  if (const auto& fit = content.found.final_fit) values["after"] = valuesOf(fit->model, fit->stddev);
   json rows = json::array();
-  for (const ModelNumber& number : numbersOf(content.found.model())) rows.push_back(rowOf(number));
-  fill(rows, "before", before.model, before.stddev);
-  if (content.found.final_fit) fill(rows, "after", content.found.final_fit->model, content.found.final_fit->stddev);
+  for (const ModelNumber& number : numbersOf(content.found.model())) {
+    rows.push_back(rowOf(number));
+    for (const auto& [when, numbers] : values.items())
+      if (numbers.contains(number.name)) rows.back()[when] = numbers[number.name];
+  }
   return rows;
 }
 

@@ -1,8 +1,6 @@
-#include "search_report.h"
-
 #include <string>
 
-#include "model_numbers.h"
+#include "results.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -57,6 +55,18 @@ void printSearch(const Diagnosis& found) {
   std::printf("\nwith %s: held-out rmse %.4g m/s^2, fit %.1f %%\n", join(found.selected, " and ").c_str(),
               found.extended->held_out_rmse, found.extended_fit_percent);
   printFit(*found.final_fit);
+}
+
+json parametersOf(const StrutModel& model) {
+  return {{"damping_to_mass", model.damping_to_mass}, {"stiffness_to_mass", model.stiffness_to_mass}};
+}
+
+void addNumbers(const StrutModel& model, json& into) {
+  into["coefficients"] = into["shapes"] = json::object();
+  for (const ModelNumber& number : numbersOf(model)) {
+    if (number.kind == ModelNumber::Kind::kCoefficient) into["coefficients"][number.name] = number.value;
+    if (number.kind == ModelNumber::Kind::kShape) into["shapes"][number.name] = number.value;
+  }
 }
 
 json toJson(const Diagnosis& found) {

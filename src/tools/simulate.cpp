@@ -3,10 +3,8 @@
 #include "../ros/drive_messages.h"
 #include "../ros/whole_bag.h"
 #include "command.h"
-#include "interruption.h"
-#include "option_sources.h"
-#include "progress.h"
-#include "separate_files.h"
+#include "long_work.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -27,19 +25,14 @@ void writeBag(const SimulatorOptions& options, const std::string& path) {
     if (messages->road) bag.write("/road/imu", messages->time, *messages->road);
     bag.write("/simulator/truth", messages->time, messages->truth);
     progress.update(messages->time.toSec() - options.publishing.start_time);
-    Interruption::check();
   }
   bag.commit();
 }
 
 std::string describeRates(const SimulationOptions& drive) {
   const double sprung = drive.rate, unsprung = drive.unsprung_rate.value_or(drive.rate);
-  char text[80];
-  if (sprung == unsprung)
-    std::snprintf(text, sizeof text, "%g Hz", sprung);
-  else
-    std::snprintf(text, sizeof text, "%g Hz (sprung) and %g Hz (unsprung)", sprung, unsprung);
-  return text;
+  return sprung == unsprung ? formatted("%g Hz", sprung)
+                            : formatted("%g Hz (sprung) and %g Hz (unsprung)", sprung, unsprung);
 }
 
 }  // namespace
@@ -62,8 +55,7 @@ void simulate(const Arguments& arguments) {
   if (!values) return;
 
   requireSeparateFiles(*values, {"config", "effects-file"}, {"output"});
-  OptionMap settings =
-      gatherOptions((*values)["config"].as<std::string>(), (*values)["set"].as<std::vector<std::string>>());
+  OptionMap settings = gatherOptions(*values);
   for (const std::string& effect : (*values)["effect"].as<std::vector<std::string>>())
     setEffect(settings, effect, measurementEffects());
   for (const char* flag : kFlags)

@@ -1,4 +1,3 @@
-#include <ros/serialization.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
@@ -16,8 +15,7 @@ std::set<std::uint32_t> findConnections(const BagFile& file) {
   std::set<std::uint32_t> connections;
   for (const BagConnection& connection : file.connections()) {
     if (connection.topic != kTopic) continue;
-    if (connection.md5sum != ros::message_traits::MD5Sum<tf2_msgs::TFMessage>::value())
-      throw InputError(file.path() + ": topic " + kTopic + " is " + connection.type + ", must be tf2_msgs/TFMessage");
+    requireType<tf2_msgs::TFMessage>(file, connection);
     connections.insert(connection.id);
   }
   if (connections.empty())
@@ -26,14 +24,8 @@ std::set<std::uint32_t> findConnections(const BagFile& file) {
 }
 
 void readTransforms(BagFile& file, const BagMessage& message, tf2::BufferCore& transforms) {
-  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(const_cast<char*>(message.body.data())),
-                                     static_cast<std::uint32_t>(message.body.size()));
   tf2_msgs::TFMessage tree;
-  try {
-    ros::serialization::deserialize(stream, tree);
-  } catch (const ros::Exception&) {
-    throw InputError(file.path() + ": a message on " + kTopic + " is damaged");
-  }
+  decode(file, message, std::string(" on ") + kTopic, tree);
   for (const geometry_msgs::TransformStamped& transform : tree.transforms)
     transforms.setTransform(transform, file.path(), true);
 }

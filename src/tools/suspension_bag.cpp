@@ -1,12 +1,11 @@
 #include <array>
 #include <cstdio>
 #include <exception>
-#include <iostream>
 #include <string>
 
 #include "command.h"
 #include "errors.h"
-#include "interruption.h"
+#include "long_work.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -60,23 +59,6 @@ int run(const Command& command, const Arguments& arguments) {
 }
 
 }  // namespace
-
-std::optional<po::variables_map> parse(const Arguments& arguments, const std::string& usage,
-                                       po::options_description options, const std::string& positional) {
-  options.add_options()("help,h", "show this help");
-  po::positional_options_description bare;
-  if (!positional.empty()) bare.add(positional.c_str(), -1);
-  po::variables_map values;
-  // No guessing: an abbreviated option would change its meaning when a new option appears.
-  const auto style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
-  po::store(po::command_line_parser(arguments).options(options).positional(bare).style(style).run(), values);
-  if (values.count("help") != 0) {
-    std::cout << "usage: suspension_bag " << usage << "\n" << options;
-    return std::nullopt;
-  }
-  po::notify(values);
-  return values;
-}
 
 }  // namespace suspension_health_monitor
 

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/simulation/accelerometer.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "simulated_drive.h"
+#include "suspension_health_monitor/internal/simulation/sensors.h"
 
 namespace suspension_health_monitor {
 namespace {

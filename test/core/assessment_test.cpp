@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+
 namespace suspension_health_monitor {
 namespace {
 

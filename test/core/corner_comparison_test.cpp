@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -34,7 +36,7 @@ void forgetBaselines(Corners& corners) {
 TEST(CornerComparison, HealthyCornersAreAlike) {
   const CornerComparisonReport report = compareCorners(healthyCorners());
   EXPECT_EQ(report.level, HealthLevel::kOk);
-  EXPECT_EQ(report.sentence, "all corners alike");
+  EXPECT_EQ(describe(report), "all corners alike");
   for (const CornerVerdict verdict : report.verdicts) EXPECT_EQ(verdict, CornerVerdict::kAlike);
 }
 
@@ -44,7 +46,7 @@ TEST(CornerComparison, NamesTheOneCornerWhoseDamperIsWornWhicheverItIs) {
     corners[worn].damping_to_mass *= 0.72;
     const CornerComparisonReport report = compareCorners(corners);
     EXPECT_EQ(report.level, HealthLevel::kWarn);
-    EXPECT_EQ(report.sentence, std::string(kCornerNames[worn]) + " damping 28 % below the other corners: damage");
+    EXPECT_EQ(describe(report), std::string(kCornerNames[worn]) + " damping 28 % below the other corners: damage");
     EXPECT_NEAR(*report.damping_deviation[worn], -0.28, 1e-12);
     EXPECT_NEAR(*report.stiffness_deviation[worn], 0.0, 1e-12);
     for (std::size_t i = 0; i < kNumCorners; ++i)
@@ -56,13 +58,13 @@ TEST(CornerComparison, LoadMovesAllCornersOrAnAxleAndIsNoDamage) {
   Corners all = healthyCorners();
   for (CornerState& corner : all) load(corner, 1.25);
   EXPECT_EQ(compareCorners(all).level, HealthLevel::kOk);
-  EXPECT_EQ(compareCorners(all).sentence, "all corners stiffness/mass 20 % down: payload");
+  EXPECT_EQ(describe(compareCorners(all)), "all corners stiffness/mass 20 % down: payload");
   Corners rear = healthyCorners();
   load(rear[kRearLeft], 1.25);
   load(rear[kRearRight], 1.25);
   const CornerComparisonReport report = compareCorners(rear);
   EXPECT_EQ(report.level, HealthLevel::kOk);
-  EXPECT_EQ(report.sentence, "rear_left, rear_right stiffness/mass 20 % down: payload");
+  EXPECT_EQ(describe(report), "rear_left, rear_right stiffness/mass 20 % down: payload");
   EXPECT_EQ(report.verdicts[kRearLeft], CornerVerdict::kLoad);
   EXPECT_EQ(report.verdicts[kFrontLeft], CornerVerdict::kAlike);
 }
@@ -87,7 +89,7 @@ TEST(CornerComparison, WarmDampersAccuseNone) {
   for (CornerState& corner : corners) corner.damping_to_mass *= 0.7;
   const CornerComparisonReport report = compareCorners(corners);
   EXPECT_EQ(report.level, HealthLevel::kOk);
-  EXPECT_NE(report.sentence.find("warm or worn dampers"), std::string::npos) << report.sentence;
+  EXPECT_NE(describe(report).find("warm or worn dampers"), std::string::npos) << describe(report);
 }
 
 TEST(CornerComparison, AnUncertainEstimateAccusesNone) {
@@ -108,7 +110,7 @@ TEST(CornerComparison, ThreeCornersAreEnoughAndTwoAreNot) {
   corners[kRearLeft].valid = false;
   const CornerComparisonReport two = compareCorners(corners);
   EXPECT_EQ(two.level, HealthLevel::kStale);
-  EXPECT_EQ(two.sentence, "cannot tell: 2 of 4 corners have a valid estimate, 3 are needed");
+  EXPECT_EQ(describe(two), "cannot tell: 2 of 4 corners have a valid estimate, 3 are needed");
 }
 
 // Else a corner that is damaged and goes silent would look repaired.
@@ -119,20 +121,20 @@ TEST(CornerComparison, ThreeThatAreAlikeProveNothingOfTheFourth) {
     corners[kRearLeft].valid = false;
     const CornerComparisonReport report = compareCorners(corners);
     EXPECT_EQ(report.level, HealthLevel::kStale);
-    EXPECT_NE(report.sentence.find("no valid estimate of rear_left"), std::string::npos) << report.sentence;
-    EXPECT_EQ(report.sentence.find("all corners"), std::string::npos) << report.sentence;
+    EXPECT_NE(describe(report).find("no valid estimate of rear_left"), std::string::npos) << describe(report);
+    EXPECT_EQ(describe(report).find("all corners"), std::string::npos) << describe(report);
   }
 }
 
 TEST(CornerComparison, WithoutBaselinesTheWheelsOfAnAxleAreCompared) {
   Corners corners = healthyCorners();
   forgetBaselines(corners);
-  EXPECT_EQ(compareCorners(corners).sentence, "left and right alike (no baseline)");
+  EXPECT_EQ(describe(compareCorners(corners)), "left and right alike (no baseline)");
   corners[kRearRight].damping_to_mass *= 0.7;
   const CornerComparisonReport report = compareCorners(corners);
   EXPECT_EQ(report.verdicts[kRearRight], CornerVerdict::kDamper);
   EXPECT_EQ(report.verdicts[kRearLeft], CornerVerdict::kAlike);
-  EXPECT_EQ(report.sentence, "rear_right damping 30 % below rear_left (no baseline): damage");
+  EXPECT_EQ(describe(report), "rear_right damping 30 % below rear_left (no baseline): damage");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "monitor_settings.h"
 #include "paper_drive.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/early_warning.h"
-#include "suspension_health_monitor/internal/health/followed_parameter.h"
+#include "suspension_health_monitor/internal/health/parameter_trend.h"
 #include "suspension_health_monitor/internal/health/strut_change.h"
 
 namespace suspension_health_monitor {

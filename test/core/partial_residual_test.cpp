@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/compare/partial_residual.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +8,7 @@
 
 #include "hidden_effect.h"
 #include "recorded_drive.h"
-#include "suspension_health_monitor/internal/compare/compared_segment.h"
+#include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/fit/initial_states.h"
 
 namespace suspension_health_monitor {

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <random>
 
-#include "suspension_health_monitor/internal/compare/failure_regions.h"
 #include "suspension_health_monitor/internal/compare/residual_analysis.h"
 #include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/wording/failure_sentences.h"

@@ -9,7 +9,6 @@
 
 #include "braked_road.h"
 #include "suspension_health_monitor/internal/pi.h"
-#include "suspension_health_monitor/internal/simulation/iso_road.h"
 
 namespace suspension_health_monitor {
 namespace {

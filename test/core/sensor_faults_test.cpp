@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/simulation/sensor_faults.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "body_drive.h"
+#include "suspension_health_monitor/internal/simulation/sensors.h"
 
 namespace suspension_health_monitor {
 namespace {

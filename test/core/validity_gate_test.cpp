@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+
 namespace suspension_health_monitor {
 namespace {
 

@@ -7,6 +7,7 @@
 #include "paper_drive.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

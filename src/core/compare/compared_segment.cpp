@@ -1,7 +1,6 @@
-#include "suspension_health_monitor/internal/compare/compared_segment.h"
-
 #include <cmath>
 
+#include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 
@@ -19,9 +18,7 @@ double meanResidual(const std::vector<ComparedSegment>& segments) {
 
 void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
                      ComparedSegment& segment) {
-  std::vector<double> residual(segment.size());
-  for (std::size_t k = 0; k < segment.size(); ++k) residual[k] = segment.residual(k);
-  const MotionError wrong = motionError(residual, mean, segment.period, model.stiffness_to_mass);
+  const MotionError wrong = motionError(segment.residuals(), mean, segment.period, model.stiffness_to_mass);
   std::vector<double>& force = segment.missing_force;
   force.resize(segment.size());
   for (std::size_t k = 0; k < segment.size(); ++k)
@@ -51,6 +48,12 @@ ComparedSegment makeSegment(const StrutModel& model, const DriveSegment& source,
 }
 
 }  // namespace
+
+std::vector<double> ComparedSegment::residuals() const {
+  std::vector<double> all(size());
+  for (std::size_t k = 0; k < size(); ++k) all[k] = residual(k);
+  return all;
+}
 
 std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
                                               const std::vector<StrutState>& initial) {

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/compare/compared_segment.h"
-#include "suspension_health_monitor/internal/compare/failure_regions.h"
-#include "suspension_health_monitor/internal/compare/partial_residual.h"
-#include "suspension_health_monitor/internal/compare/prediction_error.h"
+#include "suspension_health_monitor/internal/compare/residual_analysis.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/initial_states.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
@@ -31,10 +28,7 @@ std::optional<std::vector<StrutState>> settleModel(const Records& records, const
 
 Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
   Residuals residuals;
-  for (const ComparedSegment& segment : segments) {
-    residuals.emplace_back();
-    for (std::size_t k = 0; k < segment.size(); ++k) residuals.back().push_back(segment.residual(k));
-  }
+  for (const ComparedSegment& segment : segments) residuals.push_back(segment.residuals());
   return residuals;
 }
 

@@ -1,9 +1,8 @@
-#include "suspension_health_monitor/internal/compare/failure_regions.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "noise_test.h"
+#include "suspension_health_monitor/internal/compare/residual_analysis.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -13,8 +12,7 @@ constexpr double kContrastInTime = 1.5;  // of rmse in a region to rmse elsewher
 constexpr double kContrast = 2.0;        // the same over travel or rate
 constexpr double kWorthATrend = 0.08;    // change of a parameter over a drive, of its value
 constexpr double kBeyondMargins = 0.5;   // of a cell's force: more than travel and rate alone explain
-constexpr int kFewestInCell = 30;
-constexpr double kBand = 0.5;  // of what is not noise, in the band that is named
+constexpr double kBand = 0.5;            // of what is not noise, in the band that is named
 
 class FailureFinder {
  public:
@@ -137,7 +135,7 @@ void FailureFinder::findOnSurface() {
   Eigen::Index row = 0, column = 0;
   for (Eigen::Index i = 0; i < sums.rows(); ++i)
     for (Eigen::Index j = 0; j < sums.cols(); ++j) {
-      if (surface.count(i, j) < kFewestInCell) continue;
+      if (surface.count(i, j) < NoiseTest::kFewest) continue;
       const double by_travel = sums.row(i).sum() / counts.row(i).sum();
       const double by_rate = sums.col(j).sum() / counts.col(j).sum();
       const double mean = surface.mean(i, j);

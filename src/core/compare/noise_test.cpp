@@ -8,7 +8,6 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kNegligible = 0.25;  // of the noise floor: smaller mean forces are not named
-constexpr std::size_t kFewestInBin = 30;
 constexpr std::size_t kMostRanges = 2;
 
 /// Ranges of adjacent bins with the same mark; mark 0 is none.
@@ -48,7 +47,7 @@ std::vector<BinRange> NoiseTest::forces(const std::vector<ResidualBin>& bins) co
   const double limit = limitFor(static_cast<double>(bins.size()));
   std::vector<int> signs;
   for (const ResidualBin& bin : bins) {
-    const bool acts = bin.count >= kFewestInBin && isForce(bin.mean, bin.standard_error, limit);
+    const bool acts = bin.count >= std::size_t{kFewest} && isForce(bin.mean, bin.standard_error, limit);
     signs.push_back(!acts ? 0 : bin.mean > 0.0 ? 1 : -1);
   }
   std::vector<BinRange> ranges = rangesOf(bins, signs);
@@ -67,7 +66,7 @@ std::vector<BinRange> NoiseTest::noisy(const std::vector<ResidualBin>& bins, dou
   for (const ResidualBin& bin : bins) {
     BinRange alone;
     alone.add(bin);
-    marks.push_back(bin.count >= kFewestInBin && exceedsNoise(square(bin.rms), alone.count, limit) &&
+    marks.push_back(bin.count >= std::size_t{kFewest} && exceedsNoise(square(bin.rms), alone.count, limit) &&
                     bin.rms > contrast * rmsElsewhere(alone));
   }
   std::vector<BinRange> ranges = rangesOf(bins, marks);

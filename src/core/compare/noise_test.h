@@ -26,6 +26,8 @@ struct BinRange {
 /// Tests whether bins of a view show more than noise.
 class NoiseTest {
  public:
+  static constexpr int kFewest = 30;  ///< samples of a bin or a cell: fewer say nothing
+
   /// The arguments must outlive it.
   NoiseTest(const ResidualViews& views, const ExpectedNoise& noise);
 

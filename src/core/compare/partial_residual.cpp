@@ -1,8 +1,8 @@
-#include "suspension_health_monitor/internal/compare/partial_residual.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "suspension_health_monitor/internal/compare/comparison.h"
 
 namespace suspension_health_monitor {
 namespace {

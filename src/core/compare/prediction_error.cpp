@@ -1,7 +1,6 @@
-#include "suspension_health_monitor/internal/compare/prediction_error.h"
-
 #include <cmath>
 
+#include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 #include "suspension_health_monitor/internal/statistics.h"
 

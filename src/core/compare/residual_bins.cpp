@@ -1,9 +1,8 @@
-#include "residual_bins.h"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "residual_series.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {

@@ -1,10 +1,9 @@
-#include "residual_correlation.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "noise_test.h"
+#include "residual_series.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -41,4 +41,25 @@ class Correlation {
   double scale_;
 };
 
+/// @param segments  those of the series.
+std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<ComparedSegment>& segments);
+
+/// @param x  one value per sample.
+std::vector<ResidualBin> binByQuantile(const ResidualSeries& series, const std::vector<double>& x);
+
+DirectionLoop compareDirections(const ResidualSeries& series);
+
+ForceSurface mapForce(const ResidualSeries& series);
+
+/// @return autocorrelation of the residual, and its correlation with w'', each with the bands of ResidualCorrelation.
+struct ResidualCorrelations {
+  ResidualCorrelation whiteness, cross;
+};
+ResidualCorrelations correlate(const ResidualSeries& series, const ExpectedNoise& noise);
+
+/// @param segments  those of the series.
+/// @return nothing if not even two windows fit into the segments.
+std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series, const std::vector<ComparedSegment>& segments,
+                                           const ExpectedNoise& noise);
+
 }  // namespace suspension_health_monitor

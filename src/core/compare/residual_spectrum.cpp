@@ -1,10 +1,9 @@
-#include "residual_spectrum.h"
-
 #include <Eigen/Core>
 #include <cmath>
 #include <complex>
 #include <unsupported/Eigen/FFT>
 
+#include "residual_series.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/pi.h"
 

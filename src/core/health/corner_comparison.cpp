@@ -46,10 +46,6 @@ bool counts(double deviation, double variance, const CornerComparisonOptions& op
          deviation * deviation > options.significance * options.significance * variance;
 }
 
-std::string percent(double log_ratio) {
-  return std::to_string(std::lround(100.0 * std::abs(std::expm1(log_ratio)))) + " %";
-}
-
 bool isUsableCorner(const CornerState& corner) {
   return corner.valid && corner.damping_to_mass > 0.0 && corner.stiffness_to_mass > 0.0;
 }
@@ -68,18 +64,12 @@ Change changeOf(const CornerState& corner, bool from_nominal) {
   return change;
 }
 
-std::string nameOf(std::size_t corner) { return std::string(kCornerNames[corner]); }
-
-void add(std::string& sentence, const std::string& part) { sentence += (sentence.empty() ? "" : "; ") + part; }
-
 void accuse(CornerComparisonReport& report, std::size_t corner, double damping_deviation, double stiffness_deviation,
-            const std::string& reference) {
+            const std::optional<std::size_t>& partner = {}) {
   const bool damper = std::abs(damping_deviation) >= std::abs(stiffness_deviation);
-  const double deviation = damper ? damping_deviation : stiffness_deviation;
   report.verdicts[corner] = damper ? CornerVerdict::kDamper : CornerVerdict::kSpring;
   report.level = HealthLevel::kWarn;
-  add(report.sentence, nameOf(corner) + (damper ? " damping " : " stiffness ") + percent(deviation) +
-                           (deviation < 0.0 ? " below " : " above ") + reference + ": damage");
+  report.damages.push_back({corner, std::expm1(damper ? damping_deviation : stiffness_deviation), partner});
 }
 
 // Accuses the corner furthest from the others, takes it out, and so on.
@@ -103,33 +93,24 @@ Members takeOutDamaged(const Changes& changes, Members members, const CornerComp
         paired ? changes[partner].damping : medianOfOthers(changes, members, worst, damping);
     const double reference_stiffness =
         paired ? changes[partner].stiffness : medianOfOthers(changes, members, worst, stiffness);
-    accuse(report, worst, changes[worst].damping - reference_damping, changes[worst].stiffness - reference_stiffness,
-           "the other corners");
+    accuse(report, worst, changes[worst].damping - reference_damping, changes[worst].stiffness - reference_stiffness);
   }
   return members;
 }
 
 // Of corners that are not damaged: whose mass has changed.
-void findLoad(const Changes& changes, const Members& healthy, std::size_t num_valid,
-              const CornerComparisonOptions& options, CornerComparisonReport& report) {
-  std::string names;
+void findLoad(const Changes& changes, const Members& healthy, const CornerComparisonOptions& options,
+              CornerComparisonReport& report) {
   std::vector<double> stiffness_changes, strut_changes;
   for (const std::size_t corner : healthy) {
     strut_changes.push_back(changes[corner].strut());
     if (!counts(changes[corner].stiffness, changes[corner].variance, options)) continue;
     report.verdicts[corner] = CornerVerdict::kLoad;
-    names += (names.empty() ? "" : ", ") + nameOf(corner);
     stiffness_changes.push_back(changes[corner].stiffness);
   }
-  if (!stiffness_changes.empty()) {
-    const double change = medianOf(stiffness_changes);
-    add(report.sentence, (stiffness_changes.size() == num_valid ? "all corners" : names) + " stiffness/mass " +
-                             percent(change) + (change < 0.0 ? " down: payload" : " up: unloaded"));
-  }
+  if (!stiffness_changes.empty()) report.load = std::expm1(medianOf(stiffness_changes));
   const double common = medianOf(strut_changes);
-  if (counts(common, 0.0, options))
-    add(report.sentence, "damping of all other corners alike " + percent(common) +
-                             (common < 0.0 ? " down: warm or worn dampers" : " up: cold dampers"));
+  if (counts(common, 0.0, options)) report.dampers = std::expm1(common);
 }
 
 void compareAxles(const Changes& changes, const Members& valid, const CornerComparisonOptions& options,
@@ -147,7 +128,7 @@ void compareAxles(const Changes& changes, const Members& valid, const CornerComp
     const bool left_is_weaker = (damper ? damping_ratio : stiffness_ratio) < 0.0;
     const double sign = left_is_weaker ? 1.0 : -1.0;
     accuse(report, left_is_weaker ? left : right, sign * damping_ratio, sign * stiffness_ratio,
-           nameOf(left_is_weaker ? right : left) + " (no baseline)");
+           left_is_weaker ? right : left);
   }
 }
 
@@ -157,28 +138,23 @@ CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>
                                       const CornerComparisonOptions& options) {
   CornerComparisonReport report;
   Members valid;
-  std::string missing;
-  bool from_nominal = true;
   for (std::size_t corner = 0; corner < kNumCorners; ++corner) {
     if (!isUsableCorner(corners[corner])) {
-      missing = nameOf(corner);
+      report.missing = corner;
+      ++report.num_missing;
       continue;
     }
     valid.push_back(corner);
-    from_nominal = from_nominal && hasNominal(corners[corner]);
+    report.by_nominal = report.by_nominal && hasNominal(corners[corner]);
   }
-  if (valid.size() < 3) {
-    report.sentence =
-        "cannot tell: " + std::to_string(valid.size()) + " of 4 corners have a valid estimate, 3 are needed";
-    return report;
-  }
+  if (valid.size() < 3) return report;
   report.level = HealthLevel::kOk;
   Changes changes{};
   for (const std::size_t corner : valid) {
-    changes[corner] = changeOf(corners[corner], from_nominal);
+    changes[corner] = changeOf(corners[corner], report.by_nominal);
     report.verdicts[corner] = CornerVerdict::kAlike;
   }
-  if (from_nominal) {
+  if (report.by_nominal) {
     for (const std::size_t corner : valid) {
       const Change& change = changes[corner];
       report.damping_deviation[corner] = std::expm1(change.damping - medianOfOthers(changes, valid, corner, damping));
@@ -186,16 +162,11 @@ CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>
           std::expm1(change.stiffness - medianOfOthers(changes, valid, corner, stiffness));
     }
     const Members healthy = takeOutDamaged(changes, valid, options, report);
-    findLoad(changes, healthy, valid.size(), options, report);
+    findLoad(changes, healthy, options, report);
   } else {
     compareAxles(changes, valid, options, report);
   }
-  if (report.sentence.empty())
-    report.sentence = from_nominal ? (missing.empty() ? "all corners alike" : "the other corners alike")
-                                   : "left and right alike (no baseline)";
-  if (missing.empty()) return report;
-  if (report.level == HealthLevel::kOk) report.level = HealthLevel::kStale;
-  add(report.sentence, "no valid estimate of " + missing);
+  if (report.missing && report.level == HealthLevel::kOk) report.level = HealthLevel::kStale;
   return report;
 }
 

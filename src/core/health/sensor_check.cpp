@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 
@@ -15,13 +14,6 @@ constexpr double kMuchLarger = 9.0;   // variance over variance
 constexpr double kInG = 0.15;         // so near 1 is what a sensor of gravity reads that has g for its unit
 
 bool hasGravity(double mean) { return std::abs(mean) > kGravity / 2.0; }
-
-std::string withMean(const char* sensor, double mean) {
-  char text[160];
-  std::snprintf(text, sizeof text, "the %s IMU reads %.2f m/s^2 on average, neither %.2f nor 0: gain, offset or mount",
-                sensor, mean, kGravity);
-  return text;
-}
 
 }  // namespace
 
@@ -111,35 +103,6 @@ SensorFault SensorCheck::judgeGravity() const {
 bool SensorCheck::isOff(const Reading& reading) const {
   const double off = std::min(std::abs(reading.mean), std::abs(std::abs(reading.mean) - kGravity));
   return off > tolerance_ * kGravity + reading.meanNoise();
-}
-
-std::string describe(const SensorReport& report) {
-  char text[160];
-  switch (report.fault) {
-    case SensorFault::kNone: return {};
-    case SensorFault::kSprungStuck: return "the sprung IMU reads one value while the unsprung one moves: stuck";
-    case SensorFault::kUnsprungStuck: return "the unsprung IMU reads one value while the sprung one moves: stuck";
-    case SensorFault::kSprungGravity: return withMean("sprung", report.mean[0]);
-    case SensorFault::kUnsprungGravity: return withMean("unsprung", report.mean[1]);
-    case SensorFault::kGravityOnOneSide:
-      std::snprintf(text, sizeof text,
-                    "mean readings %.2f (sprung) and %.2f m/s^2 (unsprung): only one of the IMUs reads gravity",
-                    report.mean[0], report.mean[1]);
-      return text;
-    case SensorFault::kGravityOpposed:
-      return "one IMU reads gravity upward, the other downward: "
-             "one is mounted upside down, or its axis has the wrong sign";
-    case SensorFault::kSprungInG:
-      return "the sprung IMU reads about 1 where the other reads gravity: it is in g, must be in m/s^2";
-    case SensorFault::kUnsprungInG:
-      return "the unsprung IMU reads about 1 where the other reads gravity: it is in g, must be in m/s^2";
-    case SensorFault::kNegativeDamping:
-      return "damping is negative: are the IMUs swapped, or is an axis the wrong way up?";
-    case SensorFault::kUnrelated:
-      return "both IMUs move, but no strut makes the one of the other: "
-             "sensor fault, wrong axis, wrong topic, or the two swapped";
-  }
-  return {};
 }
 
 }  // namespace suspension_health_monitor

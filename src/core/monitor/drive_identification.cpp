@@ -6,6 +6,7 @@
 
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

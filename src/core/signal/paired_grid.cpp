@@ -14,8 +14,8 @@ std::optional<CornerSample> PairedGrid::next(WaitingReadings& waiting) {
       continue;
     }
     if (options_.has_road && !findRoad(body.stamp, waiting)) return std::nullopt;
-    sprung.pop();
-    unsprung.pop();
+    sprung.pop_front();
+    unsprung.pop_front();
     if (is_judged) judge_.addPair(body.stamp, wheel.stamp);
     if (body.still == wheel.still) return CornerSample{body.stamp, body.acceleration, wheel.acceleration};
     rejected_.add(RejectReason::kStuck);
@@ -35,13 +35,13 @@ bool PairedGrid::findRoad(Stamp stamp, WaitingReadings& waiting) {
   }
   if (2 * (road.front().stamp - stamp) > period_) return true;
   road_acceleration_ = road.front().acceleration;
-  road.pop();
+  road.pop_front();
   return true;
 }
 
 void PairedGrid::drop(ReadingQueue& queue) {
   rejected_.add(RejectReason::kMissingPartner);
-  queue.pop();
+  queue.pop_front();
 }
 
 void PairedGrid::startNewSeries(WaitingReadings& waiting) {

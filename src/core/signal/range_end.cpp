@@ -16,7 +16,7 @@ constexpr double kBandSteps = 8.5;  // eight steps, however their differences ar
 void RangeEnd::add(double reading, int equal_in_a_row, const UsualReadings& usual) {
   count(reading, std::max(kBandOfSpan * usual.span, kBandSteps * usual.finest_step));
   countFlatTops(reading, equal_in_a_row, usual.repeated);
-  if (!in_flat_top_ || flat_tops_ > 1 || equal_in_a_row < kLongTop) {
+  if (!in_flat_top_ || flat_tops_ > 1 || equal_in_a_row < kStuck) {
     const bool far_out = std::abs(reading - usual.mean) > kFarOut * usual.deviation;
     const bool fine = usual.finest_step < kFineResolution * usual.span;
     // A sensor that reads 0 is dead: no range ends there.

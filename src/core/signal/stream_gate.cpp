@@ -56,7 +56,7 @@ bool StreamGate::isAbsurd(double acceleration) {
 
 void StreamGate::noteValue(double acceleration) {
   const double step = value_ ? std::abs(acceleration - *value_) : 0.0;
-  equal_in_a_row_ = value_ && step == 0.0 ? std::min(equal_in_a_row_ + 1, kStill) : 1;
+  equal_in_a_row_ = value_ && step == 0.0 ? std::min(equal_in_a_row_ + 1, RangeEnd::kStuck) : 1;
   if (step > 0.0) finest_step_ = finest_step_ > 0.0 ? std::min(finest_step_, step) : step;
   value_ = acceleration;
   mean_.add(acceleration);

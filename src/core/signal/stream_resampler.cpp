@@ -50,7 +50,7 @@ StreamResampler::Coverage StreamResampler::advance(Stamp t, ReadingQueue& waitin
   while (!first_ || last_.stamp < t + reach_) {
     if (waiting.empty()) return Coverage::kComes;
     const SensorReading reading = waiting.front();
-    waiting.pop();
+    waiting.pop_front();
     const bool interrupted = first_ && followsAfterGap(reading);
     if (!first_ || interrupted) begin(reading);
     take(reading);

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -31,7 +33,7 @@ std::optional<CornerSample> UniformGrid::push(Side side, Stamp stamp, double acc
   if (verdict == StreamGate::Verdict::kBeginsAnew) startNewSeries(side);
   ReadingQueue& queue = waiting_[side];
   if (queue.full()) paired_.drop(queue);
-  queue.push({stamp, acceleration, gate.isStill(), gate.timing().period()});
+  queue.push_back({stamp, acceleration, gate.isStill(), gate.timing().period()});
   return next();
 }
 

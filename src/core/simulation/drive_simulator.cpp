@@ -10,8 +10,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kAbsoluteTolerance = 1e-10;
-constexpr double kRelativeTolerance = 1e-10;
+constexpr double kTolerance = 1e-10;  // per step, absolute [m, m/s] and relative
 
 double longestStep(const Scenario& scenario) {
   const QuarterCar& car = scenario.vehicle;
@@ -128,8 +127,7 @@ Sway DriveSimulator::readSway(Sway sway) {
 void DriveSimulator::integrate(State& state, double from, double to) {
   namespace odeint = boost::numeric::odeint;
   const double first_step = std::min(max_step_, to - from);
-  const auto stepper =
-      odeint::make_controlled(kAbsoluteTolerance, kRelativeTolerance, max_step_, odeint::runge_kutta_dopri5<State>());
+  const auto stepper = odeint::make_controlled(kTolerance, kTolerance, max_step_, odeint::runge_kutta_dopri5<State>());
   const auto system = [this](const State& x, State& derivative, double t) {
     guard_.countEvaluation(t);
     derivative = motionAt(x, t).derivative;

@@ -1,26 +1,23 @@
 #include "suspension_health_monitor/internal/simulation/integration_guard.h"
 
-#include <sstream>
 #include <stdexcept>
+
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 std::string describe(const std::vector<ActiveEffect>& effects) {
-  std::ostringstream text;
+  std::string text;
   for (const ActiveEffect& active : effects) {
-    text << (text.tellp() > 0 ? "; " : " with ") << active.effect.name << " = " << active.coefficient;
+    text += (text.empty() ? " with " : "; ") + active.effect.name + formatted(" = %g", active.coefficient);
     for (std::size_t i = 0; i < active.shapes.size(); ++i)
-      text << ", " << active.effect.shapes[i].name << " = " << active.shapes[i];
+      text += ", " + active.effect.shapes[i].name + formatted(" = %g", active.shapes[i]);
   }
-  return text.str();
+  return text;
 }
 
-std::string at(double t) {
-  std::ostringstream text;
-  text << " (" << t << " s after the start of the drive)";
-  return text.str();
-}
+std::string at(double t) { return formatted(" (%g s after the start of the drive)", t); }
 
 }  // namespace
 

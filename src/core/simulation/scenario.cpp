@@ -1,11 +1,11 @@
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/simulation/iso_road.h"
-#include "suspension_health_monitor/internal/simulation/sensor_faults.h"
+#include "suspension_health_monitor/internal/simulation/road.h"
+#include "suspension_health_monitor/internal/simulation/sensors.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -57,9 +57,7 @@ Road makeRoad(const SimulationOptions& options, const Vehicle& vehicle) {
 }
 
 [[noreturn]] void refuse(const char* name, double value, const char* unit, const char* limit, double limit_value) {
-  std::ostringstream message;
-  message << name << " = " << value << " [" << unit << "], must be " << limit << " = " << limit_value;
-  throw std::invalid_argument(message.str());
+  throw std::invalid_argument(formatted("%s = %g [%s], must be %s = %g", name, value, unit, limit, limit_value));
 }
 
 }  // namespace

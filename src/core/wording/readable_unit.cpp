@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -39,9 +40,7 @@ ReadableUnit::ReadableUnit(double typical, double prefixed, const std::string& u
 std::string ReadableUnit::number(double value) const {
   const double scaled = value / size_;
   const int decimals = std::clamp(kDigits - digitsBefore(std::abs(scaled)), 0, most_decimals_);
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, scaled);
-  std::string result = text;
+  std::string result = formatted("%.*f", decimals, scaled);
   if (decimals == 0) return result;
   result.erase(result.find_last_not_of('0') + 1);
   if (result.back() == '.') result.pop_back();

@@ -1,11 +1,32 @@
 // The residual seen from all sides: over the motion, over frequency, over lag.
 
 const beforeAndAfter =
-    findings => [['before', findings.before], ['after', findings.after]].filter(([, views]) => views);
+    findings => [['before', findings.before], ['after', findings.after]].filter(([, comparison]) => comparison);
 const NAMES = {
   before: 'model as it is',
   after: 'with the effect'
 };
+
+const transposed = matrix => matrix[0].map((_, j) => matrix.map(row => row[j]));
+
+/** A map of matrices[x][y] for figures: rows upwards along y, nothing where no sample was. */
+function mapOf([x, y], [x_edges, y_edges], {count, ...matrices}) {
+  const map = {x, y, x_edges, y_edges, count: transposed(count)};
+  for (const [name, matrix] of Object.entries(matrices))
+    map[name] = transposed(matrix).map((row, j) => row.map((value, i) => (count[i][j] ? value : null)));
+  return map;
+}
+
+function surfaceMap({travel_edges, rate_edges, mean, standard_error, count}) {
+  const axes = [{title: 'travel', unit: 'm'}, {title: 'travel rate', unit: 'm/s'}];
+  return mapOf(axes, [travel_edges, rate_edges], {mean, standard_error, count});
+}
+
+/** What a force that two variables decide is like: `value` of every cell, 'mean' as it was seen or 'law'. */
+function forceMap({axes, edges, cells}, value) {
+  const each = name => cells.map(column => column.map(bin => bin[name]));
+  return mapOf(axes, edges, {mean: each(value), count: each('count')});
+}
 
 function mapSection(findings) {
   const {surface_share: share, verdict} = findings.search;
@@ -15,7 +36,8 @@ function mapSection(findings) {
       '(compressing upwards). Orange: the body is pushed up harder than the model says; blue: less. A good model ' +
       'leaves a pale, speckled map.',
       mapPair(
-          beforeAndAfter(findings).map(([when, {map}]) => ({name: capitalised(NAMES[when]), map})),
+          beforeAndAfter(findings).map(
+              ([when, {views}]) => ({name: capitalised(NAMES[when]), map: surfaceMap(views.surface)})),
           {title: 'missing force', unit: 'm/s^2'}),
       verdict === 'nothing_missing' ?
           null :
@@ -31,7 +53,8 @@ function whereSection(findings) {
   return section(
       'where', 'Where the model fails', null,
       beforeAndAfter(findings).map(
-          ([when, views]) => [findings.after ? element('h3', {}, capitalised(NAMES[when])) : null, list(views)]));
+          ([when, comparison]) =>
+              [findings.after ? element('h3', {}, capitalised(NAMES[when])) : null, list(comparison)]));
 }
 
 /**
@@ -40,9 +63,17 @@ function whereSection(findings) {
 function forceCurves(force) {
   const host = element('div');
   const tones = ['before', 'good'];
-  const seen = force.branches.flatMap(({points}) => points);
+  const branches = force.branches.map(({name, bins}) => ({
+                                        name,
+                                        points: bins.map(({at, mean, deviation, law, count}) => (
+                                                             {x: at, y: mean, low: mean - deviation,
+                                                              high: mean + deviation, law, count}))
+                                      }));
+  const seen = branches.flatMap(({points}) => points);
+  const laws = force.curve ? [force.curve] :
+                             branches.map(({points}) => ({at: points.map(({x}) => x), law: points.map(each => each.law)}));
   whenPlaced(() => new Plot(host, {
-                     x: new Axis({...force.x, domain: padded(seen.map(({x}) => x), 0.04)}),
+                     x: new Axis({...force.axes[0], domain: padded(seen.map(({x}) => x), 0.04)}),
                      y: new Axis({
                        title: 'force per unit mass',
                        unit: 'm/s^2',
@@ -51,24 +82,24 @@ function forceCurves(force) {
                      height: 320,
                      name: `force of ${spoken(force.effect)}, seen and by the law`,
                      layers: [
-                       levelLayer(0, 'muted', []), ...force.branches.map(({points}, i) => dotLayer(points, tones[i])),
-                       ...force.branches.map(({law_x: xs, law}) => lineLayer(xs, law, 'after', {width: 2.6}))
+                       levelLayer(0, 'muted', []), ...branches.map(({points}, i) => dotLayer(points, tones[i])),
+                       ...laws.map(({at, law}) => lineLayer(at, law, 'after', {width: 2.6}))
                      ],
                      hover(x) {
-                       const rows = force.branches.map(({name, points}) => {
+                       const rows = branches.map(({name, points}) => {
                          const point = points[nearestIndex(points.map(each => each.x), x)];
                          return [
                            [name ? `seen, ${name}` : 'seen', this.y.show(point.y)],
                            ['by the law', this.y.show(point.law), 'after'], ['samples', String(point.count)]
                          ];
                        });
-                       return {title: `${force.x.title} ${this.x.show(x)}`, rows: rows.flat(), at: x};
+                       return {title: `${force.axes[0].title} ${this.x.show(x)}`, rows: rows.flat(), at: x};
                      },
                    }).draw());
   return [
     legend(
         ['after', `the law found, ${force.law}`],
-        ...force.branches.map(
+        ...branches.map(
             ({name}, i) => [tones[i], `force seen${name ? ', ' + name : ''}: mean and spread`, 'dot'])),
     host
   ];
@@ -83,7 +114,10 @@ function forceSection(findings) {
            force.branches ?
                forceCurves(force) :
                mapPair(
-                   [{name: 'Force seen', map: force.seen}, {name: `By the law ${force.law}`, map: force.by_law}],
+                   [
+                     {name: 'Force seen', map: forceMap(force, 'mean')},
+                     {name: `By the law ${force.law}`, map: forceMap(force, 'law')}
+                   ],
                    {title: 'force per unit mass', unit: 'm/s^2'})]);
   const readings =
       selected.filter(name => kindOf(findings, name).kind === 'reading')
@@ -103,10 +137,16 @@ function forceSection(findings) {
 }
 
 function spectrumSection(findings) {
-  const shown = beforeAndAfter(findings).filter(([, views]) => views.spectrum);
+  const shown = beforeAndAfter(findings).filter(([, {views}]) => views.spectrum);
   if (!shown.length) return null;
-  const {frequency, noise} = shown[0][1].spectrum;
-  const spectra = shown.map(([when, {spectrum}]) => ({when, ...spectrum}));
+  const amplitudes = densities => densities.map(Math.sqrt);
+  const spectra = shown.map(([when, {views: {spectrum}}]) => ({
+                              ...spectrum,
+                              when,
+                              residual: amplitudes(spectrum.residual),
+                              noise: amplitudes(spectrum.noise)
+                            }));
+  const {frequency, noise} = spectra[0];
   const positive = spectra.flatMap(({residual}) => residual).concat(noise).filter(value => value > 0);
   const range = [Math.min(...positive), Math.max(...positive)];
   const hosts = [element('div'), element('div')];
@@ -159,7 +199,7 @@ function spectrumSection(findings) {
 }
 
 function correlationFigure(title, findings, which, lagTitle) {
-  const shown = beforeAndAfter(findings).map(([when, views]) => ({when, ...views[which]}));
+  const shown = beforeAndAfter(findings).map(([when, {views}]) => ({when, ...views[which]}));
   const host = element('div');
   const {lag, lower, upper} = shown[shown.length - 1];
   whenPlaced(
@@ -186,7 +226,7 @@ function correlationFigure(title, findings, which, lagTitle) {
 }
 
 function whitenessSection(findings) {
-  const judged = findings.after || findings.before;
+  const judged = (findings.after || findings.before).views;
   const white = judged.whiteness.within && judged.cross_correlation.within;
   return section(
       'whiteness', 'Is what remains noise?',

@@ -5,8 +5,8 @@
 
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/early_warning.h"
-#include "suspension_health_monitor/internal/health/followed_parameter.h"
 #include "suspension_health_monitor/internal/health/level_confirmation.h"
+#include "suspension_health_monitor/internal/health/parameter_trend.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/health/strut_change.h"
 #include "suspension_health_monitor/monitor_options.h"
@@ -93,4 +93,5 @@ class HealthAssessment {
   SensorReport sensor_;
   HealthReport report_;
 };
+
 }  // namespace suspension_health_monitor

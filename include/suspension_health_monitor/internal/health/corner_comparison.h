@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <string_view>
+#include <vector>
 
 #include "suspension_health_monitor/internal/health/assessment.h"
 
@@ -32,12 +32,27 @@ enum class CornerVerdict : unsigned char {
   kSpring = 4   ///< its stiffness did
 };
 
+/// A corner whose damper or spring is damaged; which of them the verdict says.
+struct CornerDamage {
+  std::size_t corner;
+  double change;                       ///< of its damping or stiffness against the others', as a share [-]
+  std::optional<std::size_t> partner;  ///< the wheel that it was compared with; none: all others, by nominal values
+};
+
+/// The facts; describe() makes a sentence of them (wording/monitor_sentences.h).
 struct CornerComparisonReport {
   HealthLevel level = HealthLevel::kStale;  ///< kWarn: a corner is damaged
   std::array<CornerVerdict, kNumCorners> verdicts{};
   std::array<std::optional<double>, kNumCorners> damping_deviation{};    ///< from the others, as a share [-]
   std::array<std::optional<double>, kNumCorners> stiffness_deviation{};  ///< likewise
-  std::string sentence;                                                  ///< for a person
+  std::vector<CornerDamage> damages;                                     ///< worst first
+  std::optional<double> load;          ///< median change of stiffness/mass of the corners with kLoad, as a share [-]
+  std::optional<double> dampers;       ///< change of damping that all corners without damage show alike
+  bool by_nominal = true;              ///< false: the wheels of an axle were compared
+  std::optional<std::size_t> missing;  ///< a corner without a valid estimate
+  std::size_t num_missing = 0;
+
+  std::size_t numValid() const { return kNumCorners - num_missing; }
 };
 
 struct CornerComparisonOptions {

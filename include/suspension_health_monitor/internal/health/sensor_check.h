@@ -63,4 +63,5 @@ class SensorCheck {
   std::array<Reading, 2> readings_;
   SensorReport report_;
 };
+
 }  // namespace suspension_health_monitor

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "suspension_health_monitor/drive.h"
@@ -20,7 +22,12 @@ inline constexpr std::string_view kAlignmentNames = "auto paired resampled";  //
 
 /// @param name  one of kAlignmentNames.
 /// @throws std::invalid_argument  on another name.
-Alignment alignment(std::string_view name);
+inline Alignment alignment(std::string_view name) {
+  if (name == "auto") return Alignment::kAuto;
+  if (name == "paired") return Alignment::kPaired;
+  if (name == "resampled") return Alignment::kResampled;
+  throw std::invalid_argument("alignment = " + std::string(name) + ", must be one of " + std::string(kAlignmentNames));
+}
 
 /// What a UniformGrid brings together, and how.
 struct GridOptions {

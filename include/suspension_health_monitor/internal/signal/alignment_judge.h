@@ -1,9 +1,8 @@
 #pragma once
 
-#include <array>
+#include <boost/circular_buffer.hpp>
 #include <cstddef>
 #include <optional>
-#include <string>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 
@@ -49,13 +48,9 @@ class AlignmentJudge {
   int fill_;
   Verdict verdict_ = Verdict::kDoesWell;
   int pairs_ = 0, lone_ = 0, lone_in_a_row_ = 0;
-  Stamp apart_{};              // sum over the pairs
-  std::optional<Stamp> last_;  // pair
-  std::array<std::optional<Stamp>, kInterruptions> interruptions_;
-  std::size_t oldest_ = 0;
+  Stamp apart_{};                                                // sum over the pairs
+  std::optional<Stamp> last_;                                    // pair
+  boost::circular_buffer<Stamp> interruptions_{kInterruptions};  // the newest
 };
-
-/// @return why readings are resampled, in words; empty if pairing does well.
-std::string describe(AlignmentJudge::Verdict verdict);
 
 }  // namespace suspension_health_monitor

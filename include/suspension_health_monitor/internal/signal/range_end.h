@@ -24,6 +24,8 @@ struct UsualReadings {
 /// Cost per reading: O(1), no allocation.
 class RangeEnd {
  public:
+  static constexpr int kStuck = 20;  ///< equal readings in a row; fewer occur where the resolution is coarse
+
   /// @param sign  1: the upper end, -1: the lower one.
   explicit RangeEnd(double sign) : sign_(sign) {}
 
@@ -40,7 +42,6 @@ class RangeEnd {
 
  private:
   static constexpr int kFlatTop = 3;
-  static constexpr int kLongTop = 20;  // once so long: stuck
   static constexpr int kAgain = 5;
 
   void count(double reading, double band);

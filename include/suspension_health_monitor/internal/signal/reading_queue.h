@@ -1,8 +1,8 @@
 #pragma once
 
 #include <array>
+#include <boost/circular_buffer.hpp>
 #include <cstddef>
-#include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
@@ -18,29 +18,9 @@ struct SensorReading {
 };
 
 /// Readings of one sensor that wait for those of another: first in, first out, of fixed capacity.
-class ReadingQueue {
- public:
+struct ReadingQueue : boost::circular_buffer<SensorReading> {
   static constexpr std::size_t kCapacity = 4096;
-
-  ReadingQueue() : readings_(kCapacity) {}
-
-  bool empty() const { return size_ == 0; }
-  bool full() const { return size_ == kCapacity; }
-  std::size_t size() const { return size_; }
-  const SensorReading& front() const { return readings_[first_]; }
-
-  /// @pre not full.
-  void push(const SensorReading& reading) { readings_[(first_ + size_++) % kCapacity] = reading; }
-
-  /// @pre not empty.
-  void pop() {
-    first_ = (first_ + 1) % kCapacity;
-    --size_;
-  }
-
- private:
-  std::vector<SensorReading> readings_;
-  std::size_t first_ = 0, size_ = 0;
+  ReadingQueue() : circular_buffer(kCapacity) {}
 };
 
 /// Of the sensors of a strut.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <boost/circular_buffer.hpp>
 #include <cstddef>
 #include <vector>
 
@@ -15,38 +16,29 @@ template <class Sample>
 class Recent {
  public:
   /// @param capacity  number of samples kept, >= 1; their memory is taken here and now.
-  explicit Recent(std::size_t capacity) : ring_(capacity) {}
+  explicit Recent(std::size_t capacity) : samples_(capacity, Sample{}) { clear(); }
 
   /// Takes in the next sample; one whose stamp is not after the last begins the series anew.
   void push(const Sample& sample) {
     if (!isNewer(sample)) clear();
-    newest_ = newest_ + 1 == ring_.size() ? 0 : newest_ + 1;
-    ring_[newest_] = sample;
-    size_ = std::min(size_ + 1, ring_.size());
+    samples_.push_back(sample);
   }
 
-  void clear() { size_ = 0; }
+  void clear() { samples_.clear(); }
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return samples_.size(); }
 
   /// @return true if the sample is newer than all that is kept.
-  bool isNewer(const Sample& sample) const { return size_ == 0 || sample.stamp > ring_[newest_].stamp; }
+  bool isNewer(const Sample& sample) const { return samples_.empty() || sample.stamp > samples_.back().stamp; }
 
   /// @return the samples that are at most `span` older than the newest one, in the order of time.
   std::vector<Sample> newest(Stamp span) const {
-    std::vector<Sample> samples;
-    samples.reserve(size_);
-    for (std::size_t age = size_; age-- > 0;) {
-      const Sample& sample = ring_[(newest_ + ring_.size() - age) % ring_.size()];
-      if (ring_[newest_].stamp - sample.stamp <= span) samples.push_back(sample);
-    }
-    return samples;
+    const auto is_old = [&](const Sample& sample) { return samples_.back().stamp - sample.stamp > span; };
+    return {std::find_if_not(samples_.begin(), samples_.end(), is_old), samples_.end()};
   }
 
  private:
-  std::vector<Sample> ring_;
-  std::size_t newest_ = 0;
-  std::size_t size_ = 0;
+  boost::circular_buffer<Sample> samples_;
 };
 
 using RecentSamples = Recent<CornerSample>;

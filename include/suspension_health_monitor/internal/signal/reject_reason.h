@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <string>
 #include <string_view>
 
@@ -32,10 +33,18 @@ class RejectCounts {
  public:
   void add(RejectReason reason) { ++counts_[static_cast<std::size_t>(reason)]; }
   std::uint64_t count(RejectReason reason) const { return counts_[static_cast<std::size_t>(reason)]; }
-  std::uint64_t total() const;
+  std::uint64_t total() const { return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}); }
   /// @return the counts by name; only of reasons that occurred.
-  std::map<std::string, std::uint64_t> byName() const;
-  RejectCounts& operator+=(const RejectCounts& other);
+  std::map<std::string, std::uint64_t> byName() const {
+    std::map<std::string, std::uint64_t> counts;
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+      if (counts_[i] > 0) counts[std::string(kRejectReasonNames[i])] = counts_[i];
+    return counts;
+  }
+  RejectCounts& operator+=(const RejectCounts& other) {
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
+    return *this;
+  }
 
  private:
   std::array<std::uint64_t, kRejectReasonNames.size()> counts_{};

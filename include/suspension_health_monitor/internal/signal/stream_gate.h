@@ -35,9 +35,9 @@ class StreamGate {
   /// Forgets the last stamp: the next reading may have any.
   void startNewSeries();
 
-  /// @return true if the last kStill readings were all the same: a sensor that is stuck, or a vehicle at rest and a
-  /// sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
-  bool isStill() const { return equal_in_a_row_ == kStill; }
+  /// @return true if the last RangeEnd::kStuck readings were all the same: a sensor that is stuck, or a vehicle at rest
+  /// and a sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
+  bool isStill() const { return equal_in_a_row_ == RangeEnd::kStuck; }
 
   /// @return the mean distance of the newest thousand readings from their mean [m/s^2].
   double deviation() const { return deviation_.mean(); }
@@ -49,9 +49,6 @@ class StreamGate {
   const StreamTiming& timing() const { return timing_; }
 
  private:
-  static constexpr int kStill = 20;              // equal readings in a row; fewer occur where the resolution is coarse
-  static constexpr double kUsualMemory = 0.999;  // forgetting factor
-
   std::optional<RejectReason> faultOfStamp(Stamp stamp) const;
   bool isAbsurd(double acceleration);
   bool isClipped(double acceleration);
@@ -63,11 +60,12 @@ class StreamGate {
   std::optional<double> value_;  // of the last reading
   int equal_in_a_row_ = 0;
   int absurd_in_a_row_ = 0;
-  double finest_step_ = 0.0;            // other than 0
-  RangeEnd upper_{1.0}, lower_{-1.0};   // of all readings that passed, the clipped ones included
-  RunningMean repeated_{kUsualMemory};  // 1 for a reading that equals the one before, both extremes left out
-  RunningMean size_{kUsualMemory};      // |acceleration|
-  RunningMean mean_{kUsualMemory}, deviation_{kUsualMemory};  // of the acceleration; |acceleration - mean|
+  double finest_step_ = 0.0;                     // other than 0
+  RangeEnd upper_{1.0}, lower_{-1.0};            // of all readings that passed, the clipped ones included
+  RunningMean repeated_{StreamTiming::kMemory};  // 1 for a reading that equals the one before, both extremes left out
+  RunningMean size_{StreamTiming::kMemory};      // |acceleration|
+  RunningMean mean_{StreamTiming::kMemory},
+      deviation_{StreamTiming::kMemory};  // of the acceleration; |acceleration - mean|
   RejectCounts rejected_;
   StreamTiming timing_;
 };

@@ -13,8 +13,26 @@ namespace suspension_health_monitor {
 /// Cost per reading: O(1), no allocation.
 class StreamTiming {
  public:
+  static constexpr double kMemory = 0.999;  ///< forgetting factor
+
   /// Takes in the stamp of the next reading, later than the one before.
-  void add(Stamp stamp);
+  void add(Stamp stamp) {
+    const std::optional<Stamp> before = last_;
+    last_ = stamp;
+    if (!before) return;
+    const double spacing = toSeconds(stamp - *before);
+    const bool long_one = spacing_.weight() >= kSettled && spacing >= 1.5 * spacing_.mean();
+    long_in_a_row_ = long_one ? long_in_a_row_ + 1 : 0;
+    if (long_one && long_in_a_row_ < kNewRate) {
+      const double periods = std::round(spacing / spacing_.mean());
+      if (periods <= kLongestLoss) lost_ += static_cast<std::uint64_t>(periods) - 1;
+      return;
+    }
+    if (long_one) spacing_ = square_ = RunningMean(kMemory);
+    spacing_.add(spacing);
+    const double deviation = spacing - spacing_.mean();
+    square_.add(deviation * deviation);
+  }
 
   /// Starts a new series: the next spacing does not count. What has been learned stays.
   void interrupt() { last_.reset(); }
@@ -30,7 +48,6 @@ class StreamTiming {
 
  private:
   static constexpr double kLongestLoss = 50.0;  // [periods]; longer is a pause
-  static constexpr double kMemory = 0.999;      // forgetting factor
   static constexpr double kSettled = 10.0;      // readings
   static constexpr int kNewRate = 10;           // so many long spacings in a row are no losses but the rate
 

@@ -4,12 +4,10 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/simulation/accelerometer.h"
 #include "suspension_health_monitor/internal/simulation/body_sway.h"
 #include "suspension_health_monitor/internal/simulation/integration_guard.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
-#include "suspension_health_monitor/internal/simulation/sensor_faults.h"
-#include "suspension_health_monitor/internal/simulation/sensor_schedule.h"
+#include "suspension_health_monitor/internal/simulation/sensors.h"
 
 namespace suspension_health_monitor {
 

@@ -23,16 +23,15 @@ class IntegrationGuard {
   }
 
   /// @param position, rate  of body or wheel at time t [m], [m/s].
-  /// @throws std::invalid_argument  if one of them is not finite, or beyond kFar or kFast.
+  /// @throws std::invalid_argument  if one of them is not finite, or beyond kFar.
   void checkMotion(double position, double rate, double t) const {
-    if (!(position > -kFar && position < kFar && rate > -kFast && rate < kFast)) refuseMotion(t);
+    if (!(position > -kFar && position < kFar && rate > -kFar && rate < kFar)) refuseMotion(t);
   }
 
  private:
   static constexpr double kGrace = 1e6;        // evaluations: a tenth of a second's work
   static constexpr double kMostPerStep = 1e4;  // evaluations
-  static constexpr double kFar = 1e4;          // [m]
-  static constexpr double kFast = 1e4;         // [m/s]
+  static constexpr double kFar = 1e4;          // [m], [m/s]
 
   [[noreturn]] void refuseStiffness(double t) const;
   [[noreturn]] void refuseMotion(double t) const;

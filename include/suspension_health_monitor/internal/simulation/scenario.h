@@ -44,7 +44,7 @@ struct SimulationOptions {
   double gyro_noise = 0.001;  ///< standard deviation of the white noise on both rates [rad/s]
 
   std::vector<ActiveEffect> hidden = {};  ///< effects that the model lacks, at most kMostHiddenEffects
-  std::vector<ActiveMeasurementEffect> hidden_faults = {};  ///< what is wrong with the body's IMU (sensor_faults.h)
+  std::vector<ActiveMeasurementEffect> hidden_faults = {};  ///< what is wrong with the body's IMU (sensors.h)
 };
 
 using SimulationField = OptionField<SimulationOptions>;

@@ -5,8 +5,14 @@
 
 namespace suspension_health_monitor {
 
-/// @return the names one after the other with `separator` between them.
+/// @return the names that are not empty one after the other with `separator` between them.
 std::string join(const std::vector<std::string>& names, const std::string& separator = ", ");
+
+/// @return the text that std::printf would write.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+
+/// @return the size of a change in whole percent, whatever its sign: "12 %".
+std::string sizeInPercent(double change);
 
 /// @return a share in percent, with one decimal below 1 %: "12 %".
 std::string percent(double share);

@@ -1,4 +1,10 @@
-#include "interruption.h"
+#include "long_work.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
 
 namespace suspension_health_monitor {
 namespace {
@@ -6,6 +12,8 @@ namespace {
 volatile std::sig_atomic_t noted = 0;  // the signal; 0: none
 
 extern "C" void noteSignal(int signal) { noted = signal; }
+
+constexpr int kWidth = 40;
 
 }  // namespace
 
@@ -33,6 +41,23 @@ Interruption::~Interruption() {
 
 void Interruption::check() {
   if (noted != 0) throw Interrupted{noted};
+}
+
+Progress::Progress(std::string label, double total)
+    : label_(std::move(label)), total_(total), visible_(isatty(STDERR_FILENO) != 0 && total > 0.0) {}
+
+Progress::~Progress() {
+  if (drawn_percent_ >= 0) std::fprintf(stderr, "\r\033[K");
+}
+
+void Progress::update(double done) {
+  Interruption::check();
+  if (!visible_) return;
+  const int percent = static_cast<int>(100.0 * std::clamp(done / total_, 0.0, 1.0));
+  if (percent == drawn_percent_) return;
+  drawn_percent_ = percent;
+  const std::string bar(static_cast<std::size_t>(percent * kWidth / 100), '#');
+  std::fprintf(stderr, "\r%s [%-*s] %3d %%", label_.c_str(), kWidth, bar.c_str(), percent);
 }
 
 }  // namespace suspension_health_monitor

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <csignal>
+#include <string>
 
 namespace suspension_health_monitor {
 
@@ -31,6 +32,26 @@ class Interruption {
   static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
   std::array<struct sigaction, kSignals.size()> before_{};
+};
+
+/// A progress bar on standard error, drawn only if that is a terminal.
+class Progress {
+ public:
+  /// @param total  amount of work, in any unit.
+  Progress(std::string label, double total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// @param done  amount of work done so far, 0 .. total.
+  /// @throws Interrupted  as Interruption::check().
+  void update(double done);
+
+ private:
+  std::string label_;
+  double total_;
+  bool visible_;
+  int drawn_percent_ = -1;
 };
 
 }  // namespace suspension_health_monitor

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/simulation/body_sway.h"
+#include "suspension_health_monitor/internal/simulation/random_stream.h"
+#include "suspension_health_monitor/internal/simulation/scenario.h"
+#include "suspension_health_monitor/strut_model.h"
+
+namespace suspension_health_monitor {
+
+/// When one sensor of a simulated drive reads: at phase + k / rate, later by a uniform 0..jitter.
+class SensorSchedule {
+ public:
+  /// The first reading is at t = 0, or at the phase; none is after the duration.
+  /// @param rate  [Hz].  @param phase  [s].  @param timing  for the jitter; no number is drawn without any.
+  SensorSchedule(double rate, double phase, const SimulationOptions& options, RandomPurpose timing);
+
+  /// @return time of the next reading [s]; none after the end of the drive.
+  std::optional<double> next() const { return next_; }
+
+  /// Goes on to the reading after.
+  void advance();
+
+ private:
+  double rate_, phase_, jitter_, duration_;
+  RandomStream random_;
+  long long index_ = -1;
+  std::optional<double> next_;
+};
+
+/// One message of one accelerometer, without gravity.
+struct AccelerometerReading {
+  Stamp stamp{};              ///< by the sensor's own clock
+  double acceleration = 0.0;  ///< [m/s^2], up positive
+};
+
+/// A simulated accelerometer: adds noise, loses messages, stamps by its own clock.
+class Accelerometer {
+ public:
+  /// The clocks of wheel and road show true time; clock_offset and clock_skew are the sprung sensor's.
+  enum class Place { kSprung, kUnsprung, kRoad };
+
+  Accelerometer(const SimulationOptions& options, Place place);
+
+  /// @param t  true time of the measurement since the start of the drive [s].
+  /// @param acceleration  what an ideal sensor would read [m/s^2].
+  /// @return the message, or none when it is lost. Noise and stamp error are drawn in either case, so that the n-th
+  ///   reading has the same ones with and without dropouts.
+  std::optional<AccelerometerReading> read(double t, double acceleration);
+
+ private:
+  double drawNoise();
+
+  RandomStream noise_random_;
+  RandomStream delivery_random_;
+  double noise_;
+  bool gaussian_;
+  double dropout_;
+  double stamp_jitter_;
+  double clock_offset_;
+  double clock_rate_;
+};
+
+/// What is wrong with the body's IMU.
+struct SensorFaults {
+  double delay = 0.0;                ///< it reads what was so long ago [s]
+  double bias = 0.0;                 ///< [m/s^2]
+  double gain_error = 0.0;           ///< [-]
+  std::array<double, 2> tilt{};      ///< share of x and y that its z axis sees [rad]
+  std::array<double, 2> position{};  ///< x, y from the top of the strut to the sensor [m]
+
+  /// @param hidden  faults by the catalogue's names; names and sizes are all that is taken from there.
+  /// @throws std::invalid_argument  naming one that the simulator does not know, and those that it does.
+  static SensorFaults from(const std::vector<ActiveMeasurementEffect>& hidden);
+
+  /// @param acceleration  z'' of the strut's top [m/s^2], `delay` ago.
+  /// @return what an otherwise ideal sensor reads on its z axis, without gravity [m/s^2].
+  double read(double acceleration, const Sway& sway) const;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "suspension_health_monitor/internal/health/assessment.h"
+#include "suspension_health_monitor/internal/health/corner_comparison.h"
+#include "suspension_health_monitor/internal/signal/alignment_judge.h"
+
+namespace suspension_health_monitor {
+
+/// What the live monitor has found, in words for people; the rest of it is declared in monitor_report.h.
+
+/// @return why readings are resampled; empty if pairing does well.
+std::string describe(AlignmentJudge::Verdict verdict);
+
+/// @return one sentence, e.g. "rear_left damping 28 % below the other corners: damage".
+std::string describe(const CornerComparisonReport& report);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,69 @@
+#include "command.h"
+
+#include <filesystem>
+#include <iostream>
+#include <set>
+#include <stdexcept>
+
+#include "../ros/yaml_settings.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+
+std::vector<std::string> paths(const po::variables_map& values, const std::string& option) {
+  if (values.count(option) == 0) return {};
+  if (const auto* path = boost::any_cast<std::string>(&values[option].value())) return {*path};
+  return values[option].as<std::vector<std::string>>();
+}
+
+}  // namespace
+
+std::optional<po::variables_map> parse(const Arguments& arguments, const std::string& usage,
+                                       po::options_description options, const std::string& positional) {
+  options.add_options()("help,h", "show this help");
+  po::positional_options_description bare;
+  if (!positional.empty()) bare.add(positional.c_str(), -1);
+  po::variables_map values;
+  // No guessing: an abbreviated option would change its meaning when a new option appears.
+  const auto style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+  po::store(po::command_line_parser(arguments).options(options).positional(bare).style(style).run(), values);
+  if (values.count("help") != 0) {
+    std::cout << "usage: suspension_bag " << usage << "\n" << options;
+    return std::nullopt;
+  }
+  po::notify(values);
+  return values;
+}
+
+OptionMap gatherOptions(const po::variables_map& values) {
+  OptionMap options;
+  if (const auto file = values["config"].as<std::string>(); !file.empty()) options = readYaml(file);
+  for (const std::string& assignment : values["set"].as<std::vector<std::string>>()) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw std::invalid_argument("--set " + assignment + ", must be NAME=VALUE");
+    options[assignment.substr(0, equals)] = assignment.substr(equals + 1);
+  }
+  return options;
+}
+
+void requireSeparateFiles(const po::variables_map& values, const std::vector<std::string>& inputs,
+                          const std::vector<std::string>& outputs) {
+  std::error_code error;
+  std::set<fs::path> taken;
+  for (const std::string& option : inputs)
+    for (const std::string& path : paths(values, option)) taken.insert(fs::weakly_canonical(path, error));
+  taken.erase("");  // an option that was not given
+  for (const std::string& option : outputs)
+    for (const std::string& path : paths(values, option)) {
+      const fs::path full = fs::weakly_canonical(path, error);
+      const bool is_new = full.empty() || taken.insert(full).second;
+      if (!is_new && (fs::is_regular_file(path, error) || !fs::exists(path, error)))
+        throw std::invalid_argument("--" + option + " " + path + ", must be a file of its own: it is used already");
+    }
+}
+
+}  // namespace suspension_health_monitor
