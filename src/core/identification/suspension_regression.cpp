@@ -1,12 +1,18 @@
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 
+#include <cmath>
+
 namespace suspension_health_monitor {
 
-SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects)
+SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects,
+                                           bool with_offset)
     : sprung_(2, options, 2),
       relative_(2, options),
       effects_(num_effects, sprung_),
-      row_{Eigen::VectorXd::Zero(kNumStrutParameters + static_cast<Eigen::Index>(num_effects)), 0.0} {}
+      row_{Eigen::VectorXd::Constant(
+               kNumStrutParameters + static_cast<Eigen::Index>(num_effects + (with_offset ? 1 : 0)),
+               std::pow(options.horizon_samples * options.period, 2)),
+           0.0} {}
 
 const RegressionRow* SuspensionRegression::push(const CornerSample& sample, const double* effect_forces) {
   sprung_.push(sample.sprung_acceleration);

@@ -13,12 +13,14 @@ namespace {
 constexpr int kStddevsEvery = 8;           // rows
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
-void describeParameters(const RecursiveEstimator& estimator, StrutEstimate& estimate) {
+// @param offset  number of the offset's column; none: there is no such column.
+void describeParameters(const RecursiveEstimator& estimator, std::optional<int> offset, StrutEstimate& estimate) {
   const Eigen::VectorXd& theta = estimator.parameters();
   estimate.damping_to_mass = theta[kDampingToMass];
   estimate.stiffness_to_mass = theta[kStiffnessToMass];
-  estimate.num_effects = static_cast<std::size_t>(theta.size() - kNumStrutParameters);
+  estimate.num_effects = static_cast<std::size_t>(offset.value_or(estimator.numParameters()) - kNumStrutParameters);
   std::copy_n(theta.data() + kNumStrutParameters, estimate.num_effects, estimate.coefficients.begin());
+  if (offset) estimate.offset = -theta[*offset] / theta[kStiffnessToMass];
   estimate.effective_rows = estimator.effectiveRows();
   estimate.explained = estimator.explained();
 }
@@ -40,10 +42,11 @@ double withDifference(double stddev, double ls, double la) {
 
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
-      regression_(filter_),
+      with_offset_(options.estimators.with_offset),
+      regression_(filter_, 0, with_offset_),
       excitation_(filter_.horizon_samples, options.forgetting_factor, RegressorNoise(filter_)),
-      least_squares_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples)),
-      least_absolute_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples), options.leastAbsolute()),
+      least_squares_(kNumStrutParameters + (with_offset_ ? 1 : 0), options.recursive(2 * filter_.horizon_samples)),
+      least_absolute_(kNumStrutParameters + (with_offset_ ? 1 : 0), options.recursive(2 * filter_.horizon_samples), options.leastAbsolute()),
       forgetting_{!options.estimators.forgets_unexcited, {}},
       stddevs_due_(kStddevsEvery),
       silent_rows_(filter_.horizon_samples) {
@@ -51,10 +54,16 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
   setForgetting(options);
 }
 
-void StrutIdentifier::changeColumns(const std::vector<ColumnOrigin>& columns) {
+void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
+  std::vector<ColumnOrigin> columns{{kDampingToMass, 0.0}, {kStiffnessToMass, 0.0}};
+  for (ColumnOrigin effect : effects) {
+    if (effect.before) *effect.before += kNumStrutParameters;
+    columns.push_back(effect);
+  }
+  if (with_offset_) columns.push_back({offsetColumn(), 0.0});
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
-  regression_ = SuspensionRegression(filter_, columns.size() - kNumStrutParameters);
+  regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
   if (forgetting_.variable) forgetting_.variable->restart(least_absolute_.numParameters());
   takeExcitation();
   has_row_ = false;
@@ -110,8 +119,8 @@ void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate&
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
-  describeParameters(least_squares_, ls);
-  describeParameters(least_absolute_, la);
+  describeParameters(least_squares_, offsetColumn(), ls);
+  describeParameters(least_absolute_, offsetColumn(), la);
   for (StrutEstimate* estimate : {&ls, &la}) {
     estimate->damping_excitation = excitation_.excitation(kDampingToMass);
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
