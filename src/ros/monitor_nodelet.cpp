@@ -74,6 +74,7 @@ void MonitorNodelet::onReconfigure(LiveSettings& settings) {
     const PipelineOptions changed = settings.appliedTo(options_);
     pipeline_->strut().reconfigure(changed.monitor);
     options_ = changed;
+    reports_->setStride(options_.shell.publish_every);
   } catch (const std::invalid_argument& error) {
     NODELET_WARN("%s; all settings stay as they were", error.what());
   }

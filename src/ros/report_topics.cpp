@@ -18,13 +18,13 @@ void send(ros::Publisher& publisher, const Make& make) {
 }  // namespace
 
 ReportTopics::ReportTopics(ros::NodeHandle& private_node, const PipelineOptions& options)
-    : stride_(static_cast<std::uint64_t>(options.shell.publish_every)),
-      sprung_mass_(options.monitor.sprung_mass),
+    : sprung_mass_(options.monitor.sprung_mass),
       ls_(private_node.advertise<ParameterEstimate>("ls", kQueueSize)),
       la_(private_node.advertise<ParameterEstimate>("la", kQueueSize)),
       comparison_(private_node.advertise<ModelComparison>("comparison", kQueueSize)),
       health_(private_node.advertise<SuspensionHealth>("health", kQueueSize)),
       model_(private_node) {
+  setStride(options.shell.publish_every);
   if (options.monitor.tyre) tyre_.emplace(private_node, kQueueSize);
 }
 

@@ -23,10 +23,13 @@ class ReportTopics {
   /// @param frame  frame_id of the body's IMU.
   void publish(const MonitorReport& report, const StrutPipeline& strut, const std::string& frame);
 
+  /// @param every  so many reports make one publication, >= 1.
+  void setStride(int every) { stride_ = static_cast<std::uint64_t>(every); }
+
   ModelTopic& model() { return model_; }
 
  private:
-  std::uint64_t stride_, reports_ = 0;
+  std::uint64_t stride_ = 1, reports_ = 0;
   std::optional<double> sprung_mass_;  // [kg]
   ros::Publisher ls_, la_, comparison_, health_;
   ModelTopic model_;
