@@ -11,6 +11,11 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kStddevsEvery = 8;           // rows
+// LA has the least mean absolute residual that there is, but for a few memories after wrong readings, which LS follows.
+// Where LS has half of it for longer, LA is lost: one absurd reading may send it further than its covariance lets it
+// come back from.
+constexpr double kLost = 2.0;
+constexpr double kMostLost = 10.0;         // memories
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
 // @param offset  number of the offset's column; none: there is no such column.
@@ -64,7 +69,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
   regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
-  if (forgetting_.variable) forgetting_.variable->restart(least_absolute_.numParameters());
+  if (forgetting_.variable) forgetting_.variable->restart(offsetColumn().value_or(least_absolute_.numParameters()));
   takeExcitation();
   has_row_ = false;
   rows_ = 0.0;
@@ -97,6 +102,9 @@ void StrutIdentifier::update(const RegressionRow& row) {
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
+  const bool is_lost = kLost * least_squares_.meanAbsoluteResidual() < least_absolute_.meanAbsoluteResidual();
+  lost_memories_ = is_lost ? lost_memories_ + 1.0 - forgettingFactor() : 0.0;
+  if (lost_memories_ > kMostLost) least_absolute_.beginAgain(least_squares_);
   // An estimate that is not valid moves because it comes from its start; of a held one nobody knows whether it moves.
   if (!forgetting_.variable || !la_is_valid_) return;
   forgetting_.variable->add(row, innovation, least_absolute_.meanAbsoluteResidual());
@@ -105,9 +113,12 @@ void StrutIdentifier::update(const RegressionRow& row) {
 
 void StrutIdentifier::takeExcitation() {
   if (excitation_.outsideForce()) rows_to_forget_ = kMemoriesToForget * least_absolute_.effectiveRows();
+  const bool any = isHeld(kDampingToMass) || isHeld(kStiffnessToMass);
   for (RecursiveEstimator* estimator :
-       {static_cast<RecursiveEstimator*>(&least_squares_), static_cast<RecursiveEstimator*>(&least_absolute_)})
+       {static_cast<RecursiveEstimator*>(&least_squares_), static_cast<RecursiveEstimator*>(&least_absolute_)}) {
     for (const StrutParameter i : {kDampingToMass, kStiffnessToMass}) estimator->hold(i, isHeld(i));
+    if (with_offset_) estimator->hold(*offsetColumn(), any);  // a constant beside a spring that hardly moves
+  }
 }
 
 void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate& la) {
@@ -185,7 +196,7 @@ void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   if (!options.fastest_forgetting_factor) {
     forgetting_.variable.reset();
   } else if (!forgetting_.variable) {
-    forgetting_.variable.emplace(least_absolute_.numParameters(), 2 * filter_.horizon_samples, slow, fastest);
+    forgetting_.variable.emplace(offsetColumn().value_or(least_absolute_.numParameters()), 2 * filter_.horizon_samples, slow, fastest);
   } else {
     forgetting_.variable->setFactors(slow, fastest);
     forgetBy(la_is_valid_ ? std::clamp(now, fastest, slow) : slow);  // until it is decided anew

@@ -41,6 +41,7 @@ class SuspensionRegression {
   LinearIntegralFilter sprung_;
   LinearIntegralFilter relative_;
   std::vector<LinearIntegralFilter> effects_;
+  double offset_gain_;  // h^2 [s^2]; 0: no such column
   RegressionRow row_;
 };
 

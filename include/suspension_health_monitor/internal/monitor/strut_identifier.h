@@ -102,6 +102,7 @@ class StrutIdentifier {
   bool has_row_ = false;
   double rows_ = 0.0;            // of the model's present columns
   double rows_to_forget_ = 0.0;  // until what a force from outside did is forgotten
+  double lost_memories_ = 0.0;   // that LS has explained far more than LA for
   SilentRows silent_rows_;
   bool la_is_valid_ = false;
 };
