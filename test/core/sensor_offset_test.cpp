@@ -2,10 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "paper_drive.h"
+#include "suspension_health_monitor/identify.h"
+#include "suspension_health_monitor/internal/fit/rough_model.h"
+#include "suspension_health_monitor/internal/identification/horizon_survey.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
@@ -57,6 +61,22 @@ TEST(SensorOffset, ChangesNoEstimate) {
       EXPECT_NEAR(found.offset - expected.offset, offset, 1e-3 * std::abs(offset));
       EXPECT_NEAR(monitor.report().ls.offset - reference.report().ls.offset, offset, 1e-3 * std::abs(offset));
     }
+  }
+}
+
+TEST(SensorOffset, ChangesNeitherHorizonNorRecordedDrives) {
+  for (const Road& road : kRoads) {
+    Drive drive{driveOn(road), {}};
+    const int horizon = surveyHorizon({drive}, 1.0 / road.rate, std::numeric_limits<std::size_t>::max()).value();
+    const IdentifyResult expected = identify({drive});
+    for (CornerSample& sample : drive.samples) sample.unsprung_acceleration += 0.5;
+    EXPECT_EQ(surveyHorizon({drive}, 1.0 / road.rate, std::numeric_limits<std::size_t>::max()), horizon);
+    const IdentifyResult found = identify({drive});
+    EXPECT_NEAR(found.iv.stiffness_to_mass, expected.iv.stiffness_to_mass, 1e-3 * expected.iv.stiffness_to_mass);
+    EXPECT_NEAR(found.ls.damping_to_mass, expected.ls.damping_to_mass, 1e-3 * expected.ls.damping_to_mass);
+    const IntegralFilterOptions filter{horizon, 1.0 / road.rate, IntegrationRule::kCubic};
+    EXPECT_NEAR(roughModel({drive}, filter).stiffness_to_mass, expected.iv.stiffness_to_mass,
+                0.1 * expected.iv.stiffness_to_mass);
   }
 }
 
