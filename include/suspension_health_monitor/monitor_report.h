@@ -42,6 +42,7 @@ struct StrutEstimate {
   std::size_t num_effects = 0;                     ///< in the model
   std::array<double, kMostEffects> coefficients{};         ///< c_j [unit of the effect's coefficient]
   std::array<double, kMostEffects> coefficient_stddevs{};  ///< likewise
+  double offset = std::nan("");  ///< of the wheel carrier's reading against the body's [m/s^2]; NaN: not estimated
   double effective_rows = 0.0;                             ///< rows in the estimator's memory
   double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)

@@ -32,6 +32,7 @@ ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, co
     msg.effect_coefficients.push_back(estimate.coefficients[j]);
     msg.effect_stddevs.push_back(estimate.coefficient_stddevs[j]);
   }
+  msg.offset = estimate.offset;
   msg.effective_rows = estimate.effective_rows;
   msg.valid = estimate.valid();
   return msg;

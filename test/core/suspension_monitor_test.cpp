@@ -41,9 +41,10 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
     drive.scenario = scenario;
     drive.duration = 60.0;
     SuspensionMonitor monitor(options);
-    SuspensionRegression regression(options.filter(0.02));
-    RecursiveLeastSquares ls(kNumStrutParameters, options.recursive());
-    RecursiveLeastAbsolute la(kNumStrutParameters, options.recursive(), options.leastAbsolute());
+    const bool offset = options.estimators.with_offset;
+    SuspensionRegression regression(options.filter(0.02), 0, offset);
+    RecursiveLeastSquares ls(kNumStrutParameters + (offset ? 1 : 0), options.recursive());
+    RecursiveLeastAbsolute la(kNumStrutParameters + (offset ? 1 : 0), options.recursive(), options.leastAbsolute());
     for (const CornerSample& sample : simulate(drive)) {
       const MonitorReport& report = *monitor.addSample(sample);
       const RegressionRow* row = regression.push(sample);

@@ -44,6 +44,7 @@ class EstimateMessageTest(unittest.TestCase):
         self.assertGreater(la.damping_to_mass_stddev, 0.0)
         self.assertGreater(la.stiffness_to_mass_stddev, 0.0)
         self.assertAlmostEqual(la.effective_rows, 50.0, delta=0.1)  # 1 / (1 - 0.98)
+        self.assertTrue(math.isnan(la.offset))
 
     def test_without_mass_the_ratios_alone_are_known(self):
         parameters = settings("paper.yaml")

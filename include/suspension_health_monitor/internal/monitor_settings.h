@@ -16,6 +16,7 @@ namespace suspension_health_monitor {
 /// What presets differ in beside options: how rows are made, and how the estimators begin, weigh and forget.
 struct EstimatorOptions {
   IntegrationRule rule = IntegrationRule::kCubic;
+  bool with_offset = true;         ///< the offset between the sensors is estimated with the strut
   bool forgets_unexcited = false;  ///< true: exponential forgetting, the paper's; false: directional (excitation.h)
   RecursiveOptions recursive;      ///< whose forgetting factor and correlated rows are set for each estimator
   LeastAbsoluteOptions least_absolute;

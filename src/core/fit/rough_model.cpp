@@ -9,9 +9,9 @@ namespace suspension_health_monitor {
 StrutModel roughModel(const std::vector<Drive>& drives, const IntegralFilterOptions& filter) {
   RecursiveOptions recursive;
   recursive.forgetting_factor = 1.0;
-  RecursiveLeastSquares least_squares(kNumStrutParameters, recursive);
+  RecursiveLeastSquares least_squares(kNumStrutParameters + 1, recursive);  // and the sensors' offset
   for (const Drive& drive : drives) {
-    SuspensionRegression regression(filter);
+    SuspensionRegression regression(filter, 0, true);
     const CornerSample* last = nullptr;
     for (const CornerSample& sample : drive.samples) {
       if (last != nullptr &&

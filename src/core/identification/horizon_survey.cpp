@@ -29,8 +29,10 @@ void HorizonSurvey::push(const CornerSample& sample) {
     const RegressionRow* row = candidate.regression.push(sample);
     if (row == nullptr) continue;
     const Eigen::Vector3d entries(row->regressor[kDampingToMass], row->regressor[kStiffnessToMass], row->output);
-    candidate.moments += entries * entries.transpose();
     ++candidate.rows;
+    const Eigen::Vector3d off = entries - candidate.means;
+    candidate.means += off / static_cast<double>(candidate.rows);
+    candidate.moments += off * (entries - candidate.means).transpose();  // Welford
   }
 }
 

@@ -65,6 +65,13 @@ RowWeight RecursiveLeastAbsolute::weigh(double innovation) {
   return weight;
 }
 
+void RecursiveLeastAbsolute::beginAgain(const RecursiveLeastSquares& least_squares) {
+  static_cast<RecursiveEstimator&>(*this) = least_squares;
+  weights_ = RunningMeans<kNumMeans>(forgettingFactor());
+  rows_ = absolute_.start_rows;
+  takeOver();
+}
+
 void RecursiveLeastAbsolute::takeOver() {
   // R(k) of LA sums phi phi' / |epsilon|, that of LS phi phi': without the factor the start depends on the unit of psi.
   if (absolute_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());

@@ -1,12 +1,17 @@
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 
+#include <cmath>
+
 namespace suspension_health_monitor {
 
-SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects)
+SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects,
+                                           bool with_offset)
     : sprung_(2, options, 2),
       relative_(2, options),
       effects_(num_effects, sprung_),
-      row_{Eigen::VectorXd::Zero(kNumStrutParameters + static_cast<Eigen::Index>(num_effects)), 0.0} {}
+      offset_gain_(with_offset ? std::pow(options.horizon_samples * options.period, 2) : 0.0),
+      row_{Eigen::VectorXd::Zero(kNumStrutParameters + static_cast<Eigen::Index>(num_effects + (with_offset ? 1 : 0))),
+           0.0} {}
 
 const RegressionRow* SuspensionRegression::push(const CornerSample& sample, const double* effect_forces) {
   sprung_.push(sample.sprung_acceleration);
@@ -18,6 +23,10 @@ const RegressionRow* SuspensionRegression::push(const CornerSample& sample, cons
   row_.regressor[kDampingToMass] = relative_.output(1);
   row_.regressor[kStiffnessToMass] = relative_.output(0);
   for (const LinearIntegralFilter& effect : effects_) *column++ = effect.output(2);
+  if (offset_gain_ > 0.0) {
+    *column = 0.0;
+    if (row_.output != 0.0 || !row_.saysNothing()) *column = offset_gain_;  // readings that are lost have no offset
+  }
   return &row_;
 }
 

@@ -11,13 +11,13 @@ constexpr int kModelEvery = 8;     // samples: a new model costs the free run as
 constexpr int kFiguresEvery = 16;  // samples: rmse and fit are means over seconds
 
 std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const std::vector<ActiveEffect>& after) {
-  std::vector<ColumnOrigin> columns{{kDampingToMass, 0.0}, {kStiffnessToMass, 0.0}};
+  std::vector<ColumnOrigin> columns;
   for (const ActiveEffect& active : after) {
     const auto same = std::find_if(before.begin(), before.end(), [&](const ActiveEffect& other) {
       return other.effect.name == active.effect.name && other.shapes == active.shapes;
     });
     ColumnOrigin column{std::nullopt, active.coefficient};
-    if (same != before.end()) column.before = kNumStrutParameters + static_cast<int>(same - before.begin());
+    if (same != before.end()) column.before = static_cast<int>(same - before.begin());
     columns.push_back(column);
   }
   return columns;
@@ -38,11 +38,11 @@ ModelTracker::ModelTracker(const MonitorSettings& options)
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report) {
   const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
   free_run_.setEffects(effects);  // may throw: first
-  identifier_.changeColumns(columns);
+  identifier_.changeEffects(columns);
   has_own_model_ = false;
   starts_.clear();
   for (std::size_t j = 0; j < effects.size(); ++j) {
-    starts_.push_back(identifier_.leastAbsoluteParameters()[kNumStrutParameters + static_cast<Eigen::Index>(j)]);
+    starts_.push_back(identifier_.coefficient(j));
     free_run_.setCoefficient(j, starts_[j]);
   }
   if (report.la.effective_rows > 0.0) identifier_.describe(report.ls, report.la);

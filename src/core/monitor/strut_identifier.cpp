@@ -11,14 +11,21 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kStddevsEvery = 8;           // rows
+// LA has the least mean absolute residual that there is, but for a few memories after wrong readings, which LS follows.
+// Where LS has half of it for longer, LA is lost: one absurd reading may send it further than its covariance lets it
+// come back from.
+constexpr double kLost = 2.0;
+constexpr double kMostLost = 10.0;         // memories
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
-void describeParameters(const RecursiveEstimator& estimator, StrutEstimate& estimate) {
+// @param offset  number of the offset's column; none: there is no such column.
+void describeParameters(const RecursiveEstimator& estimator, std::optional<int> offset, StrutEstimate& estimate) {
   const Eigen::VectorXd& theta = estimator.parameters();
   estimate.damping_to_mass = theta[kDampingToMass];
   estimate.stiffness_to_mass = theta[kStiffnessToMass];
-  estimate.num_effects = static_cast<std::size_t>(theta.size() - kNumStrutParameters);
+  estimate.num_effects = static_cast<std::size_t>(offset.value_or(estimator.numParameters()) - kNumStrutParameters);
   std::copy_n(theta.data() + kNumStrutParameters, estimate.num_effects, estimate.coefficients.begin());
+  if (offset) estimate.offset = -theta[*offset] / theta[kStiffnessToMass];
   estimate.effective_rows = estimator.effectiveRows();
   estimate.explained = estimator.explained();
 }
@@ -40,10 +47,11 @@ double withDifference(double stddev, double ls, double la) {
 
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
-      regression_(filter_),
+      with_offset_(options.estimators.with_offset),
+      regression_(filter_, 0, with_offset_),
       excitation_(filter_.horizon_samples, options.forgetting_factor, RegressorNoise(filter_)),
-      least_squares_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples)),
-      least_absolute_(kNumStrutParameters, options.recursive(2 * filter_.horizon_samples), options.leastAbsolute()),
+      least_squares_(kNumStrutParameters + (with_offset_ ? 1 : 0), options.recursive(2 * filter_.horizon_samples)),
+      least_absolute_(kNumStrutParameters + (with_offset_ ? 1 : 0), options.recursive(2 * filter_.horizon_samples), options.leastAbsolute()),
       forgetting_{!options.estimators.forgets_unexcited, {}},
       stddevs_due_(kStddevsEvery),
       silent_rows_(filter_.horizon_samples) {
@@ -51,11 +59,17 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
   setForgetting(options);
 }
 
-void StrutIdentifier::changeColumns(const std::vector<ColumnOrigin>& columns) {
+void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
+  std::vector<ColumnOrigin> columns{{kDampingToMass, 0.0}, {kStiffnessToMass, 0.0}};
+  for (ColumnOrigin effect : effects) {
+    if (effect.before) *effect.before += kNumStrutParameters;
+    columns.push_back(effect);
+  }
+  if (with_offset_) columns.push_back({offsetColumn(), 0.0});
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
-  regression_ = SuspensionRegression(filter_, columns.size() - kNumStrutParameters);
-  if (forgetting_.variable) forgetting_.variable->restart(least_absolute_.numParameters());
+  regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
+  if (forgetting_.variable) forgetting_.variable->restart(offsetColumn().value_or(least_absolute_.numParameters()));
   takeExcitation();
   has_row_ = false;
   rows_ = 0.0;
@@ -88,6 +102,9 @@ void StrutIdentifier::update(const RegressionRow& row) {
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
+  const bool is_lost = kLost * least_squares_.meanAbsoluteResidual() < least_absolute_.meanAbsoluteResidual();
+  lost_memories_ = is_lost ? lost_memories_ + 1.0 - forgettingFactor() : 0.0;
+  if (lost_memories_ > kMostLost) least_absolute_.beginAgain(least_squares_);
   // An estimate that is not valid moves because it comes from its start; of a held one nobody knows whether it moves.
   if (!forgetting_.variable || !la_is_valid_) return;
   forgetting_.variable->add(row, innovation, least_absolute_.meanAbsoluteResidual());
@@ -96,9 +113,12 @@ void StrutIdentifier::update(const RegressionRow& row) {
 
 void StrutIdentifier::takeExcitation() {
   if (excitation_.outsideForce()) rows_to_forget_ = kMemoriesToForget * least_absolute_.effectiveRows();
+  const bool any = isHeld(kDampingToMass) || isHeld(kStiffnessToMass);
   for (RecursiveEstimator* estimator :
-       {static_cast<RecursiveEstimator*>(&least_squares_), static_cast<RecursiveEstimator*>(&least_absolute_)})
+       {static_cast<RecursiveEstimator*>(&least_squares_), static_cast<RecursiveEstimator*>(&least_absolute_)}) {
     for (const StrutParameter i : {kDampingToMass, kStiffnessToMass}) estimator->hold(i, isHeld(i));
+    if (with_offset_) estimator->hold(*offsetColumn(), any);  // a constant beside a spring that hardly moves
+  }
 }
 
 void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate& la) {
@@ -110,8 +130,8 @@ void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate&
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
-  describeParameters(least_squares_, ls);
-  describeParameters(least_absolute_, la);
+  describeParameters(least_squares_, offsetColumn(), ls);
+  describeParameters(least_absolute_, offsetColumn(), la);
   for (StrutEstimate* estimate : {&ls, &la}) {
     estimate->damping_excitation = excitation_.excitation(kDampingToMass);
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
@@ -176,7 +196,7 @@ void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   if (!options.fastest_forgetting_factor) {
     forgetting_.variable.reset();
   } else if (!forgetting_.variable) {
-    forgetting_.variable.emplace(least_absolute_.numParameters(), 2 * filter_.horizon_samples, slow, fastest);
+    forgetting_.variable.emplace(offsetColumn().value_or(least_absolute_.numParameters()), 2 * filter_.horizon_samples, slow, fastest);
   } else {
     forgetting_.variable->setFactors(slow, fastest);
     forgetBy(la_is_valid_ ? std::clamp(now, fastest, slow) : slow);  // until it is decided anew

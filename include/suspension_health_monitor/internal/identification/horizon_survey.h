@@ -39,10 +39,12 @@ class HorizonSurvey {
   bool dampingIsNegative() const;
 
  private:
-  /// One horizon, and the sums over its rows (phi, psi) that least squares needs.
+  /// One horizon, and the sums over its rows (phi, psi) about their means, so that the offset between the sensors is no
+  /// part of them, that least squares needs.
   struct Candidate {
     int horizon_samples;
     SuspensionRegression regression;
+    Eigen::Vector3d means = Eigen::Vector3d::Zero();
     Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
     int rows = 0;
 

@@ -34,6 +34,10 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
   /// @return the innovation before the update, in the unit of psi.
   double update(const RegressionRow& row);
 
+  /// Goes on from the estimate of LS, as after the first k0 rows.
+  /// @param least_squares  of the same rows.
+  void beginAgain(const RecursiveLeastSquares& least_squares);
+
   /// @return variance of theta_i: P_ii times the mean square of the bounded scores over the mean weight, which outliers
   /// hardly touch, times what the residuals' correlation and LA's slower convergence make of it (ScoreCovariance).
   /// During the first k0 rows that of LS.

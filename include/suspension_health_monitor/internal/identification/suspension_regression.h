@@ -13,15 +13,18 @@ namespace suspension_health_monitor {
 enum StrutParameter : int { kDampingToMass = 0, kStiffnessToMass = 1, kNumStrutParameters = 2 };
 
 /// Rows of the strut regression from the two accelerations, Eq. (28)-(30), with a column more for every effect:
-///   I_2^2 y = b1 I_1^2 u + b0 I_0^2 u + sum_j c_j I_2^2 f_j + e,   y = z'' [m/s^2], u = w'' - z'' [m/s^2],
+///   I_2^2 y = b1 I_1^2 u + b0 I_0^2 u + sum_j c_j I_2^2 f_j + c_o h^2 + e,   y = z'' [m/s^2], u = w'' - z'' [m/s^2],
 /// with b1 = beta/M [1/s] and b0 = K/M [1/s^2]. It is the model (27) differentiated twice, so that only accelerations
 /// occur, under the twofold integral, so that nothing is differentiated in fact.
 /// The effects' f_j, per unit of c_j, come from an observer of the travel (free_run.h).
-/// A constant in y vanishes from psi; a constant common to both sensors vanishes from u.
+/// A constant in y vanishes from psi; a constant common to both sensors vanishes from u. A constant o in u, the offset
+/// between the sensors, adds h^2 o to the column of b0 and vanishes from that of b1; the last column, if it is wanted,
+/// takes it out again: c_o = -b0 o.
 /// Cost per sample: O(1), no allocation.
 class SuspensionRegression {
  public:
-  explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0);
+  explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0,
+                                bool with_offset = false);
 
   /// Takes in the next sample of a uninterrupted uniform series (only the accelerations are used).
   /// @param effect_forces  f_j at this sample, one per effect.
@@ -38,6 +41,7 @@ class SuspensionRegression {
   LinearIntegralFilter sprung_;
   LinearIntegralFilter relative_;
   std::vector<LinearIntegralFilter> effects_;
+  double offset_gain_;  // h^2 [s^2]; 0: no such column
   RegressionRow row_;
 };
 

@@ -27,7 +27,8 @@ class StrutIdentifier {
   explicit StrutIdentifier(const MonitorSettings& options);
 
   /// Goes on with other effects: one column for each beside b1 and b0. Allocates.
-  void changeColumns(const std::vector<ColumnOrigin>& columns);
+  /// @param effects  where their coefficients come from; numbers before the change count from the first effect.
+  void changeEffects(const std::vector<ColumnOrigin>& effects);
 
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @param effect_forces  f_j at this sample, one per effect.
@@ -66,7 +67,10 @@ class StrutIdentifier {
   /// @return the factor that rows are forgotten by now.
   double forgettingFactor() const { return least_absolute_.forgettingFactor(); }
 
-  const Eigen::VectorXd& leastAbsoluteParameters() const { return least_absolute_.parameters(); }
+  /// @return c_j of LA [unit of the effect's coefficient].
+  double coefficient(std::size_t j) const {
+    return least_absolute_.parameters()[kNumStrutParameters + static_cast<Eigen::Index>(j)];
+  }
 
  private:
   /// How rows are forgotten.
@@ -82,7 +86,13 @@ class StrutIdentifier {
   void forgetBy(double factor);
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la) const;
 
+  /// @return the number of the offset's column, the last; none without one.
+  std::optional<int> offsetColumn() const {
+    return with_offset_ ? std::optional(least_absolute_.numParameters() - 1) : std::nullopt;
+  }
+
   IntegralFilterOptions filter_;
+  bool with_offset_;
   SuspensionRegression regression_;
   Excitation excitation_;
   RecursiveLeastSquares least_squares_;
@@ -92,6 +102,7 @@ class StrutIdentifier {
   bool has_row_ = false;
   double rows_ = 0.0;            // of the model's present columns
   double rows_to_forget_ = 0.0;  // until what a force from outside did is forgotten
+  double lost_memories_ = 0.0;   // that LS has explained far more than LA for
   SilentRows silent_rows_;
   bool la_is_valid_ = false;
 };

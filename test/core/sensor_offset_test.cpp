@@ -1,0 +1,110 @@
+// An offset between the two sensors is no part of the strut: it is estimated beside it, and changes nothing else.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "paper_drive.h"
+#include "suspension_health_monitor/identify.h"
+#include "suspension_health_monitor/internal/fit/rough_model.h"
+#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+struct Road {
+  const char *scenario, *vehicle, *iso_class;
+  double rate, horizon;  // [Hz], [s]
+};
+constexpr Road kRoads[] = {{"paper_clean", "default", "default", 50, 0.6},
+                           {"iso_road", "golden_car", "A", 100, 0.6},
+                           {"iso_road", "golden_car", "A", 200, 0.6},
+                           {"iso_road", "golden_car", "C", 200, 0.6}};
+
+std::vector<CornerSample> driveOn(const Road& road) {
+  SimulationOptions options;
+  options.scenario = road.scenario;
+  options.vehicle = road.vehicle;
+  options.iso_class = road.iso_class;
+  options.rate = road.rate;
+  options.damping_end_fraction = 1.0;
+  options.duration = 120.0;
+  return simulate(options);
+}
+
+MonitorSettings settingsOf(const Road& road) {
+  MonitorOptions options;
+  options.sample_period = 1.0 / road.rate;
+  options.integration_horizon = road.horizon;
+  return options;
+}
+
+TEST(SensorOffset, ChangesNoEstimate) {
+  for (const Road& road : kRoads) {
+    const std::vector<CornerSample> drive = driveOn(road);
+    for (const double offset : {0.05, -0.5}) {
+      SuspensionMonitor reference(settingsOf(road)), monitor(settingsOf(road));
+      for (CornerSample sample : drive) {
+        reference.addSample(sample);
+        sample.unsprung_acceleration += offset;
+        monitor.addSample(sample);
+      }
+      const StrutEstimate &expected = reference.report().la, &found = monitor.report().la;
+      SCOPED_TRACE(std::string(road.vehicle) + road.iso_class + std::to_string(offset));
+      EXPECT_TRUE(found.valid());
+      // What remains is the start, from which another offset was learned.
+      EXPECT_NEAR(found.damping_to_mass, expected.damping_to_mass, 1e-3 * expected.damping_to_mass);
+      EXPECT_NEAR(found.stiffness_to_mass, expected.stiffness_to_mass, 1e-3 * expected.stiffness_to_mass);
+      EXPECT_NEAR(found.offset - expected.offset, offset, 1e-3 * std::abs(offset));
+      EXPECT_NEAR(monitor.report().ls.offset - reference.report().ls.offset, offset, 1e-3 * std::abs(offset));
+    }
+  }
+}
+
+TEST(SensorOffset, ChangesNeitherHorizonNorRecordedDrives) {
+  for (const Road& road : kRoads) {
+    Drive drive{driveOn(road), {}};
+    const int horizon = surveyHorizon({drive}, 1.0 / road.rate, std::numeric_limits<std::size_t>::max()).value();
+    const IdentifyResult expected = identify({drive});
+    for (CornerSample& sample : drive.samples) sample.unsprung_acceleration += 0.5;
+    EXPECT_EQ(surveyHorizon({drive}, 1.0 / road.rate, std::numeric_limits<std::size_t>::max()), horizon);
+    const IdentifyResult found = identify({drive});
+    EXPECT_NEAR(found.iv.stiffness_to_mass, expected.iv.stiffness_to_mass, 1e-3 * expected.iv.stiffness_to_mass);
+    EXPECT_NEAR(found.ls.damping_to_mass, expected.ls.damping_to_mass, 1e-3 * expected.ls.damping_to_mass);
+    const IntegralFilterOptions filter{horizon, 1.0 / road.rate, IntegrationRule::kCubic};
+    EXPECT_NEAR(roughModel({drive}, filter).stiffness_to_mass, expected.iv.stiffness_to_mass,
+                0.1 * expected.iv.stiffness_to_mass);
+  }
+}
+
+TEST(SensorOffset, MayDrift) {
+  for (const Road& road : kRoads) {
+    const std::vector<CornerSample> drive = driveOn(road);
+    SuspensionMonitor reference(settingsOf(road)), monitor(settingsOf(road));
+    double worst = 0.0;
+    for (CornerSample sample : drive) {
+      reference.addSample(sample);
+      sample.unsprung_acceleration += 0.3 * std::sin(2 * M_PI * toSeconds(sample.stamp) / 3600.0);  // as it warms up
+      const MonitorReport* report = monitor.addSample(sample);
+      if (report == nullptr || !report->la.valid() || !reference.report().la.valid()) continue;
+      const StrutEstimate &expected = reference.report().la, &found = report->la;
+      worst = std::max(worst, std::abs(found.stiffness_to_mass - expected.stiffness_to_mass) /
+                                  std::hypot(0.01 * expected.stiffness_to_mass, expected.stiffness_to_mass_stddev));
+    }
+    EXPECT_LT(worst, 1.0) << road.vehicle << road.iso_class << road.rate;
+  }
+}
+
+TEST(SensorOffset, IsNotEstimatedAsInThePaper) {
+  MonitorSettings paper = MonitorOptions::of("paper");
+  paper.sample_period = 0.02;
+  SuspensionMonitor monitor(paper);
+  for (const CornerSample& sample : driveOn(kRoads[0])) monitor.addSample(sample);
+  EXPECT_TRUE(std::isnan(monitor.report().la.offset));
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
