@@ -15,9 +15,9 @@ NUMBERS = r"(?:float64|byte|bool|uint8)"
 
 
 def topics_of_the_monitor():
-    """Message type by name of the topic, as the nodelet advertises them."""
+    """Message type by name of the topic, as the nodelet has them advertised."""
     sources = " ".join(path.read_text() for path in (REPOSITORY / "src" / "ros").glob("*.cpp")
-                       if path.name in ("monitor_nodelet.cpp", "tyre_output.cpp"))
+                       if path.name in ("report_topics.cpp", "tyre_output.cpp"))
     return {topic: message for message, topic in re.findall(r'advertise<(\w+)>\("(\w+)"', sources)}
 
 
