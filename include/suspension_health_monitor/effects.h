@@ -30,6 +30,9 @@ struct ShapeParameter {
   std::string name, unit;
   ShapeScale scale = ShapeScale::kNone;
   double min = 0.0, max = 0.0;  ///< in units of the scale, 0 < min < max
+  /// The law stays itself below min, as friction that turns at once. At any other end of its range a law becomes one
+  /// that the model has already, or a neighbour in the catalogue: a shape that a fit takes there names nothing.
+  bool open_below = false;
 };
 
 /// A physical effect that the linear strut lacks: an additional force on the body per unit mass,
@@ -44,7 +47,8 @@ struct ForceEffect {
   std::string finding;  ///< what a workshop would find
   Law force;            ///< f, per unit of c; shapes in SI
   std::vector<ShapeParameter> shapes = {};
-  Law memory_rate = {};  ///< g [unit of s per second]; empty: no memory
+  Law memory_rate = {};   ///< g [unit of s per second]; empty: no memory
+  bool positive = false;  ///< c > 0 by physics: what dissipates or pushes back cannot do the opposite
 };
 
 /// What the body's IMU measures besides z'', in the strut's frame: z up along the strut, x and y across it.

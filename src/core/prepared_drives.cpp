@@ -33,11 +33,6 @@ StrutModel roughStart(const std::vector<Drive>& drives, double period, std::opti
   return roughModel(drives, filter);
 }
 
-bool canFollow(const StrutModel& model, double period) {
-  const double fastest = std::max(model.damping_to_mass, std::sqrt(model.stiffness_to_mass));
-  return period * fastest <= kLongestStrutStep * kMostStepsPerSample;
-}
-
 PreparedDrives lacking(Shortcoming shortcoming, const StrutModel& start) {
   return {shortcoming, reasonOf(shortcoming, start), start, {}};
 }
