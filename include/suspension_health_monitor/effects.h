@@ -13,7 +13,7 @@ namespace suspension_health_monitor {
 struct StrutMotion {
   double travel = 0.0;       ///< d [m], compression positive
   double travel_rate = 0.0;  ///< v [m/s]
-  double time = 0.0;         ///< t [s] since the start of the drive
+  double time = 0.0;         ///< t [s] since the start of the drive; offline on from drive to drive
   double memory = 0.0;       ///< s, the effect's own state, 0 at the start
 };
 

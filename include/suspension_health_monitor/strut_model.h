@@ -48,6 +48,7 @@ enum class FitFailure {
   kTooFast,     ///< too fast for the sampling: more than 32 integration steps per sample
   kWrongSign,   ///< its coefficient is not above 0, as physics has it
   kShapeAtEnd,  ///< a shape is at the end of its range, where the law is another one
+  kToldByFrequency,  ///< what seems to change with time changes as well with the frequency of the motion
 };
 
 /// One number of a model as files and tables list it.

@@ -53,7 +53,7 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
     runFree(force, *segment, fit.initial[ends_.size()], predicted, &states);
     predicted_.insert(predicted_.end(), predicted.begin(), predicted.end());
     for (std::size_t k = 0; k < states.size(); ++k) {
-      motion_.push_back({states[k].travel, states[k].travel_rate, segment->time(k), 0.0});
+      motion_.push_back({states[k].travel, states[k].travel_rate, segment->timeDriven(k), 0.0});
       memory.push_back(states[k].memory);
     }
     ends_.push_back(motion_.size());

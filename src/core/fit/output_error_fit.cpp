@@ -120,7 +120,7 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
              std::vector<StrutState>* motion) {
   double largest = 0.0;
   for (const double y : segment.sprung) largest = std::max(largest, std::abs(y));
-  const RecordedWheel wheel{segment.wheel, segment.start, segment.period, segment.steps, segment.size()};
+  const RecordedWheel wheel{segment.wheel, segment.timeDriven(0), segment.period, segment.steps, segment.size()};
   if (!FreeRun::follow(model, wheel, state, kRunaway * largest, predicted, motion)) return false;
   for (const ActiveMeasurementEffect& reading : model.reading)
     reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, predicted);

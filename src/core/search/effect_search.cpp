@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kExplained = 0.5;                 // of the structure, or there is no name
 constexpr double kTakenByAnother = 0.3;            // of what is left
-constexpr double kSure = 0.01;                     // probability at which one of two rivals is better by chance
 constexpr double kStarted = 0.1, kForward = 0.85;  // of the progress
 
 using Names = std::vector<std::string>;
@@ -87,6 +86,7 @@ class Search {
   EvaluatedModel withoutSuperfluous(EvaluatedModel current) const;
   EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick);
   double explainedShare(const EvaluatedModel& after, double floor) const;
+  bool standsAlone(const EvaluatedModel& candidate) const;
   bool isExplained(const EvaluatedModel& after) const;
   void conclude(const EvaluatedModel& last);
   void name(Verdict verdict, const EvaluatedModel& model);
@@ -135,13 +135,27 @@ EvaluatedModel Search::reconsidered(EvaluatedModel current, const Names& added, 
   return current;
 }
 
+// A sensor's fault is one on any drive: what helps only beside other effects imitates a part of theirs.
+bool Search::standsAlone(const EvaluatedModel& candidate) const {
+  const std::vector<ActiveMeasurementEffect>& readings = candidate.ranked.model.reading;
+  if (!candidate.ranked.significant || readings.empty() || readings.back().effect.name != candidate.added) return true;
+  StrutModel alone = base_.ranked.model;
+  alone.reading.push_back(readings.back());
+  const EvaluatedModel evaluated = evaluator_.evaluate(alone, base_.fit.initial, &base_);
+  return evaluated.ranked.significant;
+}
+
 // Forward selection: the best addition as long as it pays.
 EvaluatedModel Search::extend() {
   EvaluatedModel current = base_;
   for (int round = 0; round < options_.most_effects; ++round) {
     const double done = kStarted + kForward * round / options_.most_effects;
     const auto tick = [&](double share) { report(done + kForward * share / options_.most_effects); };
-    const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
+    std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
+    if (round > 0)
+      ranking.erase(std::remove_if(ranking.begin(), ranking.end(),
+                                   [this](const EvaluatedModel& each) { return !standsAlone(each); }),
+                    ranking.end());
     if (round == 0) result_.ranking = asReported(ranking);
     if (ranking.empty() || !ranking.front().ranked.fitted) break;
     // Whatever a free run leaves of data that it was not fitted to is above the floor.

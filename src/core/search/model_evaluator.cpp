@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "frequency_rival.h"
 #include "parallel.h"
 #include "row_start.h"
 #include "suspension_health_monitor/internal/statistics.h"
@@ -158,12 +159,28 @@ void ModelEvaluator::fitAll(const std::vector<std::size_t>& wanted, const Evalua
     if (!fitted.ranked.fitted && candidate.second_start)
       fitted = evaluate(*candidate.second_start, current.fit.initial, &current);
     fitted.added = candidate.added;
+    if (isToldByFrequency(fitted, current)) fitted = failed(current, FitFailure::kToldByFrequency);
+    fitted.added = candidate.added;
     fitted.ranked.effects = candidate.ranked.effects;
     fitted.tried = true;
     candidate = std::move(fitted);
   };
   double done = 0.0;
   forEachInParallel(wanted.size(), options_.threads, fit, [&] { tick(++done / static_cast<double>(wanted.size())); });
+}
+
+bool ModelEvaluator::isToldByFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const {
+  const std::vector<ActiveEffect>& effects = candidate.ranked.model.effects;
+  if (!candidate.ranked.significant || effects.empty() || effects.back().effect.name != candidate.added ||
+      !dependsOnTime(effects.back()))
+    return false;
+  const ForceEffect rival = frequencyRival(effects.back().effect, records_, current.ranked.model.stiffness_to_mass);
+  const std::optional<ScreenedModel> start = Screening(records_, held_out_, current.fit).screen(rival);
+  if (!start) return false;
+  const EvaluatedModel as_frequency = evaluate(start->model, current.fit.initial, &current);
+  if (!as_frequency.ranked.fitted) return false;
+  const PairedTest gain = as_frequency.gainOf(candidate);
+  return !(gain.removed_share > kWorthHaving && isSignificant(gain, kSure));
 }
 
 std::vector<EvaluatedModel> ModelEvaluator::rankAdditions(const EvaluatedModel& current, const Tick& tick) const {

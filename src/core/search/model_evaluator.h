@@ -34,6 +34,9 @@ struct EvaluatedModel {
 /// Free parameters of a model beyond b1 and b0: the simpler of two equal ones is preferred.
 std::size_t complexity(const StrutModel& model);
 
+/// Probability at which one of two rivals is better by chance.
+inline constexpr double kSure = 0.01;
+
 /// Fits models on the training samples of the drives and evaluates them on the rest.
 class ModelEvaluator {
  public:
@@ -74,6 +77,7 @@ class ModelEvaluator {
   void rank(const EvaluatedModel& before, EvaluatedModel& evaluated) const;
   EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) const;
   FitFailure againstPhysics(const ModelFit& fit) const;
+  bool isToldByFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
 
   const Records& records_;
   const HoldOut& held_out_;
