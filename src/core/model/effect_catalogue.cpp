@@ -9,7 +9,7 @@ namespace {
 
 using M = StrutMotion;
 
-constexpr bool kPositive = true, kOpenBelow = true;
+constexpr bool kPositive = true, kOpenBelow = true, kOpenAbove = true;
 
 // d travel, v travel rate, t time, s memory, c the coefficient. A new effect is one more record.
 std::vector<ForceEffect> makeForceEffects() {
@@ -83,6 +83,16 @@ std::vector<ForceEffect> makeForceEffects() {
        {{"x", "m", ShapeScale::kTravel, 0.05, 3.0}},
        [](const M& m, const double* x) { return (m.travel_rate - std::abs(m.travel_rate) * m.memory) / x[0]; },
        kPositive},
+      {"bouc_wen",
+       "c s, s' = v - |v| s/xa + v |s|/xb",
+       "1/s^2",
+       "rubber bushing, wire rope mount: hysteresis that stiffens",
+       [](const M& m, const double*) { return m.memory; },
+       {{"xa", "m", ShapeScale::kTravel, 0.1, 3.0}, {"xb", "m", ShapeScale::kTravel, 0.1, 3.0}},
+       [](const M& m, const double* x) {
+         return m.travel_rate - std::abs(m.travel_rate) * m.memory / x[0] + m.travel_rate * std::abs(m.memory) / x[1];
+       },
+       kPositive},
       {"viscoelastic_mount",
        "c (d - s), s' = (d - s)/tau",
        "1/s^2",
@@ -90,6 +100,15 @@ std::vector<ForceEffect> makeForceEffects() {
        [](const M& m, const double*) { return m.travel - m.memory; },
        {{"tau", "s", ShapeScale::kTime, 0.1, 10.0}},
        [](const M& m, const double* tau) { return (m.travel - m.memory) / tau[0]; },
+       kPositive},
+      // The body's velocity is its acceleration, integrated with a memory that is long against the strut's motion.
+      {"body_drag",
+       "-c s, s' = z'' - s/tau",
+       "1/s",
+       "drag of the body itself: guides, a towed load",
+       [](const M& m, const double*) { return -m.memory; },
+       {{"tau", "s", ShapeScale::kTime, 10.0, 30.0, kOpenBelow, kOpenAbove}},
+       [](const M& m, const double* tau) { return m.body_acceleration - m.memory / tau[0]; },
        kPositive},
       {"damping_drift", "c t v", "1/s^2", "damping changes during the drive: oil loss, heat",
        [](const M& m, const double*) { return m.time * m.travel_rate; }},

@@ -24,7 +24,7 @@ bool hasShapeAtEnd(const ActiveEffect& active, const MotionScale& scale) {
     const ShapeParameter& shape = active.effect.shapes[i];
     const double lowest = scale.unit(shape.scale) * shape.min;
     const double place = std::log(active.shapes[i] / lowest) / std::log(shape.max / shape.min);
-    if (!(place < 1.0 - end) || (place < end && !shape.open_below)) return true;
+    if ((!(place < 1.0 - end) && !shape.open_above) || (place < end && !shape.open_below)) return true;
   }
   return false;
 }

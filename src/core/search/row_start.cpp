@@ -27,7 +27,7 @@ RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelF
     for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment->sprung[k];
     const MotionError motion = motionError(relative, mean(relative), segment->period, b0);
     for (std::size_t k = 0; k < relative.size(); ++k) {
-      motion_.push_back({motion.travel[k], motion.travel_rate[k], segment->timeDriven(k), 0.0});
+      motion_.push_back({motion.travel[k], motion.travel_rate[k], segment->timeDriven(k), 0.0, segment->sprung[k]});
       measured.push_back(segment->sprung[k]);
       weight.push_back(held_out.training[ends_.size()][k]);
       travel += square(motion.travel[k]);
