@@ -53,14 +53,17 @@ struct Selection {
   std::vector<StrutModel> models;  // of the group
 };
 
+// A number more must pay as surely as another effect: a simpler rival is as good until it is clear that it is not.
 // @pre the first of the ranking is fitted.
 Selection select(const std::vector<EvaluatedModel>& ranking) {
   const EvaluatedModel& best = ranking.front();
   Selection selection{best, {}, {}};
   for (const EvaluatedModel& rival : ranking) {
     if (!rival.ranked.fitted) continue;
+    const bool simpler = complexity(rival.ranked.model) < complexity(best.ranked.model);
+    const double chance = simpler ? kFalseAlarm / static_cast<double>(ranking.size()) : kSure;
     const PairedTest gain = rival.gainOf(best);
-    if (gain.removed_share > kWorthHaving || isSignificant(gain, kSure)) continue;
+    if (gain.removed_share > kWorthHaving || isSignificant(gain, chance)) continue;
     selection.group.push_back(rival.added);
     selection.models.push_back(rival.ranked.model);
     if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
