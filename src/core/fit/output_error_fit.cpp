@@ -27,11 +27,15 @@ std::optional<std::vector<double>> coefficientScales(const StrutModel& start, co
     scales.push_back(kSmallForce * sizes.acceleration / force);
   }
   const ReadingSizes reading_sizes{sizes.residual, sizes.acceleration, period, sizes.body};
-  for (const ActiveMeasurementEffect& reading : start.reading)
+  for (const ActiveMeasurementEffect& reading : start.reading) {
+    bool shows = false;
     for (std::size_t i = 0; i < reading.coefficients.size(); ++i) {
-      scales.push_back(reading.effect.scale(reading_sizes, i));
-      if (!std::isfinite(scales.back())) return std::nullopt;
+      const double scale = reading.effect.scale(reading_sizes, i);
+      shows = shows || std::isfinite(scale);
+      scales.push_back(std::isfinite(scale) ? scale : 1.0);  // nothing moves the coefficient of a channel that is empty
     }
+    if (!shows) return std::nullopt;
+  }
   return scales;
 }
 

@@ -129,12 +129,19 @@ std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const 
 }
 
 std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) const {
-  const Eigen::MatrixXd columns = response_.readingSlopes(effect);
-  const std::optional<Projection> projection = project(columns);
+  const Eigen::MatrixXd slopes = response_.readingSlopes(effect);
+  std::vector<Eigen::Index> live;  // the others go with channels that are empty
+  for (Eigen::Index i = 0; i < slopes.cols(); ++i)
+    if (!slopes.col(i).isZero(0.0)) live.push_back(i);
+  Eigen::MatrixXd columns(slopes.rows(), static_cast<Eigen::Index>(live.size()));
+  for (std::size_t i = 0; i < live.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = slopes.col(live[i]);
+  const std::optional<Projection> projection = live.empty() ? std::nullopt : project(columns);
   if (!projection) return std::nullopt;
   ScreenedModel screened = expect(columns, *projection);
-  const Eigen::VectorXd& found = projection->coefficients;
-  screened.model.reading.push_back({effect, {found.data(), found.data() + found.size()}});
+  std::vector<double> coefficients(static_cast<std::size_t>(slopes.cols()), 0.0);
+  for (std::size_t i = 0; i < live.size(); ++i)
+    coefficients[static_cast<std::size_t>(live[i])] = projection->coefficients[static_cast<Eigen::Index>(i)];
+  screened.model.reading.push_back({effect, coefficients});
   return screened;
 }
 
