@@ -66,23 +66,24 @@ double leftBy(const StrutModel& model, const Drive& drive) {
   return std::sqrt(sum / count);
 }
 
+std::string namesIn(const Diagnosis& found) {
+  std::string text = join(found.selected, " + ");
+  for (const std::vector<std::string>& group : found.indistinguishable) text += " {" + join(group, ", ") + "}";
+  return text;
+}
+
+/// One row: the verdict, b1 and b0 before and after, every other number of the model, rmse on what no fit has seen.
 void print(const std::string& label, const Diagnosis& found) {
-  std::printf("%-14s ", label.c_str());
-  if (!found) return void(std::printf("the drives %s\n", found.reason.c_str()));
-  std::printf("%-15s %-44s b1 %6.2f b0 %6.1f, rmse %.4f", nameOf(found.verdict),
-              join(found.selected, " + ").c_str(), found.model().damping_to_mass, found.model().stiffness_to_mass,
-              found.base.held_out_rmse);
-  if (found.extended) std::printf(" -> %.4f", found.extended->held_out_rmse);
-  std::printf(", floor %.4f, surface %.2f", found.noise_floor, found.surface_share);
-  for (const ModelNumber& number : numbersOf(found.model()))
-    if (number.kind != ModelNumber::Kind::kStrut) std::printf("  %s %.4g %s", number.name.c_str(), number.value, number.unit.c_str());
-  for (const auto& group : found.indistinguishable) std::printf("  {%s}", join(group, ", ").c_str());
-  std::printf("\n");
-  for (std::size_t i = 0; i < std::min<std::size_t>(std::getenv("RANK")?20:0, found.ranking.size()); ++i)
-    std::printf("    %c%d %-28s %.4f %5.1f %%%s  b1 %.2f b0 %.1f\n", found.ranking[i].fitted ? ' ' : '~', int(found.ranking[i].failure),
-                join(found.ranking[i].effects, " + ").c_str(), found.ranking[i].held_out_rmse,
-                found.ranking[i].error_removed_percent, found.ranking[i].significant ? " *" : "",
-                found.ranking[i].model.damping_to_mass, found.ranking[i].model.stiffness_to_mass);
+  if (!found) return void(std::printf("| %s | the drives %s |\n", label.c_str(), found.reason.c_str()));
+  const StrutModel &before = found.base.model, &after = found.model();
+  std::printf("| %s | %s | %s | %.0f %% | %.0f, %.0f | %.1f, %.0f |", label.c_str(), nameOf(found.verdict),
+              namesIn(found).c_str(), 100.0 * found.explained_share, before.damping_to_mass, before.stiffness_to_mass,
+              after.damping_to_mass, after.stiffness_to_mass);
+  for (const ModelNumber& number : numbersOf(after))
+    if (number.kind != ModelNumber::Kind::kStrut)
+      std::printf(" %s %.3g %s", number.symbol.c_str(), number.value, number.unit.c_str());
+  std::printf(" | %.3f | %.3f |", found.base.held_out_rmse,
+              found.extended ? found.extended->held_out_rmse : found.base.held_out_rmse);
 }
 
 }  // namespace
@@ -92,24 +93,28 @@ int main(int argc, char** argv) {
   using namespace suspension_health_monitor;
   const std::vector<Run> runs = argc > 1 ? readRuns(argv[1]) : std::vector<Run>();
   if (runs.empty()) {
-    std::printf("skipped: no runs of the measured damper in %s\n", argc > 1 ? argv[1] : "a folder, as none is given");
+    std::printf("skipped: no runs of the measured damper in %s\n", argc > 1 ? argv[1] : "a folder: none is given");
     return 0;
   }
+  std::printf("| runs | verdict | named | of the structure | b1, b0 before | b1, b0, c and shapes after | rmse before | "
+              "after | on the run left out: before, after |\n|---|---|---|---|---|---|---|---|---|\n");
   std::vector<Drive> all;
   for (const Run& run : runs) {
     all.push_back(run.drive);
-    if (argc < 3 || run.name == argv[2]) print(run.name, diagnose({run.drive}));
+    print(run.name, diagnose({run.drive}));
+    std::printf(" |\n");
   }
-  if (argc < 3 || argv[2] == std::string("all")) print("all", diagnose(all));
-  if (argc > 2) return 0;
+  print("all", diagnose(all));
+  std::printf(" |\n");
   for (std::size_t left_out = 0; left_out < runs.size(); ++left_out) {
     std::vector<Drive> others = all;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
     const Diagnosis found = diagnose(others);
-    print("without " + runs[left_out].name, found);
-    if (!found) continue;
-    std::printf("    on %s: %.4f -> %.4f\n", runs[left_out].name.c_str(), leftBy(found.base.model, all[left_out]),
-                leftBy(found.model(), all[left_out]));
+    print("all but " + runs[left_out].name, found);
+    if (found)
+      std::printf(" %.3f, %.3f", leftBy(found.base.model, all[left_out]), leftBy(found.model(), all[left_out]));
+    std::printf(" |\n");
+    std::fflush(stdout);
   }
   return 0;
 }

@@ -195,15 +195,16 @@ double Search::explainedShare(const EvaluatedModel& after, double floor) const {
   return structure > 0.0 ? (square(base_.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
 }
 
-// Names are given if the model with them leaves noise only, or next to nothing of what there was to explain; or if it
-// takes most of that and no other law of travel and travel rate would take the rest: that comes from elsewhere, or was
-// lost in sampling.
+// Names are given if the model with them leaves noise only, or next to nothing of what there was to explain. One name is
+// also given if it takes most of that and no other law of travel and travel rate would take the rest: that comes from
+// elsewhere. Several that leave some can be made to imitate what has another name.
 bool Search::isExplained(const EvaluatedModel& after) const {
   const double lowest = std::min(sampling_floor_, after.ranked.held_out_rmse);
   const double share = explainedShare(after, lowest);
   if (share < kExplained) return false;
   const double left = square(after.ranked.held_out_rmse) - square(lowest);
-  return share > 1.0 - kWorthHaving || !isStructured(after.ranked.held_out_rmse, lowest) ||
+  if (share > 1.0 - kWorthHaving || !isStructured(after.ranked.held_out_rmse, lowest)) return true;
+  return namesBeyond(base_, after).size() == 1 &&
          evaluator_.surfaceGain(after) * square(after.ranked.held_out_rmse) < kTakenByAnother * left;
 }
 
@@ -252,7 +253,14 @@ SearchResult Search::run(const ModelFit& rough) {
   result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
   result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
   sampling_floor_ = estimateSamplingFloor(records_, base_.ranked.model);
-  const EvaluatedModel last = refine(extend());
+  EvaluatedModel last = refine(extend());
+  // What several names explain no better than one does, one explains.
+  if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {
+    result_.indistinguishable.clear();
+    result_.separating.clear();
+    last = suspect_->chosen;
+    noteGroup(*suspect_);
+  }
   result_.noise_floor = std::min(result_.noise_floor, last.ranked.held_out_rmse);
   conclude(last);
   report(1.0);
