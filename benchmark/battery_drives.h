@@ -103,10 +103,9 @@ class BatteryDriver {
 
   // Of the shapes named here the part of the range in which the drive can show them; of others the middle half.
   std::vector<double> shapesOf(const ForceEffect& effect) {
-    const std::map<std::string, std::pair<double, double>> shown{{"p", {2.0, 4.0}},   {"g", {0.5, 1.5}},
-                                                                 {"vs", {0.03, 0.1}}, {"v0", {0.4, 1.2}},
-                                                                 {"x", {0.15, 1.0}},  {"tau", {0.4, 2.0}}, {"xa", {0.3, 1.0}},
-                                                                 {"xb", {0.5, 1.5}}};
+    const std::map<std::string, std::pair<double, double>> shown{
+        {"p", {2.0, 4.0}},  {"g", {0.5, 1.5}},   {"vs", {0.03, 0.1}}, {"v0", {0.4, 1.2}},
+        {"x", {0.15, 1.0}}, {"tau", {0.4, 2.0}}, {"xa", {0.3, 1.0}},  {"xb", {0.5, 1.5}}};
     const MotionScale scale{travel_, travel_rate_, 1.0 / std::sqrt(stiffness())};
     std::vector<double> shapes;
     for (const ShapeParameter& shape : effect.shapes) {

@@ -96,8 +96,9 @@ int main(int argc, char** argv) {
     std::printf("skipped: no runs of the measured damper in %s\n", argc > 1 ? argv[1] : "a folder: none is given");
     return 0;
   }
-  std::printf("| runs | verdict | named | of the structure | b1, b0 before | b1, b0, c and shapes after | rmse before | "
-              "after | on the run left out: before, after |\n|---|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| runs | verdict | named | of the structure | b1, b0 before | b1, b0, c and shapes after | rmse before | "
+      "after | on the run left out: before, after |\n|---|---|---|---|---|---|---|---|---|\n");
   std::vector<Drive> all;
   for (const Run& run : runs) {
     all.push_back(run.drive);

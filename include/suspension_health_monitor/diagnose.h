@@ -21,12 +21,12 @@ enum class Verdict {
 struct RankedModel {
   std::vector<std::string> effects;  ///< names of all that is in the model
   StrutModel model;
-  bool fitted = false;                 ///< false: screened only, the figures are what a fit is expected to give
+  bool fitted = false;                     ///< false: screened only, the figures are what a fit is expected to give
   FitFailure failure = FitFailure::kNone;  ///< if any: why there is no such model; the figures are of the one before
-  double held_out_rmse = 0.0;          ///< [m/s^2]
-  double error_removed_percent = 0.0;  ///< of the mean square that the model before left
-  double significance = 0.0;           ///< t of the improvement over held-out stretches, against the model before
-  bool significant = false;            ///< by that, corrected for the number of candidates; of fitted models only
+  double held_out_rmse = 0.0;              ///< [m/s^2]
+  double error_removed_percent = 0.0;      ///< of the mean square that the model before left
+  double significance = 0.0;               ///< t of the improvement over held-out stretches, against the model before
+  bool significant = false;                ///< by that, corrected for the number of candidates; of fitted models only
 };
 
 /// A model with its uncertainty.

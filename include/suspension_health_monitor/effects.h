@@ -11,10 +11,10 @@ namespace suspension_health_monitor {
 
 /// What an effect may depend on, at one instant.
 struct StrutMotion {
-  double travel = 0.0;       ///< d [m], compression positive
-  double travel_rate = 0.0;  ///< v [m/s]
-  double time = 0.0;         ///< t [s] since the start of the drive; offline on from drive to drive
-  double memory = 0.0;       ///< s, the effect's own state, 0 at the start
+  double travel = 0.0;             ///< d [m], compression positive
+  double travel_rate = 0.0;        ///< v [m/s]
+  double time = 0.0;               ///< t [s] since the start of the drive; offline on from drive to drive
+  double memory = 0.0;             ///< s, the effect's own state, 0 at the start
   double body_acceleration = 0.0;  ///< z'' [m/s^2]; for memory rates only, as forces make it
 };
 

@@ -51,8 +51,7 @@ PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::option
   const std::optional<UntestableEffect> untestable = findUntestable(start, pointersTo(prepared.records));
   if (!untestable) return prepared;
   PreparedDrives refused = lacking(Shortcoming::kModelUntestable, start);
-  refused.reason =
-      "do not tell " + untestable->name + ", which the model has: " + reasonOf(untestable->missing);
+  refused.reason = "do not tell " + untestable->name + ", which the model has: " + reasonOf(untestable->missing);
   return refused;
 }
 

@@ -130,12 +130,11 @@ TEST(EffectSearch, SuggestsTheDriveThatSeparatesAGroup) {
   options.damping_end_fraction = 1.0;
   options.hidden = {hiddenEffect(options, "quadratic_damping", {}, 0.15)};
   DiagnoseOptions searching;
-  searching.candidates = {{findEffect(forceEffects(), "quadratic_damping"),
-                           {"turbulent_damping", "c v |v|^0.75", "(s/m)^0.75 / m", "a smooth orifice",
-                            [](const StrutMotion& m, const double*) {
-                              return m.travel_rate * std::pow(std::abs(m.travel_rate), 0.75);
-                            }}},
-                          {}};
+  searching.candidates = {
+      {findEffect(forceEffects(), "quadratic_damping"),
+       {"turbulent_damping", "c v |v|^0.75", "(s/m)^0.75 / m", "a smooth orifice",
+        [](const StrutMotion& m, const double*) { return m.travel_rate * std::pow(std::abs(m.travel_rate), 0.75); }}},
+      {}};
   const DriveRecord record = recorded(options);
   SearchResult result = searchEffects({&record}, {3.3, 13.0, {}, {}}, searching);
   result.suggested_drive = suggestionOf(result);

@@ -45,9 +45,7 @@ struct Rig {
   struct State {
     double d = 0.0, v = 0.0, s = 0.0;
 
-    State moved(double by, const State& slope) const {
-      return {d + by * slope.d, v + by * slope.v, s + by * slope.s};
-    }
+    State moved(double by, const State& slope) const { return {d + by * slope.d, v + by * slope.v, s + by * slope.s}; }
   };
   static constexpr int kSteps = 40;
   static constexpr double kStep = kPeriod / kSteps;
@@ -151,8 +149,9 @@ TEST(MeasuredRecordRules, ADriftGoesOnFromDriveToDrive) {
     return 0.8 * sum;
   };
   const auto wearing = [&](double before) {
-    const Rig rig{[before](double d, double v, double, double t) { return (6.0 - 0.025 * (before + t)) * v + 63.0 * d; },
-                  roughRoad};
+    const Rig rig{
+        [before](double d, double v, double, double t) { return (6.0 - 0.025 * (before + t)) * v + 63.0 * d; },
+        roughRoad};
     return rig.drive(static_cast<int>(duration / kPeriod));
   };
   const StrutModel start{5.0, 60.0, {}, {}};

@@ -45,8 +45,9 @@ ComparedSegment makeSegment(const StrutModel& model, const DriveSegment& source,
     const StrutState& state = motion[k];
     segment.travel.push_back(state.travel);
     segment.travel_rate.push_back(state.travel_rate);
-    segment.added_force.push_back(model.force(state.travel, state.travel_rate, segment.timeDriven(k), state.memory.data()) -
-                                  model.damping_to_mass * state.travel_rate - model.stiffness_to_mass * state.travel);
+    segment.added_force.push_back(
+        model.force(state.travel, state.travel_rate, segment.timeDriven(k), state.memory.data()) -
+        model.damping_to_mass * state.travel_rate - model.stiffness_to_mass * state.travel);
   }
   return segment;
 }

@@ -23,11 +23,11 @@ double advanceMemory(const ForceEffect& effect, const double* shapes, const Stru
                      double memory) {
   const double h = (to.time - from.time) / kMemorySteps;
   const auto rate = [&](double share, double state) {
-    return effect.memory_rate({from.travel + share * (to.travel - from.travel),
-                               from.travel_rate + share * (to.travel_rate - from.travel_rate),
-                               from.time + share * (to.time - from.time), state,
-                               from.body_acceleration + share * (to.body_acceleration - from.body_acceleration)},
-                              shapes);
+    return effect.memory_rate(
+        {from.travel + share * (to.travel - from.travel),
+         from.travel_rate + share * (to.travel_rate - from.travel_rate), from.time + share * (to.time - from.time),
+         state, from.body_acceleration + share * (to.body_acceleration - from.body_acceleration)},
+        shapes);
   };
   for (int step = 0; step < kMemorySteps; ++step) {
     const double start = static_cast<double>(step) / kMemorySteps;

@@ -28,8 +28,8 @@ struct Stage {
     if constexpr (kWithEffects) {
       for (std::size_t j = 0; j < num_effects; ++j) {
         const ActiveEffect& active = model.effects[j];
-        slope.velocity += active.coefficient *
-                          active.effect.force({travel, travel_rate, time, body.memory[j]}, active.shapes.data());
+        slope.velocity +=
+            active.coefficient * active.effect.force({travel, travel_rate, time, body.memory[j]}, active.shapes.data());
       }
       for (std::size_t j = 0; j < num_effects; ++j) {
         const auto& [effect, coefficient, shapes] = model.effects[j];

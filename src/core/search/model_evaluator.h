@@ -18,15 +18,15 @@ inline constexpr double kWorthHaving = 0.02;
 /// A model and how it did, or is expected to do, on what was held out.
 struct EvaluatedModel {
   RankedModel ranked;
-  std::string added;              ///< what it has and the model before had not
-  double training_gain = 0.0;     ///< as ScreenedModel has it
+  std::string added;                       ///< what it has and the model before had not
+  double training_gain = 0.0;              ///< as ScreenedModel has it
   std::optional<StrutModel> second_start;  ///< for a fit, if the first fails
-  bool tried = false;             ///< a fit was tried; it may have failed
-  ModelFit fit;                   ///< empty unless ranked.fitted
-  std::vector<double> stretches;  ///< held-out loss by stretch
-  double loss = 0.0;              ///< their sum
-  double independent = 0.0;       ///< HoldOut::independentSquares()
-  double to_explain = 0.0;        ///< the loss of the model that the search began with
+  bool tried = false;                      ///< a fit was tried; it may have failed
+  ModelFit fit;                            ///< empty unless ranked.fitted
+  std::vector<double> stretches;           ///< held-out loss by stretch
+  double loss = 0.0;                       ///< their sum
+  double independent = 0.0;                ///< HoldOut::independentSquares()
+  double to_explain = 0.0;                 ///< the loss of the model that the search began with
 
   PairedTest gainOf(const EvaluatedModel& after) const { return testPaired(stretches, after.stretches, independent); }
 };

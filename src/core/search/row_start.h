@@ -10,8 +10,8 @@
 
 namespace suspension_health_monitor {
 
-/// Where a fit of a law may begin that the linear response cannot tell: one with a kink or a memory that carries so much
-/// of the strut's force that b1 and b0 without it are far from those beside it.
+/// Where a fit of a law may begin that the linear response cannot tell: one with a kink or a memory that carries so
+/// much of the strut's force that b1 and b0 without it are far from those beside it.
 ///
 /// The travel is told by the measurements themselves, d'' = w'' - z'', integrated twice and once by an integral that
 /// forgets what is slower than a third of the natural frequency (motionError()). Along it the law is one more column of

@@ -55,7 +55,7 @@ struct FitOutcome : std::optional<ModelFit> {
 /// @param start  first guess, b0 > 0; also sets the scale of every parameter that is not 0 in it.
 /// @return no fit if the model runs away, an effect never acts, the solver fails, or what comes out cannot be compared,
 /// searched or simulated: no spring is left (b0 <= 0), or it is too fast for the sampling.
-FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>& masks,
-                          const StrutModel& start, const FitOptions& options = {});
+FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>& masks, const StrutModel& start,
+                          const FitOptions& options = {});
 
 }  // namespace suspension_health_monitor

@@ -16,11 +16,12 @@ struct UntestableEffect {
   BodyChannel missing;
 };
 
-/// Takes the effects out of `library` all of whose channels are empty in one of the records. One that is left is enough:
-/// the coefficients of the others stay 0.
+/// Takes the effects out of `library` all of whose channels are empty in one of the records. One that is left is
+/// enough: the coefficients of the others stay 0.
 std::vector<UntestableEffect> takeUntestable(EffectLibrary& library, const Records& records);
 
-/// @return a fault of the model with a coefficient that is not 0 and goes with a channel that is empty, if there is one.
+/// @return a fault of the model with a coefficient that is not 0 and goes with a channel that is empty, if there is
+/// one.
 std::optional<UntestableEffect> findUntestable(const StrutModel& model, const Records& records);
 
 }  // namespace suspension_health_monitor

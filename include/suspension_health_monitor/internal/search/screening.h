@@ -16,9 +16,9 @@ namespace suspension_health_monitor {
 /// residuals that the linearised model expects to remain.
 struct ScreenedModel {
   StrutModel model;
-  double training_gain = 0.0;  ///< expected decrease of the (robust) training sum of squares
-  Residuals residuals;         ///< expected
-  FitFailure failure = FitFailure::kNone;  ///< kWrongSign: no shape with a coefficient above 0 helps; as without it then
+  double training_gain = 0.0;              ///< expected decrease of the (robust) training sum of squares
+  Residuals residuals;                     ///< expected
+  FitFailure failure = FitFailure::kNone;  ///< kWrongSign: no coefficient above 0 helps; all as without it
 };
 
 /// Ranks candidates by how much of the residual their linear response (linear_response.h) explains on the training
