@@ -195,16 +195,15 @@ double Search::explainedShare(const EvaluatedModel& after, double floor) const {
   return structure > 0.0 ? (square(base_.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
 }
 
-// Names are given if the model with them leaves noise only, or next to nothing of what there was to explain. One name
-// is also given if it takes most of that and no other law of travel and travel rate would take the rest: that comes
-// from elsewhere. Several that leave some can be made to imitate what has another name.
+// Names are given if the model with them leaves noise only, or next to nothing of what there was to explain; or if it
+// takes most of that and no other law of travel and travel rate would take the rest: that comes from elsewhere, or was
+// lost in sampling.
 bool Search::isExplained(const EvaluatedModel& after) const {
   const double lowest = std::min(sampling_floor_, after.ranked.held_out_rmse);
   const double share = explainedShare(after, lowest);
   if (share < kExplained) return false;
   const double left = square(after.ranked.held_out_rmse) - square(lowest);
-  if (share > 1.0 - kWorthHaving || !isStructured(after.ranked.held_out_rmse, lowest)) return true;
-  return namesBeyond(base_, after).size() == 1 &&
+  return share > 1.0 - kWorthHaving || !isStructured(after.ranked.held_out_rmse, lowest) ||
          evaluator_.surfaceGain(after) * square(after.ranked.held_out_rmse) < kTakenByAnother * left;
 }
 
