@@ -103,13 +103,13 @@ class BatteryDriver {
 
   // Of the shapes named here the part of the range in which the drive can show them; of others the middle half.
   std::vector<double> shapesOf(const ForceEffect& effect) {
-    const std::map<std::string, std::pair<double, double>> shown{{"p", {2.0, 4.0}},   {"g", {0.5, 1.5}},
-                                                                 {"vs", {0.03, 0.1}}, {"v0", {0.4, 1.2}},
-                                                                 {"x", {0.15, 1.0}},  {"tau", {0.4, 2.0}}};
+    const std::map<std::string, std::pair<double, double>> shown{
+        {"p", {2.0, 4.0}},  {"g", {0.5, 1.5}},   {"vs", {0.03, 0.1}}, {"v0", {0.4, 1.2}},
+        {"x", {0.15, 1.0}}, {"tau", {0.4, 2.0}}, {"xa", {0.3, 1.0}},  {"xb", {0.5, 1.5}}};
     const MotionScale scale{travel_, travel_rate_, 1.0 / std::sqrt(stiffness())};
     std::vector<double> shapes;
     for (const ShapeParameter& shape : effect.shapes) {
-      const auto known = shown.find(shape.name);
+      const auto known = shape.open_above ? shown.end() : shown.find(shape.name);
       const double quarter = std::pow(shape.max / shape.min, 0.25);
       const auto [low, high] =
           known != shown.end() ? known->second : std::pair{shape.min * quarter, shape.max / quarter};
@@ -126,7 +126,8 @@ class BatteryDriver {
     constexpr int steps = 20;
     double square = 0.0, memory = 0.0;
     for (const DriveSample& sample : plain_) {
-      StrutMotion motion{sample.truth.travel, sample.truth.travel_rate, toSeconds(sample.stamp), memory};
+      StrutMotion motion{sample.truth.travel, sample.truth.travel_rate, toSeconds(sample.stamp), memory,
+                         sample.truth.sprung_acceleration};
       square += std::pow(effect.force(motion, active.shapes.data()), 2);
       if (!effect.memory_rate) continue;
       for (int i = 0; i < steps; ++i) {

@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::size_t kLargestGroup = 3;
 
-enum class Outcome { kNamed, kGrouped, kNothing, kUnexplained, kWrong };
-constexpr const char* kOutcomes[] = {"named", "in a group", "nothing missing", "unexplained", "wrong name"};
+enum class Outcome { kNamed, kGrouped, kSuspect, kNothing, kUnexplained, kWrongSuspect, kWrong };
+constexpr const char* kOutcomes[] = {"named",       "in a group",    "suspect",   "nothing missing",
+                                     "unexplained", "wrong suspect", "wrong name"};
 
 using Names = std::vector<std::string>;
 
@@ -31,11 +32,12 @@ std::string join(const Names& names) {
   return text;
 }
 
-/// Named: every hidden name and no other is selected. In a group: some of them only as one of at most three.
+/// Named: every hidden name and no other is selected. In a group: some of them only as one of at most three. A suspect
+/// is right if it is one of those hidden, alone or in a group.
 Outcome judge(const SearchResult& result, const Names& hidden) {
   if (result.verdict == Verdict::kNothingMissing) return Outcome::kNothing;
   if (result.verdict == Verdict::kUnexplained) return Outcome::kUnexplained;
-  bool all = true, grouped = true;
+  bool all = true, grouped = true, any = false;
   for (const std::string& name : hidden) {
     const bool selected = contains(result.selected, name);
     all = all && selected;
@@ -43,7 +45,9 @@ Outcome judge(const SearchResult& result, const Names& hidden) {
     for (const Names& group : result.indistinguishable)
       in_group = in_group || (group.size() <= kLargestGroup && contains(group, name));
     grouped = grouped && (selected || in_group);
+    any = any || selected || in_group;
   }
+  if (result.verdict == Verdict::kSuspect) return any ? Outcome::kSuspect : Outcome::kWrongSuspect;
   if (result.selected.size() != hidden.size() || !grouped) return Outcome::kWrong;
   return all ? Outcome::kNamed : Outcome::kGrouped;
 }
@@ -117,7 +121,7 @@ Tally searchIn(const std::string& label, const BatteryDrive& drive, const Names&
 
 void print(const char* title, const Tally& tally) {
   std::printf("%-16s %4d drives:", title, tally.drives);
-  for (int i = 0; i < 5; ++i) {
+  for (std::size_t i = 0; i < std::size(kOutcomes); ++i) {
     const auto found = tally.outcomes.find(static_cast<Outcome>(i));
     std::printf(" %s %d,", kOutcomes[i], found == tally.outcomes.end() ? 0 : found->second);
   }

@@ -23,6 +23,7 @@ struct PredictionError {
 struct ComparedSegment {
   std::size_t record = 0;             ///< which of the drives, from 0
   double start = 0.0;                 ///< time of the first sample since the start of that drive [s]
+  double driven_before = 0.0;         ///< how long the drives before it are [s]
   double period = 0.0;                ///< T [s]
   std::vector<double> measured;       ///< z'' less the drive's mean w'' [m/s^2]
   std::vector<double> predicted;      ///< by the free run [m/s^2]
@@ -38,6 +39,9 @@ struct ComparedSegment {
 
   /// @return since the start of the drive [s].
   double time(std::size_t sample) const { return start + static_cast<double>(sample) * period; }
+
+  /// @return time as laws count it [s]: on from drive to drive.
+  double timeDriven(std::size_t sample) const { return driven_before + time(sample); }
 
   /// @return measured - predicted [m/s^2]: positive where the body is pushed up harder than the free run says.
   double residual(std::size_t sample) const { return measured[sample] - predicted[sample]; }

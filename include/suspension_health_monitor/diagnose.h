@@ -12,6 +12,7 @@ namespace suspension_health_monitor {
 
 enum class Verdict {
   kEffectFound,     ///< Diagnosis::selected names what the model lacks
+  kSuspect,         ///< it names one effect, or a group, that takes most of the structure but leaves some
   kNothingMissing,  ///< what the model leaves is noise
   kUnexplained      ///< structure is left and no candidate takes most of it: no name is better than a false one
 };
@@ -20,11 +21,12 @@ enum class Verdict {
 struct RankedModel {
   std::vector<std::string> effects;  ///< names of all that is in the model
   StrutModel model;
-  bool fitted = false;                 ///< false: screened only, the figures are what a fit is expected to give
-  double held_out_rmse = 0.0;          ///< [m/s^2]
-  double error_removed_percent = 0.0;  ///< of the mean square that the model before left
-  double significance = 0.0;           ///< t of the improvement over held-out stretches, against the model before
-  bool significant = false;            ///< by that, corrected for the number of candidates; of fitted models only
+  bool fitted = false;                     ///< false: screened only, the figures are what a fit is expected to give
+  FitFailure failure = FitFailure::kNone;  ///< if any: why there is no such model; the figures are of the one before
+  double held_out_rmse = 0.0;              ///< [m/s^2]
+  double error_removed_percent = 0.0;      ///< of the mean square that the model before left
+  double significance = 0.0;               ///< t of the improvement over held-out stretches, against the model before
+  bool significant = false;                ///< by that, corrected for the number of candidates; of fitted models only
 };
 
 /// A model with its uncertainty.
@@ -62,12 +64,15 @@ struct Diagnosis {
   double structured_share = 0.0;      ///< share of the base's held-out mean square that is not noise
   double surface_share = 0.0;         ///< share of that which a free-form force over travel and travel rate takes
   std::vector<RankedModel> ranking;   ///< single effects, best first
-  std::vector<std::string> selected;  ///< names of what is to be added to the model
+  std::vector<std::string> selected;  ///< names of what is to be added to the model; the suspect
   std::vector<std::vector<std::string>> indistinguishable;  ///< groups that these drives cannot tell apart
   std::string suggested_drive;  ///< sentences: what to record next, to tell a group apart or explain the rest
   std::vector<std::pair<std::string, std::string>> not_tried;  ///< candidates that these drives cannot tell, and why
 
-  /// With kEffectFound: the model with what was found, as judged, and fitted to all samples.
+  /// With kEffectFound and kSuspect:
+  double explained_share = 0.0;  ///< of the structure, what the effects named take
+  std::string remainder;         ///< with kSuspect: what is left, in a sentence
+  /// The model with what was found, as judged, and fitted to all samples.
   std::optional<RankedModel> extended;
   std::optional<FittedModel> final_fit;
   double extended_fit_percent = 0.0;

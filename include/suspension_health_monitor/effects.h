@@ -11,10 +11,11 @@ namespace suspension_health_monitor {
 
 /// What an effect may depend on, at one instant.
 struct StrutMotion {
-  double travel = 0.0;       ///< d [m], compression positive
-  double travel_rate = 0.0;  ///< v [m/s]
-  double time = 0.0;         ///< t [s] since the start of the drive
-  double memory = 0.0;       ///< s, the effect's own state, 0 at the start
+  double travel = 0.0;             ///< d [m], compression positive
+  double travel_rate = 0.0;        ///< v [m/s]
+  double time = 0.0;               ///< t [s] since the start of the drive; offline on from drive to drive
+  double memory = 0.0;             ///< s, the effect's own state, 0 at the start
+  double body_acceleration = 0.0;  ///< z'' [m/s^2]; for memory rates only, as forces make it
 };
 
 /// What a shape parameter is measured in: the search proposes values as multiples of what the drive shows.
@@ -30,6 +31,10 @@ struct ShapeParameter {
   std::string name, unit;
   ShapeScale scale = ShapeScale::kNone;
   double min = 0.0, max = 0.0;  ///< in units of the scale, 0 < min < max
+  /// The law stays itself below min, as friction that turns at once, or above max. At any other end of its range a law
+  /// becomes one that the model has already, or a neighbour in the catalogue: a shape that a fit takes there names
+  /// nothing.
+  bool open_below = false, open_above = false;
 };
 
 /// A physical effect that the linear strut lacks: an additional force on the body per unit mass,
@@ -44,7 +49,8 @@ struct ForceEffect {
   std::string finding;  ///< what a workshop would find
   Law force;            ///< f, per unit of c; shapes in SI
   std::vector<ShapeParameter> shapes = {};
-  Law memory_rate = {};  ///< g [unit of s per second]; empty: no memory
+  Law memory_rate = {};   ///< g [unit of s per second]; empty: no memory
+  bool positive = false;  ///< c > 0 by physics: what dissipates or pushes back cannot do the opposite
 };
 
 /// What the body's IMU measures besides z'', in the strut's frame: z up along the strut, x and y across it.

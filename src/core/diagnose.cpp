@@ -23,6 +23,7 @@ Diagnosis diagnose(const std::vector<Drive>& drives, const DiagnoseOptions& opti
   result.reason = reasonOf(result.shortcoming, prepared.start);
   if (!result) return result;
   result.summary = summaryOf(result);
+  result.remainder = remainderOf(result);
   result.suggested_drive = suggestionOf(result);
   for (const UntestableEffect& effect : untestable)
     result.not_tried.emplace_back(effect.name, reasonOf(effect.missing));

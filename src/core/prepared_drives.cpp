@@ -33,11 +33,6 @@ StrutModel roughStart(const std::vector<Drive>& drives, double period, std::opti
   return roughModel(drives, filter);
 }
 
-bool canFollow(const StrutModel& model, double period) {
-  const double fastest = std::max(model.damping_to_mass, std::sqrt(model.stiffness_to_mass));
-  return period * fastest <= kLongestStrutStep * kMostStepsPerSample;
-}
-
 PreparedDrives lacking(Shortcoming shortcoming, const StrutModel& start) {
   return {shortcoming, reasonOf(shortcoming, start), start, {}};
 }
@@ -53,13 +48,10 @@ PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::option
   if (!is_spring) return lacking(Shortcoming::kNoDampedSpring, start);
   if (!canFollow(start, period)) return lacking(Shortcoming::kTooFast, start);
   PreparedDrives prepared{Shortcoming::kNone, "", start, makeRecords(drives, period, start)};
-  EffectLibrary in_use;
-  for (const ActiveMeasurementEffect& reading : start.reading) in_use.readings.push_back(reading.effect);
-  const std::vector<UntestableEffect> untestable = takeUntestable(in_use, pointersTo(prepared.records));
-  if (untestable.empty()) return prepared;
+  const std::optional<UntestableEffect> untestable = findUntestable(start, pointersTo(prepared.records));
+  if (!untestable) return prepared;
   PreparedDrives refused = lacking(Shortcoming::kModelUntestable, start);
-  refused.reason =
-      "do not tell " + untestable.front().name + ", which the model has: " + reasonOf(untestable.front().missing);
+  refused.reason = "do not tell " + untestable->name + ", which the model has: " + reasonOf(untestable->missing);
   return refused;
 }
 

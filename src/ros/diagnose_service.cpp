@@ -76,7 +76,7 @@ Diagnosis searchEffects(const SearchTask& task) {
 DiagnoseResponse toResponse(const Diagnosis& found) {
   DiagnoseResponse response;
   response.success = true;
-  response.message = found.summary;
+  response.message = found.remainder.empty() ? found.summary : found.summary + ' ' + found.remainder;
   response.verdict = nameOf(found.verdict);
   response.base_held_out_rmse = found.base.held_out_rmse;
   response.base_fit_percent = found.base_fit_percent;

@@ -109,7 +109,9 @@ void MonitorDiagnostics::describeDiagnosis(Status& status) const {
   const std::optional<Diagnosis>& diagnosis = model_.diagnosis();
   if (!diagnosis) return;
   if (const std::vector<std::string> missing = model_.missing(); !missing.empty())
-    status.mergeSummary(DiagnosticStatus::WARN, "the last diagnosis found, not in the model: " + join(missing, ", "));
+    status.mergeSummary(DiagnosticStatus::WARN, std::string("the last diagnosis ") +
+                                                    (diagnosis->verdict == Verdict::kSuspect ? "suspects" : "found") +
+                                                    ", not in the model: " + join(missing, ", "));
   if (diagnosis->verdict == Verdict::kUnexplained)
     status.mergeSummary(DiagnosticStatus::WARN, "the last diagnosis: something is missing that no effect explains");
   status.add("diagnosed", nameOf(diagnosis->verdict));

@@ -37,6 +37,7 @@ void printFit(const FittedModel& fit) {
 
 void printSearch(const Diagnosis& found) {
   std::printf("%s\n", found.summary.c_str());
+  if (!found.remainder.empty()) std::printf("%s\n", found.remainder.c_str());
   for (const std::vector<std::string>& group : found.indistinguishable)
     std::printf("These drives cannot tell apart: %s.\n", join(group, ", ").c_str());
   if (!found.suggested_drive.empty()) std::printf("%s\n", found.suggested_drive.c_str());
@@ -46,6 +47,11 @@ void printSearch(const Diagnosis& found) {
   bool all_fitted = true;
   for (std::size_t i = 0; i < std::min(kShownCandidates, found.ranking.size()); ++i) {
     const RankedModel& ranked = found.ranking[i];
+    if (ranked.failure != FitFailure::kNone) {
+      std::printf("%-30s             -                -   no: %s\n", join(ranked.effects, " + ").c_str(),
+                  reasonOf(ranked.failure));
+      continue;
+    }
     all_fitted = all_fitted && ranked.fitted;
     std::printf("%-30s %c%12.4g %14.1f %%   %s\n", join(ranked.effects, " + ").c_str(), ranked.fitted ? ' ' : '~',
                 ranked.held_out_rmse, ranked.error_removed_percent, ranked.significant ? "yes" : "no");
@@ -76,7 +82,9 @@ json toJson(const Diagnosis& found) {
              {"held_out_rmse", ranked.held_out_rmse},
              {"error_removed_percent", ranked.error_removed_percent},
              {"significant", ranked.significant},
-             {"fitted", ranked.fitted}};
+             {"fitted", ranked.fitted},
+             {"parameters", parametersOf(ranked.model)}};
+    if (ranked.failure != FitFailure::kNone) row["failure"] = reasonOf(ranked.failure);
     addNumbers(ranked.model, row);
     ranking.push_back(row);
   }
@@ -92,7 +100,9 @@ json toJson(const Diagnosis& found) {
              {"ranking", ranking},
              {"selected", found.selected},
              {"indistinguishable", found.indistinguishable}};
+  if (!found.remainder.empty()) whole["remainder"] = found.remainder;
   if (found.extended) {
+    whole["explained_share"] = found.explained_share;
     json extended{{"held_out_rmse", found.extended->held_out_rmse},
                   {"fit_percent", found.extended_fit_percent},
                   {"parameters", parametersOf(found.final_fit->model)},

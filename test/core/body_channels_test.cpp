@@ -102,13 +102,19 @@ TEST(BodyMotion, WhatIsNotMeasuredOrStandsStillIsEmptyAndItsEffectsUntestable) {
   });
   EXPECT_EQ(untestable(no_gyro), std::vector<std::string>{"lever_arm"});
   EXPECT_TRUE(channel(no_gyro, BodyChannel::kAngularAccelerationX).empty());
-  const DriveRecord parked = withBody([&](double t) {
+  const DriveRecord planar = withBody([&](double t) {
     BodyMotion motion = moving(t);
     motion.acceleration[1] = 0.3;
     return motion;
   });
+  EXPECT_TRUE(untestable(planar).empty());  // one axis is enough
+  EXPECT_TRUE(channel(planar, BodyChannel::kAccelerationY).empty());
+  const DriveRecord parked = withBody([&](double t) {
+    BodyMotion motion = moving(t);
+    motion.acceleration = {0.1, 0.3};
+    return motion;
+  });
   EXPECT_EQ(untestable(parked), std::vector<std::string>{"mount_tilt"});
-  EXPECT_TRUE(channel(parked, BodyChannel::kAccelerationY).empty());
 }
 
 TEST(SlopeFilter, IsExactForAQuarticAndHasTheNoiseThatItSays) {

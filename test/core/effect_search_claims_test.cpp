@@ -129,7 +129,15 @@ TEST(EffectSearch, SuggestsTheDriveThatSeparatesAGroup) {
   SimulationOptions options = scenario("paper_clean", 120.0);
   options.damping_end_fraction = 1.0;
   options.hidden = {hiddenEffect(options, "quadratic_damping", {}, 0.15)};
-  const SearchResult result = search(recorded(options), {3.3, 13.0, {}, {}});
+  DiagnoseOptions searching;
+  searching.candidates = {
+      {findEffect(forceEffects(), "quadratic_damping"),
+       {"turbulent_damping", "c v |v|^0.75", "(s/m)^0.75 / m", "a smooth orifice",
+        [](const StrutMotion& m, const double*) { return m.travel_rate * std::pow(std::abs(m.travel_rate), 0.75); }}},
+      {}};
+  const DriveRecord record = recorded(options);
+  SearchResult result = searchEffects({&record}, {3.3, 13.0, {}, {}}, searching);
+  result.suggested_drive = suggestionOf(result);
   ASSERT_EQ(result.indistinguishable.size(), 1u);
   for (const std::string& name : result.indistinguishable[0])
     EXPECT_NE(result.suggested_drive.find(name), std::string::npos) << result.suggested_drive;

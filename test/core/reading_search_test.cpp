@@ -1,6 +1,7 @@
 // Faults of the body's sensor are found as such, by the search with the whole library.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,28 @@ TEST(ReadingSearch, NothingIsProposedWhereTheBodySwaysAndNothingIsHidden) {
   const SearchResult result = search(recordedWithBody(swayingDrive("ugv", 5)));
   EXPECT_EQ(result.verdict, Verdict::kNothingMissing);
   EXPECT_TRUE(result.selected.empty());
+}
+
+TEST(ReadingSearch, OneLiveAxisIsEnoughForATilt) {
+  SimulationOptions options = swayingDrive("ugv", 4);
+  options.hidden_faults = {fault("mount_tilt", {0.06, 0.0})};
+  Drive record_drive;
+  for (const DriveSample& sample : drive(options)) {
+    record_drive.samples.push_back({sample.stamp, sample.sprung->acceleration, sample.unsprung->acceleration});
+    record_drive.body.push_back({sample.sprung->stamp, {sample.body.acceleration[0], 0.0}, {0.0, 0.0}});
+  }
+  const DriveRecord record(record_drive, 0.01, 1);
+  const SearchResult result = search(record);
+  EXPECT_EQ(result.verdict, Verdict::kEffectFound);
+  ASSERT_EQ(result.selected, Names{"mount_tilt"});
+  const StrutModel& found = result.final_fit->model;
+  EXPECT_NEAR(found.reading.at(0).coefficients.at(0), 0.06, 0.003);
+  EXPECT_EQ(found.reading.at(0).coefficients.at(1), 0.0);
+  for (const double deviation : result.final_fit->stddev) EXPECT_TRUE(std::isfinite(deviation));
+  EXPECT_FALSE(findUntestable(found, {&record}));
+  StrutModel both = found;
+  both.reading[0].coefficients[1] = 0.01;  // nothing is known of that axis
+  EXPECT_TRUE(findUntestable(both, {&record}));
 }
 
 TEST(ReadingSearch, WithoutTheChannelsTheFaultHasNoName) {

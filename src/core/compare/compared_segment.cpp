@@ -23,7 +23,7 @@ void addMissingForce(const StrutModel& model, const std::vector<StrutState>& mot
   force.resize(segment.size());
   for (std::size_t k = 0; k < segment.size(); ++k)
     force[k] = model.force(segment.travel[k] - wrong.travel[k], segment.travel_rate[k] - wrong.travel_rate[k],
-                           segment.time(k), motion[k].memory.data());
+                           segment.timeDriven(k), motion[k].memory.data());
   for (const ActiveMeasurementEffect& reading : model.reading)
     reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, force);
   for (std::size_t k = 0; k < segment.size(); ++k) force[k] = segment.measured[k] - force[k];
@@ -33,6 +33,7 @@ ComparedSegment makeSegment(const StrutModel& model, const DriveSegment& source,
                             const std::vector<StrutState>& motion) {
   ComparedSegment segment;
   segment.start = source.start;
+  segment.driven_before = source.driven_before;
   segment.period = source.period;
   segment.measured = source.sprung;
   segment.wheel = source.unsprung;
@@ -41,8 +42,9 @@ ComparedSegment makeSegment(const StrutModel& model, const DriveSegment& source,
     const StrutState& state = motion[k];
     segment.travel.push_back(state.travel);
     segment.travel_rate.push_back(state.travel_rate);
-    segment.added_force.push_back(model.force(state.travel, state.travel_rate, segment.time(k), state.memory.data()) -
-                                  model.damping_to_mass * state.travel_rate - model.stiffness_to_mass * state.travel);
+    segment.added_force.push_back(
+        model.force(state.travel, state.travel_rate, segment.timeDriven(k), state.memory.data()) -
+        model.damping_to_mass * state.travel_rate - model.stiffness_to_mass * state.travel);
   }
   return segment;
 }

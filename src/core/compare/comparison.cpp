@@ -19,7 +19,7 @@ namespace {
 std::optional<std::vector<StrutState>> settleModel(const Records& records, const CompareOptions& options,
                                                    Comparison& comparison) {
   if (!options.fit) return estimateInitialStates(records, comparison.model);
-  std::optional<ModelFit> fit = fitOutputError(records, {}, comparison.model);
+  FitOutcome fit = fitOutputError(records, {}, comparison.model);
   if (!fit || !isDampedSpring(fit->model)) return std::nullopt;
   comparison.model = fit->model;
   comparison.stddev = fit->stddev;
@@ -35,7 +35,7 @@ Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
 std::optional<double> heldOutRmse(const Records& records, const HoldOut& held_out, bool fit,
                                   const Comparison& comparison) {
   if (!fit) return held_out.rmse(held_out.stretchErrors(residualsOf(comparison.segments)));
-  const std::optional<ModelFit> training = fitOutputError(records, held_out.training, comparison.model);
+  const FitOutcome training = fitOutputError(records, held_out.training, comparison.model);
   if (!training) return std::nullopt;
   return held_out.rmse(held_out.stretchErrors(training->residuals));
 }

@@ -143,7 +143,7 @@ std::vector<Sample> samplesOf(const std::vector<ComparedSegment>& segments,
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (std::size_t k = 0; k < segments[i].size(); ++k) {
       const StrutState& state = motion[i][k];
-      Sample sample{{state.travel, state.travel_rate, segments[i].time(k), state.memory[index]}};
+      Sample sample{{state.travel, state.travel_rate, segments[i].timeDriven(k), state.memory[index]}};
       sample.law = forceOf(active, sample.motion);
       sample.seen = segments[i].missing_force[k] + sample.law;
       samples.push_back(sample);

@@ -16,7 +16,7 @@ void addSegment(const StrutModel& start, const DriveSegment& segment, const std:
     sums.travel_rate += square(state.travel_rate);
     for (std::size_t j = 0; j < start.effects.size(); ++j) {
       const auto& [effect, coefficient, shapes] = start.effects[j];
-      const StrutMotion here{state.travel, state.travel_rate, segment.time(k), state.memory[j]};
+      const StrutMotion here{state.travel, state.travel_rate, segment.timeDriven(k), state.memory[j]};
       sums.forces[j] += square(effect.force(here, shapes.data()));
     }
   }

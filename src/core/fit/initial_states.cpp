@@ -23,6 +23,7 @@ DriveSegment beginning(const DriveSegment& segment, const StrutModel& model) {
   const std::size_t steps = (kept - 1) * static_cast<std::size_t>(segment.steps);
   DriveSegment head;
   head.start = segment.start;
+  head.driven_before = segment.driven_before;
   head.period = segment.period;
   head.steps = segment.steps;
   head.sprung.assign(segment.sprung.begin(), segment.sprung.begin() + static_cast<std::ptrdiff_t>(kept));

@@ -23,10 +23,11 @@ double advanceMemory(const ForceEffect& effect, const double* shapes, const Stru
                      double memory) {
   const double h = (to.time - from.time) / kMemorySteps;
   const auto rate = [&](double share, double state) {
-    return effect.memory_rate({from.travel + share * (to.travel - from.travel),
-                               from.travel_rate + share * (to.travel_rate - from.travel_rate),
-                               from.time + share * (to.time - from.time), state},
-                              shapes);
+    return effect.memory_rate(
+        {from.travel + share * (to.travel - from.travel),
+         from.travel_rate + share * (to.travel_rate - from.travel_rate), from.time + share * (to.time - from.time),
+         state, from.body_acceleration + share * (to.body_acceleration - from.body_acceleration)},
+        shapes);
   };
   for (int step = 0; step < kMemorySteps; ++step) {
     const double start = static_cast<double>(step) / kMemorySteps;
@@ -53,7 +54,7 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
     runFree(force, *segment, fit.initial[ends_.size()], predicted, &states);
     predicted_.insert(predicted_.end(), predicted.begin(), predicted.end());
     for (std::size_t k = 0; k < states.size(); ++k) {
-      motion_.push_back({states[k].travel, states[k].travel_rate, segment->time(k), 0.0});
+      motion_.push_back({states[k].travel, states[k].travel_rate, segment->timeDriven(k), 0.0, predicted[k]});
       memory.push_back(states[k].memory);
     }
     ends_.push_back(motion_.size());

@@ -149,7 +149,8 @@ class FreeFormLaws {
     forHatsAt(near_zero, kNodes, take);
     forHatsAt(travel, kNodes, [&](int node, double value) { take(kNodes + node, value); });
     forHatsAt(travel, rate, kForceNodes, [&](int node, double value) { take(2 * kNodes + node, value); });
-    const double time = segments_[segment]->time(sample) / segments_.back()->time(segments_.back()->size()) - 0.5;
+    const double time =
+        segments_[segment]->timeDriven(sample) / segments_.back()->timeDriven(segments_.back()->size()) - 0.5;
     take(kLawTerms - 2, time * rate);
     take(kLawTerms - 1, time * travel);
   }

@@ -27,11 +27,15 @@ std::optional<std::vector<double>> coefficientScales(const StrutModel& start, co
     scales.push_back(kSmallForce * sizes.acceleration / force);
   }
   const ReadingSizes reading_sizes{sizes.residual, sizes.acceleration, period, sizes.body};
-  for (const ActiveMeasurementEffect& reading : start.reading)
+  for (const ActiveMeasurementEffect& reading : start.reading) {
+    bool shows = false;
     for (std::size_t i = 0; i < reading.coefficients.size(); ++i) {
-      scales.push_back(reading.effect.scale(reading_sizes, i));
-      if (!std::isfinite(scales.back())) return std::nullopt;
+      const double scale = reading.effect.scale(reading_sizes, i);
+      shows = shows || std::isfinite(scale);
+      scales.push_back(std::isfinite(scale) ? scale : 1.0);  // nothing moves the coefficient of a channel that is empty
     }
+    if (!shows) return std::nullopt;
+  }
   return scales;
 }
 
@@ -120,22 +124,23 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
              std::vector<StrutState>* motion) {
   double largest = 0.0;
   for (const double y : segment.sprung) largest = std::max(largest, std::abs(y));
-  const RecordedWheel wheel{segment.wheel, segment.start, segment.period, segment.steps, segment.size()};
+  const RecordedWheel wheel{segment.wheel, segment.timeDriven(0), segment.period, segment.steps, segment.size()};
   if (!FreeRun::follow(model, wheel, state, kRunaway * largest, predicted, motion)) return false;
   for (const ActiveMeasurementEffect& reading : model.reading)
     reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, predicted);
   return true;
 }
 
-std::optional<ModelFit> fitOutputError(const Records& records, const std::vector<SampleMask>& masks,
-                                       const StrutModel& guess, const FitOptions& options) {
+FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>& masks, const StrutModel& guess,
+                          const FitOptions& options) {
   const Segments segments = segmentsOf(records);
   StrutModel start = guess;
-  if (!(start.stiffness_to_mass > 0.0) || !tame(segments, options.initial, start)) return std::nullopt;
+  if (!(start.stiffness_to_mass > 0.0)) return FitFailure::kNoSpring;
+  if (!tame(segments, options.initial, start)) return FitFailure::kRunsAway;
   const std::optional<DriveSizes> sizes = measureSizes(segments, masks, start);
-  if (!sizes) return std::nullopt;
+  if (!sizes) return FitFailure::kRunsAway;
   const auto coefficient_scales = coefficientScales(start, *sizes, records.front()->period());
-  if (!coefficient_scales) return std::nullopt;
+  if (!coefficient_scales) return FitFailure::kNeverActs;
   const MotionScale motion{sizes->travel, sizes->travel_rate, 1.0 / std::sqrt(start.stiffness_to_mass)};
   const Parameterization parameters(start, *coefficient_scales, motion);
   const CostScales scales{sizes->travel, sizes->travel_rate,
@@ -145,16 +150,18 @@ std::optional<ModelFit> fitOutputError(const Records& records, const std::vector
   for (std::size_t s = 0; s < options.initial.size(); ++s)
     initial[s] = {options.initial[s].travel / scales.travel, options.initial[s].travel_rate / scales.travel_rate};
   auto stddev = solve(segments, masks, start, parameters, scales, options.max_iterations, x, initial);
-  if (!stddev) return std::nullopt;
+  if (!stddev) return FitFailure::kNotSolved;
 
   ModelFit fit;
   fit.model = start;
   fit.stddev = std::move(*stddev);
+  fit.motion = motion;
   parameters.apply(x.data(), fit.model);
-  if (!(fit.model.stiffness_to_mass > 0.0)) return std::nullopt;
+  if (!(fit.model.stiffness_to_mass > 0.0)) return FitFailure::kNoSpring;
+  if (!canFollow(fit.model, records.front()->period())) return FitFailure::kTooFast;
   for (std::size_t s = 0; s < segments.size(); ++s)
     if (!addResiduals(*segments[s], {initial[s][0] * scales.travel, initial[s][1] * scales.travel_rate, {}}, fit))
-      return std::nullopt;
+      return FitFailure::kRunsAway;
   return fit;
 }
 

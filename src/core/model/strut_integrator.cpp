@@ -28,9 +28,13 @@ struct Stage {
     if constexpr (kWithEffects) {
       for (std::size_t j = 0; j < num_effects; ++j) {
         const ActiveEffect& active = model.effects[j];
-        const StrutMotion motion{travel, travel_rate, time, body.memory[j]};
-        slope.velocity += active.coefficient * active.effect.force(motion, active.shapes.data());
-        slope.memory[j] = active.effect.memory_rate ? active.effect.memory_rate(motion, active.shapes.data()) : 0.0;
+        slope.velocity +=
+            active.coefficient * active.effect.force({travel, travel_rate, time, body.memory[j]}, active.shapes.data());
+      }
+      for (std::size_t j = 0; j < num_effects; ++j) {
+        const auto& [effect, coefficient, shapes] = model.effects[j];
+        const StrutMotion motion{travel, travel_rate, time, body.memory[j], slope.velocity};
+        slope.memory[j] = effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : 0.0;
       }
     }
     return slope;

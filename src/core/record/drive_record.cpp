@@ -57,7 +57,8 @@ std::vector<DriveRecord::Stretch> DriveRecord::stretchesOf(const Drive& drive, d
   return stretches;
 }
 
-DriveRecord::DriveRecord(const Drive& drive, double period, int steps) : period_(period), steps_(steps) {
+DriveRecord::DriveRecord(const Drive& drive, double period, int steps, double driven_before)
+    : period_(period), steps_(steps) {
   const std::vector<Stretch> stretches = stretchesOf(drive, period);
   double sum = 0.0, count = 0.0;
   for (const Stretch& stretch : stretches) {
@@ -66,6 +67,7 @@ DriveRecord::DriveRecord(const Drive& drive, double period, int steps) : period_
   }
   mean_wheel_ = count > 0.0 ? sum / count : 0.0;
   for (const Stretch& stretch : stretches) addSegment(stretch);
+  for (DriveSegment& segment : segments_) segment.driven_before = driven_before;
   addBodyChannels(drive.body, segments_);
 }
 
@@ -111,7 +113,11 @@ std::deque<DriveRecord> makeRecords(const std::vector<Drive>& drives, double per
   const double fastest = std::max(model.damping_to_mass, std::sqrt(model.stiffness_to_mass));
   const int steps = std::max(1, static_cast<int>(std::ceil(period * fastest / kLongestStrutStep)));
   std::deque<DriveRecord> records;
-  for (const Drive& drive : drives) records.emplace_back(drive, period, steps);
+  double driven = 0.0;
+  for (const Drive& drive : drives) {
+    records.emplace_back(drive, period, steps, driven);
+    if (!drive.samples.empty()) driven += toSeconds(drive.samples.back().stamp - drive.samples.front().stamp);
+  }
   return records;
 }
 

@@ -18,6 +18,17 @@ double MotionScale::unit(ShapeScale scale) const {
   return 1.0;
 }
 
+bool hasShapeAtEnd(const ActiveEffect& active, const MotionScale& scale) {
+  constexpr double end = 0.01;
+  for (std::size_t i = 0; i < active.shapes.size(); ++i) {
+    const ShapeParameter& shape = active.effect.shapes[i];
+    const double lowest = scale.unit(shape.scale) * shape.min;
+    const double place = std::log(active.shapes[i] / lowest) / std::log(shape.max / shape.min);
+    if ((!(place < 1.0 - end) && !shape.open_above) || (place < end && !shape.open_below)) return true;
+  }
+  return false;
+}
+
 std::optional<MotionScale> motionScale(const std::vector<CornerSample>& samples, double period, double damping_to_mass,
                                        double stiffness_to_mass) {
   FreeRun free_run(period);

@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/record/untestable_effects.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace suspension_health_monitor {
 namespace {
@@ -18,15 +19,28 @@ std::vector<UntestableEffect> takeUntestable(EffectLibrary& library, const Recor
   std::vector<UntestableEffect> untestable;
   std::vector<MeasurementEffect> testable;
   for (const MeasurementEffect& effect : library.readings) {
-    const auto unknown = std::find_if(effect.channels.begin(), effect.channels.end(),
-                                      [&](BodyChannel channel) { return !isKnown(records, channel); });
-    if (unknown == effect.channels.end())
+    const bool any = std::any_of(effect.channels.begin(), effect.channels.end(),
+                                 [&](BodyChannel channel) { return isKnown(records, channel); });
+    if (any || effect.channels.empty())
       testable.push_back(effect);
     else
-      untestable.push_back({effect.name, *unknown});
+      untestable.push_back({effect.name, effect.channels.front()});
   }
   library.readings = testable;
   return untestable;
+}
+
+std::optional<UntestableEffect> findUntestable(const StrutModel& model, const Records& records) {
+  ReadingSizes sizes{1.0, 1.0, 1.0, {}};
+  for (std::size_t c = 0; c < kNumBodyChannels; ++c) sizes.body[c] = isKnown(records, static_cast<BodyChannel>(c));
+  for (const auto& [effect, coefficients] : model.reading) {
+    const auto missing = std::find_if(effect.channels.begin(), effect.channels.end(),
+                                      [&](BodyChannel channel) { return !isKnown(records, channel); });
+    for (std::size_t i = 0; i < coefficients.size(); ++i)
+      if (coefficients[i] != 0.0 && !std::isfinite(effect.scale(sizes, i)))
+        return UntestableEffect{effect.name, *missing};
+  }
+  return std::nullopt;
 }
 
 }  // namespace suspension_health_monitor

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kExplained = 0.5;                 // of the structure, or there is no name
 constexpr double kTakenByAnother = 0.3;            // of what is left
-constexpr double kSure = 0.01;                     // probability at which one of two rivals is better by chance
 constexpr double kStarted = 0.1, kForward = 0.85;  // of the progress
 
 using Names = std::vector<std::string>;
@@ -54,14 +53,17 @@ struct Selection {
   std::vector<StrutModel> models;  // of the group
 };
 
+// A number more must pay as surely as another effect: a simpler rival is as good until it is clear that it is not.
 // @pre the first of the ranking is fitted.
 Selection select(const std::vector<EvaluatedModel>& ranking) {
   const EvaluatedModel& best = ranking.front();
   Selection selection{best, {}, {}};
   for (const EvaluatedModel& rival : ranking) {
     if (!rival.ranked.fitted) continue;
+    const bool simpler = complexity(rival.ranked.model) < complexity(best.ranked.model);
+    const double chance = simpler ? kFalseAlarm / static_cast<double>(ranking.size()) : kSure;
     const PairedTest gain = rival.gainOf(best);
-    if (gain.removed_share > kWorthHaving || isSignificant(gain, kSure)) continue;
+    if (gain.removed_share > kWorthHaving || isSignificant(gain, chance)) continue;
     selection.group.push_back(rival.added);
     selection.models.push_back(rival.ranked.model);
     if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
@@ -86,15 +88,19 @@ class Search {
   EvaluatedModel refine(EvaluatedModel current);
   EvaluatedModel withoutSuperfluous(EvaluatedModel current) const;
   EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick);
+  double explainedShare(const EvaluatedModel& after, double floor) const;
+  bool standsAlone(const EvaluatedModel& candidate) const;
   bool isExplained(const EvaluatedModel& after) const;
   void conclude(const EvaluatedModel& last);
+  void name(Verdict verdict, const EvaluatedModel& model);
   FittedModel finalFit(const EvaluatedModel& last) const;
 
   const Records& records_;
   const DiagnoseOptions& options_;
   ModelEvaluator evaluator_;
   EvaluatedModel base_;
-  double sampling_floor_ = 0.0;  // [m/s^2]
+  std::optional<Selection> suspect_;  // the best addition to the base
+  double sampling_floor_ = 0.0;       // [m/s^2]
   SearchResult result_;
 };
 
@@ -110,8 +116,8 @@ EvaluatedModel Search::withoutSuperfluous(EvaluatedModel current) const {
   const std::string newest = current.added;
   for (const std::string& name : namesBeyond(base_, current)) {
     if (name == newest) continue;
-    const std::optional<EvaluatedModel> without = evaluator_.without(current, name);
-    if (without && !evaluator_.isWorthHaving(*without, current)) current = *without;
+    const EvaluatedModel without = evaluator_.without(current, name);
+    if (without.ranked.fitted && !evaluator_.isWorthHaving(without, current)) current = without;
   }
   return current;
 }
@@ -119,9 +125,9 @@ EvaluatedModel Search::withoutSuperfluous(EvaluatedModel current) const {
 // Each effect was chosen before the later ones were known: is it still the one, and with which others is it confused?
 EvaluatedModel Search::reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick) {
   for (const std::string& name : added) {
-    const std::optional<EvaluatedModel> without = evaluator_.without(current, name);
-    if (!without) continue;
-    const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(*without, tick);
+    const EvaluatedModel without = evaluator_.without(current, name);
+    if (!without.ranked.fitted) continue;
+    const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(without, tick);
     if (ranking.empty() || !ranking.front().ranked.fitted) continue;
     const Selection selection = select(ranking);
     noteGroup(selection);
@@ -132,20 +138,34 @@ EvaluatedModel Search::reconsidered(EvaluatedModel current, const Names& added, 
   return current;
 }
 
+// A sensor's fault is one on any drive: what helps only beside other effects imitates a part of theirs.
+bool Search::standsAlone(const EvaluatedModel& candidate) const {
+  const std::vector<ActiveMeasurementEffect>& readings = candidate.ranked.model.reading;
+  if (!candidate.ranked.significant || readings.empty() || readings.back().effect.name != candidate.added) return true;
+  StrutModel alone = base_.ranked.model;
+  alone.reading.push_back(readings.back());
+  const EvaluatedModel evaluated = evaluator_.evaluate(alone, base_.fit.initial, &base_);
+  return evaluated.ranked.significant;
+}
+
 // Forward selection: the best addition as long as it pays.
 EvaluatedModel Search::extend() {
   EvaluatedModel current = base_;
   for (int round = 0; round < options_.most_effects; ++round) {
     const double done = kStarted + kForward * round / options_.most_effects;
     const auto tick = [&](double share) { report(done + kForward * share / options_.most_effects); };
-    const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
+    std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
+    if (round > 0)
+      ranking.erase(std::remove_if(ranking.begin(), ranking.end(),
+                                   [this](const EvaluatedModel& each) { return !standsAlone(each); }),
+                    ranking.end());
     if (round == 0) result_.ranking = asReported(ranking);
-    if (ranking.empty()) break;
+    if (ranking.empty() || !ranking.front().ranked.fitted) break;
     // Whatever a free run leaves of data that it was not fitted to is above the floor.
     result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
     if (!ranking.front().ranked.significant) break;
     const Selection selection = select(ranking);
-    if (round == 0) noteGroup(selection);
+    if (round == 0) suspect_ = selection;
     current = withoutSuperfluous(selection.chosen);
   }
   return current;
@@ -153,7 +173,10 @@ EvaluatedModel Search::extend() {
 
 // Of several effects every one again. That may make one superfluous, which changes what the others are confused with.
 EvaluatedModel Search::refine(EvaluatedModel current) {
-  for (bool changed = namesBeyond(base_, current).size() > 1; changed;) {
+  const Names found = namesBeyond(base_, current);
+  const bool only_suspect = found.size() == 1 && found.front() == suspect_->chosen.added;
+  if (only_suspect) noteGroup(*suspect_);
+  for (bool changed = !found.empty() && !only_suspect; changed;) {
     result_.indistinguishable.clear();
     result_.separating.clear();
     const auto tick = [this](double) { report(kStarted + kForward); };
@@ -166,13 +189,21 @@ EvaluatedModel Search::refine(EvaluatedModel current) {
   return current;
 }
 
-// A name is given if the model with it leaves noise only; or if it takes most of the structure and no other law of
-// travel and travel rate would take the rest: that comes from elsewhere, or was lost in sampling.
+// The share of the structure that a model with more effects takes.
+double Search::explainedShare(const EvaluatedModel& after, double floor) const {
+  const double structure = square(base_.ranked.held_out_rmse) - square(floor);
+  return structure > 0.0 ? (square(base_.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
+}
+
+// Names are given if the model with them leaves noise only, or next to nothing of what there was to explain; or if it
+// takes most of that and no other law of travel and travel rate would take the rest: that comes from elsewhere, or was
+// lost in sampling.
 bool Search::isExplained(const EvaluatedModel& after) const {
   const double lowest = std::min(sampling_floor_, after.ranked.held_out_rmse);
-  const double floor = square(lowest), left = square(after.ranked.held_out_rmse) - floor;
-  if (left > (1.0 - kExplained) * (square(base_.ranked.held_out_rmse) - floor)) return false;
-  return !isStructured(after.ranked.held_out_rmse, lowest) ||
+  const double share = explainedShare(after, lowest);
+  if (share < kExplained) return false;
+  const double left = square(after.ranked.held_out_rmse) - square(lowest);
+  return share > 1.0 - kWorthHaving || !isStructured(after.ranked.held_out_rmse, lowest) ||
          evaluator_.surfaceGain(after) * square(after.ranked.held_out_rmse) < kTakenByAnother * left;
 }
 
@@ -180,7 +211,7 @@ bool Search::isExplained(const EvaluatedModel& after) const {
 FittedModel Search::finalFit(const EvaluatedModel& last) const {
   FitOptions options;
   options.initial = last.fit.initial;
-  const std::optional<ModelFit> fit = fitOutputError(records_, {}, last.ranked.model, options);
+  const FitOutcome fit = fitOutputError(records_, {}, last.ranked.model, options);
   return fit ? FittedModel{fit->model, fit->stddev, true} : FittedModel{last.fit.model, last.fit.stddev, false};
 }
 
@@ -188,35 +219,47 @@ void Search::conclude(const EvaluatedModel& last) {
   result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
   if (result_.structured_share > 0.0)
     result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
-  const Names added = namesBeyond(base_, last);
-  if (!added.empty() && isExplained(last)) {
-    result_.verdict = Verdict::kEffectFound;
-    result_.selected = added;
-    result_.extended = last.ranked;
-    result_.extended_fit_percent = evaluator_.heldOut().fitPercent(last.ranked.held_out_rmse);
-    result_.final_fit = finalFit(last);
-    return;
-  }
+  if (!namesBeyond(base_, last).empty() && isExplained(last)) return name(Verdict::kEffectFound, last);
   result_.indistinguishable.clear();
   result_.separating.clear();
-  const bool structured = !added.empty() || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
+  if (suspect_ && explainedShare(suspect_->chosen, result_.noise_floor) > kExplained) {
+    noteGroup(*suspect_);
+    result_.remainder_surface_share = evaluator_.surfaceGain(suspect_->chosen);
+    return name(Verdict::kSuspect, suspect_->chosen);
+  }
+  const bool structured = suspect_ || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
   result_.verdict = structured ? Verdict::kUnexplained : Verdict::kNothingMissing;
   result_.power_at_sampling_limit = powerAtSamplingLimit(records_);
 }
 
+void Search::name(Verdict verdict, const EvaluatedModel& model) {
+  result_.verdict = verdict;
+  result_.selected = namesBeyond(base_, model);
+  result_.explained_share = std::min(1.0, explainedShare(model, result_.noise_floor));
+  result_.extended = model.ranked;
+  result_.extended_fit_percent = evaluator_.heldOut().fitPercent(model.ranked.held_out_rmse);
+  result_.final_fit = finalFit(model);
+}
+
 SearchResult Search::run(const ModelFit& rough) {
-  const std::optional<EvaluatedModel> base = evaluator_.evaluate(rough.model, rough.initial, nullptr);
-  if (!base) {
+  base_ = evaluator_.evaluate(rough.model, rough.initial, nullptr);
+  if (!base_.ranked.fitted) {
     result_.shortcoming = Shortcoming::kNoStableFit;
     return result_;
   }
   report(kStarted);
-  base_ = *base;
-  result_.base = base->ranked;
-  result_.base_fit_percent = evaluator_.heldOut().fitPercent(base->ranked.held_out_rmse);
-  result_.noise_floor = estimateNoiseFloor(records_, base->ranked.model);
-  sampling_floor_ = estimateSamplingFloor(records_, base->ranked.model);
-  const EvaluatedModel last = refine(extend());
+  result_.base = base_.ranked;
+  result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
+  result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
+  sampling_floor_ = estimateSamplingFloor(records_, base_.ranked.model);
+  EvaluatedModel last = refine(extend());
+  // What several names explain no better than one does, one explains.
+  if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {
+    result_.indistinguishable.clear();
+    result_.separating.clear();
+    last = suspect_->chosen;
+    noteGroup(*suspect_);
+  }
   result_.noise_floor = std::min(result_.noise_floor, last.ranked.held_out_rmse);
   conclude(last);
   report(1.0);
@@ -233,7 +276,7 @@ SearchResult without(Shortcoming shortcoming) {
 
 SearchResult searchEffects(const Records& records, const StrutModel& start, const DiagnoseOptions& options) {
   if (segmentsOf(records).empty()) return without(Shortcoming::kTooShort);
-  const std::optional<ModelFit> rough = fitOutputError(records, {}, start);
+  const FitOutcome rough = fitOutputError(records, {}, start);
   if (!rough) return without(Shortcoming::kNoStableFit);
   const std::optional<HoldOut> held_out = splitHoldOut(records, rough->model.stiffness_to_mass);
   if (!held_out) return without(Shortcoming::kTooShort);

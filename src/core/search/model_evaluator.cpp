@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "frequency_rival.h"
 #include "parallel.h"
+#include "row_start.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -53,46 +55,91 @@ void ModelEvaluator::rank(const EvaluatedModel& before, EvaluatedModel& evaluate
 }
 
 bool ModelEvaluator::isWorthHaving(const EvaluatedModel& before, const EvaluatedModel& after) const {
-  const PairedTest gain = before.gainOf(after);
   const auto tests = static_cast<double>(options_.candidates.forces.size() + options_.candidates.readings.size());
-  return gain.removed_share > kWorthHaving && isSignificant(gain, kFalseAlarm / tests);
+  return before.loss - after.loss > kWorthHaving * after.to_explain &&
+         isSignificant(before.gainOf(after), kFalseAlarm / tests);
 }
 
-std::optional<EvaluatedModel> ModelEvaluator::evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
-                                                       const EvaluatedModel* before) const {
+// What the user's own model has is not questioned.
+FitFailure ModelEvaluator::againstPhysics(const ModelFit& fit) const {
+  const std::size_t given = options_.model ? options_.model->effects.size() : 0;
+  for (std::size_t j = given; j < fit.model.effects.size(); ++j) {
+    const ActiveEffect& active = fit.model.effects[j];
+    if (active.effect.positive && !(active.coefficient > 0.0)) return FitFailure::kWrongSign;
+    if (hasShapeAtEnd(active, fit.motion)) return FitFailure::kShapeAtEnd;
+  }
+  return FitFailure::kNone;
+}
+
+EvaluatedModel ModelEvaluator::failed(const EvaluatedModel& before, FitFailure failure) const {
+  EvaluatedModel nothing = before;
+  nothing.ranked.fitted = nothing.ranked.significant = false;
+  nothing.ranked.failure = failure;
+  nothing.ranked.error_removed_percent = nothing.ranked.significance = nothing.training_gain = 0.0;
+  nothing.tried = true;
+  return nothing;
+}
+
+EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
+                                        const EvaluatedModel* before) const {
   FitOptions options;
   options.initial = initial;
-  const std::optional<ModelFit> fit = fitOutputError(records_, held_out_.training, start, options);
-  if (!fit) return std::nullopt;
+  const FitOutcome fit = fitOutputError(records_, held_out_.training, start, options);
+  const FitFailure failure = fit ? againstPhysics(*fit) : fit.failure;
+  if (failure != FitFailure::kNone) return failed(before != nullptr ? *before : EvaluatedModel(), failure);
   EvaluatedModel evaluated = weighed(fit->model, fit->residuals);
   evaluated.fit = *fit;
   evaluated.ranked.fitted = true;
+  evaluated.to_explain = before != nullptr ? before->to_explain : evaluated.loss;
   if (before != nullptr) rank(*before, evaluated);
   return evaluated;
 }
 
 std::vector<EvaluatedModel> ModelEvaluator::screenAll(const EvaluatedModel& current, const Tick& tick) const {
   const Screening screening(records_, held_out_, current.fit);
+  const RowStart row_start(records_, held_out_, current.fit);
+  const double to_gain = held_out_.trainingError(current.fit.residuals);
   const std::vector<ForceEffect>& forces = options_.candidates.forces;
   const std::vector<MeasurementEffect>& readings = options_.candidates.readings;
   const std::size_t count = forces.size() + readings.size();
   std::vector<std::optional<EvaluatedModel>> results(count);
-  const auto screen = [&](std::size_t i, const auto& effect) {
-    const std::vector<std::string>& present = current.ranked.effects;
-    if (std::find(present.begin(), present.end(), effect.name) != present.end()) return;
-    const std::optional<ScreenedModel> screened = screening.screen(effect);
+  const std::vector<std::string>& present = current.ranked.effects;
+  const auto note = [&](std::size_t i, const std::string& name, const ScreenedModel& screened) {
+    EvaluatedModel& result = results[i].emplace();
+    if (screened.failure == FitFailure::kNone) {
+      result = weighed(screened.model, screened.residuals);
+      result.training_gain = screened.training_gain;
+      result.to_explain = current.to_explain;
+      rank(current, result);
+    } else {
+      result = failed(current, screened.failure);
+      result.ranked.effects.push_back(name);
+    }
+    result.added = name;
+  };
+  const auto screenForce = [&](std::size_t i, const ForceEffect& effect) {
+    std::optional<ScreenedModel> screened = screening.screen(effect);
     if (!screened) return;
-    results[i] = weighed(screened->model, screened->residuals);
-    results[i]->training_gain = screened->training_gain;
-    results[i]->added = effect.name;
-    rank(current, *results[i]);
+    // A law without a number inside is linear in all that is fitted: one start is as good as another.
+    const auto start = effect.shapes.empty() ? std::nullopt : row_start.with(effect);
+    std::optional<ScreenedModel> second = start ? screening.asItIs(start->model) : std::nullopt;
+    const bool failed = screened->failure != FitFailure::kNone;
+    if (second && (failed || second->training_gain > screened->training_gain)) std::swap(*screened, *second);
+    note(i, effect.name, *screened);
+    if (!second) return;
+    if (!failed) results[i]->second_start = second->model;
+    results[i]->training_gain = std::max(results[i]->training_gain, start->share * to_gain);
   };
   const bool full = current.fit.model.effects.size() >= most_forces_;
   const auto screenAt = [&](std::size_t i) {
-    if (i >= forces.size())
-      screen(i, readings[i - forces.size()]);
-    else if (!full)
-      screen(i, forces[i]);
+    const auto isPresent = [&](const std::string& name) {
+      return std::find(present.begin(), present.end(), name) != present.end();
+    };
+    if (i < forces.size()) {
+      if (!full && !isPresent(forces[i].name)) screenForce(i, forces[i]);
+    } else if (const MeasurementEffect& reading = readings[i - forces.size()]; !isPresent(reading.name)) {
+      if (const auto screened = screening.screen(reading)) note(i, reading.name, *screened);
+    }
   };
   double done = 0.0;
   forEachInParallel(count, options_.threads, screenAt, [&] { tick(++done / static_cast<double>(count)); });
@@ -108,15 +155,32 @@ void ModelEvaluator::fitAll(const std::vector<std::size_t>& wanted, const Evalua
                             std::vector<EvaluatedModel>& ranking, const Tick& tick) const {
   const auto fit = [&](std::size_t i) {
     EvaluatedModel& candidate = ranking[wanted[i]];
-    std::optional<EvaluatedModel> fitted = evaluate(candidate.ranked.model, current.fit.initial, &current);
-    if (fitted) {
-      fitted->added = candidate.added;
-      candidate = std::move(*fitted);
-    }
-    candidate.tried = true;
+    EvaluatedModel fitted = evaluate(candidate.ranked.model, current.fit.initial, &current);
+    if (!fitted.ranked.fitted && candidate.second_start)
+      fitted = evaluate(*candidate.second_start, current.fit.initial, &current);
+    fitted.added = candidate.added;
+    if (isToldByFrequency(fitted, current)) fitted = failed(current, FitFailure::kToldByFrequency);
+    fitted.added = candidate.added;
+    fitted.ranked.effects = candidate.ranked.effects;
+    fitted.tried = true;
+    candidate = std::move(fitted);
   };
   double done = 0.0;
   forEachInParallel(wanted.size(), options_.threads, fit, [&] { tick(++done / static_cast<double>(wanted.size())); });
+}
+
+bool ModelEvaluator::isToldByFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const {
+  const std::vector<ActiveEffect>& effects = candidate.ranked.model.effects;
+  if (!candidate.ranked.significant || effects.empty() || effects.back().effect.name != candidate.added ||
+      !dependsOnTime(effects.back()))
+    return false;
+  const ForceEffect rival = frequencyRival(effects.back().effect, records_, current.ranked.model.stiffness_to_mass);
+  const std::optional<ScreenedModel> start = Screening(records_, held_out_, current.fit).screen(rival);
+  if (!start) return false;
+  const EvaluatedModel as_frequency = evaluate(start->model, current.fit.initial, &current);
+  if (!as_frequency.ranked.fitted) return false;
+  const PairedTest gain = as_frequency.gainOf(candidate);
+  return !(gain.removed_share > kWorthHaving && isSignificant(gain, kSure));
 }
 
 std::vector<EvaluatedModel> ModelEvaluator::rankAdditions(const EvaluatedModel& current, const Tick& tick) const {
@@ -124,7 +188,8 @@ std::vector<EvaluatedModel> ModelEvaluator::rankAdditions(const EvaluatedModel& 
   const double least_gain = kWorthHaving / 2.0 * held_out_.trainingError(current.fit.residuals);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < ranking.size(); ++i)
-    if (i < kFitted || ranking[i].training_gain > kPromising * ranking.front().training_gain) wanted.push_back(i);
+    if (!ranking[i].tried && (i < kFitted || ranking[i].training_gain > kPromising * ranking.front().training_gain))
+      wanted.push_back(i);
   while (!wanted.empty()) {
     fitAll(wanted, current, ranking, [&](double share) { tick(kScreeningTime + (1.0 - kScreeningTime) * share); });
     // None that was only screened may look better than the best that was fitted.
@@ -135,21 +200,20 @@ std::vector<EvaluatedModel> ModelEvaluator::rankAdditions(const EvaluatedModel& 
     for (std::size_t i = 0; i < ranking.size(); ++i)
       if (!ranking[i].tried && ranking[i].training_gain > least_gain && ranking[i].loss < limit) wanted.push_back(i);
   }
-  const auto failed = [](const EvaluatedModel& candidate) { return candidate.tried && !candidate.ranked.fitted; };
-  ranking.erase(std::remove_if(ranking.begin(), ranking.end(), failed), ranking.end());
   std::stable_sort(ranking.begin(), ranking.end(), [](const EvaluatedModel& a, const EvaluatedModel& b) {
     return a.ranked.fitted != b.ranked.fitted ? a.ranked.fitted : a.loss < b.loss;
   });
   return ranking;
 }
 
-std::optional<EvaluatedModel> ModelEvaluator::without(const EvaluatedModel& evaluated,
-                                                      const std::string& effect) const {
+EvaluatedModel ModelEvaluator::without(const EvaluatedModel& evaluated, const std::string& effect) const {
   StrutModel model = evaluated.ranked.model;
   const auto isIt = [&](const auto& active) { return active.effect.name == effect; };
   model.effects.erase(std::remove_if(model.effects.begin(), model.effects.end(), isIt), model.effects.end());
   model.reading.erase(std::remove_if(model.reading.begin(), model.reading.end(), isIt), model.reading.end());
-  return evaluate(model, evaluated.fit.initial, nullptr);
+  EvaluatedModel rest = evaluate(model, evaluated.fit.initial, nullptr);
+  rest.to_explain = evaluated.to_explain;
+  return rest;
 }
 
 }  // namespace suspension_health_monitor

@@ -11,25 +11,31 @@
 
 namespace suspension_health_monitor {
 
-/// A smaller share of the mean square is not worth another effect, and no difference between two models.
+/// A smaller share of what there was to explain is not worth another effect, nor, of what is left, a difference between
+/// two models.
 inline constexpr double kWorthHaving = 0.02;
 
 /// A model and how it did, or is expected to do, on what was held out.
 struct EvaluatedModel {
   RankedModel ranked;
-  std::string added;              ///< what it has and the model before had not
-  double training_gain = 0.0;     ///< as ScreenedModel has it
-  bool tried = false;             ///< a fit was tried; it may have failed
-  ModelFit fit;                   ///< empty unless ranked.fitted
-  std::vector<double> stretches;  ///< held-out loss by stretch
-  double loss = 0.0;              ///< their sum
-  double independent = 0.0;       ///< HoldOut::independentSquares()
+  std::string added;                       ///< what it has and the model before had not
+  double training_gain = 0.0;              ///< as ScreenedModel has it
+  std::optional<StrutModel> second_start;  ///< for a fit, if the first fails
+  bool tried = false;                      ///< a fit was tried; it may have failed
+  ModelFit fit;                            ///< empty unless ranked.fitted
+  std::vector<double> stretches;           ///< held-out loss by stretch
+  double loss = 0.0;                       ///< their sum
+  double independent = 0.0;                ///< HoldOut::independentSquares()
+  double to_explain = 0.0;                 ///< the loss of the model that the search began with
 
   PairedTest gainOf(const EvaluatedModel& after) const { return testPaired(stretches, after.stretches, independent); }
 };
 
 /// Free parameters of a model beyond b1 and b0: the simpler of two equal ones is preferred.
 std::size_t complexity(const StrutModel& model);
+
+/// Probability at which one of two rivals is better by chance.
+inline constexpr double kSure = 0.01;
 
 /// Fits models on the training samples of the drives and evaluates them on the rest.
 class ModelEvaluator {
@@ -42,17 +48,19 @@ class ModelEvaluator {
                  const DiagnoseOptions& options);
 
   /// @param initial  first guess of the initial states.  @param before  the model to compare with, if any.
-  std::optional<EvaluatedModel> evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
-                                         const EvaluatedModel* before) const;
+  /// @return check ranked.fitted: a fit that failed, or came to what physics does not allow, is a result with a reason.
+  EvaluatedModel evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
+                          const EvaluatedModel* before) const;
 
   /// Every candidate that is not in the model added to it: all screened, those fitted that may be the best.
   /// @return best first, those that were fitted before those that were only screened.
   std::vector<EvaluatedModel> rankAdditions(const EvaluatedModel& current, const Tick& tick) const;
 
   /// The model with one of its effects taken out.
-  std::optional<EvaluatedModel> without(const EvaluatedModel& evaluated, const std::string& effect) const;
+  EvaluatedModel without(const EvaluatedModel& evaluated, const std::string& effect) const;
 
-  /// @return true if `after` is better by enough, and not by chance, correcting for the number of candidates.
+  /// @return true if `after` is better by enough of what there was to explain, and not by chance, correcting for the
+  /// number of candidates.
   bool isWorthHaving(const EvaluatedModel& before, const EvaluatedModel& after) const;
 
   LinearResponse motionOf(const EvaluatedModel& evaluated) const { return {records_, evaluated.fit}; }
@@ -67,6 +75,9 @@ class ModelEvaluator {
               std::vector<EvaluatedModel>& ranking, const Tick& tick) const;
   EvaluatedModel weighed(const StrutModel& model, const Residuals& residuals) const;
   void rank(const EvaluatedModel& before, EvaluatedModel& evaluated) const;
+  EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) const;
+  FitFailure againstPhysics(const ModelFit& fit) const;
+  bool isToldByFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
 
   const Records& records_;
   const HoldOut& held_out_;

@@ -46,7 +46,8 @@ Eigen::VectorXd trainingWeights(const HoldOut& held_out, const Eigen::VectorXd& 
 
 }  // namespace
 
-Screening::Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit) : response_(records, fit) {
+Screening::Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit)
+    : records_(records), response_(records, fit) {
   const Eigen::Index n = response_.numSamples();
   residual_ = joined(fit.residuals, n);
   weight_ = trainingWeights(held_out, residual_);
@@ -107,29 +108,54 @@ std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const 
   std::optional<Projection> best;
   std::vector<double> best_shapes;
   Eigen::VectorXd best_column;
+  bool acts = false;
   const double natural_time = 1.0 / std::sqrt(response_.fit().model.stiffness_to_mass);
   for (const std::vector<double>& shapes :
        scanShapes(effect, {response_.travel(), response_.travelRate(), natural_time})) {
     Eigen::VectorXd column = response_.respond(response_.forceAlong(effect, shapes));
     const std::optional<Projection> projection = project(column);
-    if (!projection || (best && projection->gain <= best->gain)) continue;
+    acts = acts || projection;
+    if (!projection || (effect.positive && !(projection->coefficients[0] > 0.0))) continue;
+    if (best && projection->gain <= best->gain) continue;
     best = projection;
     best_shapes = shapes;
     best_column.swap(column);
   }
-  if (!best) return std::nullopt;
+  if (!acts) return std::nullopt;
+  if (!best) return ScreenedModel{response_.fit().model, 0.0, response_.fit().residuals, FitFailure::kWrongSign};
   ScreenedModel screened = expect(best_column, *best);
   screened.model.effects.push_back({effect, best->coefficients[0], best_shapes});
   return screened;
 }
 
 std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) const {
-  const Eigen::MatrixXd columns = response_.readingSlopes(effect);
-  const std::optional<Projection> projection = project(columns);
+  const Eigen::MatrixXd slopes = response_.readingSlopes(effect);
+  std::vector<Eigen::Index> live;  // the others go with channels that are empty
+  for (Eigen::Index i = 0; i < slopes.cols(); ++i)
+    if (!slopes.col(i).isZero(0.0)) live.push_back(i);
+  Eigen::MatrixXd columns(slopes.rows(), static_cast<Eigen::Index>(live.size()));
+  for (std::size_t i = 0; i < live.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = slopes.col(live[i]);
+  const std::optional<Projection> projection = live.empty() ? std::nullopt : project(columns);
   if (!projection) return std::nullopt;
   ScreenedModel screened = expect(columns, *projection);
-  const Eigen::VectorXd& found = projection->coefficients;
-  screened.model.reading.push_back({effect, {found.data(), found.data() + found.size()}});
+  std::vector<double> coefficients(static_cast<std::size_t>(slopes.cols()), 0.0);
+  for (std::size_t i = 0; i < live.size(); ++i)
+    coefficients[static_cast<std::size_t>(live[i])] = projection->coefficients[static_cast<Eigen::Index>(i)];
+  screened.model.reading.push_back({effect, coefficients});
+  return screened;
+}
+
+std::optional<ScreenedModel> Screening::asItIs(const StrutModel& model) const {
+  ScreenedModel screened;
+  screened.model = model;
+  std::vector<double> predicted;
+  for (const DriveSegment* segment : segmentsOf(records_)) {
+    if (!runFree(model, *segment, response_.fit().initial[screened.residuals.size()], predicted)) return std::nullopt;
+    for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k] = segment->sprung[k] - predicted[k];
+    screened.residuals.push_back(predicted);
+  }
+  const Eigen::VectorXd left = joined(screened.residuals, response_.numSamples());
+  screened.training_gain = weight_.dot(residual_.cwiseAbs2() - left.cwiseAbs2());
   return screened;
 }
 

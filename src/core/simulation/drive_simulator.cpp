@@ -103,7 +103,8 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
     motion.derivative = {z_rate, truth.sprung_acceleration, w_rate, truth.unsprung_acceleration};
   }
   for (std::size_t j = 0; j < scenario_.strut.hidden.size(); ++j)
-    motion.derivative[4 + j] = scenario_.strut.memoryRate(j, truth.travel, truth.travel_rate, t, memory[j]);
+    motion.derivative[4 + j] =
+        scenario_.strut.memoryRate(j, {truth.travel, truth.travel_rate, t, memory[j], truth.sprung_acceleration});
   return motion;
 }
 

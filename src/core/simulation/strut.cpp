@@ -23,9 +23,9 @@ double Strut::forcePerMass(double travel, double travel_rate, double t, const do
   return force;
 }
 
-double Strut::memoryRate(std::size_t j, double travel, double travel_rate, double t, double memory) const {
+double Strut::memoryRate(std::size_t j, const StrutMotion& motion) const {
   const ForceEffect& effect = hidden[j].effect;
-  return effect.memory_rate ? effect.memory_rate({travel, travel_rate, t, memory}, hidden[j].shapes.data()) : 0.0;
+  return effect.memory_rate ? effect.memory_rate(motion, hidden[j].shapes.data()) : 0.0;
 }
 
 }  // namespace suspension_health_monitor

@@ -49,6 +49,7 @@ std::string suggestForUnexplained(const SearchResult& result) {
 const char* nameOf(Verdict verdict) {
   switch (verdict) {
     case Verdict::kEffectFound: return "effect_found";
+    case Verdict::kSuspect: return "suspect";
     case Verdict::kNothingMissing: return "nothing_missing";
     case Verdict::kUnexplained: break;
   }
@@ -58,6 +59,9 @@ const char* nameOf(Verdict verdict) {
 std::string summaryOf(const SearchResult& result) {
   switch (result.verdict) {
     case Verdict::kEffectFound: return "Missing from the model: " + join(result.selected, " and ") + ".";
+    case Verdict::kSuspect:
+      return "Main suspect: " + join(result.selected) + ", which takes " + percent(result.explained_share) +
+             " of what is missing, not all of it.";
     case Verdict::kNothingMissing: return "Nothing is missing: what the model leaves is noise.";
     case Verdict::kUnexplained: break;
   }
@@ -71,10 +75,34 @@ std::string suggestionOf(const SearchResult& result) {
   return join(sentences, " ");
 }
 
+std::string remainderOf(const SearchResult& result) {
+  if (result.verdict != Verdict::kSuspect) return "";
+  if (result.remainder_surface_share > kLawOfTravelAndRate)
+    return "A force of travel and travel rate would take " + percent(result.remainder_surface_share) +
+           " of what it leaves: the law is not quite this one, or another acts beside it.";
+  return "A force of travel and travel rate would take only " + percent(result.remainder_surface_share) +
+         " of what it leaves: the rest remembers, changes with time, or does not come through the strut.";
+}
+
 std::string reasonOf(BodyChannel missing) {
   const bool linear = missing == BodyChannel::kAccelerationX || missing == BodyChannel::kAccelerationY;
   return linear ? "the body's IMU shows no changing acceleration across the strut"
                 : "the body's IMU shows no changing angular velocity";
+}
+
+const char* reasonOf(FitFailure failure) {
+  switch (failure) {
+    case FitFailure::kRunsAway: return "not stable on these drives";
+    case FitFailure::kNeverActs: return "never acts in these drives";
+    case FitFailure::kNotSolved: return "the fit came to no end";
+    case FitFailure::kNoSpring: return "leaves no spring";
+    case FitFailure::kTooFast: return "too fast for this sampling";
+    case FitFailure::kWrongSign: return "its coefficient would have to be negative";
+    case FitFailure::kShapeAtEnd: return "is another law at the end of its range";
+    case FitFailure::kToldByFrequency: return "time and the frequency of the motion go together in these drives";
+    case FitFailure::kNone: break;
+  }
+  return "";
 }
 
 std::string reasonOf(Shortcoming shortcoming, const StrutModel& start) {

@@ -15,9 +15,9 @@ function rivalsOf(findings, name) {
 }
 
 function headline(findings) {
-  const {verdict, selected} = findings.search;
+  const {verdict, selected, explained_share: share} = findings.search;
   if (verdict === 'nothing_missing') return 'Nothing is missing: the model explains the drive down to the noise.';
-  if (verdict !== 'effect_found') return 'Something is missing, but no known effect explains it.';
+  if (!selected.length) return 'Something is missing, but no known effect explains it.';
   const what = names =>
       names
           .map(
@@ -26,6 +26,8 @@ function headline(findings) {
           .join('; ');
   const forces = selected.filter(name => kindOf(findings, name).kind === 'force');
   const readings = selected.filter(name => kindOf(findings, name).kind === 'reading');
+  if (verdict === 'suspect')
+    return `Main suspect: ${what(selected)}. It takes ${percent(100 * share)} of what is missing, not all of it.`;
   const parts = [];
   if (forces.length) parts.push(`Missing from the model: ${what(forces)}.`);
   if (readings.length)
@@ -57,8 +59,10 @@ function whatASurfaceTells(share) {
 }
 
 function nextSteps(findings) {
-  const {verdict, selected, indistinguishable, suggested_drive: drive, surface_share: share} = findings.search;
+  const {verdict, selected, indistinguishable, suggested_drive: drive, surface_share: share, remainder} =
+      findings.search;
   const steps = [];
+  if (remainder) steps.push(remainder);
   for (const group of indistinguishable)
     steps.push(`This drive cannot tell apart ${joined(group.map(spoken), 'or')}: any of them would do as well${
         selected.length ? '; the simplest is named' : ''}.`);
@@ -108,6 +112,7 @@ function verdictSection(findings) {
   const {verdict, selected} = findings.search;
   const pill = {
     effect_found: selected.length > 1 ? 'Effects found' : 'Effect found',
+    suspect: 'Main suspect',
     nothing_missing: 'Nothing missing',
     unexplained: 'Unexplained'
   }[verdict];

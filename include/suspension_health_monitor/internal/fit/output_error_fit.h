@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/internal/record/motion_scale.h"
 
 namespace suspension_health_monitor {
 
@@ -35,6 +37,15 @@ struct ModelFit {
   std::vector<StrutState> initial;  ///< per segment
   Residuals residuals;
   std::vector<double> stddev;  ///< of the model's numbers, in the order of numbersOf()
+  MotionScale motion;          ///< that the ranges of shapes were counted in
+};
+
+/// A fit, or why there is none.
+struct FitOutcome : std::optional<ModelFit> {
+  FitOutcome(ModelFit fit) : std::optional<ModelFit>(std::move(fit)) {}
+  FitOutcome(FitFailure why) : failure(why) {}
+
+  FitFailure failure = FitFailure::kNone;
 };
 
 /// Fits b1, b0, coefficients, shapes and the initial state of every segment so that the free run follows the measured
@@ -42,9 +53,9 @@ struct ModelFit {
 /// Solver: Ceres, Levenberg-Marquardt, derivatives by differences, initial states eliminated (Schur complement).
 /// @param records  drives that share the model.  @param masks  per segment of all records; empty: all samples.
 /// @param start  first guess, b0 > 0; also sets the scale of every parameter that is not 0 in it.
-/// @return nothing if the model runs away, an effect never acts, the solver fails, or no spring is left (b0 <= 0): what
-/// has no natural frequency cannot be compared, searched or simulated.
-std::optional<ModelFit> fitOutputError(const Records& records, const std::vector<SampleMask>& masks,
-                                       const StrutModel& start, const FitOptions& options = {});
+/// @return no fit if the model runs away, an effect never acts, the solver fails, or what comes out cannot be compared,
+/// searched or simulated: no spring is left (b0 <= 0), or it is too fast for the sampling.
+FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>& masks, const StrutModel& start,
+                          const FitOptions& options = {});
 
 }  // namespace suspension_health_monitor

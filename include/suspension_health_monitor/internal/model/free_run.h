@@ -15,7 +15,7 @@ namespace suspension_health_monitor {
 /// The wheel's motion over an uninterrupted stretch of a recorded drive.
 struct RecordedWheel {
   const std::vector<WheelStep>& steps;  ///< one per integration step, from the first sample to the last
-  double start;                         ///< time of the first sample since the start of the drive [s]
+  double start;                         ///< time of the first sample, as laws count it [s]
   double period;                        ///< T [s]
   int steps_per_sample;
   std::size_t num_samples;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -28,6 +29,12 @@ struct WheelStep {
 /// the error of a step below 1e-4.
 inline constexpr double kLongestStrutStep = 0.35;
 inline constexpr int kMostStepsPerSample = 32;
+
+/// @return true if so many steps can follow the linear strut.  @param period  sampling time T [s].
+inline bool canFollow(const StrutModel& model, double period) {
+  const double fastest = std::max(model.damping_to_mass, std::sqrt(model.stiffness_to_mass));
+  return period * fastest <= kLongestStrutStep * kMostStepsPerSample;
+}
 
 /// Turns samples of w'' into wheel steps.
 class WheelInterpolator {

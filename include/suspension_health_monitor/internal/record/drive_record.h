@@ -12,6 +12,7 @@ namespace suspension_health_monitor {
 /// An uninterrupted, uniformly sampled stretch of a drive, prepared for free runs.
 struct DriveSegment {
   double start = 0.0;            ///< time of its first sample since the start of the drive [s]
+  double driven_before = 0.0;    ///< how long the drives before it are [s]
   double period = 0.0;           ///< sampling time T [s]
   int steps = 1;                 ///< integration steps per sample
   std::vector<double> sprung;    ///< z'' less the drive's mean w'' [m/s^2], one per sample
@@ -24,6 +25,9 @@ struct DriveSegment {
 
   /// @return since the start of the drive [s].
   double time(std::size_t sample) const { return start + static_cast<double>(sample) * period; }
+
+  /// @return time as laws count it [s]: on from drive to drive, as wear does.
+  double timeDriven(std::size_t sample) const { return driven_before + time(sample); }
 };
 
 /// A drive as a whole, kept for comparison and for fits.
@@ -38,7 +42,8 @@ struct DriveSegment {
 class DriveRecord {
  public:
   /// @param period  sampling time T [s].  @param steps  integration steps per sample, >= 1.
-  DriveRecord(const Drive& drive, double period, int steps = 1);
+  /// @param driven_before  how long the drives before it are [s].
+  DriveRecord(const Drive& drive, double period, int steps = 1, double driven_before = 0.0);
 
   double period() const { return period_; }
   int steps() const { return steps_; }

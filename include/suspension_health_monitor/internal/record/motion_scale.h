@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 
@@ -17,6 +17,10 @@ struct MotionScale {
   /// @return one unit of the scale in SI.
   double unit(ShapeScale scale) const;
 };
+
+/// @return true if a shape of the effect lies within a hundredth of its range (in the logarithm) of an end that is not
+/// open, or beyond.
+bool hasShapeAtEnd(const ActiveEffect& active, const MotionScale& scale);
 
 /// The scale of a drive by a free run of the linear strut over its samples.
 /// @param samples  in the order of time; the run starts anew at gaps.  @param period  sampling time T [s].

@@ -20,6 +20,7 @@ struct SeparatingDrive {
 struct SearchResult : Diagnosis {
   std::vector<SeparatingDrive> separating;  ///< one per group that the drives cannot tell apart
   double power_at_sampling_limit = 0.0;     ///< see powerAtSamplingLimit()
+  double remainder_surface_share = 0.0;     ///< of what a suspect leaves, what a free-form force would take
 };
 
 /// diagnose() of drives that are prepared already.

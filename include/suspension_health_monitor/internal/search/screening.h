@@ -16,8 +16,9 @@ namespace suspension_health_monitor {
 /// residuals that the linearised model expects to remain.
 struct ScreenedModel {
   StrutModel model;
-  double training_gain = 0.0;  ///< expected decrease of the (robust) training sum of squares
-  Residuals residuals;         ///< expected
+  double training_gain = 0.0;              ///< expected decrease of the (robust) training sum of squares
+  Residuals residuals;                     ///< expected
+  FitFailure failure = FitFailure::kNone;  ///< kWrongSign: no coefficient above 0 helps; all as without it
 };
 
 /// Ranks candidates by how much of the residual their linear response (linear_response.h) explains on the training
@@ -30,6 +31,9 @@ class Screening {
   /// @return nothing if the effect does not act in these drives or does nothing that the model cannot do already.
   std::optional<ScreenedModel> screen(const ForceEffect& effect) const;
   std::optional<ScreenedModel> screen(const MeasurementEffect& effect) const;
+
+  /// @return a model as it is, by its own free run instead of an expectation; nothing if it runs away.
+  std::optional<ScreenedModel> asItIs(const StrutModel& model) const;
 
   /// What a free-form force over travel and travel rate could take of the held-out error: piecewise bilinear on a grid,
   /// fitted on the training samples.
@@ -49,6 +53,7 @@ class Screening {
   ScreenedModel expect(const Columns& columns, const Projection& projection) const;
   StrutModel changed(const Eigen::VectorXd& common) const;
 
+  const Records& records_;
   LinearResponse response_;
   Eigen::VectorXd residual_;  // measured - predicted
   Eigen::VectorXd weight_;    // of a sample in training; 0: held out

@@ -46,7 +46,7 @@ struct Strut {
   double forcePerMass(double travel, double travel_rate, double t, const double* memory) const;
 
   /// Rate of the j-th hidden effect's memory [1/s]; 0 if it has none.
-  double memoryRate(std::size_t j, double travel, double travel_rate, double t, double memory) const;
+  double memoryRate(std::size_t j, const StrutMotion& motion) const;
 };
 
 }  // namespace suspension_health_monitor

@@ -7,17 +7,23 @@
 
 namespace suspension_health_monitor {
 
-/// The verdict's name for programs: effect_found, nothing_missing or unexplained.
+/// The verdict's name for programs: effect_found, suspect, nothing_missing or unexplained.
 const char* nameOf(Verdict verdict);
 
 /// The verdict in a sentence for people.
 std::string summaryOf(const SearchResult& result);
+
+/// What a suspect leaves, in a sentence; empty with any other verdict.
+std::string remainderOf(const SearchResult& result);
 
 /// What to record next, in sentences; empty if there is nothing to tell apart and nothing unexplained.
 std::string suggestionOf(const SearchResult& result);
 
 /// Why an effect is not tried.
 std::string reasonOf(BodyChannel missing);
+
+/// Why there is no model with a candidate, to be read after its name; empty for kNone.
+const char* reasonOf(FitFailure failure);
 
 /// What is the matter with drives, to be read after "the drives"; empty for kNone.
 /// @param start  the model that was given, or the rough one by least squares.

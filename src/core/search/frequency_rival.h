@@ -1,0 +1,17 @@
+#pragma once
+
+#include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/strut_model.h"
+
+namespace suspension_health_monitor {
+
+/// @return true if the force depends on time at some motion.
+bool dependsOnTime(const ActiveEffect& active);
+
+/// The rival of a law that changes with time: the same with the frequency of the wheel's motion in the place of time.
+/// Where that does as well, as on a sweep, nobody can tell a part that wears from one that answers to frequency.
+/// Frequency: ln of rms velocity over rms position of the wheel (motionError() of w'') in windows of four natural
+/// periods, less its mean; in straight lines between their middles.
+ForceEffect frequencyRival(const ForceEffect& effect, const Records& records, double stiffness_to_mass);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/fit/hold_out.h"
+#include "suspension_health_monitor/internal/fit/linear_response.h"
+
+namespace suspension_health_monitor {
+
+/// Where a fit of a law may begin that the linear response cannot tell: one with a kink or a memory that carries so
+/// much of the strut's force that b1 and b0 without it are far from those beside it.
+///
+/// The travel is told by the measurements themselves, d'' = w'' - z'', integrated twice and once by an integral that
+/// forgets what is slower than a third of the natural frequency (motionError()). Along it the law is one more column of
+///   z'' = b1 v + b0 d + sum_j c_j f_j + c f,
+/// by least squares over the training samples, shape by shape of the scan. Too coarse for an estimate: the noise of the
+/// sensors is in d and v; it does for a start.
+class RowStart {
+ public:
+  /// @param fit  the present model: its effects stay, with their shapes.
+  RowStart(const Records& records, const HoldOut& held_out, const ModelFit& fit);
+
+  struct Start {
+    StrutModel model;    ///< the present one with the effect added
+    double share = 0.0;  ///< of what the rows without the effect leave that it takes
+  };
+
+  /// @return nothing if no shape leaves a damped spring and a coefficient of the right sign.
+  std::optional<Start> with(const ForceEffect& effect) const;
+
+ private:
+  const ModelFit& fit_;
+  std::vector<StrutMotion> motion_;  // per sample of all segments
+  std::vector<std::size_t> ends_;    // of the segments
+  MotionScale scale_;
+  Eigen::VectorXd measured_, weight_;  // z''; 0 where a sample is held out
+  Eigen::MatrixXd common_;             // v, d and the forces of the present effects
+  Eigen::LLT<Eigen::MatrixXd> gram_;
+  Eigen::VectorXd own_;  // what the columns have in common with z''
+  double left_ = 0.0;    // by them, of the weighted sum of squares
+};
+
+}  // namespace suspension_health_monitor
