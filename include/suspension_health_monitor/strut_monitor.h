@@ -50,6 +50,7 @@ class StrutMonitor {
   void setEffects(const std::vector<ActiveEffect>& effects);
 
   /// Judges health by this from now on.
+  /// @throws std::invalid_argument  if a value of it is not above 0 and finite.
   void setBaseline(const Baseline& baseline);
 
   /// @return what health is judged by; empty as long as nothing was given or learned.

@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/diagnose.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "prepared_drives.h"
@@ -27,8 +28,9 @@ Diagnosis diagnose(const std::vector<Drive>& drives, const DiagnoseOptions& opti
   result.suggested_drive = suggestionOf(result);
   for (const UntestableEffect& effect : untestable)
     result.not_tried.emplace_back(effect.name, reasonOf(effect.missing));
-  result.from = drives.front().samples.front().stamp;
-  result.to = drives.back().samples.back().stamp;
+  const auto has_samples = [](const Drive& drive) { return !drive.samples.empty(); };
+  result.from = std::find_if(drives.begin(), drives.end(), has_samples)->samples.front().stamp;
+  result.to = std::find_if(drives.rbegin(), drives.rend(), has_samples)->samples.back().stamp;
   return result;
 }
 

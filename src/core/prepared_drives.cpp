@@ -6,6 +6,7 @@
 
 #include "suspension_health_monitor/internal/fit/rough_model.h"
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/record/untestable_effects.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
@@ -42,6 +43,7 @@ PreparedDrives lacking(Shortcoming shortcoming, const StrutModel& start) {
 PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::optional<double>& sample_period,
                              const std::optional<int>& horizon_samples, const std::optional<StrutModel>& model) {
   const double period = periodOf(drives, sample_period);
+  if (model) requireUsable(model->effects);
   const StrutModel start = model ? *model : roughStart(drives, period, horizon_samples);
   // What a fit leaves to the linear damping may be less than nothing where an effect of the model damps.
   const bool is_spring = model ? start.stiffness_to_mass > 0.0 : isDampedSpring(start);

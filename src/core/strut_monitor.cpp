@@ -19,9 +19,7 @@ void StrutMonitor::setEffects(const std::vector<ActiveEffect>& effects) { pipeli
 
 void StrutMonitor::setBaseline(const Baseline& baseline) { pipeline_->setBaseline(baseline); }
 
-Baseline StrutMonitor::baseline() const {
-  return pipeline_->monitor() != nullptr ? pipeline_->monitor()->baseline() : Baseline{};
-}
+Baseline StrutMonitor::baseline() const { return pipeline_->baseline(); }
 
 MonitorReport StrutMonitor::report() const {
   return pipeline_->monitor() != nullptr ? pipeline_->monitor()->report() : MonitorReport{};

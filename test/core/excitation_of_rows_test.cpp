@@ -46,7 +46,7 @@ struct Judged {
     add(1.0, 1.0, 0.5);
   }
 
-  void add(const RegressionRow& row) { excitation.add(row, rows.theta, row.output); }
+  void add(const RegressionRow& row) { excitation.add(row, row.output, row.output); }
 
   void add(double damping, double stiffness, double error) {
     for (int k = 0; k < kRowsOfTenBlocks; ++k) add(rows.next(damping, stiffness, error));
@@ -160,7 +160,7 @@ TEST(Excitation, OfWhiteNoiseIsOne) {
     double damping = 0.0, stiffness = 0.0;
     for (int k = 0; k < kBlock * kBlocks; ++k) {
       const RegressionRow* row = regression.push({Stamp{}, noise(engine), noise(engine)});
-      if (row == nullptr || !excitation.add(*row, Eigen::Vector2d(kB1, kB0), 0.0)) continue;
+      if (row == nullptr || !excitation.add(*row, row->output, 0.0)) continue;
       damping += excitation.excitation(kDampingToMass) / kBlocks;
       stiffness += excitation.excitation(kStiffnessToMass) / kBlocks;
     }

@@ -24,7 +24,7 @@ class ExactBlocks {
       RegressionRow row;
       row.regressor = Eigen::Vector2d(k & 1 ? -size : size, k & 2 ? -size : size);
       row.output = row.regressor.dot(theta) + (k & 4 ? -error : error);
-      closed = excitation.add(row, theta, row.output);
+      closed = excitation.add(row, row.output, row.output);
     }
     return closed;
   }

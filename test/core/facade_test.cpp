@@ -48,6 +48,21 @@ TEST(Facade, ArraysAloneAreEnough) {
   EXPECT_NE(found.not_tried[0].second.find("acceleration across"), std::string::npos);
 }
 
+TEST(Facade, EmptyDrivesBesideAGoodOneChangeNothing) {
+  const Diagnosis found = diagnose({Drive{}, carWithAStop(), Drive{}}, quick());
+  ASSERT_TRUE(found) << found.reason;
+  EXPECT_EQ(found.selected, std::vector<std::string>{"bump_stop"});
+  EXPECT_EQ(found.from, carWithAStop().samples.front().stamp);
+  EXPECT_EQ(found.to, carWithAStop().samples.back().stamp);
+}
+
+TEST(Facade, RefusesAModelOfMoreEffectsThanThereMayBe) {
+  CompareOptions options;
+  const ActiveEffect stop{findEffect(forceEffects(), "bump_stop"), 40.0, {0.012}};
+  options.model = StrutModel{6.0, 63.3, std::vector<ActiveEffect>(kMostEffects + 1, stop), {}};
+  EXPECT_THROW(compare({carWithAStop()}, options), std::invalid_argument);
+}
+
 TEST(Facade, BothSayTheSameOfTheNoiseAndOfWhatIsStructure) {
   for (const Drive& drive : {carWithAStop(), driveOf(carDrive(60.0, 0.03))}) {
     const Diagnosis found = diagnose({drive}, quick());

@@ -25,7 +25,7 @@ class MovedBody {
       row.output = unit_ * body * std::sin(0.7 * k);
       row.regressor = Eigen::Vector2d(row.output / 6.0, row.output / 120.0);
       if (valid) excitation_.know({3.0, 60.0});
-      excitation_.add(row, Eigen::Vector2d(3.0, 60.0), unit_ * wheel * std::cos(0.7 * k));
+      excitation_.add(row, row.output, unit_ * wheel * std::cos(0.7 * k));
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,29 @@ TEST(SensorOffset, MayDrift) {
                                   std::hypot(0.01 * expected.stiffness_to_mass, expected.stiffness_to_mass_stddev));
     }
     EXPECT_LT(worst, 1.0) << road.vehicle << road.iso_class << road.rate;
+  }
+}
+
+TEST(SensorOffset, ParkingIsRecognisedWithIt) {
+  const std::vector<CornerSample> drive = driveOn(kRoads[3]);
+  for (const double offset : {0.0, 0.1, -0.5, 2.0}) {
+    SuspensionMonitor monitor(settingsOf(kRoads[3]));
+    std::mt19937 engine(1);
+    std::normal_distribution<double> noise(0.0, 0.03);
+    Stamp stamp = drive.front().stamp;
+    const auto add = [&](double body, double wheel) {
+      monitor.addSample({stamp, body, wheel + offset});
+      stamp += fromSeconds(1.0 / kRoads[3].rate);
+    };
+    for (const CornerSample& sample : drive) add(sample.sprung_acceleration, sample.unsprung_acceleration);
+    const StrutEstimate before = monitor.report().la;
+    ASSERT_TRUE(before.valid());
+    for (int k = 0; k < 60 * kRoads[3].rate; ++k) add(noise(engine), noise(engine));
+    EXPECT_EQ(monitor.report().la.doubt, EstimateDoubt::kNotExcited) << offset;
+    EXPECT_NEAR(monitor.report().la.stiffness_to_mass, before.stiffness_to_mass, 0.1 * before.stiffness_to_mass);
+    for (std::size_t k = 0; k < drive.size() / 4; ++k)
+      add(drive[k].sprung_acceleration, drive[k].unsprung_acceleration);
+    EXPECT_TRUE(monitor.report().la.valid()) << offset;
   }
 }
 

@@ -95,6 +95,19 @@ TEST(StrutMonitor, RefusesWrongOptions) {
   EXPECT_THROW(StrutMonitor{options}, std::invalid_argument);
 }
 
+TEST(StrutMonitor, RefusesWrongEffectsAndBaselinesAtOnce) {
+  StrutMonitor monitor;  // whose period is not known yet
+  Baseline healthy;
+  healthy.damping_to_mass = kDamping;
+  monitor.setBaseline(healthy);
+  EXPECT_EQ(monitor.baseline().damping_to_mass, kDamping);
+  EXPECT_THROW(monitor.setEffects({ActiveEffect{}}), std::invalid_argument);
+  healthy.damping_to_mass = -5.0;
+  EXPECT_THROW(monitor.setBaseline(healthy), std::invalid_argument);
+  for (const CornerSample& sample : drive(200)) push(monitor, sample);
+  EXPECT_EQ(monitor.baseline().damping_to_mass, kDamping);
+}
+
 TEST(StrutMonitor, JudgesByABaseline) {
   StrutMonitor monitor(withPeriod());
   Baseline healthy;

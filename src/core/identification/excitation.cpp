@@ -54,9 +54,7 @@ Excitation::Excitation(int horizon_samples, double forgetting_factor, const Regr
       noise_(noise),
       offset_(kOffsetMemory) {}
 
-bool Excitation::add(const RegressionRow& row, const Eigen::VectorXd& theta, double wheel_output) {
-  double output = row.output;  // without what effects make of it
-  for (Eigen::Index j = kNumStrutParameters; j < theta.size(); ++j) output -= row.regressor[j] * theta[j];
+bool Excitation::add(const RegressionRow& row, double output, double wheel_output) {
   offset_.add(row.regressor[kStiffnessToMass]);
   block_.moments.add(row.regressor[kDampingToMass], row.regressor[kStiffnessToMass] - offset_.mean(), output);
   block_.body += row.output * row.output;

@@ -56,6 +56,7 @@ void takeOff(double constant, double step, WheelStep& wheel) {
 }
 
 void check(const ActiveEffect& active) {
+  if (!active.effect.force) throw std::invalid_argument("effect " + active.effect.name + ": no force, must be a law");
   if (active.shapes.size() != active.effect.shapes.size())
     throw std::invalid_argument("effect " + active.effect.name + ": " + std::to_string(active.shapes.size()) +
                                 " shapes, must be " + std::to_string(active.effect.shapes.size()));
@@ -103,11 +104,15 @@ void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
       " [1/s^2]: both must be above 0 and slow enough for sample_period = " + std::to_string(period_) + " [s]");
 }
 
-void FreeRun::setEffects(const std::vector<ActiveEffect>& effects) {
+void requireUsable(const std::vector<ActiveEffect>& effects) {
   if (effects.size() > kMostEffects)
     throw std::invalid_argument(std::to_string(effects.size()) + " effects, must be at most " +
                                 std::to_string(kMostEffects));
   for (const ActiveEffect& active : effects) check(active);
+}
+
+void FreeRun::setEffects(const std::vector<ActiveEffect>& effects) {
+  requireUsable(effects);
   model_.effects = effects;
   state_.memory = {};
   forces_ = {};

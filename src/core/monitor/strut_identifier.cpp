@@ -10,7 +10,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kStddevsEvery = 8;           // rows
+constexpr int kStddevsEvery = 8;  // rows
 // LA has the least mean absolute residual that there is, but for a few memories after wrong readings, which LS follows.
 // Where LS has half of it for longer, LA is lost: one absurd reading may send it further than its covariance lets it
 // come back from.
@@ -51,7 +51,8 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       regression_(filter_, 0, with_offset_),
       excitation_(filter_.horizon_samples, options.forgetting_factor, RegressorNoise(filter_)),
       least_squares_(kNumStrutParameters + (with_offset_ ? 1 : 0), options.recursive(2 * filter_.horizon_samples)),
-      least_absolute_(kNumStrutParameters + (with_offset_ ? 1 : 0), options.recursive(2 * filter_.horizon_samples), options.leastAbsolute()),
+      least_absolute_(kNumStrutParameters + (with_offset_ ? 1 : 0), options.recursive(2 * filter_.horizon_samples),
+                      options.leastAbsolute()),
       forgetting_{!options.estimators.forgets_unexcited, {}},
       stddevs_due_(kStddevsEvery),
       silent_rows_(filter_.horizon_samples) {
@@ -84,8 +85,16 @@ void StrutIdentifier::add(const CornerSample& sample, const double* effect_force
   // Rows that LA hits exactly would weigh so much that it could not leave them for minutes.
   if (!silent_rows_.moves()) return;
   rows_ += 1.0;
-  if (excitation_.add(*row, least_absolute_.parameters(), regression_.wheelOutput())) takeExcitation();
+  if (excitation_.add(*row, withoutEffects(*row), regression_.wheelOutput())) takeExcitation();
   update(*row);
+}
+
+// The offset between the sensors is no part of psi, but of the regressor of the stiffness, which Excitation knows.
+double StrutIdentifier::withoutEffects(const RegressionRow& row) const {
+  double output = row.output;
+  const int end = offsetColumn().value_or(least_absolute_.numParameters());
+  for (int j = kNumStrutParameters; j < end; ++j) output -= row.regressor[j] * least_absolute_.parameters()[j];
+  return output;
 }
 
 bool StrutIdentifier::holdsAll() const {
@@ -196,7 +205,8 @@ void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   if (!options.fastest_forgetting_factor) {
     forgetting_.variable.reset();
   } else if (!forgetting_.variable) {
-    forgetting_.variable.emplace(offsetColumn().value_or(least_absolute_.numParameters()), 2 * filter_.horizon_samples, slow, fastest);
+    forgetting_.variable.emplace(offsetColumn().value_or(least_absolute_.numParameters()), 2 * filter_.horizon_samples,
+                                 slow, fastest);
   } else {
     forgetting_.variable->setFactors(slow, fastest);
     forgetBy(la_is_valid_ ? std::clamp(now, fastest, slow) : slow);  // until it is decided anew

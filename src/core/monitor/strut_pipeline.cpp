@@ -1,8 +1,20 @@
 #include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
 
+#include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace suspension_health_monitor {
+namespace {
+
+void requirePositive(const char* name, const std::optional<double>& value) {
+  if (value && !(*value > 0.0 && std::isfinite(*value)))
+    throw std::invalid_argument("baseline " + std::string(name) + " = " + std::to_string(*value) +
+                                ", must be above 0 and finite");
+}
+
+}  // namespace
 
 StrutPipeline::StrutPipeline(const MonitorSettings& settings, Sinks sinks)
     : settings_(settings), sinks_(std::move(sinks)) {
@@ -15,11 +27,12 @@ void StrutPipeline::start(double period) {
   monitor_.emplace(settings_);
   grid_.emplace(period, settings_.grid(period));
   if (settings_.tyre) tyre_.emplace(settings_);
-  if (!effects_.empty()) monitor_->setEffects(effects_);
   if (baseline_) monitor_->setBaseline(*baseline_);
+  if (!effects_.empty()) monitor_->setEffects(effects_);
 }
 
 void StrutPipeline::setEffects(const std::vector<ActiveEffect>& effects) {
+  requireUsable(effects);
   if (monitor_)
     monitor_->setEffects(effects);
   else
@@ -27,6 +40,8 @@ void StrutPipeline::setEffects(const std::vector<ActiveEffect>& effects) {
 }
 
 void StrutPipeline::setBaseline(const Baseline& baseline) {
+  requirePositive("damping_to_mass", baseline.damping_to_mass);
+  requirePositive("stiffness_to_mass", baseline.stiffness_to_mass);
   if (monitor_)
     monitor_->setBaseline(baseline);
   else

@@ -46,10 +46,10 @@ class Excitation {
   Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise);
 
   /// Takes in a row.
-  /// @param theta  estimate, as many entries as the regressor: b1 [1/s], b0 [1/s^2], and those of effects.
+  /// @param output  psi without what effects make of it.
   /// @param wheel_output  what psi would be of the wheel's own acceleration: I_2^2 w'' [m/s^2].
   /// @return true if the row has closed a block: all that follows may have changed.
-  bool add(const RegressionRow& row, const Eigen::VectorXd& theta, double wheel_output);
+  bool add(const RegressionRow& row, double output, double wheel_output);
 
   /// From now on there is a strut that is worth being held, and that others are measured by; before, everything counts
   /// as excited. To be called for every row of a strut that is valid.

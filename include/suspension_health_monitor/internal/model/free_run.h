@@ -24,6 +24,10 @@ struct RecordedWheel {
 /// A free run has run away when its prediction is so many times as large as the largest acceleration that was measured.
 inline constexpr double kRunaway = 1e3;
 
+/// @throws std::invalid_argument  if there are more than kMostEffects, if an effect has no law or not its number of
+/// shapes, or if a value is not finite.
+void requireUsable(const std::vector<ActiveEffect>& effects);
+
 /// The strut model (27), with or without effects, driven by the measured wheel acceleration alone:
 ///   d'' = w''_measured - z''_model,   z''_model = b1 v + b0 d + sum_j c_j f_j(d, v, t, s_j).
 /// The spring holds the travel d, so nothing drifts, unlike an integration of the accelerations; the prediction is free
@@ -60,8 +64,7 @@ class FreeRun {
   void setModel(double damping_to_mass, double stiffness_to_mass);
 
   /// Replaces the model's effects; the run goes on, their memories start at 0. Allocates.
-  /// @throws std::invalid_argument  if there are more than kMostEffects, if an effect has not its number of
-  ///         shapes, or if a value is not finite.
+  /// @throws std::invalid_argument  as requireUsable().
   void setEffects(const std::vector<ActiveEffect>& effects);
 
   /// Changes c_j [unit of the effect's coefficient].

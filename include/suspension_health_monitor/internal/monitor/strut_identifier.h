@@ -80,6 +80,7 @@ class StrutIdentifier {
     double fewest_rows = 0.0;                    // of a valid estimate
   };
 
+  double withoutEffects(const RegressionRow& row) const;
   void update(const RegressionRow& row);
   void takeExcitation();
   bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }

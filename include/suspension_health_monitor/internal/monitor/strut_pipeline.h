@@ -31,10 +31,14 @@ class StrutPipeline {
   /// @throws std::invalid_argument  if settings or effects do not fit the sample period that was measured.
   void push(Side side, Stamp stamp, double acceleration);
 
-  /// As SuspensionMonitor::setEffects(); while the sample period is being measured, the reading that ends this throws.
+  /// As SuspensionMonitor::setEffects().
   void setEffects(const std::vector<ActiveEffect>& effects);
 
+  /// @throws std::invalid_argument  if a value of it is not above 0 and finite.
   void setBaseline(const Baseline& baseline);
+
+  /// @return what health is judged by, or will be; empty as long as nothing was given or learned.
+  Baseline baseline() const { return monitor_ ? monitor_->baseline() : baseline_.value_or(Baseline{}); }
 
   /// As SuspensionMonitor::reconfigure().
   void reconfigure(const MonitorSettings& settings);
