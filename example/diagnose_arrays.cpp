@@ -1,7 +1,6 @@
 // Which effect does a strut have that a spring and a damper do not explain? From two arrays of accelerations.
 #include <cstdio>
 #include <string>
-#include <vector>
 
 #include "simulated_strut.h"
 #include "suspension_health_monitor/compare.h"
@@ -10,15 +9,10 @@
 int main() {
   SimulatedStrut strut(0.22);
   strut.stop_stiffness = 50.0;
-  std::vector<double> sprung, unsprung;
-  for (int i = 0; i < 12000; ++i) {  // two minutes
-    const SimulatedStrut::Readings readings = strut.next();
-    sprung.push_back(readings.body);
-    unsprung.push_back(readings.wheel);
-  }
+  const SimulatedStrut::Recording read = strut.record(12000);  // two minutes
 
   namespace shm = suspension_health_monitor;
-  const shm::Drive drive = shm::makeDrive(SimulatedStrut::kPeriod, sprung, unsprung);
+  const shm::Drive drive = shm::makeDrive(SimulatedStrut::kPeriod, read.body, read.wheel);
   const shm::Comparison linear = shm::compare({drive});
   if (linear) std::printf("a spring and a damper: %s\n", linear.where.front().sentence.c_str());
   const shm::Diagnosis found = shm::diagnose({drive});

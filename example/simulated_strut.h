@@ -38,6 +38,20 @@ class SimulatedStrut {
     return read;
   }
 
+  struct Recording {
+    std::vector<double> body, wheel;  // [m/s^2]
+  };
+
+  Recording record(int samples) {
+    Recording recording;
+    for (int i = 0; i < samples; ++i) {
+      const Readings readings = next();
+      recording.body.push_back(readings.body);
+      recording.wheel.push_back(readings.wheel);
+    }
+    return recording;
+  }
+
  private:
   struct Wave {
     double frequency, phase;  // [rad/s], [rad]

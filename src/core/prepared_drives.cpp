@@ -13,8 +13,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kSurveyedSamples = 40000;  // of every drive
-
 double periodOf(const std::vector<Drive>& drives, const std::optional<double>& sample_period) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   if (!sample_period) return medianPeriod(drives);
@@ -26,7 +24,7 @@ double periodOf(const std::vector<Drive>& drives, const std::optional<double>& s
 StrutModel roughStart(const std::vector<Drive>& drives, double period, std::optional<int> horizon_samples) {
   if (horizon_samples && *horizon_samples < 1)
     throw std::invalid_argument("horizon_samples = " + std::to_string(*horizon_samples) + ", must be 1 or more");
-  if (!horizon_samples) horizon_samples = surveyHorizon(drives, period, kSurveyedSamples);
+  if (!horizon_samples) horizon_samples = surveyHorizon(drives, period, HorizonSurvey::kEnough);
   if (!horizon_samples) return {};
   IntegralFilterOptions filter;
   filter.period = period;

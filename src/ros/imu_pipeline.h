@@ -53,7 +53,7 @@ class ImuPipeline {
 
   double kept_span_;  // [s]
   StrutSensors sensors_;
-  std::optional<Recent<CornerSample>> recent_;  // from the first sample on, as is the other
+  std::optional<RecentSamples> recent_;  // from the first sample on, as is the other
   std::optional<Recent<BodyMotion>> recent_body_;
   StrutPipeline strut_;
 };

@@ -189,7 +189,7 @@ SearchTask MonitorNodelet::giveSamples(double window) const {
   SearchTask task;
   task.drive = {pipeline_->newestSamples(span), pipeline_->newestBodyMotion(span)};
   task.options.sample_period = monitor->period();
-  task.options.horizon_samples = monitor->options().filter(monitor->period()).horizon_samples;
+  task.options.horizon_samples = monitor->horizonSamples();
   task.options.candidates = model_->library();
   const StrutEstimate& la = monitor->report().la;
   if (!model_->effects().empty() && la.valid())

@@ -25,7 +25,6 @@ constexpr double kMostFilled = StreamResampler::kSlowest;  // samples made of on
 
 // A horizon is proposed from stretches that lie all over the drive: it may begin parked, or be rough for a short time
 // only. What stands still weighs little beside what moves. So many samples are surveyed at least, and this share.
-constexpr double kFewestSurveyed = 40000.0;
 constexpr double kSurveyedShare = 0.2;
 constexpr int kStretch = 2500;  // [samples]
 
@@ -97,7 +96,7 @@ Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOpti
 int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
   const double period = *options.monitor.sample_period;
   const IntegrationRule rule = MonitorSettings(options.monitor).estimators.rule;
-  const double share = std::max(kSurveyedShare, kFewestSurveyed * period / duration(bags));
+  const double share = std::max(kSurveyedShare, HorizonSurvey::kEnough * period / duration(bags));
   if (share < 1.0) {
     ImuBags stretches = bags;
     stretches.stretches = ImuBags::Stretches{kStretch * period / share, kStretch * period};

@@ -50,8 +50,8 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       with_offset_(options.estimators.with_offset),
       regression_(filter_, 0, with_offset_),
       excitation_(filter_.horizon_samples, options.forgetting_factor, RegressorNoise(filter_)),
-      least_squares_(kNumStrutParameters + (with_offset_ ? 1 : 0), options.recursive(2 * filter_.horizon_samples)),
-      least_absolute_(kNumStrutParameters + (with_offset_ ? 1 : 0), options.recursive(2 * filter_.horizon_samples),
+      least_squares_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples)),
+      least_absolute_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples),
                       options.leastAbsolute()),
       forgetting_{!options.estimators.forgets_unexcited, {}},
       stddevs_due_(kStddevsEvery),
@@ -70,7 +70,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
   regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
-  if (forgetting_.variable) forgetting_.variable->restart(offsetColumn().value_or(least_absolute_.numParameters()));
+  if (forgetting_.variable) forgetting_.variable->restart(numModelColumns());
   takeExcitation();
   has_row_ = false;
   rows_ = 0.0;
@@ -92,8 +92,8 @@ void StrutIdentifier::add(const CornerSample& sample, const double* effect_force
 // The offset between the sensors is no part of psi, but of the regressor of the stiffness, which Excitation knows.
 double StrutIdentifier::withoutEffects(const RegressionRow& row) const {
   double output = row.output;
-  const int end = offsetColumn().value_or(least_absolute_.numParameters());
-  for (int j = kNumStrutParameters; j < end; ++j) output -= row.regressor[j] * least_absolute_.parameters()[j];
+  for (int j = kNumStrutParameters; j < numModelColumns(); ++j)
+    output -= row.regressor[j] * least_absolute_.parameters()[j];
   return output;
 }
 
@@ -205,8 +205,7 @@ void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   if (!options.fastest_forgetting_factor) {
     forgetting_.variable.reset();
   } else if (!forgetting_.variable) {
-    forgetting_.variable.emplace(offsetColumn().value_or(least_absolute_.numParameters()), 2 * filter_.horizon_samples,
-                                 slow, fastest);
+    forgetting_.variable.emplace(numModelColumns(), 2 * filter_.horizon_samples, slow, fastest);
   } else {
     forgetting_.variable->setFactors(slow, fastest);
     forgetBy(la_is_valid_ ? std::clamp(now, fastest, slow) : slow);  // until it is decided anew

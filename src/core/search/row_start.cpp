@@ -38,39 +38,32 @@ RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelF
   const auto count = static_cast<Eigen::Index>(motion_.size());
   scale_ = {std::sqrt(travel / static_cast<double>(count)), std::sqrt(rate / static_cast<double>(count)),
             1.0 / std::sqrt(b0)};
-  measured_ = Eigen::Map<const Eigen::VectorXd>(measured.data(), count);
-  weight_ = Eigen::Map<const Eigen::VectorXd>(weight.data(), count);
   const std::vector<ActiveEffect>& effects = fit.model.effects;
-  common_.resize(count, 2 + static_cast<Eigen::Index>(effects.size()));
+  Eigen::MatrixXd common(count, 2 + static_cast<Eigen::Index>(effects.size()));
   for (Eigen::Index k = 0; k < count; ++k) {
-    common_(k, 0) = motion_[static_cast<std::size_t>(k)].travel_rate;
-    common_(k, 1) = motion_[static_cast<std::size_t>(k)].travel;
+    common(k, 0) = motion_[static_cast<std::size_t>(k)].travel_rate;
+    common(k, 1) = motion_[static_cast<std::size_t>(k)].travel;
   }
   for (std::size_t j = 0; j < effects.size(); ++j)
-    common_.col(2 + static_cast<Eigen::Index>(j)) = forceAlong(effects[j].effect, effects[j].shapes, motion_, ends_);
-  gram_.compute(common_.transpose() * weight_.asDiagonal() * common_);
-  own_ = common_.transpose() * weight_.cwiseProduct(measured_);
-  left_ = weight_.dot(measured_.cwiseAbs2()) - own_.dot(gram_.solve(own_));
+    common.col(2 + static_cast<Eigen::Index>(j)) = forceAlong(effects[j].effect, effects[j].shapes, motion_, ends_);
+  rows_ = WeightedProjection(common, Eigen::Map<const Eigen::VectorXd>(weight.data(), count),
+                             Eigen::Map<const Eigen::VectorXd>(measured.data(), count));
 }
 
 std::optional<RowStart::Start> RowStart::with(const ForceEffect& effect) const {
   std::optional<Start> best;
+  const double left = rows_.left();
   for (const std::vector<double>& shapes : scanShapes(effect, scale_)) {
-    const Eigen::VectorXd force = forceAlong(effect, shapes, motion_, ends_);
-    const Eigen::VectorXd weighted = weight_.cwiseProduct(force);
-    const Eigen::VectorXd cross = common_.transpose() * weighted;
-    const Eigen::VectorXd carried = gram_.solve(cross);
-    const double moment = weighted.dot(measured_) - carried.dot(own_);
-    const double coefficient = moment / (weighted.dot(force) - cross.dot(carried));
-    const double share = coefficient * moment / left_;
+    const auto part = rows_.project(forceAlong(effect, shapes, motion_, ends_));
+    if (!part) continue;
+    const double coefficient = part->coefficients[0], share = part->gain / left;
     if (!(share > (best ? best->share : 0.0)) || (effect.positive && !(coefficient > 0.0))) continue;
-    const Eigen::VectorXd common = gram_.solve(own_) - coefficient * carried;
     StrutModel model = fit_.model;
-    model.damping_to_mass = common[0];
-    model.stiffness_to_mass = common[1];
+    model.damping_to_mass = part->common[0];
+    model.stiffness_to_mass = part->common[1];
     if (!isDampedSpring(model)) continue;
     for (std::size_t j = 0; j < model.effects.size(); ++j)
-      model.effects[j].coefficient = common[2 + static_cast<Eigen::Index>(j)];
+      model.effects[j].coefficient = part->common[2 + static_cast<Eigen::Index>(j)];
     model.effects.push_back({effect, coefficient, shapes});
     best = Start{model, share};
   }

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
+#include "suspension_health_monitor/internal/search/weighted_projection.h"
 
 namespace suspension_health_monitor {
 
@@ -36,11 +35,7 @@ class RowStart {
   std::vector<StrutMotion> motion_;  // per sample of all segments
   std::vector<std::size_t> ends_;    // of the segments
   MotionScale scale_;
-  Eigen::VectorXd measured_, weight_;  // z''; 0 where a sample is held out
-  Eigen::MatrixXd common_;             // v, d and the forces of the present effects
-  Eigen::LLT<Eigen::MatrixXd> gram_;
-  Eigen::VectorXd own_;  // what the columns have in common with z''
-  double left_ = 0.0;    // by them, of the weighted sum of squares
+  WeightedProjection rows_;  // of z'' by v, d and the forces of the present effects; weight 0 where held out
 };
 
 }  // namespace suspension_health_monitor

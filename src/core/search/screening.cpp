@@ -10,7 +10,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kIndependent = 1e-6;  // share of a column that the model's own columns must leave
 constexpr Eigen::Index kSurfaceRows = 20000;
 
 Eigen::VectorXd joined(const Residuals& segments, Eigen::Index count) {
@@ -49,39 +48,20 @@ Eigen::VectorXd trainingWeights(const HoldOut& held_out, const Eigen::VectorXd& 
 Screening::Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit)
     : records_(records), response_(records, fit) {
   const Eigen::Index n = response_.numSamples();
-  residual_ = joined(fit.residuals, n);
-  weight_ = trainingWeights(held_out, residual_);
+  const Eigen::VectorXd residual = joined(fit.residuals, n);
   Eigen::VectorXd travel(n), rate(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     travel[k] = response_.motion()[static_cast<std::size_t>(k)].travel;
     rate[k] = response_.motion()[static_cast<std::size_t>(k)].travel_rate;
   }
   const std::vector<ActiveEffect>& effects = fit.model.effects;
-  common_.resize(n, 2 + static_cast<Eigen::Index>(effects.size()));
-  common_.col(0) = response_.respond(rate);
-  common_.col(1) = response_.respond(travel);
+  Eigen::MatrixXd common(n, 2 + static_cast<Eigen::Index>(effects.size()));
+  common.col(0) = response_.respond(rate);
+  common.col(1) = response_.respond(travel);
   for (std::size_t j = 0; j < effects.size(); ++j)
-    common_.col(2 + static_cast<Eigen::Index>(j)) =
+    common.col(2 + static_cast<Eigen::Index>(j)) =
         response_.respond(response_.forceAlong(effects[j].effect, effects[j].shapes));
-  const Eigen::MatrixXd weighted = weight_.asDiagonal() * common_;
-  gram_.compute(common_.transpose() * weighted);
-  own_ = weighted.transpose() * residual_;
-}
-
-std::optional<Screening::Projection> Screening::project(const Columns& columns) const {
-  const Eigen::MatrixXd weighted = weight_.asDiagonal() * columns;
-  const Eigen::MatrixXd cross = common_.transpose() * weighted;
-  const Eigen::MatrixXd carried = gram_.solve(cross);
-  const Eigen::MatrixXd square = columns.transpose() * weighted;
-  const Eigen::MatrixXd independent = square - cross.transpose() * carried;
-  for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    if (!(independent(i, i) > kIndependent * square(i, i))) return std::nullopt;  // 0 and NaN, too
-  Projection result;
-  const Eigen::VectorXd moment = weighted.transpose() * residual_ - carried.transpose() * own_;
-  result.coefficients = independent.ldlt().solve(moment);
-  result.gain = moment.dot(result.coefficients);
-  result.common = gram_.solve(own_) - carried * result.coefficients;
-  return result;
+  rows_ = WeightedProjection(common, trainingWeights(held_out, residual), residual);
 }
 
 StrutModel Screening::changed(const Eigen::VectorXd& common) const {
@@ -95,17 +75,18 @@ StrutModel Screening::changed(const Eigen::VectorXd& common) const {
   return model;
 }
 
-ScreenedModel Screening::expect(const Columns& columns, const Projection& projection) const {
+ScreenedModel Screening::expect(const WeightedProjection::Columns& columns,
+                                const WeightedProjection::Part& part) const {
   ScreenedModel screened;
-  screened.model = changed(projection.common);
-  screened.training_gain = projection.gain;
+  screened.model = changed(part.common);
+  screened.training_gain = part.gain;
   screened.residuals =
-      split(residual_ - columns * projection.coefficients - common_ * projection.common, response_.ends());
+      split(rows_.target() - columns * part.coefficients - rows_.common() * part.common, response_.ends());
   return screened;
 }
 
 std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const {
-  std::optional<Projection> best;
+  std::optional<WeightedProjection::Part> best;
   std::vector<double> best_shapes;
   Eigen::VectorXd best_column;
   bool acts = false;
@@ -113,7 +94,7 @@ std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const 
   for (const std::vector<double>& shapes :
        scanShapes(effect, {response_.travel(), response_.travelRate(), natural_time})) {
     Eigen::VectorXd column = response_.respond(response_.forceAlong(effect, shapes));
-    const std::optional<Projection> projection = project(column);
+    const std::optional<WeightedProjection::Part> projection = rows_.project(column);
     acts = acts || projection;
     if (!projection || (effect.positive && !(projection->coefficients[0] > 0.0))) continue;
     if (best && projection->gain <= best->gain) continue;
@@ -135,7 +116,7 @@ std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) 
     if (!slopes.col(i).isZero(0.0)) live.push_back(i);
   Eigen::MatrixXd columns(slopes.rows(), static_cast<Eigen::Index>(live.size()));
   for (std::size_t i = 0; i < live.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = slopes.col(live[i]);
-  const std::optional<Projection> projection = live.empty() ? std::nullopt : project(columns);
+  const std::optional<WeightedProjection::Part> projection = live.empty() ? std::nullopt : rows_.project(columns);
   if (!projection) return std::nullopt;
   ScreenedModel screened = expect(columns, *projection);
   std::vector<double> coefficients(static_cast<std::size_t>(slopes.cols()), 0.0);
@@ -155,7 +136,7 @@ std::optional<ScreenedModel> Screening::asItIs(const StrutModel& model) const {
     screened.residuals.push_back(predicted);
   }
   const Eigen::VectorXd left = joined(screened.residuals, response_.numSamples());
-  screened.training_gain = weight_.dot(residual_.cwiseAbs2() - left.cwiseAbs2());
+  screened.training_gain = rows_.weight().dot(rows_.target().cwiseAbs2() - left.cwiseAbs2());
   return screened;
 }
 
@@ -175,7 +156,7 @@ double Screening::surfaceGain() const {
   Eigen::MatrixXd columns(rows, forces.cols());
   for (Eigen::Index node = 0; node < forces.cols(); ++node)
     columns.col(node) = thinned(response_.respond(forces.col(node)));
-  const Eigen::VectorXd residual = thinned(residual_), weight = thinned(weight_);
+  const Eigen::VectorXd residual = thinned(rows_.target()), weight = thinned(rows_.weight());
   Eigen::MatrixXd gram = columns.transpose() * weight.asDiagonal() * columns;
   gram.diagonal().array() += 1e-6 * gram.trace() / static_cast<double>(gram.rows());  // nodes that are never visited
   const Eigen::VectorXd solution = gram.llt().solve(columns.transpose() * weight.cwiseProduct(residual));

@@ -17,6 +17,7 @@ namespace suspension_health_monitor {
 class HorizonSurvey {
  public:
   static constexpr int kLongest = 4096;  ///< [samples], a horizon that is long enough for any strut
+  static constexpr int kEnough = 40000;  ///< samples of a drive that are worth looking at
 
   /// @param period  sampling time [s].
   /// @param longest  L of the longest horizon tried, >= 8.

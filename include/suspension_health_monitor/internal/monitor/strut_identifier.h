@@ -92,6 +92,9 @@ class StrutIdentifier {
     return with_offset_ ? std::optional(least_absolute_.numParameters() - 1) : std::nullopt;
   }
 
+  /// @return how many columns are those of the strut and of its effects: all but the offset's.
+  int numModelColumns() const { return offsetColumn().value_or(least_absolute_.numParameters()); }
+
   IntegralFilterOptions filter_;
   bool with_offset_;
   SuspensionRegression regression_;

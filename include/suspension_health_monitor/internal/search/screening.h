@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
+#include "suspension_health_monitor/internal/search/weighted_projection.h"
 
 namespace suspension_health_monitor {
 
@@ -41,25 +41,12 @@ class Screening {
   double surfaceGain() const;
 
  private:
-  /// How columns explain the residual beside the model's own ones.
-  struct Projection {
-    double gain = 0.0;  // of the training sum of squares
-    Eigen::VectorXd coefficients;
-    Eigen::VectorXd common;  // changes of b1, b0 and the effects' coefficients that go along
-  };
-
-  using Columns = Eigen::Ref<const Eigen::MatrixXd>;
-  std::optional<Projection> project(const Columns& columns) const;
-  ScreenedModel expect(const Columns& columns, const Projection& projection) const;
+  ScreenedModel expect(const WeightedProjection::Columns& columns, const WeightedProjection::Part& part) const;
   StrutModel changed(const Eigen::VectorXd& common) const;
 
   const Records& records_;
   LinearResponse response_;
-  Eigen::VectorXd residual_;  // measured - predicted
-  Eigen::VectorXd weight_;    // of a sample in training; 0: held out
-  Eigen::MatrixXd common_;    // responses to b1, b0 and the present effects' coefficients
-  Eigen::LLT<Eigen::MatrixXd> gram_;
-  Eigen::VectorXd own_;  // what the model's own columns still explain
+  WeightedProjection rows_;  // of measured - predicted by the responses to b1, b0 and the present effects' coefficients
 };
 
 }  // namespace suspension_health_monitor
