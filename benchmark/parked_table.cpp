@@ -38,7 +38,7 @@ Saying sayingOf(const RowMoments& rows, const RegressorNoise& noise) {
 using Readings = std::function<Accelerations(long)>;
 
 std::vector<Saying> sayings(long samples, const Readings& read, int blocks) {
-  const IntegralFilterOptions filter{30, 0.02, IntegrationRule::kCubic};
+  const IntegralFilterOptions filter{30, 0.02, IntegrationRule::kBandLimited};
   const RegressorNoise noise(filter);
   SuspensionRegression regression(filter);
   RunningMean offset(0.9975);

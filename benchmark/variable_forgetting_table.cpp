@@ -104,7 +104,7 @@ Course follow(const std::vector<DriveSample>& drive, const Case& road, std::opti
 
 // Mean T at the constant slow factor, while nothing changes.
 double chanceOf(const std::vector<DriveSample>& drive, const Case& road) {
-  SuspensionRegression regression({road.horizon, 1.0 / road.rate, IntegrationRule::kCubic});
+  SuspensionRegression regression({road.horizon, 1.0 / road.rate, IntegrationRule::kBandLimited});
   RecursiveOptions options;
   options.forgetting_factor = road.slow;
   RecursiveLeastAbsolute estimator(kNumStrutParameters, options, {});

@@ -65,7 +65,7 @@ void printTable(int seeds, double seconds) {
       std::array<double, 2> least_squares{};
       std::array<Errors, 2> errors;
       for (int seed = 1; seed <= seeds; ++seed) {
-        const IntegralFilterOptions filter{horizon, clean.period, IntegrationRule::kCubic};
+        const IntegralFilterOptions filter{horizon, clean.period, IntegrationRule::kBandLimited};
         RecursiveOptions never_forgets;
         never_forgets.forgetting_factor = 1.0;
         SuspensionRegression regression(filter);

@@ -37,6 +37,7 @@ MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions
   if (preset != "paper") return;
   estimators.rule = IntegrationRule::kTrapezoid;  // Eq. (9)
   estimators.with_offset = false;
+  estimators.removes_noise_shift = false;
   estimators.forgets_unexcited = true;
   estimators.recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
   estimators.recursive.initial_variance_rule = InitialVariance::kAbsolute;

@@ -57,7 +57,7 @@ struct Judged {
   }
 
   NoiseRows rows;
-  Excitation excitation{30, 0.99, RegressorNoise({30, 0.02, IntegrationRule::kCubic})};
+  Excitation excitation{30, 0.99, RegressorNoise({30, 0.02, IntegrationRule::kBandLimited})};
 };
 
 // Drive, then a tenth of a thousandth of its information.
@@ -148,7 +148,7 @@ class FilteredNoise {
 // Two sensors of equal noise, through the filter itself, in blocks long enough for chance to be small. Of phi_0 the
 // mean of 400 rows is left out. The bounds are four standard deviations of the ratio of two mean squares.
 TEST(Excitation, OfWhiteNoiseIsOne) {
-  const IntegralFilterOptions options{30, 0.02, IntegrationRule::kCubic};
+  const IntegralFilterOptions options{30, 0.02, IntegrationRule::kBandLimited};
   constexpr int kBlock = 6400, kBlocks = 100, kRows = kBlock * kBlocks;
   const FilteredNoise filtered(options);
   for (const double unit : {1.0, 1e-5}) {

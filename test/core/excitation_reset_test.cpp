@@ -44,7 +44,7 @@ class ExactBlocks {
   }
 
   const Eigen::VectorXd theta = Eigen::Vector2d(3.0, 13.8);
-  Excitation excitation{30, 0.99, RegressorNoise(IntegralFilterOptions{30, 0.02, IntegrationRule::kCubic})};
+  Excitation excitation{30, 0.99, RegressorNoise(IntegralFilterOptions{30, 0.02, IntegrationRule::kBandLimited})};
 };
 
 // The damping's excitation is 5.75, above 36 / n from seven blocks on; the stiffness' is above it as soon as psi is.

@@ -43,7 +43,7 @@ std::vector<RegressionRow> rowsOf(GeneralRegression& regression, double period, 
 }
 
 TEST(GeneralRegression, RecoversAThirdOrderModelWithItsInitialConditionsUnknown) {
-  GeneralRegression regression(3, {40, 0.02, IntegrationRule::kCubic});
+  GeneralRegression regression(3, {40, 0.02, IntegrationRule::kBandLimited});
   const auto theta = batchLeastSquares(stack(rowsOf(regression, 0.02, 60.0)));
   ASSERT_TRUE(theta.has_value());
   EXPECT_LT((*theta - vectorOf({kA2, kA1, kA0, kB2, kB1, kB0})).cwiseAbs().maxCoeff(), 1e-3);

@@ -38,7 +38,7 @@ TEST(Transmissibility, Is1AtRestAndAtRootTwoTimesTheNaturalFrequencyWhateverTheD
 
 // Amplitude of the filter's answer to a sine, from two outputs a quarter of a period apart.
 double measuredFilterMagnitude(int horizon, int samples_per_wave) {
-  LinearIntegralFilter filter(2, {horizon, 1.0, IntegrationRule::kCubic});
+  LinearIntegralFilter filter(2, {horizon, 1.0, IntegrationRule::kBandLimited});
   for (int k = 0; k < 4 * horizon; ++k) filter.push(std::sin(2.0 * kPi * k / samples_per_wave));
   const double first = filter.output(0);
   for (int k = 4 * horizon; k < 4 * horizon + samples_per_wave / 4; ++k)
@@ -96,13 +96,13 @@ TEST(HorizonProposal, RefusesParametersWithoutAResonance) {
 
 TEST(HorizonSamples, AreTheNearestThatTheRuleAllows) {
   EXPECT_EQ(horizonSamples(0.6, 0.02, IntegrationRule::kTrapezoid), 30);
-  EXPECT_EQ(horizonSamples(0.613, 0.02, IntegrationRule::kCubic), 31);
+  EXPECT_EQ(horizonSamples(0.613, 0.02, IntegrationRule::kBandLimited), 31);
   EXPECT_EQ(horizonSamples(0.613, 0.02, IntegrationRule::kSimpson), 30);
   EXPECT_EQ(horizonSamples(0.001, 0.02, IntegrationRule::kTrapezoid), 1);
   EXPECT_EQ(horizonSamples(0.001, 0.02, IntegrationRule::kSimpson), 2);
-  EXPECT_EQ(horizonSamples(0.001, 0.02, IntegrationRule::kCubic), 5);
-  EXPECT_THROW(horizonSamples(0.0, 0.02, IntegrationRule::kCubic), std::invalid_argument);
-  EXPECT_THROW(horizonSamples(0.6, -1.0, IntegrationRule::kCubic), std::invalid_argument);
+  EXPECT_EQ(horizonSamples(0.001, 0.02, IntegrationRule::kBandLimited), 5);
+  EXPECT_THROW(horizonSamples(0.0, 0.02, IntegrationRule::kBandLimited), std::invalid_argument);
+  EXPECT_THROW(horizonSamples(0.6, -1.0, IntegrationRule::kBandLimited), std::invalid_argument);
 }
 
 // rms relative error of the live LS estimate over four drives of the golden car.
@@ -116,10 +116,10 @@ double errorAt(double horizon) {
   int count = 0;
   for (options.seed = 1; options.seed <= 4; ++options.seed) {
     RecursiveLeastSquares ls(kNumStrutParameters, {0.99, 1e5, InitialVariance::kRelative});
-    const int samples = horizonSamples(horizon, 1.0 / options.rate, IntegrationRule::kCubic);
+    const int samples = horizonSamples(horizon, 1.0 / options.rate, IntegrationRule::kBandLimited);
     int rows = 0;
     for (const RegressionRow& row :
-         strutRows(simulate(options), {samples, 1.0 / options.rate, IntegrationRule::kCubic})) {
+         strutRows(simulate(options), {samples, 1.0 / options.rate, IntegrationRule::kBandLimited})) {
       ls.update(row);
       if (++rows < 1000) continue;
       ++count;

@@ -87,7 +87,7 @@ TEST(AuxiliaryStrut, AnswersAConstantByAsMuchAndRestsWithoutInput) {
 
 // Least squares over the same rows is off by 15 % in b1 and 11 % in b0 there.
 TEST(InstrumentalVariables, AreNotBiasedAtShortHorizons) {
-  const IntegralFilterOptions filter{5, 0.02, IntegrationRule::kCubic};
+  const IntegralFilterOptions filter{5, 0.02, IntegrationRule::kBandLimited};
   for (const unsigned seed : {1U, 2U, 3U}) {
     InstrumentalVariables iv(filter);
     for (const CornerSample& sample : healthyPaperDrive(120.0, 0.024, static_cast<int>(seed))) iv.push(sample);
@@ -101,7 +101,7 @@ TEST(InstrumentalVariables, AreNotBiasedAtShortHorizons) {
 }
 
 TEST(InstrumentalVariables, DoNotFeelGravityNorADifferenceOfOffsets) {
-  const IntegralFilterOptions filter{30, 0.02, IntegrationRule::kCubic};
+  const IntegralFilterOptions filter{30, 0.02, IntegrationRule::kBandLimited};
   InstrumentalVariables plain(filter), offset(filter);
   for (CornerSample sample : healthyPaperDrive(60.0, 0.024)) {
     plain.push(sample);

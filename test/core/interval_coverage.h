@@ -73,7 +73,7 @@ void measure(const CleanDrive& drive, double noise, unsigned seed, const Take& t
 }
 
 inline int proposedHorizon(const CleanDrive& drive, double noise) {
-  HorizonSurvey survey(drive.period, IntegrationRule::kCubic, 4096);
+  HorizonSurvey survey(drive.period, IntegrationRule::kBandLimited, 4096);
   measure(drive, noise, 1, [&](const CornerSample& sample) { survey.push(sample); });
   return survey.horizonSamples().value();
 }

@@ -33,7 +33,7 @@ class MovedBody {
 
  private:
   double unit_;
-  Excitation excitation_{30, 0.99, RegressorNoise(IntegralFilterOptions{30, 0.02, IntegrationRule::kCubic})};
+  Excitation excitation_{30, 0.99, RegressorNoise(IntegralFilterOptions{30, 0.02, IntegrationRule::kBandLimited})};
 };
 
 TEST(OutsideForce, IsABodyThatMovesMoreThanAWheelThatHardlyMoves) {

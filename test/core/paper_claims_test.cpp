@@ -72,7 +72,7 @@ TEST(PaperClaims, LiveDefaultsAreThoseOfTheTable) {
   EXPECT_EQ(options.forgetting_factor, 0.99);
   EXPECT_EQ(options.leastAbsolute().small_divisor_rule, SmallDivisor::kRelative);
   EXPECT_EQ(options.leastAbsolute().small_divisor, 0.2);
-  EXPECT_EQ(options.estimators.rule, IntegrationRule::kCubic);
+  EXPECT_EQ(options.estimators.rule, IntegrationRule::kBandLimited);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(SensorOffset, ChangesNeitherHorizonNorRecordedDrives) {
     const IdentifyResult found = identify({drive});
     EXPECT_NEAR(found.iv.stiffness_to_mass, expected.iv.stiffness_to_mass, 1e-3 * expected.iv.stiffness_to_mass);
     EXPECT_NEAR(found.ls.damping_to_mass, expected.ls.damping_to_mass, 1e-3 * expected.ls.damping_to_mass);
-    const IntegralFilterOptions filter{horizon, 1.0 / road.rate, IntegrationRule::kCubic};
+    const IntegralFilterOptions filter{horizon, 1.0 / road.rate, IntegrationRule::kBandLimited};
     EXPECT_NEAR(roughModel({drive}, filter).stiffness_to_mass, expected.iv.stiffness_to_mass,
                 0.1 * expected.iv.stiffness_to_mass);
   }

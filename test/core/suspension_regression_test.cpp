@@ -12,7 +12,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr IntegralFilterOptions kFilter{30, 0.02, IntegrationRule::kCubic};
+constexpr IntegralFilterOptions kFilter{30, 0.02, IntegrationRule::kBandLimited};
 
 TEST(SuspensionRegression, GivesItsFirstRowAtSample2LAndAgainAfterReset) {
   SuspensionRegression regression(kFilter);

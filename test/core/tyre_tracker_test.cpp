@@ -45,7 +45,7 @@ TEST(TyreRegression, EqualsTheIntegralsOfASineInClosedForm) {
   const auto secondDifference = [&](const auto& f, double t) { return f(t) - 2.0 * f(t - h) + f(t - 2.0 * h); };
   const auto sine = [&](double t) { return std::sin(omega * t); };
   const auto cosine = [&](double t) { return std::cos(omega * t); };
-  TyreRegression regression({30, 0.02, IntegrationRule::kCubic});
+  TyreRegression regression({30, 0.02, IntegrationRule::kBandLimited});
   int rows = 0;
   for (int k = 0; k < 200; ++k) {
     const double t = k * 0.02;

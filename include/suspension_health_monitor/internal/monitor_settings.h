@@ -15,8 +15,9 @@ namespace suspension_health_monitor {
 
 /// What presets differ in beside options: how rows are made, and how the estimators begin, weigh and forget.
 struct EstimatorOptions {
-  IntegrationRule rule = IntegrationRule::kCubic;
+  IntegrationRule rule = IntegrationRule::kBandLimited;
   bool with_offset = true;         ///< the offset between the sensors is estimated with the strut
+  bool removes_noise_shift = true;  ///< what the sensors' noise shifts the estimates by is taken off (regressor_noise.h)
   bool forgets_unexcited = false;  ///< true: exponential forgetting, the paper's; false: directional (excitation.h)
   RecursiveOptions recursive;      ///< whose forgetting factor and correlated rows are set for each estimator
   LeastAbsoluteOptions least_absolute;

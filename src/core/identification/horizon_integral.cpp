@@ -1,14 +1,45 @@
 #include "suspension_health_monitor/internal/identification/horizon_integral.h"
 
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 [[noreturn]] void refuseIntervals(int intervals, const char* allowed) {
   throw std::invalid_argument("horizon_samples = " + std::to_string(intervals) + ", must be " + allowed);
+}
+
+// Beside the trapezoid rule an end must give, of exp(i w t) at t = 0 with T = 1, 1 / (i w) - cot(w / 2) / (2 i): what the
+// integral has there less what the sum has. Its series -i w / 12 - ... sets the moments of the corrections c_k, which
+// are sum c_k = sum k^2 c_k = 0, sum k c_k = 1/12 (exact on parabolas); what is left of them is least squares, relative
+// to the integral, over the band, and small.
+std::vector<double> endCorrections(int count) {
+  constexpr int kFrequencies = 64, kMoments = 3;
+  constexpr double kBand = kPi / 2.0;  // [rad per sample]
+  constexpr double kSize = 0.1;        // a correction of 1 weighs as much as this error: it passes noise on
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count + kMoments, count + kMoments);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(count + kMoments);
+  for (int i = 1; i <= kFrequencies; ++i) {
+    const double w = kBand * i / kFrequencies, wanted = 0.5 / std::tan(w / 2.0) - 1.0 / w;  // its imaginary part
+    const Eigen::ArrayXd phase = -w * Eigen::ArrayXd::LinSpaced(count, 0.0, count - 1.0);
+    const Eigen::VectorXd real = w * phase.cos(), imaginary = w * phase.sin();
+    system.topLeftCorner(count, count) += real * real.transpose() + imaginary * imaginary.transpose();
+    right.head(count) += w * wanted * imaginary;
+  }
+  system.topLeftCorner(count, count).diagonal().array() += kFrequencies * kSize * kSize;
+  for (int k = 0; k < count; ++k)
+    for (int moment = 0; moment < kMoments; ++moment)
+      system(k, count + moment) = system(count + moment, k) = std::pow(k, moment);
+  right[count + 1] = 1.0 / 12.0;
+  const Eigen::VectorXd solution = system.fullPivLu().solve(right);
+  return {solution.data(), solution.data() + count};
 }
 
 }  // namespace
@@ -29,10 +60,10 @@ HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule r
       other_weight_ = 4.0 / 3;
       end_corrections_ = {-1.0 / 3};
       break;
-    case IntegrationRule::kCubic:
-      if (intervals < 5) refuseIntervals(intervals, "at least 5 for the cubic rule");
-      end_corrections_ = {-5.0 / 8, 1.0 / 6, -1.0 / 24};
-      corrects_neighbours_ = true;
+    case IntegrationRule::kBandLimited:
+      if (intervals < 5) refuseIntervals(intervals, "at least 5");
+      end_corrections_ = endCorrections(std::min(kMostCorrections, intervals + 1));
+      end_corrections_[0] -= 1.0 / 2;
       break;
   }
 }
@@ -48,10 +79,10 @@ double HorizonIntegral::update(const DelayLine& signal) {
     until_refresh_ = intervals_ + 1;
   }
   double integral = same_weight_ * sums_[parity_] + other_weight_ * sums_[parity_ ^ 1];
-  integral += end_corrections_[0] * (newest + signal.at(intervals_));
-  if (corrects_neighbours_)
-    integral += end_corrections_[1] * (signal.at(1) + signal.at(intervals_ - 1)) +
-                end_corrections_[2] * (signal.at(2) + signal.at(intervals_ - 2));
+  for (std::size_t k = 0; k < end_corrections_.size(); ++k) {
+    const int place = static_cast<int>(k);
+    integral += end_corrections_[k] * (signal.at(place) + signal.at(intervals_ - place));
+  }
   parity_ ^= 1;
   return period_ * integral;
 }

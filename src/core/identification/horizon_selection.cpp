@@ -71,7 +71,7 @@ int horizonSamples(double horizon, double period, IntegrationRule rule) {
   requireAboveZero("sample_period", period, "s");
   const double samples = std::min(horizon / period, kMostSamples);
   if (rule == IntegrationRule::kSimpson) return 2 * std::max(1, static_cast<int>(std::lround(samples / 2.0)));
-  return std::max(rule == IntegrationRule::kCubic ? 5 : 1, static_cast<int>(std::lround(samples)));
+  return std::max(rule == IntegrationRule::kBandLimited ? 5 : 1, static_cast<int>(std::lround(samples)));
 }
 
 }  // namespace suspension_health_monitor

@@ -19,21 +19,26 @@ constexpr double kMostLost = 10.0;         // memories
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
 // @param offset  number of the offset's column; none: there is no such column.
-void describeParameters(const RecursiveEstimator& estimator, std::optional<int> offset, StrutEstimate& estimate) {
+// @param shift  by the sensors' noise, of each parameter.
+void describeParameters(const RecursiveEstimator& estimator, const Eigen::VectorXd& shift, std::optional<int> offset,
+                        StrutEstimate& estimate) {
   const Eigen::VectorXd& theta = estimator.parameters();
-  estimate.damping_to_mass = theta[kDampingToMass];
-  estimate.stiffness_to_mass = theta[kStiffnessToMass];
+  estimate.damping_to_mass = theta[kDampingToMass] - shift[kDampingToMass];
+  estimate.stiffness_to_mass = theta[kStiffnessToMass] - shift[kStiffnessToMass];
   estimate.num_effects = static_cast<std::size_t>(offset.value_or(estimator.numParameters()) - kNumStrutParameters);
-  std::copy_n(theta.data() + kNumStrutParameters, estimate.num_effects, estimate.coefficients.begin());
+  for (std::size_t j = 0; j < estimate.num_effects; ++j) {
+    const auto i = kNumStrutParameters + static_cast<Eigen::Index>(j);
+    estimate.coefficients[j] = theta[i] - shift[i];
+  }
   if (offset) estimate.offset = -theta[*offset] / theta[kStiffnessToMass];
   estimate.effective_rows = estimator.effectiveRows();
   estimate.explained = estimator.explained();
 }
 
-/// What is random, and what the sensors' noise in the regressors shifts.
+/// What is random, and what is not known of the shift by the sensors' noise in the regressors.
 template <class Estimator>
-double stddevOf(const Estimator& estimator, int i, const Eigen::Vector2d& noise_moment) {
-  const double shift = estimator.parameterShift(i, noise_moment);
+double stddevOf(const Estimator& estimator, int i, const Eigen::Vector2d& unknown_moment) {
+  const double shift = estimator.parameterShift(i, unknown_moment);
   return std::sqrt(estimator.parameterVariance(i) + shift * shift);
 }
 
@@ -48,6 +53,7 @@ double withDifference(double stddev, double ls, double la) {
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
       with_offset_(options.estimators.with_offset),
+      removes_noise_shift_(options.estimators.removes_noise_shift),
       regression_(filter_, 0, with_offset_),
       excitation_(filter_.horizon_samples, options.forgetting_factor, RegressorNoise(filter_)),
       least_squares_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples)),
@@ -56,6 +62,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       forgetting_{!options.estimators.forgets_unexcited, {}},
       stddevs_due_(kStddevsEvery),
       silent_rows_(filter_.horizon_samples) {
+  ls_shift_ = la_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
   rows_ = std::numeric_limits<double>::infinity();  // the plain columns are there from the first row on
   setForgetting(options);
 }
@@ -70,6 +77,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
   regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
+  ls_shift_ = la_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
   if (forgetting_.variable) forgetting_.variable->restart(numModelColumns());
   takeExcitation();
   has_row_ = false;
@@ -139,8 +147,8 @@ void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate&
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
-  describeParameters(least_squares_, offsetColumn(), ls);
-  describeParameters(least_absolute_, offsetColumn(), la);
+  describeParameters(least_squares_, ls_shift_, offsetColumn(), ls);
+  describeParameters(least_absolute_, la_shift_, offsetColumn(), la);
   for (StrutEstimate* estimate : {&ls, &la}) {
     estimate->damping_excitation = excitation_.excitation(kDampingToMass);
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
@@ -148,16 +156,24 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
   if (!holdsAll() && stddevs_due_()) describeStddevs(ls, la);
 }
 
-void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) const {
+// The shift is taken off from the next description on, by the strut that it leaves now: the fixed point of that is the
+// strut whose rows, less the noise's share of their moments, it solves.
+void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   // For a normal distribution the variance is pi/2 times the mean size squared.
-  const double size = least_absolute_.usualResidual();
+  const double size = least_absolute_.usualResidual(), variance = 0.5 * kPi * size * size;
   const Eigen::Vector2d strut(la.damping_to_mass, la.stiffness_to_mass);
-  const Eigen::Vector2d moment = excitation_.noise().moment(strut, 0.5 * kPi * size * size);
+  const Eigen::Vector2d moment = excitation_.noise().moment(strut, variance);
+  const Eigen::Vector2d unknown = removes_noise_shift_ ? excitation_.noise().momentSpread(strut, variance) : moment;
+  if (removes_noise_shift_)
+    for (int i = 0; i < numModelColumns(); ++i) {
+      ls_shift_[i] = least_squares_.parameterShift(i, moment);
+      la_shift_[i] = least_absolute_.parameterShift(i, moment);
+    }
   const auto of_ls = [&](int i) {
-    return withDifference(stddevOf(least_squares_, i, moment), least_squares_.parameters()[i],
+    return withDifference(stddevOf(least_squares_, i, unknown), least_squares_.parameters()[i],
                           least_absolute_.parameters()[i]);
   };
-  const auto of_la = [&](int i) { return stddevOf(least_absolute_, i, moment); };
+  const auto of_la = [&](int i) { return stddevOf(least_absolute_, i, unknown); };
   ls.damping_to_mass_stddev = of_ls(kDampingToMass);
   ls.stiffness_to_mass_stddev = of_ls(kStiffnessToMass);
   la.damping_to_mass_stddev = of_la(kDampingToMass);

@@ -11,7 +11,7 @@ namespace suspension_health_monitor {
 struct IntegralFilterOptions {
   int horizon_samples = 30;  ///< L, horizon h = L T
   double period = 0.02;      ///< sampling time T [s]
-  IntegrationRule rule = IntegrationRule::kCubic;
+  IntegrationRule rule = IntegrationRule::kBandLimited;
 };
 
 /// Linear integral filter: the n-fold finite-horizon integral of the r-th derivative of a sampled signal,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 
@@ -19,6 +20,14 @@ class RegressorNoise {
   /// @return E[phi e]: what R^-1 turns into the estimate's shift.
   Eigen::Vector2d moment(const Eigen::Vector2d& theta, double residual_variance) const {
     return residual_variance / residualGain(theta) * (-cross_ - 2.0 * (regressors_ * theta));
+  }
+
+  /// @return standard deviation of moment() if nobody knows how the noise is divided between the sensors, all of it in
+  /// either of them or anything between: their difference over sqrt(12).
+  Eigen::Vector2d momentSpread(const Eigen::Vector2d& theta, double residual_variance) const {
+    const Eigen::Vector2d square = regressors_ * theta;
+    const double of_wheel = theta.dot(square), of_body = outputs_ + 2.0 * theta.dot(cross_) + of_wheel;
+    return residual_variance / std::sqrt(12.0) * (square / of_wheel - (cross_ + square) / of_body);
   }
 
   /// @return variance of a row's residual over that of a sensor [-].

@@ -85,7 +85,7 @@ class StrutIdentifier {
   void takeExcitation();
   bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }
   void forgetBy(double factor);
-  void describeStddevs(StrutEstimate& ls, StrutEstimate& la) const;
+  void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
 
   /// @return the number of the offset's column, the last; none without one.
   std::optional<int> offsetColumn() const {
@@ -96,12 +96,13 @@ class StrutIdentifier {
   int numModelColumns() const { return offsetColumn().value_or(least_absolute_.numParameters()); }
 
   IntegralFilterOptions filter_;
-  bool with_offset_;
+  bool with_offset_, removes_noise_shift_;
   SuspensionRegression regression_;
   Excitation excitation_;
   RecursiveLeastSquares least_squares_;
   RecursiveLeastAbsolute least_absolute_;
   Forgetting forgetting_;
+  Eigen::VectorXd ls_shift_, la_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
   EveryN stddevs_due_;
   bool has_row_ = false;
   double rows_ = 0.0;            // of the model's present columns
