@@ -2,7 +2,7 @@
 //   add_sample                        Google Benchmark, ns per sample at L = 30, 300, 3000
 //   add_sample --loop HORIZON COUNT [EFFECT | FACTOR]   feeds COUNT samples and ends, for counting instructions
 //                                                       (scripts/benchmark), with an effect that has no shapes in the
-//                                                       model, or with this fastest_forgetting_factor
+//                                                       model, or with this fastest_memory
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -46,7 +46,7 @@ class Feeder {
     MonitorSettings options;
     options.sample_period = 0.01;
     options.integration_horizon = horizon_samples * *options.sample_period;
-    options.fastest_forgetting_factor = fastest;
+    options.fastest_memory = fastest;
     return options;
   }
 

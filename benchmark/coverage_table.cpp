@@ -1,6 +1,6 @@
 // Prints the table of doc/uncertainty.md: how often the estimates plus and minus 1.96 stddev hold the truth, over
 // roads, vehicles, noise, horizons and forgetting factors.
-//   coverage_table [SEEDS [FASTEST]]      measurements of each drive, default 10; fastest_forgetting_factor
+//   coverage_table [SEEDS [FASTEST]]      measurements of each drive, default 10; fastest_memory [s]
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -54,7 +54,7 @@ void printTable(int seeds, std::optional<double> fastest) {
         MonitorSettings options;
         options.integration_horizon = std::max(5L, std::lround(horizon * proposed)) / simulation.rate;
         options.forgetting_factor = forgetting_factor;
-        options.fastest_forgetting_factor = fastest;
+        options.fastest_memory = fastest;
         const Coverages coverages = coverageOf(clean, drive.noise, options, seeds);
         printRow(drive.name, std::to_string(horizon).substr(0, 3).c_str(),
                  std::to_string(forgetting_factor).substr(0, 5).c_str(), coverages);

@@ -30,7 +30,7 @@ std::vector<Point> follow(const std::vector<DriveSample>& drive, const Setting& 
   MonitorSettings options;
   options.sample_period = 0.02;
   options.forgetting_factor = setting.slow;
-  options.fastest_forgetting_factor = setting.fastest;
+  if (setting.fastest) options.fastest_memory = 0.02 / (1.0 - *setting.fastest);
   SuspensionMonitor monitor(options);
   std::vector<Point> points;
   for (const DriveSample& sample : drive) {

@@ -77,7 +77,7 @@ Course follow(const std::vector<DriveSample>& drive, const Case& road, std::opti
   options.sample_period = 1.0 / road.rate;
   options.integration_horizon = road.horizon / road.rate;
   options.forgetting_factor = road.slow;
-  options.fastest_forgetting_factor = fastest;
+  if (fastest) options.fastest_memory = *options.sample_period / (1.0 - *fastest);
   SuspensionMonitor monitor(options);
   Course course;
   double count = 0.0;

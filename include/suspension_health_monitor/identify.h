@@ -31,7 +31,7 @@ struct IdentifiedStrut {
 struct IdentifyOptions {
   std::optional<double> sample_period;  ///< T [s]; nothing: the median spacing of the samples
   std::optional<int> horizon_samples;   ///< L of the integral filter; nothing: proposed from the data
-  double forgetting_factor = 0.99;      ///< lambda of ls and la, in [0.9, 1]: memory 1/(1 - lambda) rows
+  double memory = 2.0;                  ///< of ls and la [s], at least 10 samples
 };
 
 struct IdentifyResult {

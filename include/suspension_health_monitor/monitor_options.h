@@ -27,8 +27,9 @@ struct MonitorOptions : HealthThresholds {
   std::string alignment = "auto";                   ///< or "paired", "resampled": how readings become samples
   bool tyre = false;                                ///< there is a third sensor, where the tyre touches the road
   std::optional<double> integration_horizon;        ///< h of the integral filter [s]; left out: 0.6
-  double forgetting_factor = 0.99;                  ///< lambda: memory 1/(1 - lambda) rows
-  std::optional<double> fastest_forgetting_factor;  ///< lambda while the strut changes; left out: lambda stays
+  double memory = 2.0;                              ///< of the estimates: a row that old counts 1/e [s]
+  std::optional<double> fastest_memory;             ///< while the strut changes, at most memory [s]; left out: it stays
+  std::optional<double> forgetting_factor;          ///< lambda, instead of memory: 1/(1 - lambda) rows [-]
   double comparison_window = 10.0;                  ///< memory of the free run's rmse [s]
   std::optional<double> sprung_mass;                ///< [kg], for results in SI
 

@@ -19,7 +19,7 @@ int proposeHorizon(const std::vector<Drive>& drives, double period) {
 IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions& options) {
   MonitorOptions monitor;
   monitor.sample_period = options.sample_period ? *options.sample_period : medianPeriod(drives);
-  monitor.forgetting_factor = options.forgetting_factor;
+  monitor.memory = options.memory;
   const double period = *monitor.sample_period;
   const int horizon = options.horizon_samples ? *options.horizon_samples : proposeHorizon(drives, period);
   monitor.integration_horizon = horizon * period;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace suspension_health_monitor {
@@ -9,7 +10,14 @@ namespace {
 
 constexpr double kDefaultHorizon = 0.6;    // [s], the paper's
 constexpr int kMostSamples = 100000;       // of a horizon: more is a wrong unit
+constexpr double kFewestSamplesOfMemory = 10.0;  // lambda = 0.9
 constexpr int kUpdatesPerTwoHorizons = 3;  // of health: rows within a horizon share most of their samples
+
+std::string shortNumber(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
 
 }  // namespace
 
@@ -46,11 +54,23 @@ MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions
 
 void MonitorSettings::validate() const {
   suspension_health_monitor::validate<MonitorOptions>(*this, kMonitorFields);
-  if (fastest_forgetting_factor && *fastest_forgetting_factor > forgetting_factor)
-    throw std::invalid_argument("fastest_forgetting_factor = " + std::to_string(*fastest_forgetting_factor) +
-                                ", must be at most forgetting_factor = " + std::to_string(forgetting_factor));
-  health(sample_period.value_or(1.0)).validate();
-  if (sample_period) filter(*sample_period);
+  HealthOptions thresholds;
+  static_cast<HealthThresholds&>(thresholds) = *this;
+  thresholds.validate();
+  if (!forgetting_factor && fastest_memory && *fastest_memory > memory)
+    throw std::invalid_argument("fastest_memory = " + shortNumber(*fastest_memory) + " [s], must be at most memory = " +
+                                shortNumber(memory) + " [s]");
+  if (!sample_period) return;
+  filter(*sample_period);
+  const double fastest = fastestForgettingFactor(*sample_period), slow = forgettingFactor(*sample_period);
+  if (fastest > slow)
+    throw std::invalid_argument("fastest_memory = " + shortNumber(*fastest_memory) +
+                                " [s], must be at most that of forgetting_factor = " + shortNumber(slow));
+  if (fastest < 1.0 - 1.0 / kFewestSamplesOfMemory)
+    throw std::invalid_argument(std::string(fastest_memory ? "fastest_memory" : "memory") + " = " +
+                                shortNumber(fastest_memory.value_or(memory)) + " [s], must be at least " +
+                                shortNumber(kFewestSamplesOfMemory * *sample_period) +
+                                " [s], ten samples of sample_period = " + shortNumber(*sample_period) + " [s]");
 }
 
 int MonitorSettings::horizonSamples(double period) const {
@@ -87,15 +107,21 @@ GridOptions MonitorSettings::grid(double period) const {
 
 RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {
   RecursiveOptions recursive = estimators.recursive;
-  recursive.forgetting_factor = forgetting_factor;
+  recursive.forgetting_factor = forgettingFactor(*sample_period);
   recursive.correlated_rows = correlated_rows;
   return recursive;
+}
+
+double MonitorSettings::fewestRows(double seconds, double period) const {
+  constexpr double kShare = 0.9;
+  const double forgotten = std::max(1.0 - fastestForgettingFactor(period), 1e-12);
+  return std::min(seconds / period, kShare / forgotten);
 }
 
 HealthOptions MonitorSettings::health(double period) const {
   HealthOptions health;
   static_cast<HealthThresholds&>(health) = *this;
-  health.forgetting_factor = forgetting_factor;
+  health.forgetting_factor = forgettingFactor(period);
   health.horizon_samples = horizonSamples(period);
   health.period = period;
   health.rows_per_update = std::max(1, 2 * health.horizon_samples / kUpdatesPerTwoHorizons);

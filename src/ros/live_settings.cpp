@@ -49,7 +49,9 @@ LiveSettings LiveSettings::ends(double Bound::*end) {
 
 PipelineOptions LiveSettings::appliedTo(PipelineOptions options) const {
   OptionMap values = values_;
+  const double memory = options.monitor.memory;
   takeOptions(values, kMonitorFields, options.monitor);
+  if (options.monitor.memory != memory) options.monitor.forgetting_factor.reset();  // what was turned counts
   takeOptions(values, kShellFields, options.shell);
   options.monitor.validate();
   return options;

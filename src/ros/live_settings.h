@@ -13,7 +13,7 @@ namespace suspension_health_monitor {
 
 /// Settings that a user may turn while watching (rqt_reconfigure): those that change without starting estimates anew.
 inline constexpr std::array<std::string_view, 7> kLiveSettings{
-    "forgetting_factor",      "health/damping_warn", "health/damping_error", "health/stiffness_warn",
+    "memory",                 "health/damping_warn", "health/damping_error", "health/stiffness_warn",
     "health/stiffness_error", "health/confirm_time", "publish_every"};
 
 /// What dynamic_reconfigure::Server wants of the class that its generator would make of a .cfg file. Here names, types,

@@ -63,8 +63,8 @@ void MonitorDiagnostics::describeHealth(Status& status) {
   describeSilence(*monitor, status);
   addEstimate(status, "la", report.la);
   addEstimate(status, "ls", report.ls);
-  if (monitor->options().fastest_forgetting_factor)
-    status.addf("forgetting factor", "%.4f", monitor->forgettingFactor());
+  if (monitor->options().fastest_memory)
+    status.addf("memory [s]", "%.2f", monitor->period() / (1.0 - monitor->forgettingFactor()));
   const Baseline& baseline = monitor->baseline();
   addJudgement(status, "damping_to_mass", baseline.damping_to_mass, report.health.damping_change);
   addJudgement(status, "stiffness_to_mass", baseline.stiffness_to_mass, report.health.stiffness_change);

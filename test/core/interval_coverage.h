@@ -82,7 +82,7 @@ inline int proposedHorizon(const CleanDrive& drive, double noise) {
 /// The intervals are looked at every three memories of LS, from the tenth memory on.
 inline Coverages coverageOf(const CleanDrive& drive, double noise, MonitorSettings options, int seeds) {
   options.sample_period = drive.period;
-  const double memory = 1.0 / (1.0 - options.forgetting_factor);
+  const double memory = 1.0 / (1.0 - options.forgettingFactor(*options.sample_period));
   const auto every = static_cast<std::uint64_t>(3.0 * memory), first = static_cast<std::uint64_t>(10.0 * memory);
   Coverages coverages;
   for (int seed = 1; seed <= seeds; ++seed) {

@@ -54,7 +54,8 @@ TEST(MonitorSettings, MonitorUsesTheHorizon) {
 
 TEST(MonitorSettings, PresetGivesWhatIsNotGiven) {
   OptionMap nothing, one_line{{"preset", "paper"}}, with_factor{{"preset", "paper"}, {"forgetting_factor", 0.97}};
-  EXPECT_EQ(takeMonitorOptions(nothing).forgetting_factor, MonitorSettings{}.forgetting_factor);
+  EXPECT_EQ(takeMonitorOptions(nothing).memory, 2.0);
+  EXPECT_FALSE(takeMonitorOptions(nothing).forgetting_factor);
   const MonitorSettings paper = takeMonitorOptions(one_line), other = takeMonitorOptions(with_factor);
   EXPECT_EQ(paper.preset, "paper");
   EXPECT_EQ(paper.forgetting_factor, 0.98);
@@ -71,14 +72,14 @@ TEST(MonitorSettings, SettingsReachTheEstimators) {
   EXPECT_EQ(paper.filter(0.02).horizon_samples, 30);
   EXPECT_EQ(paper.filter(0.02).period, 0.02);
   EXPECT_EQ(paper.filter(0.02).rule, IntegrationRule::kTrapezoid);
-  EXPECT_EQ(paper.recursive().forgetting_factor, 0.98);
-  EXPECT_EQ(paper.recursive().initial_variance_rule, InitialVariance::kAbsolute);
+  EXPECT_EQ(paper.recursive(0).forgetting_factor, 0.98);
+  EXPECT_EQ(paper.recursive(0).initial_variance_rule, InitialVariance::kAbsolute);
   EXPECT_EQ(paper.leastAbsolute().start_rows, 150);
   EXPECT_EQ(paper.leastAbsolute().small_divisor_rule, SmallDivisor::kAbsolute);
   EXPECT_EQ(paper.leastAbsolute().small_divisor, 1e-8);
   EXPECT_FALSE(paper.leastAbsolute().scale_covariance_at_start);
   const MonitorSettings live = liveOptions();
-  EXPECT_EQ(live.recursive().initial_variance_rule, InitialVariance::kRelative);
+  EXPECT_EQ(live.recursive(0).initial_variance_rule, InitialVariance::kRelative);
   EXPECT_EQ(live.leastAbsolute().small_divisor_rule, SmallDivisor::kRelative);
   MonitorSettings health;
   health.nominal_damping_to_mass = 1.0;

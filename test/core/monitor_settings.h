@@ -13,11 +13,14 @@ inline MonitorSettings liveOptions() {
   return options;
 }
 
+/// @return the memory at the paper's sampling time that forgets by this factor [s].
+inline double memoryOf(double forgetting_factor) { return 0.02 / (1.0 - forgetting_factor); }
+
 /// The defaults with other forgetting factors.
 inline MonitorSettings optionsWith(double slow, std::optional<double> fastest) {
   MonitorSettings options = liveOptions();
   options.forgetting_factor = slow;
-  options.fastest_forgetting_factor = fastest;
+  if (fastest) options.fastest_memory = memoryOf(*fastest);
   return options;
 }
 

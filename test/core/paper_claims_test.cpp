@@ -69,7 +69,7 @@ TEST(PaperClaims, EndStopsThrowLeastSquaresOffAndLeaveLeastAbsoluteAlone) {
 
 TEST(PaperClaims, LiveDefaultsAreThoseOfTheTable) {
   const MonitorSettings options;
-  EXPECT_EQ(options.forgetting_factor, 0.99);
+  EXPECT_EQ(options.forgettingFactor(0.02), 0.99);
   EXPECT_EQ(options.leastAbsolute().small_divisor_rule, SmallDivisor::kRelative);
   EXPECT_EQ(options.leastAbsolute().small_divisor, 0.2);
   EXPECT_EQ(options.estimators.rule, IntegrationRule::kBandLimited);

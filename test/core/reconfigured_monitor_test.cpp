@@ -20,7 +20,7 @@ void feed(SuspensionMonitor& monitor, const std::vector<CornerSample>& samples, 
 TEST(ReconfiguredMonitor, LeastSquaresWeighsRowsByTheFactorThatHeldInTheirTime) {
   const std::vector<RegressionRow> rows = strutRows(healthyPaperDrive(20.0, 0.024), liveOptions().filter(0.02));
   const std::size_t changed_at = 500, end = 650;
-  RecursiveOptions recursive = liveOptions().recursive();
+  RecursiveOptions recursive = liveOptions().recursive(0);
   recursive.forgetting_factor = 0.98;
   const double later = 0.995;
   RecursiveLeastSquares estimator(2, recursive);

@@ -114,11 +114,11 @@ TEST(SamplePath, AllocatesNothingInTheTyreTrackerWhateverTheInput) {
 TEST(SamplePath, AllocatesNothingWithAVariableForgettingFactor) {
   MonitorSettings options;
   options.sample_period = 0.02;
-  options.fastest_forgetting_factor = 0.97;
+  options.fastest_memory = 0.65;
   options.nominal_damping_to_mass = kPaperB1;
   SuspensionMonitor monitor(options);
   Stamp stamp{};
-  double least = options.forgetting_factor;
+  double least = options.forgettingFactor(*options.sample_period);
   // A vehicle that becomes stiffer and softer again every few seconds.
   EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
               stamp += std::chrono::milliseconds(20);

@@ -43,8 +43,8 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
     SuspensionMonitor monitor(options);
     const bool offset = options.estimators.with_offset;
     SuspensionRegression regression(options.filter(0.02), 0, offset);
-    RecursiveLeastSquares ls(kNumStrutParameters + (offset ? 1 : 0), options.recursive());
-    RecursiveLeastAbsolute la(kNumStrutParameters + (offset ? 1 : 0), options.recursive(), options.leastAbsolute());
+    RecursiveLeastSquares ls(kNumStrutParameters + (offset ? 1 : 0), options.recursive(0));
+    RecursiveLeastAbsolute la(kNumStrutParameters + (offset ? 1 : 0), options.recursive(0), options.leastAbsolute());
     for (const CornerSample& sample : simulate(drive)) {
       const MonitorReport& report = *monitor.addSample(sample);
       const RegressionRow* row = regression.push(sample);

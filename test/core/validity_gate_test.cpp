@@ -1,4 +1,5 @@
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
 
 #include <gtest/gtest.h>
 
@@ -76,9 +77,14 @@ TEST(ValidityGate, NumbersThatAreNoneAreFlaws) {
 }
 
 TEST(ValidityGate, NoMoreRowsAreWantedThanNineTenthsOfTheMemory) {
-  EXPECT_DOUBLE_EQ(fewestRows(50.0, 0.99), 50.0);
-  EXPECT_NEAR(fewestRows(50.0, 0.98), 45.0, 1e-9);
-  EXPECT_DOUBLE_EQ(fewestRows(50.0, 1.0), 50.0);
+  MonitorSettings settings;  // memory 2 s
+  EXPECT_DOUBLE_EQ(settings.fewestRows(1.0, 0.02), 50.0);
+  EXPECT_DOUBLE_EQ(settings.fewestRows(1.0, 0.001), 1000.0);
+  EXPECT_NEAR(settings.fewestRows(10.0, 0.001), 1800.0, 1e-6);
+  settings.forgetting_factor = 0.98;
+  EXPECT_NEAR(settings.fewestRows(1.0, 0.02), 45.0, 1e-9);
+  settings.forgetting_factor = 1.0;
+  EXPECT_DOUBLE_EQ(settings.fewestRows(1.0, 0.02), 50.0);
 }
 
 }  // namespace

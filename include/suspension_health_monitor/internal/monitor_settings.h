@@ -23,6 +23,10 @@ struct EstimatorOptions {
   LeastAbsoluteOptions least_absolute;
 };
 
+/// Time until an estimate is worth something, unless its memory is shorter: noise of a tenth then makes an error of 1 or
+/// 2 %, if h = 0.6 s [s].
+inline constexpr double kFewestSeconds = 1.0;
+
 /// The options of a monitor with what follows from them: the preset's way to make rows and to estimate, and the
 /// settings of each part. Group, name, unit, meaning and range of each option stand in kMonitorFields only.
 struct MonitorSettings : MonitorOptions {
@@ -47,10 +51,24 @@ struct MonitorSettings : MonitorOptions {
   /// How readings become samples.
   GridOptions grid(double period) const;
 
+  /// With sample_period given.
   /// @param correlated_rows  2 L for rows of a filter, as each reading of a sensor is in 2 L + 1 of them.
-  RecursiveOptions recursive(int correlated_rows = 0) const;
+  RecursiveOptions recursive(int correlated_rows) const;
+
+  /// @param period  sampling time [s].
+  /// @return lambda: forgetting_factor, or that of memory.
+  double forgettingFactor(double period) const { return forgetting_factor.value_or(1.0 - period / memory); }
+
+  /// @param period  sampling time [s].
   /// @return the smallest lambda that rows may be forgotten by.
-  double fastestForgetting() const { return fastest_forgetting_factor.value_or(forgetting_factor); }
+  double fastestForgettingFactor(double period) const {
+    return fastest_memory ? 1.0 - period / *fastest_memory : forgettingFactor(period);
+  }
+
+  /// @param period  sampling time [s].
+  /// @return rows that an estimate needs before it is worth something: those of a time, or nine tenths of a shorter
+  /// memory.
+  double fewestRows(double seconds, double period) const;
   const LeastAbsoluteOptions& leastAbsolute() const { return estimators.least_absolute; }
   /// @param period  sampling time [s].
   HealthOptions health(double period) const;
@@ -73,11 +91,14 @@ inline constexpr std::array kMonitorFields{
     MonitorField{"estimation", "integration_horizon", "s",
                  "horizon h of the integral filter, near one period of the body's bounce; left out: 0.6",
                  &MonitorOptions::integration_horizon, 1e-5, 1e6},
-    MonitorField{"estimation", "forgetting_factor", "-", "lambda; memory 1/(1 - lambda) rows, 1 never forgets",
+    MonitorField{"estimation", "memory", "s", "of the estimates: what is that old counts 1/e, at least 10 samples",
+                 &MonitorOptions::memory, 1e-4, 1e6},
+    MonitorField{"estimation", "fastest_memory", "s",
+                 "while damping or stiffness move, at most memory; left out: the memory stays",
+                 &MonitorOptions::fastest_memory, 1e-4, 1e6},
+    MonitorField{"estimation", "forgetting_factor", "-",
+                 "lambda, instead of memory: 1/(1 - lambda) samples, 1 never forgets; left out: as memory says",
                  &MonitorOptions::forgetting_factor, 0.9, 1.0},
-    MonitorField{"estimation", "fastest_forgetting_factor", "-",
-                 "lambda while damping or stiffness move, at most forgetting_factor; left out: lambda stays",
-                 &MonitorOptions::fastest_forgetting_factor, 0.9, 1.0},
     MonitorField{"model", "sprung_mass", "kg", "body mass on this strut, for damping and stiffness in SI",
                  &MonitorOptions::sprung_mass, 1e-6, 1e6},
     MonitorField{"health", "nominal/damping_to_mass", "1/s", "b1 of the healthy strut",

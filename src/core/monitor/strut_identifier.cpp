@@ -55,12 +55,13 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       with_offset_(options.estimators.with_offset),
       removes_noise_shift_(options.estimators.removes_noise_shift),
       regression_(filter_, 0, with_offset_),
-      excitation_(filter_.horizon_samples, options.forgetting_factor, RegressorNoise(filter_)),
+      excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), RegressorNoise(filter_)),
       least_squares_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples)),
       least_absolute_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples),
                       options.leastAbsolute()),
       forgetting_{!options.estimators.forgets_unexcited, {}},
       stddevs_due_(kStddevsEvery),
+      noise_level_(filter_),
       silent_rows_(filter_.horizon_samples) {
   ls_shift_ = la_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
   rows_ = std::numeric_limits<double>::infinity();  // the plain columns are there from the first row on
@@ -119,6 +120,7 @@ void StrutIdentifier::update(const RegressionRow& row) {
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
+  if (la_is_valid_) noise_level_.add(innovation);
   const bool is_lost = kLost * least_squares_.meanAbsoluteResidual() < least_absolute_.meanAbsoluteResidual();
   lost_memories_ = is_lost ? lost_memories_ + 1.0 - forgettingFactor() : 0.0;
   if (lost_memories_ > kMostLost) least_absolute_.beginAgain(least_squares_);
@@ -159,12 +161,15 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
 // The shift is taken off from the next description on, by the strut that it leaves now: the fixed point of that is the
 // strut whose rows, less the noise's share of their moments, it solves.
 void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
-  // For a normal distribution the variance is pi/2 times the mean size squared.
-  const double size = least_absolute_.usualResidual(), variance = 0.5 * kPi * size * size;
+  const RegressorNoise& noise = excitation_.noise();
   const Eigen::Vector2d strut(la.damping_to_mass, la.stiffness_to_mass);
-  const Eigen::Vector2d moment = excitation_.noise().moment(strut, variance);
-  const Eigen::Vector2d unknown = removes_noise_shift_ ? excitation_.noise().momentSpread(strut, variance) : moment;
-  if (removes_noise_shift_)
+  const std::optional<double> known = removes_noise_shift_ ? noise_level_.sensorVariance(noise, strut) : std::nullopt;
+  // For a normal distribution the variance is pi/2 times the mean size squared.
+  const double size = least_absolute_.usualResidual();
+  const double variance = known.value_or(0.5 * kPi * size * size / noise.residualGain(strut));
+  const Eigen::Vector2d moment = noise.moment(strut, variance);
+  const Eigen::Vector2d unknown = known ? noise.momentSpread(strut, variance) : moment;
+  if (known)
     for (int i = 0; i < numModelColumns(); ++i) {
       ls_shift_[i] = least_squares_.parameterShift(i, moment);
       la_shift_[i] = least_absolute_.parameterShift(i, moment);
@@ -203,6 +208,7 @@ void StrutIdentifier::startNewSeries() {
   regression_.reset();
   least_squares_.interrupt();
   least_absolute_.interrupt();
+  noise_level_.interrupt();
   excitation_.reset();
   has_row_ = false;
 }
@@ -214,11 +220,12 @@ void StrutIdentifier::startNewDrive() {
 }
 
 void StrutIdentifier::setForgetting(const MonitorSettings& options) {
-  const double slow = options.forgetting_factor, fastest = options.fastestForgetting(), now = forgettingFactor();
+  const double slow = options.forgettingFactor(filter_.period), now = forgettingFactor();
+  const double fastest = options.fastestForgettingFactor(filter_.period);
   least_squares_.setForgettingFactor(slow);
   least_absolute_.setForgettingFactor(slow);
-  forgetting_.fewest_rows = fewestRows(kFewestRows, fastest);
-  if (!options.fastest_forgetting_factor) {
+  forgetting_.fewest_rows = options.fewestRows(kFewestSeconds, filter_.period);
+  if (!options.fastest_memory) {
     forgetting_.variable.reset();
   } else if (!forgetting_.variable) {
     forgetting_.variable.emplace(numModelColumns(), 2 * filter_.horizon_samples, slow, fastest);

@@ -9,7 +9,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kRowsOfSensorCheck = 500.0;  // that an estimate needs before it may accuse a sensor
+constexpr double kSecondsOfSensorCheck = 10.0;  // of rows that an estimate needs before it may accuse a sensor
 constexpr double kFewestUpdates = 25.0;  // of health, that readings are averaged over: of fewer nobody knows a mean
 
 const MonitorSettings& checked(const MonitorSettings& options) {
@@ -95,9 +95,9 @@ const CornerSample* SuspensionMonitor::track(const CornerSample& sample) {
 void SuspensionMonitor::judgeHealth() {
   series_.judgePeriod();
   changeModels([&](ModelTracker& model, ModelReport& report) { model.setPeriodFits(input().period_fits, report); });
-  if (options_.fastest_forgetting_factor) health_.setMemory(report_.la.effective_rows);
+  if (options_.fastest_memory) health_.setMemory(report_.la.effective_rows);
   const bool la_tells =
-      !tracker().holds() && report_.la.effective_rows >= fewestRows(kRowsOfSensorCheck, options_.forgetting_factor);
+      !tracker().holds() && report_.la.effective_rows >= options_.fewestRows(kSecondsOfSensorCheck, period());
   health_.setSensors(sensors_.judge(report_.la, la_tells));
   report_.health = health_.update(report_.stamp, report_.ls, report_.la);
 }

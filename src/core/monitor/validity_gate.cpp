@@ -43,8 +43,4 @@ EstimateDoubt doubtOf(const EstimateFacts& facts) {
   return rule == kRules.end() ? EstimateDoubt::kNone : rule->doubt;
 }
 
-double fewestRows(double wanted, double forgetting_factor) {
-  return std::min(wanted, 0.9 / (1.0 - std::min(forgetting_factor, 1 - 1e-12)));
-}
-
 }  // namespace suspension_health_monitor

@@ -16,32 +16,52 @@ class RegressorNoise {
   explicit RegressorNoise(const IntegralFilterOptions& options);
 
   /// @param theta  (b1 [1/s], b0 [1/s^2]).
-  /// @param residual_variance  of a row [(m/s^2)^2], taken as sensor noise.
+  /// @param sensor_variance  of either sensor [(m/s^2)^2].
   /// @return E[phi e]: what R^-1 turns into the estimate's shift.
-  Eigen::Vector2d moment(const Eigen::Vector2d& theta, double residual_variance) const {
-    return residual_variance / residualGain(theta) * (-cross_ - 2.0 * (regressors_ * theta));
+  Eigen::Vector2d moment(const Eigen::Vector2d& theta, double sensor_variance) const {
+    return sensor_variance * (-rows_.cross - 2.0 * (rows_.regressors * theta));
   }
 
-  /// @return standard deviation of moment() if nobody knows how the noise is divided between the sensors, all of it in
-  /// either of them or anything between: their difference over sqrt(12).
-  Eigen::Vector2d momentSpread(const Eigen::Vector2d& theta, double residual_variance) const {
-    const Eigen::Vector2d square = regressors_ * theta;
-    const double of_wheel = theta.dot(square), of_body = outputs_ + 2.0 * theta.dot(cross_) + of_wheel;
-    return residual_variance / std::sqrt(12.0) * (square / of_wheel - (cross_ + square) / of_body);
+  /// @return standard deviation of moment() if nobody knows how the noise is divided between the sensors: that of a
+  /// uniform distribution from all of it in the one to all of it in the other, with the same residual.
+  Eigen::Vector2d momentSpread(const Eigen::Vector2d& theta, double sensor_variance) const {
+    const Eigen::Vector2d square = rows_.regressors * theta;
+    const double of_wheel = theta.dot(square), of_body = rows_.outputs + 2.0 * theta.dot(rows_.cross) + of_wheel;
+    const double residual = sensor_variance * (of_wheel + of_body);
+    return residual / std::sqrt(12.0) * (square / of_wheel - (rows_.cross + square) / of_body);
   }
 
   /// @return variance of a row's residual over that of a sensor [-].
-  double residualGain(const Eigen::Vector2d& theta) const {
-    return outputs_ + 2.0 * theta.dot(cross_) + 2.0 * theta.dot(regressors_ * theta);
+  double residualGain(const Eigen::Vector2d& theta) const { return rows_.gain(theta); }
+
+  /// @return that of the residual's change from row to row [-].
+  double changeGain(const Eigen::Vector2d& theta) const { return changes_.gain(theta); }
+
+  /// @return that of meanOf() the residual [-].
+  double meanGain(const Eigen::Vector2d& theta) const { return means_.gain(theta); }
+
+  /// @return a horizon's mean of rows.
+  static HorizonIntegral meanOf(const IntegralFilterOptions& options) {
+    return {options.horizon_samples, 1.0 / options.horizon_samples, IntegrationRule::kTrapezoid};
   }
 
   /// @return variance that phi_i has of the noise, over that of a sensor [s^2] (damping), [s^4] (stiffness).
-  double regressorGain(int i) const { return 2.0 * regressors_(i, i); }
+  double regressorGain(int i) const { return 2.0 * rows_.regressors(i, i); }
 
  private:
-  Eigen::Matrix2d regressors_;  // h_i' h_j
-  Eigen::Vector2d cross_;       // h_i' h_2
-  double outputs_;              // h_2' h_2
+  /// Moments of the responses to one reading.
+  struct Moments {
+    Eigen::Matrix2d regressors = Eigen::Matrix2d::Zero();  // h_i' h_j
+    Eigen::Vector2d cross = Eigen::Vector2d::Zero();       // h_i' h_2
+    double outputs = 0.0;                                  // h_2' h_2
+
+    void add(const Eigen::Vector3d& responses);
+    double gain(const Eigen::Vector2d& theta) const {
+      return outputs + 2.0 * theta.dot(cross) + 2.0 * theta.dot(regressors * theta);
+    }
+  };
+
+  Moments rows_, changes_, means_;
 };
 
 }  // namespace suspension_health_monitor

@@ -6,6 +6,7 @@
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/identification/excitation.h"
+#include "suspension_health_monitor/internal/identification/noise_level.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
@@ -60,7 +61,7 @@ class StrutIdentifier {
   void restartValidity() { rows_ = 0.0; }
 
   /// From the next row on; the estimates stay.
-  /// @param options  of which forgetting_factor and fastest_forgetting_factor count.
+  /// @param options  of which memory, fastest_memory and forgetting_factor count.
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
   void setForgetting(const MonitorSettings& options);
 
@@ -108,6 +109,7 @@ class StrutIdentifier {
   double rows_ = 0.0;            // of the model's present columns
   double rows_to_forget_ = 0.0;  // until what a force from outside did is forgotten
   double lost_memories_ = 0.0;   // that LS has explained far more than LA for
+  NoiseLevel noise_level_;
   SilentRows silent_rows_;
   bool la_is_valid_ = false;
 };

@@ -53,7 +53,7 @@ class SuspensionMonitor {
   const InputStatus& input() const { return series_.status(); }
   const RejectCounts& rejected() const { return series_.rejected(); }
   const MonitorSettings& options() const { return options_; }
-  /// @return lambda for the rows to come, between fastest_forgetting_factor and forgetting_factor.
+  /// @return lambda for the rows to come, between that of fastest_memory and that of memory.
   double forgettingFactor() const { return tracker().forgettingFactor(); }
   double period() const { return toSeconds(series_.period()); }
   int horizonSamples() const { return health_.options().horizon_samples; }

@@ -27,9 +27,4 @@ struct EstimateFacts {
 /// @return the first reason against it, in the order of EstimateDoubt; kNone: the estimate is valid.
 EstimateDoubt doubtOf(const EstimateFacts& facts);
 
-inline constexpr double kFewestRows = 50.0;  ///< of a valid estimate: noise of a tenth then makes an error of 1 or 2 %
-
-/// @return so many rows, or nine tenths of a memory that is shorter.
-double fewestRows(double wanted, double forgetting_factor);
-
 }  // namespace suspension_health_monitor

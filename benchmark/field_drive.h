@@ -1,0 +1,177 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <unsupported/Eigen/MatrixFunctions>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+
+namespace suspension_health_monitor {
+
+/// A quarter car as it is met in the field, and the two IMUs on it.
+struct FieldVehicle {
+  const char* name;
+  double b1, b0;         ///< beta/M [1/s], K/M [1/s^2]
+  double wheel_to_body;  ///< m/M [-]
+  double tyre_to_body;   ///< K0/M [1/s^2]
+};
+
+inline constexpr std::array kFieldVehicles{FieldVehicle{"golden car", 6.0, 63.3, 0.15, 653.0},
+                                           FieldVehicle{"sedan", 4.2, 52.0, 0.12, 600.0},
+                                           FieldVehicle{"truck", 5.5, 90.0, 0.18, 420.0},
+                                           FieldVehicle{"robot", 9.0, 190.0, 0.25, 2300.0}};
+
+/// What happens on a drive. Times in [s].
+struct FieldDrive {
+  FieldVehicle vehicle = kFieldVehicles[0];
+  double road = 64e-6;     ///< Gd(0.1 cycles/m) [m^3]: 16e-6 is class A, each class four times as much
+  double speed = 15.0;     ///< [m/s]
+  int rate = 200;          ///< of both IMUs [Hz], a divisor of kFieldRate
+  bool anti_aliased = true;
+  double noise = 0.03;     ///< of both IMUs [m/s^2]
+  double offset = 0.0;     ///< of the wheel's IMU [m/s^2]
+  double offset_swing = 0.0, offset_period = 600.0;  ///< it drifts besides by +-swing [m/s^2]
+  double mass = 1.0;       ///< of the body, to that of the healthy vehicle
+  bool potholes = false, washboard = false, stops = false;
+  double engine = 0.0;     ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
+  double fade = 0.0;       ///< share of the damping that is lost while it is hot
+  double change_at = 1e300, damping_left = 1.0, stiffness_left = 1.0;
+  unsigned seed = 1;
+};
+
+inline constexpr int kFieldRate = 2000;  ///< steps per second of the integration
+
+/// Integrates the vehicle's equations (1), (2) in steps of 1/kFieldRate by their exact solution for a road that is
+/// straight over a step; nothing is shared with the package. The road is integrated white noise, G(n) = Gd(0.1) (0.1/n)^2 above
+/// 0.01 cycles/m, under a tyre that touches 0.1 m of it.
+class FieldSimulator {
+ public:
+  explicit FieldSimulator(const FieldDrive& drive) : drive_(drive), random_(drive.seed) {
+    designFilter();
+    refresh();
+  }
+
+  /// @return the next sample of both IMUs.
+  CornerSample next() {
+    const int steps = kFieldRate / drive_.rate;
+    double body = 0.0, wheel = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      step();
+      body = filtered(0, body_), wheel = filtered(1, wheel_);
+    }
+    if (!drive_.anti_aliased) body = body_, wheel = wheel_;
+    const double offset = drive_.offset + drive_.offset_swing * std::sin(2 * M_PI * time_ / drive_.offset_period);
+    return {fromSeconds(time_), body + drive_.noise * gauss_(random_),
+            wheel + offset + drive_.noise * gauss_(random_)};
+  }
+
+  double time() const { return time_; }
+
+ private:
+  static constexpr double kStep = 1.0 / kFieldRate;
+
+  void refresh() {
+    const bool changed = time_ >= drive_.change_at;
+    const double b1 = drive_.vehicle.b1 * (changed ? drive_.damping_left : 1.0) *
+                      (1.0 - drive_.fade * 0.5 * (1.0 - std::cos(2 * M_PI * time_ / 1800.0)));
+    const double b0 = drive_.vehicle.b0 * (changed ? drive_.stiffness_left : 1.0);
+    const double body = drive_.mass, wheel = drive_.vehicle.wheel_to_body, tyre = drive_.vehicle.tyre_to_body;
+    Eigen::Matrix<double, 7, 7> e = Eigen::Matrix<double, 7, 7>::Zero();  // z, w, z', w', road, force, road's rate
+    e(0, 2) = e(1, 3) = 1.0;
+    e.row(2) << -b0 / body, b0 / body, -b1 / body, b1 / body, 0.0, 1.0, 0.0;
+    e.row(3) << b0 / wheel, -(b0 + tyre) / wheel, b1 / wheel, -b1 / wheel, tyre / wheel, 0.0, 0.0;
+    e(4, 6) = 1.0;
+    derivative_ = e.block<2, 6>(2, 0);
+    transition_ = (e * kStep).exp().topRows<4>();
+  }
+
+  double speed() {
+    if (!drive_.stops) return drive_.speed;
+    const double phase = std::fmod(time_, 60.0);  // 40 s of driving, 20 s of rest, 4 s to stop and to start
+    const double share = phase < 4.0 ? phase / 4.0 : phase < 36.0 ? 1.0 : phase < 40.0 ? (40.0 - phase) / 4.0 : 0.0;
+    return drive_.speed * share;
+  }
+
+  double roadHeight() {
+    const double v = speed();
+    const double density = 2 * M_PI * 0.1 * std::sqrt(drive_.road * v);  // of the road's rate
+    profile_ += kStep * (-2 * M_PI * 0.01 * v * profile_ + density * gauss_(random_) / std::sqrt(2.0 * kStep));
+    place_ += kStep * v;
+    double height = profile_;
+    if (drive_.potholes && v > 0.0) height += pothole();
+    if (drive_.washboard && std::fmod(place_, 40.0 * drive_.speed) < 10.0 * drive_.speed)
+      height += 0.006 * std::sin(2 * M_PI * place_ / 0.7);
+    const double share = std::min(1.0, kStep * v / 0.05);
+    for (double& enveloped : enveloped_) height = enveloped += share * (height - enveloped);
+    return height;
+  }
+
+  double pothole() {
+    if (place_ > pothole_ + 1.0) {
+      pothole_ = place_ + drive_.speed * (5.0 + 30.0 * uniform_(random_));
+      depth_ = 0.03 + 0.05 * uniform_(random_);
+    }
+    const double along = place_ - pothole_;
+    return along > 0.0 && along < 0.6 ? -depth_ * 0.5 * (1.0 - std::cos(2 * M_PI * along / 0.6)) : 0.0;
+  }
+
+  void step() {
+    if (++steps_ % kFieldRate == 0) refresh();
+    time_ = static_cast<double>(steps_) * kStep;
+    const double idle = 25.0 + 15.0 * 0.5 * (1.0 + std::sin(2 * M_PI * time_ / 97.0));
+    phase_ = std::fmod(phase_ + 2 * M_PI * idle * kStep, 2 * M_PI);
+    const double height = roadHeight(), force = drive_.engine * std::sin(phase_);
+    Eigen::Matrix<double, 7, 1> input;
+    input << state_, height_, force, (height - height_) / kStep;
+    state_ = transition_ * input;
+    height_ = height;
+    Eigen::Matrix<double, 6, 1> now;
+    now << state_, height, force;
+    const Eigen::Vector2d accelerations = derivative_ * now;
+    body_ = accelerations[0];
+    wheel_ = accelerations[1];
+  }
+
+  // Butterworth of fourth order at 0.35 of the rate, as two sections by the bilinear transform.
+  void designFilter() {
+    const double k = std::tan(M_PI * 0.35 * drive_.rate / kFieldRate);
+    const std::array q{0.54119610, 1.3065630};
+    for (int i = 0; i < 2; ++i) {
+      const double norm = 1.0 / (1.0 + k / q[i] + k * k);
+      sections_[i] = {k * k * norm, 2.0 * (k * k - 1.0) * norm, (1.0 - k / q[i] + k * k) * norm};
+    }
+  }
+
+  double filtered(int channel, double x) {
+    for (int i = 0; i < 2; ++i) {
+      const auto& [gain, a1, a2] = sections_[i];
+      auto& [s1, s2] = memory_[channel][i];
+      const double y = gain * x + s1;
+      s1 = 2.0 * gain * x - a1 * y + s2;
+      s2 = gain * x - a2 * y;
+      x = y;
+    }
+    return x;
+  }
+
+  FieldDrive drive_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> gauss_;
+  std::uniform_real_distribution<double> uniform_;
+  Eigen::Matrix<double, 2, 6> derivative_;
+  Eigen::Matrix<double, 4, 7> transition_;
+  Eigen::Vector4d state_ = Eigen::Vector4d::Zero();
+  std::array<std::array<double, 3>, 2> sections_{};
+  std::array<std::array<std::array<double, 2>, 2>, 2> memory_{};
+  std::array<double, 2> enveloped_{};
+  long steps_ = 0;
+  double time_ = 0.0, profile_ = 0.0, place_ = 0.0, pothole_ = 30.0, depth_ = 0.05, phase_ = 0.0;
+  double height_ = 0.0, body_ = 0.0, wheel_ = 0.0;
+};
+
+}  // namespace suspension_health_monitor
