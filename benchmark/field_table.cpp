@@ -160,8 +160,9 @@ void printSteps() {
         warn.push_back(first_warn);
         error.push_back(first_error);
         const bool of_damping = step.damping < 1.0;
-        right += (of_damping ? last.damping_level : last.stiffness_level) >= HealthLevel::kWarn &&
-                 (of_damping ? last.stiffness_level : last.damping_level) == HealthLevel::kOk;
+        const auto raised = [](HealthLevel level) { return level == HealthLevel::kWarn || level == HealthLevel::kError; };
+        right += raised(of_damping ? last.damping_level : last.stiffness_level) &&
+                 !raised(of_damping ? last.stiffness_level : last.damping_level);
         if (i < 2) words += describe(last) + "; ";
       }
       const auto text = [](std::vector<double>& delays) {

@@ -127,6 +127,14 @@ struct SensorReport {
 /// @return the finding in words for a person; empty for kNone.
 std::string describe(const SensorReport& report);
 
+/// What a load on the body explains as well as damage does. Heavier, or worn?
+enum class LoadDoubt : unsigned char {
+  kNone,
+  kLoadOrDamper,  ///< damping has certainly changed; whether stiffness has as much is not known yet
+  kLoadOrSpring,  ///< the other way round
+  kLoadOrBoth,    ///< both are lower alike: a load, or damper and spring worn alike
+};
+
 /// The healthy strut, to judge changes by. Standard deviations are 0 for values that somebody has given.
 struct Baseline {
   std::optional<double> damping_to_mass;    ///< b1 [1/s]
@@ -152,6 +160,7 @@ struct HealthReport {
   bool estimate_valid = false;                   ///< of LA
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not
   bool uncertain = false;      ///< valid, but a change as large as the error threshold would not be significant
+  LoadDoubt load_doubt = LoadDoubt::kNone;
   bool early_warning = false;  ///< a small change is certain before it reaches a threshold; raises no level
   bool outliers = false;       ///< LS and LA have disagreed for long: outliers or saturation
   SensorReport sensor;

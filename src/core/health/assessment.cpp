@@ -94,7 +94,7 @@ void HealthAssessment::setMemory(double rows) {
 void HealthAssessment::setBaseline(const Baseline& baseline) {
   baseline_ = baseline;
   learner_.reset();
-  since_early_ = 0.0;
+  since_early_ = known_load_ = 0.0;
   for (Parameter* parameter : {&damping_, &stiffness_}) {
     parameter->early = earlyWarning(options_);
     parameter->level = HealthLevel::kOk;
@@ -113,6 +113,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
         setBaseline(*learned);
     const StrutChange changed = change();
     judge(changed, now);
+    noteLoad(changed);
     warnEarly(changed);
   }
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
@@ -150,13 +151,38 @@ StrutChange HealthAssessment::change() const {
   };
   return splitChange(from(baseline_.damping_to_mass, baseline_.damping_to_mass_stddev, damping_.course),
                      from(baseline_.stiffness_to_mass, baseline_.stiffness_to_mass_stddev, stiffness_.course),
-                     options_.payload_range);
+                     options_.payload_range, known_load_);
+}
+
+// The load is known while nothing but it has changed, and that is certain enough to be no beginning of a damage.
+void HealthAssessment::noteLoad(const StrutChange& change) {
+  if (!change.load_alone || change.load_alone->at_end) return;
+  const double apart = std::abs(std::log1p(*change.damping) - std::log1p(*change.stiffness));
+  const double stddev = std::max(change.damping_stddev, change.stiffness_stddev);
+  if (apart + kLoadCertain * stddev < kLoadShare * std::min(options_.damping_warn, options_.stiffness_warn))
+    known_load_ = change.load_alone->log_mass;
+}
+
+// A part whose parameter has certainly changed, while a load may have done it.
+LoadDoubt HealthAssessment::doubtOfLoad(const StrutChange& change) const {
+  if (!change.load_alone) return LoadDoubt::kNone;
+  const auto is_doubtful = [&](const LogChange& measured, double part, double stddev, double warn) {
+    return std::abs(measured.size) >= std::max(logSize(warn), options_.min_significance * measured.stddev) &&
+           std::abs(part) >= warn && logSize(part) < options_.min_significance * stddev;
+  };
+  if (is_doubtful(*change.measured_damping, *change.damping, change.damping_stddev, options_.damping_warn))
+    return LoadDoubt::kLoadOrDamper;
+  if (is_doubtful(*change.measured_stiffness, *change.stiffness, change.stiffness_stddev, options_.stiffness_warn))
+    return LoadDoubt::kLoadOrSpring;
+  return *change.payload >= std::min(options_.damping_warn, options_.stiffness_warn) ? LoadDoubt::kLoadOrBoth
+                                                                                    : LoadDoubt::kNone;
 }
 
 void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
   now.damping_change = change.damping;
   now.stiffness_change = change.stiffness;
   now.payload_change = change.payload;
+  now.load_doubt = doubtOfLoad(change);
   if (change.damping) {
     now.damping_significance = logSize(*change.damping) / change.damping_stddev;
     damping_.level = levelOf(*change.damping, change.damping_stddev, options_.damping_warn, options_.damping_error,

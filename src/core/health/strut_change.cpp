@@ -6,35 +6,48 @@
 namespace suspension_health_monitor {
 namespace {
 
-struct Payload {
-  double log_mass, stddev;
-};
+double median(double a, double b, double c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
 
-Payload payloadOf(const LogChange& damping, const LogChange& stiffness, double range) {
-  if (range == 0.0 || (damping.size > 0.0) != (stiffness.size > 0.0)) return {0.0, 0.0};
-  const LogChange& smaller = std::abs(damping.size) < std::abs(stiffness.size) ? damping : stiffness;
-  const double noise = smaller.stddev > 0.0 ? 2.0 * smaller.stddev : 0.0;
-  if (std::abs(smaller.size) <= noise) return {0.0, 0.0};
-  const double shrunk = -smaller.size * (1.0 - std::pow(noise / smaller.size, 2));
-  const double most = std::log1p(range), least = range < 1.0 ? std::log1p(-range) : -most;
-  return {std::clamp(shrunk, least, most), smaller.stddev};
+LoadRange logRange(double range) { return {range < 1.0 ? std::log1p(-range) : -std::log1p(range), std::log1p(range)}; }
+
+// The standard deviation of a part's change that makes it as significant as it is beside a load that explains all.
+double beside(const LoadAlone& load, const LogChange& measured, double change, double apart) {
+  if (!load.at_end || !(load.distance > 0.0)) return apart;
+  return std::max(measured.stddev, std::abs(change) / load.distance);
 }
 
 }  // namespace
 
+LoadAlone explainByLoad(const LogChange& damping, const LogChange& stiffness, const LoadRange& range) {
+  const double of_damping = damping.stddev * damping.stddev, of_stiffness = stiffness.stddev * stiffness.stddev;
+  const double best = -(damping.size * of_stiffness + stiffness.size * of_damping) / (of_damping + of_stiffness);
+  LoadAlone load;
+  load.log_mass = std::clamp(best, range.least, range.most);
+  load.at_end = load.log_mass != best;
+  load.distance = std::hypot((damping.size + load.log_mass) / damping.stddev,
+                             (stiffness.size + load.log_mass) / stiffness.stddev);
+  return load;
+}
+
 StrutChange splitChange(const std::optional<LogChange>& damping, const std::optional<LogChange>& stiffness,
-                        double payload_range) {
+                        double payload_range, double known_load) {
   StrutChange change{};
-  Payload payload{0.0, 0.0};
-  if (damping && stiffness) {
-    payload = payloadOf(*damping, *stiffness, payload_range);
-    change.payload = std::expm1(payload.log_mass);
+  change.measured_damping = damping;
+  change.measured_stiffness = stiffness;
+  change.damping_stddev = damping ? damping->stddev : NAN;
+  change.stiffness_stddev = stiffness ? stiffness->stddev : NAN;
+  double mass = 0.0;
+  if (damping && stiffness && payload_range > 0.0) {
+    const LoadRange range = logRange(payload_range);
+    mass = std::clamp(median(known_load, -damping->size, -stiffness->size), range.least, range.most);
+    change.load_alone = explainByLoad(*damping, *stiffness, range);
+    const double apart = std::hypot(damping->stddev, stiffness->stddev);
+    change.damping_stddev = beside(*change.load_alone, *damping, damping->size + mass, apart);
+    change.stiffness_stddev = beside(*change.load_alone, *stiffness, stiffness->size + mass, apart);
   }
-  if (damping) change.damping = std::expm1(damping->size + payload.log_mass);
-  if (stiffness) change.stiffness = std::expm1(stiffness->size + payload.log_mass);
-  const auto together = [&](double stddev) { return std::sqrt(stddev * stddev + payload.stddev * payload.stddev); };
-  change.damping_stddev = damping ? together(damping->stddev) : NAN;
-  change.stiffness_stddev = stiffness ? together(stiffness->stddev) : NAN;
+  if (damping && stiffness) change.payload = std::expm1(mass);
+  if (damping) change.damping = std::expm1(damping->size + mass);
+  if (stiffness) change.stiffness = std::expm1(stiffness->size + mass);
   return change;
 }
 

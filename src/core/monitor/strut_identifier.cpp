@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <utility>
 
 #include "suspension_health_monitor/internal/pi.h"
 
@@ -60,6 +61,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       least_absolute_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples),
                       options.leastAbsolute()),
       forgetting_{!options.estimators.forgets_unexcited, {}},
+      past_{present(), present()},
       stddevs_due_(kStddevsEvery),
       noise_level_(filter_),
       silent_rows_(filter_.horizon_samples) {
@@ -77,6 +79,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
   if (with_offset_) columns.push_back({offsetColumn(), 0.0});
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
+  past_.fill(present());
   regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
   ls_shift_ = la_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
   if (forgetting_.variable) forgetting_.variable->restart(numModelColumns());
@@ -94,7 +97,7 @@ void StrutIdentifier::add(const CornerSample& sample, const double* effect_force
   // Rows that LA hits exactly would weigh so much that it could not leave them for minutes.
   if (!silent_rows_.moves()) return;
   rows_ += 1.0;
-  if (excitation_.add(*row, withoutEffects(*row), regression_.wheelOutput())) takeExcitation();
+  if (excitation_.add(*row, withoutEffects(*row), regression_.wheelOutput())) closeBlock();
   update(*row);
 }
 
@@ -128,6 +131,23 @@ void StrutIdentifier::update(const RegressionRow& row) {
   if (!forgetting_.variable || !la_is_valid_) return;
   forgetting_.variable->add(row, innovation, least_absolute_.meanAbsoluteResidual());
   forgetBy(forgetting_.variable->factor());
+}
+
+// That two blocks of rows tell nothing of a parameter is known at their end, when their noise has pulled it already: so
+// the estimates go back to before them.
+void StrutIdentifier::closeBlock() {
+  const auto num_held = [&] { return int{isHeld(kDampingToMass)} + int{isHeld(kStiffnessToMass)}; };
+  const int before = num_held();
+  takeExcitation();
+  if (num_held() > before) {
+    least_squares_.goBackTo(past_[0].ls);
+    least_absolute_.goBackTo(past_[0].la);
+    past_[1] = past_[0];
+    return;
+  }
+  std::swap(past_[0], past_[1]);
+  least_squares_.copyTo(past_[1].ls);
+  least_absolute_.copyTo(past_[1].la);
 }
 
 void StrutIdentifier::takeExcitation() {

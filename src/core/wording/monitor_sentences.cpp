@@ -26,14 +26,26 @@ std::string describeChanges(const HealthReport& report) {
                    : "body mass " + sizeInPercent(payload) + (payload < 0.0 ? " below" : " above")});
 }
 
+std::string describe(LoadDoubt doubt) {
+  switch (doubt) {
+    case LoadDoubt::kNone: return "";
+    case LoadDoubt::kLoadOrDamper: return "payload or damper: cannot tell yet";
+    case LoadDoubt::kLoadOrSpring: return "payload or spring: cannot tell yet";
+    case LoadDoubt::kLoadOrBoth: return "payload, or damper and spring worn alike: one strut alone cannot tell";
+  }
+  return "";
+}
+
 std::string describeJudgement(const HealthReport& report) {
+  if (report.level == HealthLevel::kStale && report.uncertain && report.load_doubt != LoadDoubt::kNone)
+    return describe(report.load_doubt);
   if (report.level == HealthLevel::kStale && report.uncertain)
     return "cannot tell: estimates too uncertain to prove a change (drive on, or on a rougher road)";
   if (report.level == HealthLevel::kStale && report.estimate_valid)
     return "cannot tell yet: a new level must last for health/confirm_time";
   if (report.level == HealthLevel::kStale) return "cannot tell: " + describe(report.doubt);
   const std::string changes = describeChanges(report);
-  if (!changes.empty()) return changes;
+  if (!changes.empty()) return join({changes, describe(report.load_doubt)}, "; ");
   if (!report.learning) return "estimates valid; no nominal values given to judge them by";
   return "learning the baseline: " + sizeInPercent(*report.learning) + " of the learning time" +
          (report.learning_restarted ? " (begun anew: the strut was changing)" : "");

@@ -67,6 +67,7 @@ class HealthAssessment {
 
  private:
   static constexpr double kAgreement = 3.0, kTails = 2.5;
+  static constexpr double kLoadCertain = 2.0, kLoadShare = 0.5;  // standard deviations; of a change that warns
   static constexpr double kOutlierShare = 0.4, kOutlierMemories = 10.0;
 
   /// What is followed of damping or of stiffness.
@@ -78,6 +79,8 @@ class HealthAssessment {
 
   void follow(const StrutEstimate& ls, const StrutEstimate& la);
   StrutChange change() const;
+  void noteLoad(const StrutChange& change);
+  LoadDoubt doubtOfLoad(const StrutChange& change) const;
   void judge(const StrutChange& change, HealthReport& now);
   void warnEarly(const StrutChange& change);
 
@@ -89,6 +92,7 @@ class HealthAssessment {
   Parameter damping_, stiffness_;
   bool agree_ = false;         // LS and LA
   double disagreement_ = 0.0;  // share of the updates
+  double known_load_ = 0.0;    // ln of the body's mass over the healthy vehicle's, when last nothing else had changed
   double since_early_ = 0.0;   // updates since the early warning saw the newest change
   SensorReport sensor_;
   HealthReport report_;

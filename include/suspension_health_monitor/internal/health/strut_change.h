@@ -10,23 +10,43 @@ struct LogChange {
   double stddev;  ///< of size; NaN: not known
 };
 
+/// ln of the body's mass over that of the healthy vehicle, from the lightest to the heaviest that payload makes it.
+struct LoadRange {
+  double least, most;
+};
+
+/// The load that explains both changes best, and how well.
+struct LoadAlone {
+  double log_mass = 0.0;
+  bool at_end = false;    ///< of the range: more of it would explain more
+  double distance = 0.0;  ///< of both changes from it, in standard deviations
+};
+
 /// What has changed: body mass, damping, stiffness, each relative to the healthy strut (0: not at all).
 struct StrutChange {
+  std::optional<LogChange> measured_damping, measured_stiffness;  ///< x1, x0, of whatever cause
   std::optional<double> damping, stiffness;
   std::optional<double> payload;            ///< of the body's mass; empty: only one of the two parameters can be judged
   double damping_stddev, stiffness_stddev;  ///< of ln(1 + change); NaN: not known
+  std::optional<LoadAlone> load_alone;      ///< the rival of any damage; empty: there is none
 };
+
+/// @param damping, stiffness  their errors are taken as independent.
+/// @return by weighted least squares over the range.
+LoadAlone explainByLoad(const LogChange& damping, const LogChange& stiffness, const LoadRange& range);
 
 /// Tells payload from damage. b1 = beta/M and b0 = K/M: a mass that is m times as large (ln m = p) moves both by -p,
 /// damage moves one:  x1 = ln(b1/b1n) = d - p,  x0 = ln(b0/b0n) = s - p.
-/// Of the many (p, d, s) that explain (x1, x0) this is the one of least |p| + |d| + |s|: p = -median(0, x1, x0). So
-/// what both have in common is payload, and what one has beyond it is damage; where they move apart there is no
-/// payload. The part that is not significant counts as none: p is shrunk by 1 - (2 sigma / p)^2, at least 0 (L.
-/// Breiman, Better subset regression using the nonnegative garrote, 1995), so that the noise of b0 does not enter the
-/// judgement of the damping of a vehicle without payload.
+/// Of the many (p, d, s) that explain (x1, x0) this is the one of least |p - q| + |d| + |s|, with q the load that was
+/// there before: p = median(q, -x1, -x0). So what both have in common is payload, and what one has beyond it is damage;
+/// and a vehicle that was lighter and then has lost damping is not one that was loaded and has a stiffer spring.
+/// Payload alone is the rival of every damage (explainByLoad()): a damage is as significant as it is certain that no
+/// payload explains the same. So a damping that is certainly lower is none of the damper's as long as the stiffness may
+/// be as much lower.
 /// @param damping, stiffness  x1, x0; empty: cannot be judged.
 /// @param payload_range  largest relative change of mass that can be payload; what is beyond is damage. 0: none is.
+/// @param known_load  q.
 StrutChange splitChange(const std::optional<LogChange>& damping, const std::optional<LogChange>& stiffness,
-                        double payload_range);
+                        double payload_range, double known_load);
 
 }  // namespace suspension_health_monitor

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -81,8 +82,15 @@ class StrutIdentifier {
     double fewest_rows = 0.0;                    // of a valid estimate
   };
 
+  /// Both estimates as they were at the end of a block of rows (Excitation).
+  struct Past {
+    RecursiveEstimator::Past ls, la;
+  };
+
+  Past present() const { return {least_squares_.present(), least_absolute_.present()}; }
   double withoutEffects(const RegressionRow& row) const;
   void update(const RegressionRow& row);
+  void closeBlock();
   void takeExcitation();
   bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }
   void forgetBy(double factor);
@@ -103,6 +111,7 @@ class StrutIdentifier {
   RecursiveLeastSquares least_squares_;
   RecursiveLeastAbsolute least_absolute_;
   Forgetting forgetting_;
+  std::array<Past, 2> past_;  // at the ends of the newest two blocks that may have told something, the older one first
   Eigen::VectorXd ls_shift_, la_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
   EveryN stddevs_due_;
   bool has_row_ = false;
