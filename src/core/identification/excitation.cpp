@@ -97,6 +97,11 @@ void Excitation::judgeExcited(const Block& recent) {
   const auto excitation = excitationOf(recent.moments, fit, noise_);
   const auto information = informationOf(recent.moments), newest = informationOf(block_.moments);
   bool is_new = false;
+  const auto hold = [&](Part& part) {
+    part.excited = false;
+    part.rough_blocks = 0;
+    is_new = true;
+  };
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (!part.excited) continue;
@@ -104,20 +109,25 @@ void Excitation::judgeExcited(const Block& recent) {
     if (tells && excitation[i] >= kLeastExcitation) {
       usual_[i].learn(newest[i] / block_.rows, most_blocks_);
     } else if (recent.blocks == 2 && information[i] / recent.rows < kUsualShare * usual_[i].mean) {
-      part.excited = false;
-      part.rough_blocks = 0;
-      is_new = true;
+      hold(part);
     }
   }
+  // On the way to a stop one goes before the other: beside one that is held the other one stays if it tells as much as
+  // one that is held needs to be released.
+  if (isHeld() && recent.blocks == 2)
+    for (Part& part : parts_)
+      if (part.excited && part.excitation < leastToRelease(recent)) hold(part);
   if (is_new) since_held_ = Block();
 }
+
+double Excitation::leastToRelease(const Block& rows) { return kLeastExcitation * kMostBlocks / rows.blocks; }
 
 void Excitation::judgeHeld() {
   since_held_ += block_;
   const StrutFit fit = since_held_.moments.bestStrut(most_);
   const bool tells = fit.rest < (1.0 - kLeastShare) * since_held_.moments.output;
   const auto excitation = excitationOf(since_held_.moments, fit, noise_);
-  const double least = kLeastExcitation * kMostBlocks / since_held_.blocks;
+  const double least = leastToRelease(since_held_);
   const auto newest = informationOf(block_.moments);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];

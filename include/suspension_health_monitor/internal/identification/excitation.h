@@ -99,6 +99,7 @@ class Excitation {
     Block& operator+=(const Block& other);
   };
 
+  static double leastToRelease(const Block& rows);
   void closeBlock();
   void judgeWheel();
   void judgeExcited(const Block& recent);
