@@ -15,7 +15,8 @@ namespace {
 constexpr double kSharp = 1e-4;  // standard deviation so small that nothing counts as noise
 
 StrutChange split(double damping, double stiffness, double mass, double range = 0.35, double stddev = kSharp) {
-  return splitChange(LogChange{std::log(damping / mass), stddev}, LogChange{std::log(stiffness / mass), stddev}, range);
+  return splitChange(LogChange{std::log(damping / mass), stddev}, LogChange{std::log(stiffness / mass), stddev}, range,
+                     0.0);
 }
 
 TEST(SplitChange, TellsPayloadFromDamage) {
@@ -44,14 +45,41 @@ TEST(SplitChange, WhatIsBeyondThePayloadRangeIsDamage) {
   EXPECT_NEAR(*split(0.7, 0.7, 1.0, 0.0).damping, -0.3, 1e-12);
 }
 
-TEST(SplitChange, NoiseOfOneParameterDoesNotEnterTheOther) {
-  const StrutChange change = splitChange(LogChange{-0.2, 0.01}, LogChange{-0.019, 0.01}, 0.35);
-  EXPECT_EQ(std::log1p(*change.damping), -0.2);
-  EXPECT_NEAR(change.damping_stddev, 0.01, 1e-12);
-  const StrutChange loaded = splitChange(LogChange{-0.2, 0.01}, LogChange{-0.1, 0.02}, 0.35);
+TEST(SplitChange, ADamageIsAsCertainAsItIsThatNoLoadDidIt) {
+  const StrutChange unloaded = splitChange(LogChange{-0.2, 0.01}, LogChange{0.0, 0.02}, 0.35, 0.0);
+  EXPECT_NEAR(std::log1p(*unloaded.damping), -0.2, 1e-12);
+  EXPECT_NEAR(unloaded.damping_stddev, 0.01, 1e-12);  // the noise of stiffness does not enter the size
+  EXPECT_NEAR(unloaded.load_alone->distance, 0.2 / std::hypot(0.01, 0.02), 1e-9);
+  // No load of the range takes more than ln(1.35) = 0.3 away: the rest is as certain as the damping is.
+  const StrutChange beyond = splitChange(LogChange{-0.7, 0.01}, LogChange{0.0, 0.5}, 0.35, 0.0);
+  EXPECT_TRUE(beyond.load_alone->at_end);
+  EXPECT_GT(beyond.load_alone->distance, 0.39 / 0.01);
+  const StrutChange loaded = splitChange(LogChange{-0.2, 0.01}, LogChange{-0.1, 0.02}, 0.35, 0.0);
   EXPECT_NEAR(loaded.damping_stddev, std::hypot(0.01, 0.02), 1e-12);
   EXPECT_NEAR(std::log1p(*loaded.payload), 0.1 * (1.0 - 0.16), 1e-12);  // (2 * 0.02 / 0.1)^2
-  EXPECT_FALSE(splitChange(LogChange{-0.2, 0.01}, std::nullopt, 0.35).payload);
+  const StrutChange alone = splitChange(LogChange{-0.2, 0.01}, std::nullopt, 0.35, 0.0);
+  EXPECT_FALSE(alone.payload);
+  EXPECT_EQ(alone.damping_stddev, 0.01);
+  EXPECT_FALSE(split(0.8, 1.0, 1.0, 0.0).load_alone);  // none may be
+}
+
+// -30 % of mass, then -30 % of damping: damping alone would look as if nothing had happened to it, and the spring stiffer.
+TEST(SplitChange, CountsTheLoadFromTheOneThatWasThere) {
+  const LogChange damping{std::log(0.7 / 0.7), kSharp}, stiffness{std::log(1.0 / 0.7), kSharp};
+  const StrutChange change = splitChange(damping, stiffness, 0.35, std::log(0.7));
+  EXPECT_NEAR(*change.damping, -0.3, 1e-9);
+  EXPECT_NEAR(*change.stiffness, 0.0, 1e-9);
+  EXPECT_NEAR(*change.payload, -0.3, 1e-9);
+  EXPECT_NEAR(*splitChange(damping, stiffness, 0.35, 0.0).stiffness, 1.0 / 0.7 - 1.0, 1e-9);
+}
+
+TEST(LoadAlone, IsTheWeightedMeanWithinItsRange) {
+  const LoadAlone load = explainByLoad({-0.2, 0.01}, {-0.1, 0.02}, {-0.4, 0.3});
+  EXPECT_NEAR(load.log_mass, (0.2 * 4.0 + 0.1) / 5.0, 1e-12);
+  EXPECT_FALSE(load.at_end);
+  EXPECT_NEAR(load.distance, 0.1 / std::hypot(0.01, 0.02), 1e-9);  // of two values from their common mean
+  EXPECT_EQ(explainByLoad({-0.7, 0.01}, {-0.5, 0.01}, {-0.4, 0.3}).log_mass, 0.3);
+  EXPECT_EQ(explainByLoad({0.7, 0.01}, {0.5, 0.01}, {-0.4, 0.3}).log_mass, -0.4);
 }
 
 TEST(FollowedParameter, TakesTheEstimatorThatKnowsItBetter) {

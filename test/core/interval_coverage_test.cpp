@@ -24,7 +24,7 @@ TEST(IntervalCoverage, OfEstimatesAndTheirStandardDeviationsIs95Percent) {
     for (const double horizon : {0.6, 1.0, 1.6}) {
       MonitorSettings options;
       options.integration_horizon = horizon * proposed / simulation.rate;
-      all += coverageOf(drive, 0.03, options, 12);
+      all += coverageOf(drive, 0.03, options, 24);
     }
   }
   for (const auto& estimator : all)
@@ -142,7 +142,7 @@ TEST(RegressorNoise, IsTheCovarianceOfWhatTheFiltersMakeOfSensorNoise) {
     moment += phi * residual / kCount;
     variance += residual * residual / kCount;
   }
-  const Eigen::Vector2d expected = RegressorNoise(options).moment(theta, variance);
+  const Eigen::Vector2d expected = RegressorNoise(options).moment(theta, variance / RegressorNoise(options).residualGain(theta));
   EXPECT_NEAR(moment[0] / expected[0], 1.0, 0.05);
   EXPECT_NEAR(moment[1] / expected[1], 1.0, 0.05);
 }

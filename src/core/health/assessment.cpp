@@ -41,9 +41,10 @@ constexpr double kHeldShare = 0.5;  // of the significance that a level began wi
 
 // Level of one parameter. A level that holds already ends below its threshold less the hysteresis, or less a standard
 // deviation if that is more, or when the change has lost half of the significance that it began with.
-HealthLevel levelOf(double change, double stddev, double warn, double error, HealthLevel before,
-                    const HealthOptions& options) {
-  const double size = std::abs(change), significance = logSize(change) / stddev;
+// @param blind  standard deviation that a change is proved against.
+HealthLevel levelOf(double change, double stddev, double significance, double blind, double warn, double error,
+                    HealthLevel before, const HealthOptions& options) {
+  const double size = std::abs(change);
   const auto reaches = [&](HealthLevel level, double threshold) {
     const bool holds = before >= level && before != HealthLevel::kStale;
     if (significance < options.min_significance * (holds ? kHeldShare : 1.0)) return false;
@@ -51,8 +52,8 @@ HealthLevel levelOf(double change, double stddev, double warn, double error, Hea
   };
   if (reaches(HealthLevel::kError, error)) return HealthLevel::kError;
   if (reaches(HealthLevel::kWarn, warn)) return HealthLevel::kWarn;
-  const bool blind = options.min_significance * stddev > error;  // a change as large as that would not be certain
-  return blind ? HealthLevel::kStale : HealthLevel::kOk;
+  // A change as large as the error threshold would not be certain.
+  return options.min_significance * blind > error ? HealthLevel::kStale : HealthLevel::kOk;
 }
 
 }  // namespace
@@ -157,8 +158,8 @@ StrutChange HealthAssessment::change() const {
 // The load is known while nothing but it has changed, and that is certain enough to be no beginning of a damage.
 void HealthAssessment::noteLoad(const StrutChange& change) {
   if (!change.load_alone || change.load_alone->at_end) return;
-  const double apart = std::abs(std::log1p(*change.damping) - std::log1p(*change.stiffness));
-  const double stddev = std::max(change.damping_stddev, change.stiffness_stddev);
+  const double apart = std::abs(change.measured_damping->size - change.measured_stiffness->size);
+  const double stddev = std::hypot(change.measured_damping->stddev, change.measured_stiffness->stddev);
   if (apart + kLoadCertain * stddev < kLoadShare * std::min(options_.damping_warn, options_.stiffness_warn))
     known_load_ = change.load_alone->log_mass;
 }
@@ -166,16 +167,15 @@ void HealthAssessment::noteLoad(const StrutChange& change) {
 // A part whose parameter has certainly changed, while a load may have done it.
 LoadDoubt HealthAssessment::doubtOfLoad(const StrutChange& change) const {
   if (!change.load_alone) return LoadDoubt::kNone;
-  const auto is_doubtful = [&](const LogChange& measured, double part, double stddev, double warn) {
-    return std::abs(measured.size) >= std::max(logSize(warn), options_.min_significance * measured.stddev) &&
-           std::abs(part) >= warn && logSize(part) < options_.min_significance * stddev;
+  const bool load_may = change.load_alone->distance < options_.min_significance;
+  const auto is_doubtful = [&](double part, double stddev, double warn) {
+    return load_may && std::abs(part) >= warn && logSize(part) >= options_.min_significance * stddev;
   };
-  if (is_doubtful(*change.measured_damping, *change.damping, change.damping_stddev, options_.damping_warn))
-    return LoadDoubt::kLoadOrDamper;
-  if (is_doubtful(*change.measured_stiffness, *change.stiffness, change.stiffness_stddev, options_.stiffness_warn))
+  if (is_doubtful(*change.damping, change.damping_stddev, options_.damping_warn)) return LoadDoubt::kLoadOrDamper;
+  if (is_doubtful(*change.stiffness, change.stiffness_stddev, options_.stiffness_warn))
     return LoadDoubt::kLoadOrSpring;
-  return *change.payload >= std::min(options_.damping_warn, options_.stiffness_warn) ? LoadDoubt::kLoadOrBoth
-                                                                                    : LoadDoubt::kNone;
+  const bool is_loaded = *change.payload >= std::min(options_.damping_warn, options_.stiffness_warn);
+  return is_loaded ? LoadDoubt::kLoadOrBoth : LoadDoubt::kNone;
 }
 
 void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
@@ -183,15 +183,22 @@ void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
   now.stiffness_change = change.stiffness;
   now.payload_change = change.payload;
   now.load_doubt = doubtOfLoad(change);
+  const double unless_load = change.load_alone ? change.load_alone->distance : HUGE_VAL;
+  const auto blind = [&](const std::optional<LogChange>& part) {
+    const bool has_rival = change.load_alone.has_value();
+    return has_rival ? std::hypot(change.measured_damping->stddev, change.measured_stiffness->stddev) : part->stddev;
+  };
   if (change.damping) {
-    now.damping_significance = logSize(*change.damping) / change.damping_stddev;
-    damping_.level = levelOf(*change.damping, change.damping_stddev, options_.damping_warn, options_.damping_error,
+    now.damping_significance = std::fmin(logSize(*change.damping) / change.damping_stddev, unless_load);
+    damping_.level = levelOf(*change.damping, change.damping_stddev, now.damping_significance,
+                             blind(change.measured_damping), options_.damping_warn, options_.damping_error,
                              damping_.level, options_);
   }
   if (change.stiffness) {
-    now.stiffness_significance = logSize(*change.stiffness) / change.stiffness_stddev;
-    stiffness_.level = levelOf(*change.stiffness, change.stiffness_stddev, options_.stiffness_warn,
-                               options_.stiffness_error, stiffness_.level, options_);
+    now.stiffness_significance = std::fmin(logSize(*change.stiffness) / change.stiffness_stddev, unless_load);
+    stiffness_.level = levelOf(*change.stiffness, change.stiffness_stddev, now.stiffness_significance,
+                               blind(change.measured_stiffness), options_.stiffness_warn, options_.stiffness_error,
+                               stiffness_.level, options_);
   }
   now.damping_level = damping_.level;
   now.stiffness_level = stiffness_.level;

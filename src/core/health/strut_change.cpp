@@ -10,10 +10,18 @@ double median(double a, double b, double c) { return std::max(std::min(a, b), st
 
 LoadRange logRange(double range) { return {range < 1.0 ? std::log1p(-range) : -std::log1p(range), std::log1p(range)}; }
 
-// The standard deviation of a part's change that makes it as significant as it is beside a load that explains all.
-double beside(const LoadAlone& load, const LogChange& measured, double change, double apart) {
-  if (!load.at_end || !(load.distance > 0.0)) return apart;
-  return std::max(measured.stddev, std::abs(change) / load.distance);
+struct Load {
+  double log_mass, stddev;
+};
+
+// What both have in common, as far as that is significant against the known load.
+Load commonLoad(const LogChange& damping, const LogChange& stiffness, const LoadRange& range, double known) {
+  const double common = median(known, -damping.size, -stiffness.size);
+  const double stddev = common == -damping.size ? damping.stddev : stiffness.stddev;
+  const double noise = stddev > 0.0 ? 2.0 * stddev : 0.0;
+  if (std::abs(common - known) <= noise) return {known, 0.0};
+  const double shrunk = known + (common - known) * (1.0 - std::pow(noise / (common - known), 2));
+  return {std::clamp(shrunk, range.least, range.most), stddev};
 }
 
 }  // namespace
@@ -34,20 +42,19 @@ StrutChange splitChange(const std::optional<LogChange>& damping, const std::opti
   StrutChange change{};
   change.measured_damping = damping;
   change.measured_stiffness = stiffness;
-  change.damping_stddev = damping ? damping->stddev : NAN;
-  change.stiffness_stddev = stiffness ? stiffness->stddev : NAN;
-  double mass = 0.0;
-  if (damping && stiffness && payload_range > 0.0) {
-    const LoadRange range = logRange(payload_range);
-    mass = std::clamp(median(known_load, -damping->size, -stiffness->size), range.least, range.most);
-    change.load_alone = explainByLoad(*damping, *stiffness, range);
-    const double apart = std::hypot(damping->stddev, stiffness->stddev);
-    change.damping_stddev = beside(*change.load_alone, *damping, damping->size + mass, apart);
-    change.stiffness_stddev = beside(*change.load_alone, *stiffness, stiffness->size + mass, apart);
+  Load load{0.0, 0.0};
+  if (damping && stiffness) {
+    if (payload_range > 0.0) {
+      const LoadRange range = logRange(payload_range);
+      load = commonLoad(*damping, *stiffness, range, known_load);
+      change.load_alone = explainByLoad(*damping, *stiffness, range);
+    }
+    change.payload = std::expm1(load.log_mass);
   }
-  if (damping && stiffness) change.payload = std::expm1(mass);
-  if (damping) change.damping = std::expm1(damping->size + mass);
-  if (stiffness) change.stiffness = std::expm1(stiffness->size + mass);
+  if (damping) change.damping = std::expm1(damping->size + load.log_mass);
+  if (stiffness) change.stiffness = std::expm1(stiffness->size + load.log_mass);
+  change.damping_stddev = damping ? std::hypot(damping->stddev, load.stddev) : NAN;
+  change.stiffness_stddev = stiffness ? std::hypot(stiffness->stddev, load.stddev) : NAN;
   return change;
 }
 

@@ -112,9 +112,9 @@ void Excitation::judgeExcited(const Block& recent) {
       hold(part);
     }
   }
-  // On the way to a stop one goes before the other: beside one that is held the other one stays if it tells as much as
-  // one that is held needs to be released.
-  if (isHeld() && recent.blocks == 2)
+  // On the way to a stop one goes before the other: beside one that is newly held the other one stays if it tells as
+  // much as one that is held needs to be released.
+  if (is_new)
     for (Part& part : parts_)
       if (part.excited && part.excitation < leastToRelease(recent)) hold(part);
   if (is_new) since_held_ = Block();

@@ -21,19 +21,20 @@ namespace {
 // are sum c_k = sum k^2 c_k = 0, sum k c_k = 1/12 (exact on parabolas); what is left of them is least squares, relative
 // to the integral, over the band, and small.
 std::vector<double> endCorrections(int count) {
-  constexpr int kFrequencies = 64, kMoments = 3;
-  constexpr double kBand = kPi / 2.0;  // [rad per sample]
-  constexpr double kSize = 0.1;        // a correction of 1 weighs as much as this error: it passes noise on
+  constexpr int kFrequencies = 128, kMoments = 3;
+  constexpr double kBeyond = 1e-2;  // weight of an error beyond half of the Nyquist frequency: it must not grow there
+  constexpr double kSize = 1e-5;    // weight of a correction: it passes noise on
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count + kMoments, count + kMoments);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count + kMoments);
-  for (int i = 1; i <= kFrequencies; ++i) {
-    const double w = kBand * i / kFrequencies, wanted = 0.5 / std::tan(w / 2.0) - 1.0 / w;  // its imaginary part
+  for (int i = 1; i < kFrequencies; ++i) {
+    const double w = kPi * i / kFrequencies, weight = (2 * i <= kFrequencies ? 1.0 : kBeyond) / w;
+    const double wanted = 0.5 / std::tan(w / 2.0) - 1.0 / w;  // its imaginary part
     const Eigen::ArrayXd phase = -w * Eigen::ArrayXd::LinSpaced(count, 0.0, count - 1.0);
-    const Eigen::VectorXd real = w * phase.cos(), imaginary = w * phase.sin();
-    system.topLeftCorner(count, count) += real * real.transpose() + imaginary * imaginary.transpose();
-    right.head(count) += w * wanted * imaginary;
+    const Eigen::VectorXd real = phase.cos(), imaginary = phase.sin();
+    system.topLeftCorner(count, count) += weight * (real * real.transpose() + imaginary * imaginary.transpose());
+    right.head(count) += weight * wanted * imaginary;
   }
-  system.topLeftCorner(count, count).diagonal().array() += kFrequencies * kSize * kSize;
+  system.topLeftCorner(count, count).diagonal().array() += kFrequencies * kSize;
   for (int k = 0; k < count; ++k)
     for (int moment = 0; moment < kMoments; ++moment)
       system(k, count + moment) = system(count + moment, k) = std::pow(k, moment);

@@ -81,7 +81,13 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
   least_absolute_.changeColumns(columns);
   past_.fill(present());
   regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
+  const Eigen::VectorXd ls_before = ls_shift_, la_before = la_shift_;
   ls_shift_ = la_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (!columns[j].before) continue;
+    ls_shift_[static_cast<Eigen::Index>(j)] = ls_before[*columns[j].before];
+    la_shift_[static_cast<Eigen::Index>(j)] = la_before[*columns[j].before];
+  }
   if (forgetting_.variable) forgetting_.variable->restart(numModelColumns());
   takeExcitation();
   has_row_ = false;
