@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
@@ -21,25 +21,24 @@ struct FieldVehicle {
   double tyre_to_body;   ///< K0/M [1/s^2]
 };
 
-inline constexpr std::array kFieldVehicles{FieldVehicle{"golden car", 6.0, 63.3, 0.15, 653.0},
-                                           FieldVehicle{"sedan", 4.2, 52.0, 0.12, 600.0},
-                                           FieldVehicle{"truck", 5.5, 90.0, 0.18, 420.0},
-                                           FieldVehicle{"robot", 9.0, 190.0, 0.25, 2300.0}};
+inline constexpr std::array kFieldVehicles{
+    FieldVehicle{"golden car", 6.0, 63.3, 0.15, 653.0}, FieldVehicle{"sedan", 4.2, 52.0, 0.12, 600.0},
+    FieldVehicle{"truck", 5.5, 90.0, 0.18, 420.0}, FieldVehicle{"robot", 9.0, 190.0, 0.25, 2300.0}};
 
 /// What happens on a drive. Times in [s].
 struct FieldDrive {
   FieldVehicle vehicle = kFieldVehicles[0];
-  double road = 64e-6;     ///< Gd(0.1 cycles/m) [m^3]: 16e-6 is class A, each class four times as much
-  double speed = 15.0;     ///< [m/s]
-  int rate = 200;          ///< of both IMUs [Hz], a divisor of kFieldRate
+  double road = 64e-6;  ///< Gd(0.1 cycles/m) [m^3]: 16e-6 is class A, each class four times as much
+  double speed = 15.0;  ///< [m/s]
+  int rate = 200;       ///< of both IMUs [Hz], a divisor of kFieldRate
   bool anti_aliased = true;
-  double noise = 0.03;     ///< of both IMUs [m/s^2]
-  double offset = 0.0;     ///< of the wheel's IMU [m/s^2]
+  double noise = 0.03;                               ///< of both IMUs [m/s^2]
+  double offset = 0.0;                               ///< of the wheel's IMU [m/s^2]
   double offset_swing = 0.0, offset_period = 600.0;  ///< it drifts besides by +-swing [m/s^2]
-  double mass = 1.0;       ///< of the body, to that of the healthy vehicle
+  double mass = 1.0;                                 ///< of the body, to that of the healthy vehicle
   bool potholes = false, washboard = false, stops = false;
-  double engine = 0.0;     ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
-  double fade = 0.0;       ///< share of the damping that is lost while it is hot
+  double engine = 0.0;  ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
+  double fade = 0.0;    ///< share of the damping that is lost while it is hot
   double change_at = 1e300, damping_left = 1.0, stiffness_left = 1.0;
   unsigned seed = 1;
 };
@@ -47,8 +46,8 @@ struct FieldDrive {
 inline constexpr int kFieldRate = 2000;  ///< steps per second of the integration
 
 /// Integrates the vehicle's equations (1), (2) in steps of 1/kFieldRate by their exact solution for a road that is
-/// straight over a step; nothing is shared with the package. The road is integrated white noise, G(n) = Gd(0.1) (0.1/n)^2 above
-/// 0.01 cycles/m, under a tyre that touches 0.1 m of it.
+/// straight over a step; nothing is shared with the package. The road is integrated white noise, G(n) = Gd(0.1)
+/// (0.1/n)^2 above 0.01 cycles/m, under a tyre that touches 0.1 m of it.
 class FieldSimulator {
  public:
   explicit FieldSimulator(const FieldDrive& drive) : drive_(drive), random_(drive.seed) {
@@ -66,8 +65,7 @@ class FieldSimulator {
     }
     if (!drive_.anti_aliased) body = body_, wheel = wheel_;
     const double offset = drive_.offset + drive_.offset_swing * std::sin(2 * M_PI * time_ / drive_.offset_period);
-    return {fromSeconds(time_), body + drive_.noise * gauss_(random_),
-            wheel + offset + drive_.noise * gauss_(random_)};
+    return {fromSeconds(time_), body + drive_.noise * gauss_(random_), wheel + offset + drive_.noise * gauss_(random_)};
   }
 
   double time() const { return time_; }

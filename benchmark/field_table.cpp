@@ -40,7 +40,8 @@ Counts count(const FieldDrive& drive, double seconds) {
     const MonitorReport* report = monitor.addSample(simulator.next());
     if (report == nullptr) continue;
     const HealthReport& now = report->health;
-    const bool rises = now.level != before.level && (now.level == HealthLevel::kWarn || now.level == HealthLevel::kError);
+    const bool rises =
+        now.level != before.level && (now.level == HealthLevel::kWarn || now.level == HealthLevel::kError);
     counts.warn += rises && now.level == HealthLevel::kWarn;
     counts.error += rises && now.level == HealthLevel::kError;
     if (rises && counts.words.size() < 3) counts.words.push_back(describe(now));
@@ -79,8 +80,10 @@ std::vector<Case> healthyCases() {
     double road, speed;
     int rate;
   };
-  const std::vector<Way> ways{{"A 30 m/s, 100 Hz", 16e-6, 30.0, 100},   {"C 15 m/s, 200 Hz", 256e-6, 15.0, 200},
-                              {"E 3 m/s, 100 Hz", 4096e-6, 3.0, 100},   {"B 20 m/s, 500 Hz", 64e-6, 20.0, 500},
+  const std::vector<Way> ways{{"A 30 m/s, 100 Hz", 16e-6, 30.0, 100},
+                              {"C 15 m/s, 200 Hz", 256e-6, 15.0, 200},
+                              {"E 3 m/s, 100 Hz", 4096e-6, 3.0, 100},
+                              {"B 20 m/s, 500 Hz", 64e-6, 20.0, 500},
                               {"A 3 m/s, 200 Hz", 16e-6, 3.0, 200}};
   for (const Way& way : ways) {
     const auto with = [&](const char* what, auto change) {
@@ -103,11 +106,16 @@ std::vector<Case> healthyCases() {
 
 void printHealthy() {
   const std::vector<Case> cases = healthyCases();
-  std::printf("| drive, %.0f h, memory %.1f s | vehicle | WARN | ERROR | early | outlier flag | cannot tell | sensor | words |\n"
-              "|---|---|---|---|---|---|---|---|---|\n", hours, memory);
+  std::printf(
+      "| drive, %.0f h, memory %.1f s | vehicle | WARN | ERROR | early | outlier flag | cannot tell | sensor | words "
+      "|\n"
+      "|---|---|---|---|---|---|---|---|---|\n",
+      hours, memory);
   for (std::size_t i = 0; i < cases.size(); i += 2) {
     Counts counts[2];
-    std::thread other([&] { if (i + 1 < cases.size()) counts[1] = count(cases[i + 1].drive, 3600.0 * hours); });
+    std::thread other([&] {
+      if (i + 1 < cases.size()) counts[1] = count(cases[i + 1].drive, 3600.0 * hours);
+    });
     counts[0] = count(cases[i].drive, 3600.0 * hours);
     other.join();
     for (std::size_t j = i; j < std::min(i + 2, cases.size()); ++j) {
@@ -115,20 +123,30 @@ void printHealthy() {
       std::string words;
       for (const std::string& word : c.words) words += word + "; ";
       std::printf("| %s | %s | %d | %d | %d | %.1f %%, %d | %.1f %% | %d | %s |\n", cases[j].name.c_str(),
-                  cases[j].drive.vehicle.name, c.warn, c.error, c.early, 100 * c.outliers / c.samples,
-                  c.outlier_events, 100 * c.stale / c.samples, c.sensor, words.c_str());
+                  cases[j].drive.vehicle.name, c.warn, c.error, c.early, 100 * c.outliers / c.samples, c.outlier_events,
+                  100 * c.stale / c.samples, c.sensor, words.c_str());
     }
     std::fflush(stdout);
   }
 }
 
 void printSteps() {
-  std::printf("| step at 120 s, memory %.1f s | payload | false before | WARN [s]: found, median, most | ERROR: found, median, most | right part |\n"
-              "|---|---|---|---|---|---|\n", memory);
-  struct Step { const char* name; double damping, stiffness; };
+  std::printf(
+      "| step at 120 s, memory %.1f s | payload | false before | WARN [s]: found, median, most | ERROR: found, median, "
+      "most | right part |\n"
+      "|---|---|---|---|---|---|\n",
+      memory);
+  struct Step {
+    const char* name;
+    double damping, stiffness;
+  };
   for (const double mass : {1.0, 1.3, 0.7})
-    for (const Step& step : {Step{"damping -20 %", 0.8, 1.0}, {"damping -30 %", 0.69, 1.0}, {"damping -50 %", 0.5, 1.0},
-                             {"stiffness -20 %", 1.0, 0.8}, {"stiffness -30 %", 1.0, 0.69}, {"both -30 %", 0.7, 0.7}}) {
+    for (const Step& step : {Step{"damping -20 %", 0.8, 1.0},
+                             {"damping -30 %", 0.69, 1.0},
+                             {"damping -50 %", 0.5, 1.0},
+                             {"stiffness -20 %", 1.0, 0.8},
+                             {"stiffness -30 %", 1.0, 0.69},
+                             {"both -30 %", 0.7, 0.7}}) {
       std::vector<double> warn, error;
       int early = 0, right = 0;
       std::string words;
@@ -160,7 +178,9 @@ void printSteps() {
         warn.push_back(first_warn);
         error.push_back(first_error);
         const bool of_damping = step.damping < 1.0;
-        const auto raised = [](HealthLevel level) { return level == HealthLevel::kWarn || level == HealthLevel::kError; };
+        const auto raised = [](HealthLevel level) {
+          return level == HealthLevel::kWarn || level == HealthLevel::kError;
+        };
         right += raised(of_damping ? last.damping_level : last.stiffness_level) &&
                  !raised(of_damping ? last.stiffness_level : last.damping_level);
         if (i < 2) words += describe(last) + "; ";
@@ -169,18 +189,23 @@ void printSteps() {
         std::sort(delays.begin(), delays.end());
         const auto found = std::count_if(delays.begin(), delays.end(), [](double d) { return d < 1e8; });
         char line[64];
-        std::snprintf(line, sizeof line, "%ld, %.1f, %.1f", static_cast<long>(found), delays[3], delays[found > 0 ? found - 1 : 0]);
+        std::snprintf(line, sizeof line, "%ld, %.1f, %.1f", static_cast<long>(found), delays[3],
+                      delays[found > 0 ? found - 1 : 0]);
         return std::string(line);
       };
-      std::printf("| %s | %+.0f %% | %d | %s | %s | %d of 8 | %s |\n", step.name, 100 * (mass - 1), early, text(warn).c_str(),
-                  text(error).c_str(), right, words.c_str());
+      std::printf("| %s | %+.0f %% | %d | %s | %s | %d of 8 | %s |\n", step.name, 100 * (mass - 1), early,
+                  text(warn).c_str(), text(error).c_str(), right, words.c_str());
       std::fflush(stdout);
     }
 }
 
 void printAccuracy() {
-  std::printf("| road, rate | vehicle | offset | b1 LS, LA off by [%%] (median) | b0 LS, LA | inside 95 %%: b1 LS, b0 LS, b1 LA, b0 LA |\n|---|---|---|---|---|---|\n");
-  struct Offset { double constant, swing; };
+  std::printf(
+      "| road, rate | vehicle | offset | b1 LS, LA off by [%%] (median) | b0 LS, LA | inside 95 %%: b1 LS, b0 LS, b1 "
+      "LA, b0 LA |\n|---|---|---|---|---|---|\n");
+  struct Offset {
+    double constant, swing;
+  };
   unsigned seed = 1;
   for (const double road : {16e-6, 256e-6})
     for (const int rate : {50, 100, 200, 500})
@@ -219,10 +244,11 @@ void printAccuracy() {
             std::nth_element(v.begin(), v.begin() + v.size() / 2, v.end());
             return 100 * v[v.size() / 2];
           };
-          std::printf("| %s %d Hz | %s | %.2f +- %.1f | %.1f, %.1f | %.1f, %.1f | %.0f, %.0f, %.0f, %.0f (valid %.0f %%)|\n",
-                      road < 2e-5 ? "A" : "C", rate, vehicle.name, offset.constant, offset.swing, median(errors[0]), median(errors[2]),
-                      median(errors[1]), median(errors[3]), 100 * inside[0] / valid, 100 * inside[1] / valid,
-                      100 * inside[2] / valid, 100 * inside[3] / valid, 100 * valid / samples);
+          std::printf(
+              "| %s %d Hz | %s | %.2f +- %.1f | %.1f, %.1f | %.1f, %.1f | %.0f, %.0f, %.0f, %.0f (valid %.0f %%)|\n",
+              road < 2e-5 ? "A" : "C", rate, vehicle.name, offset.constant, offset.swing, median(errors[0]),
+              median(errors[2]), median(errors[1]), median(errors[3]), 100 * inside[0] / valid, 100 * inside[1] / valid,
+              100 * inside[2] / valid, 100 * inside[3] / valid, 100 * valid / samples);
         }
 }
 
@@ -234,8 +260,12 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (argc > 2) memory = std::atof(argv[2]);
   if (argc > 3) hours = std::atof(argv[3]);
-  if (what == "healthy") printHealthy();
-  else if (what == "steps") printSteps();
-  else if (what == "accuracy") printAccuracy();
-  else return std::fprintf(stderr, "usage: field_table healthy|steps|accuracy [MEMORY_SECONDS [HOURS]]\n"), 2;
+  if (what == "healthy")
+    printHealthy();
+  else if (what == "steps")
+    printSteps();
+  else if (what == "accuracy")
+    printAccuracy();
+  else
+    return std::fprintf(stderr, "usage: field_table healthy|steps|accuracy [MEMORY_SECONDS [HOURS]]\n"), 2;
 }

@@ -22,16 +22,16 @@ struct HealthThresholds {
 /// All settings of a StrutMonitor, flat as users write them. Unit, meaning and range of each are told by
 /// `suspension_bag options monitor`, by config/monitor.yaml and by what validate() says of a value that is wrong.
 struct MonitorOptions : HealthThresholds {
-  std::string preset = "default";                   ///< or "paper": estimators as in sections 3.2 and 4 of the paper
-  std::optional<double> sample_period;              ///< T [s]; left out: measured from the stamps
-  std::string alignment = "auto";                   ///< or "paired", "resampled": how readings become samples
-  bool tyre = false;                                ///< there is a third sensor, where the tyre touches the road
-  std::optional<double> integration_horizon;        ///< h of the integral filter [s]; left out: 0.6
-  double memory = 2.0;                              ///< of the estimates: a row that old counts 1/e [s]
-  std::optional<double> fastest_memory;             ///< while the strut changes, at most memory [s]; left out: it stays
-  std::optional<double> forgetting_factor;          ///< lambda, instead of memory: 1/(1 - lambda) rows [-]
-  double comparison_window = 10.0;                  ///< memory of the free run's rmse [s]
-  std::optional<double> sprung_mass;                ///< [kg], for results in SI
+  std::string preset = "default";             ///< or "paper": estimators as in sections 3.2 and 4 of the paper
+  std::optional<double> sample_period;        ///< T [s]; left out: measured from the stamps
+  std::string alignment = "auto";             ///< or "paired", "resampled": how readings become samples
+  bool tyre = false;                          ///< there is a third sensor, where the tyre touches the road
+  std::optional<double> integration_horizon;  ///< h of the integral filter [s]; left out: 0.6
+  double memory = 2.0;                        ///< of the estimates: a row that old counts 1/e [s]
+  std::optional<double> fastest_memory;       ///< while the strut changes, at most memory [s]; left out: it stays
+  std::optional<double> forgetting_factor;    ///< lambda, instead of memory: 1/(1 - lambda) rows [-]
+  double comparison_window = 10.0;            ///< memory of the free run's rmse [s]
+  std::optional<double> sprung_mass;          ///< [kg], for results in SI
 
   /// @param preset  "default" or "paper".
   /// @return the values of a preset, to which options are set.

@@ -43,8 +43,8 @@ struct StrutEstimate {
   std::array<double, kMostEffects> coefficients{};         ///< c_j [unit of the effect's coefficient]
   std::array<double, kMostEffects> coefficient_stddevs{};  ///< likewise
   double offset = std::nan("");  ///< of the wheel carrier's reading against the body's [m/s^2]; NaN: not estimated
-  double effective_rows = 0.0;                             ///< rows in the estimator's memory
-  double explained = 0.0;  ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
+  double effective_rows = 0.0;   ///< rows in the estimator's memory
+  double explained = 0.0;        ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
   double damping_excitation = std::nan("");      ///< information of phi_1 of late over that of noise (Excitation) [-]
   double stiffness_excitation = std::nan("");    ///< that of phi_0 likewise
@@ -159,7 +159,7 @@ struct HealthReport {
   HealthLevel stiffness_level = HealthLevel::kOk;
   bool estimate_valid = false;                   ///< of LA
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not
-  bool uncertain = false;      ///< valid, but a change as large as the error threshold would not be significant
+  bool uncertain = false;  ///< valid, but a change as large as the error threshold would not be significant
   LoadDoubt load_doubt = LoadDoubt::kNone;
   bool early_warning = false;  ///< a small change is certain before it reaches a threshold; raises no level
   bool outliers = false;       ///< LS and LA have disagreed for long: outliers or saturation

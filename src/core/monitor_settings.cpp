@@ -8,10 +8,10 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kDefaultHorizon = 0.6;    // [s], the paper's
-constexpr int kMostSamples = 100000;       // of a horizon: more is a wrong unit
+constexpr double kDefaultHorizon = 0.6;          // [s], the paper's
+constexpr int kMostSamples = 100000;             // of a horizon: more is a wrong unit
 constexpr double kFewestSamplesOfMemory = 10.0;  // lambda = 0.9
-constexpr int kUpdatesPerTwoHorizons = 3;  // of health: rows within a horizon share most of their samples
+constexpr int kUpdatesPerTwoHorizons = 3;        // of health: rows within a horizon share most of their samples
 
 std::string shortNumber(double value) {
   char text[32];
@@ -58,8 +58,8 @@ void MonitorSettings::validate() const {
   static_cast<HealthThresholds&>(thresholds) = *this;
   thresholds.validate();
   if (!forgetting_factor && fastest_memory && *fastest_memory > memory)
-    throw std::invalid_argument("fastest_memory = " + shortNumber(*fastest_memory) + " [s], must be at most memory = " +
-                                shortNumber(memory) + " [s]");
+    throw std::invalid_argument("fastest_memory = " + shortNumber(*fastest_memory) +
+                                " [s], must be at most memory = " + shortNumber(memory) + " [s]");
   if (!sample_period) return;
   filter(*sample_period);
   const double fastest = fastestForgettingFactor(*sample_period), slow = forgettingFactor(*sample_period);
@@ -112,10 +112,10 @@ RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {
   return recursive;
 }
 
-double MonitorSettings::fewestRows(double seconds, double period) const {
+double MonitorSettings::fewestRows(double horizons, double period) const {
   constexpr double kShare = 0.9;
   const double forgotten = std::max(1.0 - fastestForgettingFactor(period), 1e-12);
-  return std::min(seconds / period, kShare / forgotten);
+  return std::min(horizons * horizonSamples(period), kShare / forgotten);
 }
 
 HealthOptions MonitorSettings::health(double period) const {

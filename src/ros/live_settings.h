@@ -12,9 +12,13 @@
 namespace suspension_health_monitor {
 
 /// Settings that a user may turn while watching (rqt_reconfigure): those that change without starting estimates anew.
-inline constexpr std::array<std::string_view, 7> kLiveSettings{
-    "memory",                 "health/damping_warn", "health/damping_error", "health/stiffness_warn",
-    "health/stiffness_error", "health/confirm_time", "publish_every"};
+inline constexpr std::array<std::string_view, 7> kLiveSettings{"memory",
+                                                               "health/damping_warn",
+                                                               "health/damping_error",
+                                                               "health/stiffness_warn",
+                                                               "health/stiffness_error",
+                                                               "health/confirm_time",
+                                                               "publish_every"};
 
 /// What dynamic_reconfigure::Server wants of the class that its generator would make of a .cfg file. Here names, types,
 /// defaults, ranges and texts come from kMonitorFields and kShellFields, where all other settings have them from, and

@@ -203,7 +203,8 @@ TEST(BatchLeastAbsolute, RefusesWrongOptionsByName) {
 
 // The strut of a healthy drive, 60 s; the noise alone leaves errors of about 0.01 and 0.03.
 TEST(BatchLeastAbsolute, IdentifiesThePapersStrut) {
-  const RegressionRows rows = stack(strutRows(healthyPaperDrive(60.0, 0.024), {30, 0.02, IntegrationRule::kBandLimited}));
+  const RegressionRows rows =
+      stack(strutRows(healthyPaperDrive(60.0, 0.024), {30, 0.02, IntegrationRule::kBandLimited}));
   const auto estimate = batchLeastAbsolute(rows);
   EXPECT_TRUE(estimate->converged);
   EXPECT_NEAR(estimate->parameters[kDampingToMass], kPaperB1, 0.03);

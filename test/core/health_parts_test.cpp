@@ -63,7 +63,8 @@ TEST(SplitChange, ADamageIsAsCertainAsItIsThatNoLoadDidIt) {
   EXPECT_FALSE(split(0.8, 1.0, 1.0, 0.0).load_alone);  // none may be
 }
 
-// -30 % of mass, then -30 % of damping: damping alone would look as if nothing had happened to it, and the spring stiffer.
+// -30 % of mass, then -30 % of damping: damping alone would look as if nothing had happened to it, and the spring
+// stiffer.
 TEST(SplitChange, CountsTheLoadFromTheOneThatWasThere) {
   const LogChange damping{std::log(0.7 / 0.7), kSharp}, stiffness{std::log(1.0 / 0.7), kSharp};
   const StrutChange change = splitChange(damping, stiffness, 0.35, std::log(0.7));

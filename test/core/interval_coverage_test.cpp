@@ -142,7 +142,8 @@ TEST(RegressorNoise, IsTheCovarianceOfWhatTheFiltersMakeOfSensorNoise) {
     moment += phi * residual / kCount;
     variance += residual * residual / kCount;
   }
-  const Eigen::Vector2d expected = RegressorNoise(options).moment(theta, variance / RegressorNoise(options).residualGain(theta));
+  const Eigen::Vector2d expected =
+      RegressorNoise(options).moment(theta, variance / RegressorNoise(options).residualGain(theta));
   EXPECT_NEAR(moment[0] / expected[0], 1.0, 0.05);
   EXPECT_NEAR(moment[1] / expected[1], 1.0, 0.05);
 }

@@ -1,5 +1,4 @@
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
-#include "suspension_health_monitor/internal/monitor_settings.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "suspension_health_monitor/internal/monitor_settings.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
@@ -77,14 +77,14 @@ TEST(ValidityGate, NumbersThatAreNoneAreFlaws) {
 }
 
 TEST(ValidityGate, NoMoreRowsAreWantedThanNineTenthsOfTheMemory) {
-  MonitorSettings settings;  // memory 2 s
-  EXPECT_DOUBLE_EQ(settings.fewestRows(1.0, 0.02), 50.0);
-  EXPECT_DOUBLE_EQ(settings.fewestRows(1.0, 0.001), 1000.0);
+  MonitorSettings settings;                                // memory 2 s
+  EXPECT_DOUBLE_EQ(settings.fewestRows(1.5, 0.02), 45.0);  // of 0.6 s
+  EXPECT_DOUBLE_EQ(settings.fewestRows(1.5, 0.001), 900.0);
   EXPECT_NEAR(settings.fewestRows(10.0, 0.001), 1800.0, 1e-6);
   settings.forgetting_factor = 0.98;
-  EXPECT_NEAR(settings.fewestRows(1.0, 0.02), 45.0, 1e-9);
+  EXPECT_NEAR(settings.fewestRows(2.0, 0.02), 45.0, 1e-9);
   settings.forgetting_factor = 1.0;
-  EXPECT_DOUBLE_EQ(settings.fewestRows(1.0, 0.02), 50.0);
+  EXPECT_DOUBLE_EQ(settings.fewestRows(2.0, 0.02), 60.0);
 }
 
 }  // namespace

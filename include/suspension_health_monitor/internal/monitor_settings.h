@@ -16,16 +16,17 @@ namespace suspension_health_monitor {
 /// What presets differ in beside options: how rows are made, and how the estimators begin, weigh and forget.
 struct EstimatorOptions {
   IntegrationRule rule = IntegrationRule::kBandLimited;
-  bool with_offset = true;         ///< the offset between the sensors is estimated with the strut
-  bool removes_noise_shift = true;  ///< what the sensors' noise shifts the estimates by is taken off (regressor_noise.h)
+  bool with_offset = true;  ///< the offset between the sensors is estimated with the strut
+  bool removes_noise_shift =
+      true;                        ///< what the sensors' noise shifts the estimates by is taken off (regressor_noise.h)
   bool forgets_unexcited = false;  ///< true: exponential forgetting, the paper's; false: directional (excitation.h)
   RecursiveOptions recursive;      ///< whose forgetting factor and correlated rows are set for each estimator
   LeastAbsoluteOptions least_absolute;
 };
 
-/// Time until an estimate is worth something, unless its memory is shorter: noise of a tenth then makes an error of 1 or
-/// 2 %, if h = 0.6 s [s].
-inline constexpr double kFewestSeconds = 1.0;
+/// Rows that an estimate needs before it is worth something, in horizons: noise of a tenth then makes an error of 1 or
+/// 2 %.
+inline constexpr double kFewestHorizons = 5.0 / 3.0;
 
 /// The options of a monitor with what follows from them: the preset's way to make rows and to estimate, and the
 /// settings of each part. Group, name, unit, meaning and range of each option stand in kMonitorFields only.
@@ -66,9 +67,8 @@ struct MonitorSettings : MonitorOptions {
   }
 
   /// @param period  sampling time [s].
-  /// @return rows that an estimate needs before it is worth something: those of a time, or nine tenths of a shorter
-  /// memory.
-  double fewestRows(double seconds, double period) const;
+  /// @return so many horizons of rows, or nine tenths of a shorter memory.
+  double fewestRows(double horizons, double period) const;
   const LeastAbsoluteOptions& leastAbsolute() const { return estimators.least_absolute; }
   /// @param period  sampling time [s].
   HealthOptions health(double period) const;

@@ -157,11 +157,11 @@ StrutChange HealthAssessment::change() const {
 
 // The load is known while nothing but it has changed, and that is certain enough to be no beginning of a damage.
 void HealthAssessment::noteLoad(const StrutChange& change) {
-  if (!change.load_alone || change.load_alone->at_end) return;
+  if (!change.load_alone) return;
   const double apart = std::abs(change.measured_damping->size - change.measured_stiffness->size);
   const double stddev = std::hypot(change.measured_damping->stddev, change.measured_stiffness->stddev);
   if (apart + kLoadCertain * stddev < kLoadShare * std::min(options_.damping_warn, options_.stiffness_warn))
-    known_load_ = change.load_alone->log_mass;
+    known_load_ = std::log1p(*change.payload);
 }
 
 // A part whose parameter has certainly changed, while a load may have done it.
@@ -172,8 +172,7 @@ LoadDoubt HealthAssessment::doubtOfLoad(const StrutChange& change) const {
     return load_may && std::abs(part) >= warn && logSize(part) >= options_.min_significance * stddev;
   };
   if (is_doubtful(*change.damping, change.damping_stddev, options_.damping_warn)) return LoadDoubt::kLoadOrDamper;
-  if (is_doubtful(*change.stiffness, change.stiffness_stddev, options_.stiffness_warn))
-    return LoadDoubt::kLoadOrSpring;
+  if (is_doubtful(*change.stiffness, change.stiffness_stddev, options_.stiffness_warn)) return LoadDoubt::kLoadOrSpring;
   const bool is_loaded = *change.payload >= std::min(options_.damping_warn, options_.stiffness_warn);
   return is_loaded ? LoadDoubt::kLoadOrBoth : LoadDoubt::kNone;
 }
@@ -185,14 +184,15 @@ void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
   now.load_doubt = doubtOfLoad(change);
   const double unless_load = change.load_alone ? change.load_alone->distance : HUGE_VAL;
   const auto blind = [&](const std::optional<LogChange>& part) {
-    const bool has_rival = change.load_alone.has_value();
-    return has_rival ? std::hypot(change.measured_damping->stddev, change.measured_stiffness->stddev) : part->stddev;
+    if (!change.load_alone) return part->stddev;
+    const double apart = std::hypot(change.measured_damping->stddev, change.measured_stiffness->stddev);
+    return std::fmax(part->stddev, apart);  // NaN: not known
   };
   if (change.damping) {
     now.damping_significance = std::fmin(logSize(*change.damping) / change.damping_stddev, unless_load);
-    damping_.level = levelOf(*change.damping, change.damping_stddev, now.damping_significance,
-                             blind(change.measured_damping), options_.damping_warn, options_.damping_error,
-                             damping_.level, options_);
+    damping_.level =
+        levelOf(*change.damping, change.damping_stddev, now.damping_significance, blind(change.measured_damping),
+                options_.damping_warn, options_.damping_error, damping_.level, options_);
   }
   if (change.stiffness) {
     now.stiffness_significance = std::fmin(logSize(*change.stiffness) / change.stiffness_stddev, unless_load);

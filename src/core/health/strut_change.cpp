@@ -32,8 +32,8 @@ LoadAlone explainByLoad(const LogChange& damping, const LogChange& stiffness, co
   LoadAlone load;
   load.log_mass = std::clamp(best, range.least, range.most);
   load.at_end = load.log_mass != best;
-  load.distance = std::hypot((damping.size + load.log_mass) / damping.stddev,
-                             (stiffness.size + load.log_mass) / stiffness.stddev);
+  load.distance =
+      std::hypot((damping.size + load.log_mass) / damping.stddev, (stiffness.size + load.log_mass) / stiffness.stddev);
   return load;
 }
 

@@ -9,14 +9,13 @@ namespace {
 // Of n rows of white noise two regressors explain more than a share x of psi^2 with probability (1 - x)^((n - 2) / 2):
 // a half of one block's once in 2e9.
 constexpr double kLeastShare = 0.5;
-constexpr int kFewestRows = 64;           // of a block
-constexpr double kLeastExcitation = 4.5;  // of the noise's information: less would pull a parameter by a fifth
-constexpr int kMostBlocks = 8;            // that are judged together before a parameter is released
-constexpr double kUsualShare = 0.1;       // of the usual information: no rest
-constexpr double kWheelStands = 0.01;     // of the wheel's usual part
-constexpr double kMostGrowth = 4.0;       // of the usual in a block: an outlier does not become it
-constexpr double kUsualMemories = 10.0;   // of the estimator, that the usual lasts
-constexpr double kMostTimes = 2.0;        // the known strut
+constexpr int kFewestRows = 64;                     // of a block
+constexpr int kMostBlocks = 8;                      // that are judged together before a parameter is released
+constexpr double kUsualShare = 0.1;                 // of the usual information: no rest
+constexpr double kWheelStands = 0.01;               // of the wheel's usual part
+constexpr double kMostGrowth = 4.0;                 // of the usual in a block: an outlier does not become it
+constexpr double kUsualMemories = 10.0;             // of the estimator, that the usual lasts
+constexpr double kMostTimes = 2.0;                  // the known strut
 constexpr double kLarger = 2.0, kMuchLarger = 9.0;  // the body's part over the wheel's
 constexpr double kOffsetMemory = 0.9975;            // forgetting factor of a row
 
@@ -112,9 +111,9 @@ void Excitation::judgeExcited(const Block& recent) {
       hold(part);
     }
   }
-  // On the way to a stop one goes before the other: beside one that is newly held the other one stays if it tells as
-  // much as one that is held needs to be released.
-  if (is_new)
+  // On the way to a stop one goes before the other: beside one that is held the other one stays if it tells as much as
+  // one that is held needs to be released.
+  if (isHeld() && recent.blocks == 2)
     for (Part& part : parts_)
       if (part.excited && part.excitation < leastToRelease(recent)) hold(part);
   if (is_new) since_held_ = Block();

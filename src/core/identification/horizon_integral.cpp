@@ -16,10 +16,10 @@ namespace {
   throw std::invalid_argument("horizon_samples = " + std::to_string(intervals) + ", must be " + allowed);
 }
 
-// Beside the trapezoid rule an end must give, of exp(i w t) at t = 0 with T = 1, 1 / (i w) - cot(w / 2) / (2 i): what the
-// integral has there less what the sum has. Its series -i w / 12 - ... sets the moments of the corrections c_k, which
-// are sum c_k = sum k^2 c_k = 0, sum k c_k = 1/12 (exact on parabolas); what is left of them is least squares, relative
-// to the integral, over the band, and small.
+// Beside the trapezoid rule an end must give, of exp(i w t) at t = 0 with T = 1, 1 / (i w) - cot(w / 2) / (2 i): what
+// the integral has there less what the sum has. Its series -i w / 12 - ... sets the moments of the corrections c_k,
+// which are sum c_k = sum k^2 c_k = 0, sum k c_k = 1/12 (exact on parabolas); what is left of them is least squares,
+// relative to the integral, over the band, and small.
 std::vector<double> endCorrections(int count) {
   constexpr int kFrequencies = 128, kMoments = 3;
   constexpr double kBeyond = 1e-2;  // weight of an error beyond half of the Nyquist frequency: it must not grow there

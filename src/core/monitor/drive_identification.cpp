@@ -75,7 +75,7 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   facts.period_fits = monitor().input().period_fits;
   facts.has_row = solution.has_value();
   facts.rows = strut.rows;
-  facts.fewest_rows = kFewestSeconds / monitor().period();
+  facts.fewest_rows = kFewestHorizons * monitor().horizonSamples();
   facts.explained = strut.explained;
   facts.is_physical = isAboveZero(strut.damping_to_mass, strut.damping_to_mass_stddev) &&
                       isAboveZero(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev);

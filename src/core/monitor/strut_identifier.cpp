@@ -36,13 +36,6 @@ void describeParameters(const RecursiveEstimator& estimator, const Eigen::Vector
   estimate.explained = estimator.explained();
 }
 
-/// What is random, and what is not known of the shift by the sensors' noise in the regressors.
-template <class Estimator>
-double stddevOf(const Estimator& estimator, int i, const Eigen::Vector2d& unknown_moment) {
-  const double shift = estimator.parameterShift(i, unknown_moment);
-  return std::sqrt(estimator.parameterVariance(i) + shift * shift);
-}
-
 // What LS and LA differ by beyond the scatter of LS is an error of LS, which suffers wrong readings for as long as it
 // remembers them, and whose own scatter does not show that they were all of one sign.
 double withDifference(double stddev, double ls, double la) {
@@ -65,7 +58,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       stddevs_due_(kStddevsEvery),
       noise_level_(filter_),
       silent_rows_(filter_.horizon_samples) {
-  ls_shift_ = la_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
+  noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
   rows_ = std::numeric_limits<double>::infinity();  // the plain columns are there from the first row on
   setForgetting(options);
 }
@@ -81,13 +74,10 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
   least_absolute_.changeColumns(columns);
   past_.fill(present());
   regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
-  const Eigen::VectorXd ls_before = ls_shift_, la_before = la_shift_;
-  ls_shift_ = la_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
-  for (std::size_t j = 0; j < columns.size(); ++j) {
-    if (!columns[j].before) continue;
-    ls_shift_[static_cast<Eigen::Index>(j)] = ls_before[*columns[j].before];
-    la_shift_[static_cast<Eigen::Index>(j)] = la_before[*columns[j].before];
-  }
+  const Eigen::VectorXd before = noise_shift_;
+  noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    if (columns[j].before) noise_shift_[static_cast<Eigen::Index>(j)] = before[*columns[j].before];
   if (forgetting_.variable) forgetting_.variable->restart(numModelColumns());
   takeExcitation();
   has_row_ = false;
@@ -175,8 +165,8 @@ void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate&
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
-  describeParameters(least_squares_, ls_shift_, offsetColumn(), ls);
-  describeParameters(least_absolute_, la_shift_, offsetColumn(), la);
+  describeParameters(least_squares_, noise_shift_, offsetColumn(), ls);
+  describeParameters(least_absolute_, noise_shift_, offsetColumn(), la);
   for (StrutEstimate* estimate : {&ls, &la}) {
     estimate->damping_excitation = excitation_.excitation(kDampingToMass);
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
@@ -184,27 +174,30 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
   if (!holdsAll() && stddevs_due_()) describeStddevs(ls, la);
 }
 
-// The shift is taken off from the next description on, by the strut that it leaves now: the fixed point of that is the
-// strut whose rows, less the noise's share of their moments, it solves.
+// The shift by the sensors' noise is taken off from the next description on, by the strut that it leaves now: the fixed
+// point of that is the strut whose rows, less the noise's share of their moments, it solves. It is that of LS for both:
+// of normal residuals LA has the same. What is left is that nobody knows how the noise is divided between the sensors.
 void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   const RegressorNoise& noise = excitation_.noise();
   const Eigen::Vector2d strut(la.damping_to_mass, la.stiffness_to_mass);
-  const std::optional<double> known = removes_noise_shift_ ? noise_level_.sensorVariance(noise, strut) : std::nullopt;
   // For a normal distribution the variance is pi/2 times the mean size squared.
   const double size = least_absolute_.usualResidual();
-  const double variance = known.value_or(0.5 * kPi * size * size / noise.residualGain(strut));
+  const double present = 0.5 * kPi * size * size / noise.residualGain(strut);
+  const std::optional<double> lasting = removes_noise_shift_ ? noise_level_.sensorVariance(noise, strut) : std::nullopt;
+  const double variance = std::min(lasting.value_or(present), present);
   const Eigen::Vector2d moment = noise.moment(strut, variance);
-  const Eigen::Vector2d unknown = known ? noise.momentSpread(strut, variance) : moment;
-  if (known)
-    for (int i = 0; i < numModelColumns(); ++i) {
-      ls_shift_[i] = least_squares_.parameterShift(i, moment);
-      la_shift_[i] = least_absolute_.parameterShift(i, moment);
-    }
+  // Beside a parameter that is held P is not that of the rows.
+  const bool removes = lasting && !isHeld(kDampingToMass) && !isHeld(kStiffnessToMass);
+  if (removes) removeShift(moment);
+  const Eigen::Vector2d unknown = removes ? noise.momentSpread(strut, variance) : moment;
+  const auto with_shift = [&](double random, int i) {
+    return std::hypot(std::sqrt(random), least_squares_.parameterShift(i, unknown));
+  };
   const auto of_ls = [&](int i) {
-    return withDifference(stddevOf(least_squares_, i, unknown), least_squares_.parameters()[i],
+    return withDifference(with_shift(least_squares_.parameterVariance(i), i), least_squares_.parameters()[i],
                           least_absolute_.parameters()[i]);
   };
-  const auto of_la = [&](int i) { return stddevOf(least_absolute_, i, unknown); };
+  const auto of_la = [&](int i) { return with_shift(least_absolute_.parameterVariance(i), i); };
   ls.damping_to_mass_stddev = of_ls(kDampingToMass);
   ls.stiffness_to_mass_stddev = of_ls(kStiffnessToMass);
   la.damping_to_mass_stddev = of_la(kDampingToMass);
@@ -212,6 +205,14 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   for (std::size_t j = 0; j < la.num_effects; ++j) {
     ls.coefficient_stddevs[j] = of_ls(kNumStrutParameters + static_cast<int>(j));
     la.coefficient_stddevs[j] = of_la(kNumStrutParameters + static_cast<int>(j));
+  }
+}
+
+// Noise does no more to a parameter that is excited than kLeastExcitation says.
+void StrutIdentifier::removeShift(const Eigen::Vector2d& moment) {
+  for (int i = 0; i < numModelColumns(); ++i) {
+    const double most = std::abs(least_squares_.parameters()[i]) / Excitation::kLeastExcitation;
+    noise_shift_[i] = std::clamp(least_squares_.parameterShift(i, moment), -most, most);
   }
 }
 
@@ -250,7 +251,7 @@ void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   const double fastest = options.fastestForgettingFactor(filter_.period);
   least_squares_.setForgettingFactor(slow);
   least_absolute_.setForgettingFactor(slow);
-  forgetting_.fewest_rows = options.fewestRows(kFewestSeconds, filter_.period);
+  forgetting_.fewest_rows = options.fewestRows(kFewestHorizons, filter_.period);
   if (!options.fastest_memory) {
     forgetting_.variable.reset();
   } else if (!forgetting_.variable) {

@@ -9,7 +9,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kSecondsOfSensorCheck = 10.0;  // of rows that an estimate needs before it may accuse a sensor
+constexpr double kHorizonsOfSensorCheck = 17.0;  // of rows that an estimate needs before it may accuse a sensor
 constexpr double kFewestUpdates = 25.0;  // of health, that readings are averaged over: of fewer nobody knows a mean
 
 const MonitorSettings& checked(const MonitorSettings& options) {
@@ -97,7 +97,7 @@ void SuspensionMonitor::judgeHealth() {
   changeModels([&](ModelTracker& model, ModelReport& report) { model.setPeriodFits(input().period_fits, report); });
   if (options_.fastest_memory) health_.setMemory(report_.la.effective_rows);
   const bool la_tells =
-      !tracker().holds() && report_.la.effective_rows >= options_.fewestRows(kSecondsOfSensorCheck, period());
+      !tracker().holds() && report_.la.effective_rows >= options_.fewestRows(kHorizonsOfSensorCheck, period());
   health_.setSensors(sensors_.judge(report_.la, la_tells));
   report_.health = health_.update(report_.stamp, report_.ls, report_.la);
 }

@@ -34,7 +34,7 @@ std::optional<double> massRatio(const StrutEstimate& strut, const WheelEstimate&
 TyreTracker::TyreTracker(const MonitorSettings& options)
     : horizon_samples_(options.tyreFilter(*options.sample_period).horizon_samples),
       period_(fromSeconds(*options.sample_period)),
-      fewest_rows_(options.fewestRows(kFewestSeconds, *options.sample_period)),
+      fewest_rows_(options.fewestRows(kFewestHorizons, *options.sample_period)),
       silent_rows_(horizon_samples_),
       regression_(options.tyreFilter(*options.sample_period)),
       least_squares_(kNumTyreParameters, options.recursive(2 * horizon_samples_)),
@@ -60,7 +60,7 @@ void TyreTracker::reconfigure(const MonitorSettings& options) {
   const double period = toSeconds(period_), factor = options.forgettingFactor(period);
   least_squares_.setForgettingFactor(factor);
   least_absolute_.setForgettingFactor(factor);
-  fewest_rows_ = options.fewestRows(kFewestSeconds, period);
+  fewest_rows_ = options.fewestRows(kFewestHorizons, period);
 }
 
 bool TyreTracker::continues(Stamp stamp) const {

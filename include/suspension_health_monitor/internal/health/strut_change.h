@@ -39,12 +39,12 @@ LoadAlone explainByLoad(const LogChange& damping, const LogChange& stiffness, co
 /// damage moves one:  x1 = ln(b1/b1n) = d - p,  x0 = ln(b0/b0n) = s - p.
 /// Of the many (p, d, s) that explain (x1, x0) this is the one of least |p - q| + |d| + |s|, with q the load that was
 /// there before: p = median(q, -x1, -x0). So what both have in common is payload, and what one has beyond it is damage;
-/// and a vehicle that was lighter and then has lost damping is not one that was loaded and has a stiffer spring. What is
-/// not significant of p - q counts as none: it is shrunk by 1 - (2 sigma / (p - q))^2, at least 0 (L. Breiman, Better
-/// subset regression using the nonnegative garrote, 1995), so that the noise of b0 does not enter the size of a damage.
-/// Payload alone is the rival of every damage (explainByLoad()): a damage is no more significant than it is certain that
-/// no payload explains the same. So a damping that is certainly lower is not yet the damper's fault as long as the
-/// stiffness may be as much lower.
+/// and a vehicle that was lighter and then has lost damping is not one that was loaded and has a stiffer spring. What
+/// is not significant of p - q counts as none: it is shrunk by 1 - (2 sigma / (p - q))^2, at least 0 (L. Breiman,
+/// Better subset regression using the nonnegative garrote, 1995), so that the noise of b0 does not enter the size of a
+/// damage. Payload alone is the rival of every damage (explainByLoad()): a damage is no more significant than it is
+/// certain that no payload explains the same. So a damping that is certainly lower is not yet the damper's fault as
+/// long as the stiffness may be as much lower.
 /// @param damping, stiffness  x1, x0; empty: cannot be judged.
 /// @param payload_range  largest relative change of mass that can be payload; what is beyond is damage. 0: none is.
 /// @param known_load  q.

@@ -41,6 +41,9 @@ std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, con
 /// Cost per row: O(1) whatever L, no allocation. Free of units.
 class Excitation {
  public:
+  /// Information of a parameter over the noise's: less would pull it by a fifth.
+  static constexpr double kLeastExcitation = 4.5;
+
   /// @param horizon_samples  L of the filter.  @param forgetting_factor  of the estimator.
   /// @param noise  of the same filter.
   Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise);

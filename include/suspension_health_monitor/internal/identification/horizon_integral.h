@@ -9,9 +9,9 @@ namespace suspension_health_monitor {
 
 /// How the integral of a sampled signal is formed. All three are exact on a linear signal.
 enum class IntegrationRule {
-  kTrapezoid,  ///< the paper's rule (9): straight lines between samples, error O(T^2)
-  kSimpson,    ///< a parabola through every pair of intervals, error O(T^4); needs an even L.
-               ///< Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed. (1984), eq. (2.2.2)
+  kTrapezoid,    ///< the paper's rule (9): straight lines between samples, error O(T^2)
+  kSimpson,      ///< a parabola through every pair of intervals, error O(T^4); needs an even L.
+                 ///< Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed. (1984), eq. (2.2.2)
   kBandLimited,  ///< the trapezoid rule with corrections at both ends, of up to kMostCorrections samples each, that
                  ///< are exact on parabolas, error O(T^4), and of least error on what oscillates with up to half of
                  ///< the Nyquist frequency; any L >= 5. Gregory's corrections (ibid., sec. 2.9), which are for smooth
@@ -47,8 +47,8 @@ class HorizonIntegral {
 
   int intervals_;
   double period_;
-  double same_weight_ = 1.0;   // of taps at an even distance from the newest sample, inside the horizon
-  double other_weight_ = 1.0;  // of taps at an odd distance
+  double same_weight_ = 1.0;             // of taps at an even distance from the newest sample, inside the horizon
+  double other_weight_ = 1.0;            // of taps at an odd distance
   std::vector<double> end_corrections_;  // of either end sample, its neighbour, ...
   // Running sums over the window by parity of the sample's index, and the ones that will replace them.
   std::array<double, 2> sums_{};

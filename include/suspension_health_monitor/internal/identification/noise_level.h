@@ -33,8 +33,8 @@ class NoiseLevel {
   static constexpr double kMostSizes = 5.0;
   static constexpr double kFewestBlocks = 5.0, kMostBlocks = 100.0;  // of two horizons, in which rows are correlated
 
-  double block_;    // [rows]
-  int horizon_;     // [rows]
+  double block_;  // [rows]
+  int horizon_;   // [rows]
   RunningMeans<2> sizes_;
   HorizonIntegral mean_;
   DelayLine residuals_;

@@ -43,11 +43,6 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
   /// During the first k0 rows that of LS.
   double parameterVariance(int i) const { return varianceAt(i, leads() ? scale() : meanSquareResidual()); }
 
-  /// As RecursiveLeastSquares::parameterShift(): by rows of that weight.
-  double parameterShift(int i, const Eigen::Vector2d& moment) const {
-    return shiftAt(i, moment) * (leads() ? weights_.mean(kWeight) : 1.0);
-  }
-
  private:
   double scale() const { return weights_.mean(kSquareScore) / weights_.mean(kWeight); }
   bool leads() const { return rows_ == absolute_.start_rows; }  // else LS does

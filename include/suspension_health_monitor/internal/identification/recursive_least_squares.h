@@ -131,12 +131,6 @@ class RecursiveEstimator {
     return scale * covariance_.variance(i) * scores_.inflation(i, effectiveRows());
   }
 
-  /// @return P phi_e sum lambda^(k-i): how far row moments E[phi e] shift theta_i; of parameters beyond moment's size
-  /// 0.
-  double shiftAt(int i, const Eigen::Vector2d& moment) const {
-    return effectiveRows() * (covariance_.entry(i, 0) * moment[0] + covariance_.entry(i, 1) * moment[1]);
-  }
-
   RecursiveOptions options_;
   Eigen::VectorXd theta_;
   UdCovariance covariance_;
@@ -178,7 +172,9 @@ class RecursiveLeastSquares : public RecursiveEstimator {
 
   /// @param moment  E[phi e] of a row.
   /// @return what it shifts theta_i by; p >= 2.
-  double parameterShift(int i, const Eigen::Vector2d& moment) const { return shiftAt(i, moment); }
+  double parameterShift(int i, const Eigen::Vector2d& moment) const {
+    return effectiveRows() * (covariance_.entry(i, 0) * moment[0] + covariance_.entry(i, 1) * moment[1]);
+  }
 };
 
 }  // namespace suspension_health_monitor

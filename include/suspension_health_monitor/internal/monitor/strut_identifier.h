@@ -95,6 +95,7 @@ class StrutIdentifier {
   bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }
   void forgetBy(double factor);
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
+  void removeShift(const Eigen::Vector2d& moment);
 
   /// @return the number of the offset's column, the last; none without one.
   std::optional<int> offsetColumn() const {
@@ -112,7 +113,7 @@ class StrutIdentifier {
   RecursiveLeastAbsolute least_absolute_;
   Forgetting forgetting_;
   std::array<Past, 2> past_;  // at the ends of the newest two blocks that may have told something, the older one first
-  Eigen::VectorXd ls_shift_, la_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
+  Eigen::VectorXd noise_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
   EveryN stddevs_due_;
   bool has_row_ = false;
   double rows_ = 0.0;            // of the model's present columns
