@@ -5,6 +5,7 @@
 
 #include "model_evaluator.h"
 #include "separating_drive.h"
+#include "suspension_health_monitor/internal/fit/band_noise.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/record/sampling_limit.h"
 #include "suspension_health_monitor/internal/statistics.h"
@@ -89,6 +90,7 @@ class Search {
   EvaluatedModel withoutSuperfluous(EvaluatedModel current) const;
   EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick);
   double explainedShare(const EvaluatedModel& after, double floor) const;
+  double floorOf(const EvaluatedModel& after, double floor) const;
   bool standsAlone(const EvaluatedModel& candidate) const;
   bool isExplained(const EvaluatedModel& after) const;
   void conclude(const EvaluatedModel& last);
@@ -161,6 +163,7 @@ EvaluatedModel Search::extend() {
                     ranking.end());
     if (round == 0) result_.ranking = asReported(ranking);
     if (ranking.empty() || !ranking.front().ranked.fitted) break;
+    if (current.ranked.held_out_rmse < accuracyOfFreeRuns(records_)) break;
     // Whatever a free run leaves of data that it was not fitted to is above the floor.
     result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
     if (!ranking.front().ranked.significant) break;
@@ -195,11 +198,16 @@ double Search::explainedShare(const EvaluatedModel& after, double floor) const {
   return structure > 0.0 ? (square(base_.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
 }
 
+double Search::floorOf(const EvaluatedModel& after, double floor) const {
+  return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals, records_.front()->period(),
+                         after.ranked.model);
+}
+
 // Names are given if the model with them leaves noise only, or next to nothing of what there was to explain; or if it
 // takes most of that and no other law of travel and travel rate would take the rest: that comes from elsewhere, or was
 // lost in sampling.
 bool Search::isExplained(const EvaluatedModel& after) const {
-  const double lowest = std::min(sampling_floor_, after.ranked.held_out_rmse);
+  const double lowest = floorOf(after, sampling_floor_);
   const double share = explainedShare(after, lowest);
   if (share < kExplained) return false;
   const double left = square(after.ranked.held_out_rmse) - square(lowest);
@@ -250,7 +258,7 @@ SearchResult Search::run(const ModelFit& rough) {
   report(kStarted);
   result_.base = base_.ranked;
   result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
-  result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
+  result_.noise_floor = floorOf(base_, estimateNoiseFloor(records_, base_.ranked.model));
   sampling_floor_ = estimateSamplingFloor(records_, base_.ranked.model);
   EvaluatedModel last = refine(extend());
   // What several names explain no better than one does, one explains.
