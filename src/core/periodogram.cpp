@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kWindowPeriods = 12.0;  // natural periods in a window, at least
 constexpr std::size_t kShortestWindow = 32;
-constexpr std::size_t kFewestWindows = 16;
 
 }  // namespace
 
@@ -31,10 +30,11 @@ std::size_t Periodogram::windowsIn(const std::vector<std::size_t>& stretches, st
   return count;
 }
 
-std::size_t Periodogram::lengthFor(const std::vector<std::size_t>& stretches, double natural_period) {
+std::size_t Periodogram::lengthFor(const std::vector<std::size_t>& stretches, double natural_period,
+                                   std::size_t fewest_windows) {
   std::size_t length = kShortestWindow;
   while (static_cast<double>(length) < kWindowPeriods * natural_period) length *= 2;
-  while (length > kShortestWindow && windowsIn(stretches, length) < kFewestWindows) length /= 2;
+  while (length > kShortestWindow && windowsIn(stretches, length) < fewest_windows) length /= 2;
   return length;
 }
 

@@ -23,8 +23,9 @@ class Periodogram {
   static std::size_t windowsIn(const std::vector<std::size_t>& stretches, std::size_t length);
 
   /// @param natural_period  of the strut [samples].
-  /// @return a power of two: twelve natural periods, or less if there would be few windows.
-  static std::size_t lengthFor(const std::vector<std::size_t>& stretches, double natural_period);
+  /// @return a power of two: twelve natural periods, or less if there would be too few windows.
+  static std::size_t lengthFor(const std::vector<std::size_t>& stretches, double natural_period,
+                               std::size_t fewest_windows = 16);
 
   double taperPower() const { return power_; }
 

@@ -68,6 +68,9 @@ FitFailure ModelEvaluator::againstPhysics(const ModelFit& fit) const {
     if (active.effect.positive && !(active.coefficient > 0.0)) return FitFailure::kWrongSign;
     if (hasShapeAtEnd(active, fit.motion)) return FitFailure::kShapeAtEnd;
   }
+  // A strut carries its body: an effect that makes the spring superfluous does something else's work.
+  const bool is_spring = fit.model.stiffness_to_mass > normalQuantile(kFalseAlarm) * fit.stddev[1];
+  if (fit.model.effects.size() > given && !is_spring) return FitFailure::kNoSpring;
   return FitFailure::kNone;
 }
 
