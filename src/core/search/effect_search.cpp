@@ -75,8 +75,11 @@ Selection select(const std::vector<EvaluatedModel>& ranking) {
 class Search {
  public:
   Search(const Records& records, const HoldOut& held_out, const ModelFit& rough, std::size_t most_forces,
-         const DiagnoseOptions& options)
-      : records_(records), options_(options), evaluator_(records, held_out, outlierOf(rough), most_forces, options) {}
+         const DiagnoseOptions& options, const std::optional<StrutModel>& lagged)
+      : records_(records),
+        options_(options),
+        lagged_(lagged),
+        evaluator_(records, held_out, outlierOf(rough), most_forces, options, lagged) {}
 
   SearchResult run(const ModelFit& rough);
 
@@ -99,6 +102,7 @@ class Search {
 
   const Records& records_;
   const DiagnoseOptions& options_;
+  const std::optional<StrutModel>& lagged_;
   ModelEvaluator evaluator_;
   EvaluatedModel base_;
   std::optional<Selection> suspect_;  // the best addition to the base
@@ -251,6 +255,7 @@ void Search::name(Verdict verdict, const EvaluatedModel& model) {
 
 SearchResult Search::run(const ModelFit& rough) {
   base_ = evaluator_.evaluate(rough.model, rough.initial, nullptr);
+  if (!base_.ranked.fitted && lagged_) base_ = evaluator_.asItIs(rough);
   if (!base_.ranked.fitted) {
     result_.shortcoming = Shortcoming::kNoStableFit;
     return result_;
@@ -282,14 +287,17 @@ SearchResult without(Shortcoming shortcoming) {
 
 }  // namespace
 
-SearchResult searchEffects(const Records& records, const StrutModel& start, const DiagnoseOptions& options) {
+SearchResult searchEffects(const Records& records, const StrutModel& start, const DiagnoseOptions& options,
+                           const std::optional<StrutModel>& lagged) {
   if (segmentsOf(records).empty()) return without(Shortcoming::kTooShort);
-  const FitOutcome rough = fitOutputError(records, {}, start);
+  FitOutcome rough = fitOutputError(records, {}, start);
+  if (!rough && lagged)
+    rough = withoutFit(records, {lagged->damping_to_mass, lagged->stiffness_to_mass, start.effects, start.reading});
   if (!rough) return without(Shortcoming::kNoStableFit);
   const std::optional<HoldOut> held_out = splitHoldOut(records, rough->model.stiffness_to_mass);
   if (!held_out) return without(Shortcoming::kTooShort);
   const std::size_t most_forces = start.effects.size() + static_cast<std::size_t>(options.most_forces);
-  return Search(records, *held_out, *rough, most_forces, options).run(*rough);
+  return Search(records, *held_out, *rough, most_forces, options, lagged).run(*rough);
 }
 
 }  // namespace suspension_health_monitor
