@@ -33,8 +33,9 @@ std::size_t Periodogram::windowsIn(const std::vector<std::size_t>& stretches, st
 std::size_t Periodogram::lengthFor(const std::vector<std::size_t>& stretches, double natural_period,
                                    std::size_t fewest_windows) {
   std::size_t length = kShortestWindow;
-  while (static_cast<double>(length) < kWindowPeriods * natural_period) length *= 2;
-  while (length > kShortestWindow && windowsIn(stretches, length) < fewest_windows) length /= 2;
+  while (static_cast<double>(length) < kWindowPeriods * natural_period &&
+         windowsIn(stretches, 2 * length) >= fewest_windows)
+    length *= 2;
   return length;
 }
 

@@ -16,7 +16,8 @@ struct LaggedStrut {
 
 /// Looks for an offset of the sensors' clocks, in steps of a sample or 5 ms up to 50 ms either way: the survey of
 /// horizons (HorizonSurvey) with the body's readings moved by as much. Coarse: where a fit may begin.
-/// @return the one that explains most; nothing if that is no offset, or explains less than half.
+/// @return the one that explains most; nothing if that is no offset, explains less than half, or less than the
+/// sensors swapped do.
 std::optional<LaggedStrut> lookForClockLag(const std::vector<Drive>& drives, double period);
 
 }  // namespace suspension_health_monitor
