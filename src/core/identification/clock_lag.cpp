@@ -15,6 +15,7 @@ namespace {
 constexpr double kLargestLag = 0.05, kStep = 0.005;  // [s]
 constexpr std::size_t kMostSamples = 10000;          // of all drives; a lag shows in every one
 constexpr int kLongestHorizon = 512;                 // samples
+constexpr double kLongestStep = 1e6;                 // samples; no drive is sampled so densely
 
 /// Which of the readings is taken for the body's.
 enum class Roles { kAsGiven, kSwapped };
@@ -47,8 +48,8 @@ struct Found {
 };
 
 Found bestOver(const std::vector<Drive>& drives, Roles roles, double period) {
-  const int step = std::max(1, static_cast<int>(std::lround(kStep / period)));
-  const int most = static_cast<int>(kLargestLag / period + 0.5) / step;
+  const int step = static_cast<int>(std::clamp(std::round(kStep / period), 1.0, kLongestStep));
+  const int most = static_cast<int>(std::min(kLargestLag / period + 0.5, kLargestLag / kStep * kLongestStep)) / step;
   Found best;
   for (int i = -most; i <= most; ++i) {
     HorizonSurvey horizons(period, IntegralFilterOptions{}.rule, kLongestHorizon);

@@ -204,8 +204,7 @@ bool ModelEvaluator::isToldByFrequency(const EvaluatedModel& candidate, const Ev
   if (!start) return false;
   const EvaluatedModel as_frequency = evaluate(start->model, current.fit.initial, &current);
   if (!as_frequency.ranked.fitted) return false;
-  const PairedTest gain = as_frequency.gainOf(candidate);
-  return !(gain.removed_share > kWorthHaving && isSignificant(gain, kSure));
+  return !isWorthHaving(as_frequency, candidate);
 }
 
 std::vector<EvaluatedModel> ModelEvaluator::rankAdditions(const EvaluatedModel& current, const Tick& tick) const {
