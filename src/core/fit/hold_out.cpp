@@ -42,8 +42,8 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
   double sum = 0.0, squares = 0.0;
   for (const DriveRecord* record : records) {
     const double natural_period = std::round(2.0 * kPi / std::sqrt(stiffness_to_mass) / record->period());
-    if (!(natural_period < static_cast<double>(record->numSamples()))) return std::nullopt;
-    const auto period = static_cast<std::size_t>(std::max(4.0, natural_period));
+    const double longest = static_cast<double>(record->numSamples());  // then nothing is held out
+    const auto period = static_cast<std::size_t>(std::max(4.0, std::min(natural_period, longest)));
     const std::size_t block = std::max<std::size_t>(1, record->numSamples() / kBlocks);
     std::size_t position = 0;  // in the record
     for (const DriveSegment& segment : record->segments()) {
