@@ -228,6 +228,7 @@ FittedModel Search::finalFit(const EvaluatedModel& last) const {
 }
 
 void Search::conclude(const EvaluatedModel& last) {
+  if (!suspect_) result_.noise_floor = floorOf(base_, result_.noise_floor);  // else a law takes a part of it
   result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
   if (result_.structured_share > 0.0)
     result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
@@ -263,7 +264,7 @@ SearchResult Search::run(const ModelFit& rough) {
   report(kStarted);
   result_.base = base_.ranked;
   result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
-  result_.noise_floor = floorOf(base_, estimateNoiseFloor(records_, base_.ranked.model));
+  result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
   sampling_floor_ = estimateSamplingFloor(records_, base_.ranked.model);
   EvaluatedModel last = refine(extend());
   // What several names explain no better than one does, one explains.
