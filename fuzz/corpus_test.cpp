@@ -31,6 +31,13 @@ TEST(SampleStream, NoReadingsBreakTheMonitor) {
   }
 }
 
+TEST(DriveRecords, NoRecordBreaksASearchOrAComparison) {
+  for (const auto& [name, content] : corpus("drive_records")) {
+    const std::vector<std::uint8_t> bytes(content.begin(), content.end());
+    EXPECT_NO_THROW(searchDriveRecords(bytes.data(), bytes.size())) << name;
+  }
+}
+
 TEST(SettingsText, NoTextBreaksTheReaders) {
   for (const auto& [name, content] : corpus("settings_text")) {
     const bool good = name.compare(0, 5, "good_") == 0;

@@ -23,6 +23,12 @@ struct ActiveMeasurementEffect {
 
 inline constexpr std::size_t kMostEffects = 8;  ///< in one model
 
+/// The linear part of a strut.
+struct LinearStrut {
+  double damping_to_mass = 0.0;    ///< b1 [1/s]
+  double stiffness_to_mass = 0.0;  ///< b0 [1/s^2]
+};
+
 /// The strut as it is modelled: z'' = b1 v + b0 d + sum_j c_j f_j, and how its acceleration is read.
 struct StrutModel {
   double damping_to_mass = 0.0;    ///< b1 [1/s]

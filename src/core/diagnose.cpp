@@ -20,7 +20,7 @@ Diagnosis diagnose(const std::vector<Drive>& drives, const DiagnoseOptions& opti
   const Records records = pointersTo(prepared.records);
   DiagnoseOptions searched = options;
   const std::vector<UntestableEffect> untestable = takeUntestable(searched.candidates, records);
-  result = searchEffects(records, prepared.start, searched);
+  result = searchEffects(records, prepared.start, searched, prepared.lagged);
   result.reason = reasonOf(result.shortcoming, prepared.start);
   if (!result) return result;
   result.summary = summaryOf(result);

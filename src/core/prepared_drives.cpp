@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/fit/rough_model.h"
+#include "suspension_health_monitor/internal/identification/clock_lag.h"
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/record/untestable_effects.h"
@@ -33,7 +34,7 @@ StrutModel roughStart(const std::vector<Drive>& drives, double period, std::opti
 }
 
 PreparedDrives lacking(Shortcoming shortcoming, const StrutModel& start) {
-  return {shortcoming, reasonOf(shortcoming, start), start, {}};
+  return {shortcoming, reasonOf(shortcoming, start), start, {}, std::nullopt};
 }
 
 }  // namespace
@@ -42,12 +43,16 @@ PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::option
                              const std::optional<int>& horizon_samples, const std::optional<StrutModel>& model) {
   const double period = periodOf(drives, sample_period);
   if (model) requireUsable(model->effects);
-  const StrutModel start = model ? *model : roughStart(drives, period, horizon_samples);
+  StrutModel start = model ? *model : roughStart(drives, period, horizon_samples);
+  const std::optional<LaggedStrut> lagged = model ? std::nullopt : lookForClockLag(drives, period);
+  if (lagged && !isDampedSpring(start))
+    start = {lagged->model.damping_to_mass, lagged->model.stiffness_to_mass, {}, {}};
   // What a fit leaves to the linear damping may be less than nothing where an effect of the model damps.
   const bool is_spring = model ? start.stiffness_to_mass > 0.0 : isDampedSpring(start);
   if (!is_spring) return lacking(Shortcoming::kNoDampedSpring, start);
   if (!canFollow(start, period)) return lacking(Shortcoming::kTooFast, start);
-  PreparedDrives prepared{Shortcoming::kNone, "", start, makeRecords(drives, period, start)};
+  PreparedDrives prepared{Shortcoming::kNone, "", start, makeRecords(drives, period, start), std::nullopt};
+  if (lagged) prepared.lagged = lagged->model;
   const std::optional<UntestableEffect> untestable = findUntestable(start, pointersTo(prepared.records));
   if (!untestable) return prepared;
   PreparedDrives refused = lacking(Shortcoming::kModelUntestable, start);

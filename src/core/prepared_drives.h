@@ -12,9 +12,10 @@ namespace suspension_health_monitor {
 /// What the facades start from.
 struct PreparedDrives {
   Shortcoming shortcoming = Shortcoming::kNone;
-  std::string reason;               ///< to be read after "the drives"
-  StrutModel start;                 ///< the model given, or a rough one by least squares
-  std::deque<DriveRecord> records;  ///< one per drive; none if there is a shortcoming
+  std::string reason;                ///< to be read after "the drives"
+  StrutModel start;                  ///< the model given, or a rough one by least squares
+  std::deque<DriveRecord> records;   ///< one per drive; none if there is a shortcoming
+  std::optional<StrutModel> lagged;  ///< a rough one with clock_offset, if the clocks seem to differ
 };
 
 /// Settings (DiagnoseOptions or CompareOptions) -> period, horizon, rough model, records with the body's motion; and

@@ -9,6 +9,7 @@
 #include "model_file.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
+#include "suspension_health_monitor/internal/model/shape_range.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "whole_file.h"
 #include "yaml_settings.h"
@@ -82,9 +83,7 @@ ActiveEffect LiveModel::make(const std::string& name, Shapes& given, const Scale
     const ShapeParameter& shape = made.effect.shapes[i];
     const std::string full = name + '/' + shape.name;
     if (const auto found = given.find(full); found != given.end()) {
-      if (!(found->second > 0.0 && std::isfinite(found->second)))
-        throw std::invalid_argument(full + " = " + std::to_string(found->second) + " [" + shape.unit +
-                                    "], must be above 0");
+      requireAllowed(full, shape, found->second);
       made.shapes.push_back(found->second);
       given.erase(found);
     } else {
@@ -113,6 +112,19 @@ std::vector<ActiveEffect> LiveModel::choose(const std::vector<std::string>& name
     for (const ShapeParameter& shape : active.effect.shapes) shapes.push_back(active.effect.name + '/' + shape.name);
   throw std::invalid_argument("shape " + given.begin()->first + ", must be " +
                               (shapes.empty() ? "left out: these effects have none" : "one of " + join(shapes, ", ")));
+}
+
+std::optional<LinearStrut> LiveModel::strutFor(const std::vector<ActiveEffect>& effects) const {
+  const auto belongs = [&](const StrutModel& model) {
+    return std::equal(effects.begin(), effects.end(), model.effects.begin(), model.effects.end(),
+                      [](const ActiveEffect& a, const ActiveEffect& b) {
+                        return a.effect.name == b.effect.name && a.coefficient == b.coefficient && a.shapes == b.shapes;
+                      });
+  };
+  for (const StrutModel* model :
+       {diagnosis_ && *diagnosis_ ? &diagnosis_->model() : nullptr, loaded_ ? &*loaded_ : nullptr})
+    if (model != nullptr && belongs(*model)) return LinearStrut{model->damping_to_mass, model->stiffness_to_mass};
+  return std::nullopt;
 }
 
 std::string LiveModel::describe() const {

@@ -41,6 +41,9 @@ class LiveModel {
   /// @throws std::invalid_argument  naming what is unknown or twice, and what is allowed; a shape not known yet.
   std::vector<ActiveEffect> choose(const std::vector<std::string>& names, Shapes given, const Scale& scale) const;
 
+  /// @return b1 and b0 that belong to effects as the last diagnosis or model_file has them, all and no other.
+  std::optional<LinearStrut> strutFor(const std::vector<ActiveEffect>& effects) const;
+
   const std::optional<Diagnosis>& diagnosis() const { return diagnosis_; }
   void setDiagnosis(const Diagnosis& diagnosis) { diagnosis_ = diagnosis; }
 

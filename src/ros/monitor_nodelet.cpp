@@ -53,7 +53,7 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
 void MonitorNodelet::makePipeline() {
   pipeline_.emplace(
       options_, [this](const MonitorReport& report) { publish(report); }, &imus_->transforms());
-  pipeline_->strut().setEffects(model_->effects());
+  pipeline_->strut().setEffects(model_->effects(), model_->strutFor(model_->effects()));
   if (baseline_->known()) pipeline_->strut().setBaseline(*baseline_->known());
 }
 
@@ -123,7 +123,7 @@ bool MonitorNodelet::onSetEffects(SetEffectsRequest& request, SetEffectsResponse
   try {
     std::vector<ActiveEffect> effects =
         model_->choose(request.names, shapesOf(request), [this] { return motionScaleNow(); });
-    pipeline_->strut().setEffects(effects);
+    pipeline_->strut().setEffects(effects, model_->strutFor(effects));
     model_->setEffects(std::move(effects));
     publishModel();
     response.success = true;

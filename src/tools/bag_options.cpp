@@ -31,7 +31,7 @@ void addBagOptions(po::options_description& description) {
   add("json", po::value<std::string>(), "write the result as JSON");
 }
 
-BagOptions readBagOptions(const po::variables_map& values) {
+BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_differ) {
   BagOptions options;
   ImuBags& bags = options.bags;
   bags.paths = values["bag"].as<std::vector<std::string>>();
@@ -57,7 +57,8 @@ BagOptions readBagOptions(const po::variables_map& values) {
   options.period_measured = !monitor.sample_period;
   options.horizon_measured = !monitor.integration_horizon;
   if (!options.period_measured) requireFittingPeriod(bags, *monitor.sample_period);
-  if (options.period_measured || options.horizon_measured) measureOpenSettings(bags, options.pipeline);
+  if (options.period_measured || options.horizon_measured)
+    measureOpenSettings(bags, options.pipeline, clocks_may_differ);
   return options;
 }
 

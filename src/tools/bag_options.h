@@ -26,7 +26,8 @@ void addBagOptions(boost::program_options::options_description& description);
 
 /// Collects the common options; reads the beginning of the bags for what the settings leave open.
 /// @throws std::invalid_argument, InputError, TooLittleError  as command.h.
-BagOptions readBagOptions(const boost::program_options::variables_map& values);
+/// @param clocks_may_differ  as measureOpenSettings().
+BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ = false);
 
 /// Names of the options that addModelOptions() adds; their values are files that are read.
 inline constexpr const char* kEffectsFile = "effects-file";

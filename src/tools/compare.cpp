@@ -16,7 +16,7 @@ void compare(const Arguments& arguments) {
   if (!values) return;
   requireSeparateFiles(*values, {"bag", "config", kEffectsFile, kModel}, {"json"});
   const ModelOptions models = readModelOptions(*values);
-  const BagOptions options = readBagOptions(*values);
+  const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;
   std::optional<TextFile> json;
   if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());

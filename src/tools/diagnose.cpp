@@ -21,7 +21,11 @@ void report(ReportPage& page, const Diagnosis& found, const std::vector<Drive>& 
   CompareOptions comparing;
   comparing.sample_period = options.sample_period;
   comparing.model = found.base.model;
-  const Comparison before = compare(drives, comparing);
+  Comparison before = compare(drives, comparing);
+  if (!before) {  // nothing fits without what was found: clocks that differ
+    comparing.fit = false;
+    before = compare(drives, comparing);
+  }
   requireEnough(before.shortcoming, before.reason);
   std::optional<Comparison> after;
   if (found.final_fit) {
@@ -52,7 +56,7 @@ void diagnose(const Arguments& arguments) {
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
   const ModelOptions models = readModelOptions(*values);
-  const BagOptions options = readBagOptions(*values);
+  const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;
   std::optional<TextFile> json, model;
   std::optional<ReportPage> page;

@@ -1,6 +1,7 @@
 #include "survey.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "../ros/conversions.h"
 #include "bag_samples.h"
 #include "errors.h"
+#include "suspension_health_monitor/internal/identification/clock_lag.h"
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
@@ -27,6 +29,8 @@ constexpr double kMostFilled = StreamResampler::kSlowest;  // samples made of on
 // only. What stands still weighs little beside what moves. So many samples are surveyed at least, and this share.
 constexpr double kSurveyedShare = 0.2;
 constexpr int kStretch = 2500;  // [samples]
+
+constexpr std::size_t kLookedAt = 40000;  // samples, for an offset of the clocks
 
 // @param count  messages to look at; becomes those that there were.
 std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
@@ -57,6 +61,7 @@ double measurePeriod(const ImuBags& bags) {
 
 /// What a survey came across.
 struct Surveyed {
+  Drive drive;
   UniformGrid grid;
   std::size_t samples, gaps;
   RejectCounts rejected;
@@ -67,6 +72,7 @@ Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOpti
   std::optional<Stamp> last;
   std::size_t count = 0, gaps = 0;
   RejectCounts too_soon;
+  Drive drive;
   ReadSamples read = readSamples(bags, options, [&](const CornerSample& sample) {
     const Continuity follows = last ? continuity(sample.stamp - *last, period) : Continuity::kContinues;
     const bool is_extra = follows == Continuity::kTooSoon;
@@ -75,25 +81,38 @@ Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOpti
       survey.interrupt();
     }
     if (is_extra) too_soon.add(RejectReason::kTooSoon);
-    if (!is_extra) survey.push(sample);
+    if (!is_extra) {
+      survey.push(sample);
+      if (count < kLookedAt) drive.samples.push_back(sample);
+    }
     last = sample.stamp;
     ++count;
     return true;
   });
   read.rejected += too_soon;
-  return {std::move(read.grid), count, gaps, read.rejected};
+  return {std::move(drive), std::move(read.grid), count, gaps, read.rejected};
 }
 
-[[noreturn]] void refuse(const Surveyed& surveyed, const HorizonSurvey& survey) {
+std::string describeClockLag(double lag) {
+  char text[120];
+  std::snprintf(text, sizeof text, "; the clocks of the IMUs seem to differ by about %.0f ms: diagnose tells",
+                1e3 * std::abs(lag));
+  return text;
+}
+
+[[noreturn]] void refuse(const Surveyed& surveyed, const HorizonSurvey& survey,
+                         const std::optional<LaggedStrut>& lagged) {
   throw TooLittleError(
       "no horizon can be proposed: " +
       std::string(surveyed.samples == 0 ? "no pair of readings can be used" : "the data show no damped spring") +
       " (samples " + std::to_string(surveyed.samples) + ", gaps " + std::to_string(surveyed.gaps) +
-      describeRejected(surveyed.rejected) + ")" + describeSuspicions(surveyed.grid, survey.dampingIsNegative()) +
+      describeRejected(surveyed.rejected) + ")" +
+      (lagged ? describeClockLag(lagged->model.reading.front().coefficients.front())
+              : describeSuspicions(surveyed.grid, survey.dampingIsNegative())) +
       "; give integration_horizon (--set integration_horizon=0.6) to look at them all the same");
 }
 
-int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
+int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options, bool clocks_may_differ) {
   const double period = *options.monitor.sample_period;
   const IntegrationRule rule = MonitorSettings(options.monitor).estimators.rule;
   const double share = std::max(kSurveyedShare, HorizonSurvey::kEnough * period / duration(bags));
@@ -107,17 +126,19 @@ int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options) {
   HorizonSurvey survey(period, rule, HorizonSurvey::kLongest);
   const Surveyed surveyed = readInto(survey, bags, options);
   const std::optional<int> samples = survey.horizonSamples();
-  if (!samples) refuse(surveyed, survey);
-  return *samples;
+  if (samples) return *samples;
+  const std::optional<LaggedStrut> lagged = lookForClockLag({surveyed.drive}, period);
+  if (!lagged || !clocks_may_differ) refuse(surveyed, survey, lagged);
+  return lagged->horizon_samples;
 }
 
 }  // namespace
 
-void measureOpenSettings(const ImuBags& bags, PipelineOptions& options) {
+void measureOpenSettings(const ImuBags& bags, PipelineOptions& options, bool clocks_may_differ) {
   MonitorOptions& monitor = options.monitor;
   if (!monitor.sample_period) monitor.sample_period = measurePeriod(bags);
   if (!monitor.integration_horizon)
-    monitor.integration_horizon = proposeHorizonSamples(bags, options) * *monitor.sample_period;
+    monitor.integration_horizon = proposeHorizonSamples(bags, options, clocks_may_differ) * *monitor.sample_period;
 }
 
 void requireFittingPeriod(const ImuBags& bags, double sample_period) {

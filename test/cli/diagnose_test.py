@@ -54,7 +54,7 @@ def test_effects_lists_the_catalogue(program):
 @pytest.mark.parametrize("effect, words", [
     ("bump=3", ["bump", "bump_stop"]), ("bump_stop=3", ["effects/bump_stop/g", "missing"]),
     ("bump_stop=3,h=1,g=0.1", ["effects/bump_stop/h", "unknown"]), ("bump_stop", ["NAME=COEFFICIENT"]),
-    ("bump_stop=stiff,g=0.1", ["stiff"]), ("bump_stop=3,g=-1", ["effects/bump_stop/g", "above 0"])])
+    ("bump_stop=stiff,g=0.1", ["stiff"]), ("bump_stop=3,g=-1", ["effects/bump_stop/g", "must be in"])])
 def test_wrong_effects_are_refused(program, tmp_path, effect, words):
     program.refuse(2, ["simulate", *DRIVE, "--effect", effect, "-o", tmp_path / "drive.bag"], words, tmp_path)
 

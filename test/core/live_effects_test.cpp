@@ -292,5 +292,22 @@ TEST(LiveEffects, WhatCannotBeModelledIsRefusedAndChangesNothing) {
   EXPECT_EQ(monitor.effects()[0].effect.name, "quadratic_damping");
 }
 
+// The coefficient alone would stand beside a b1 and b0 that hold a part of the effect.
+TEST(LiveEffects, StartedWithWhatAFitFoundTheErrorFallsAtOnce) {
+  const HiddenDrive drive("quadratic_damping", {}, 60.0);
+  SuspensionMonitor monitor(carMonitor(0.999)), plain(carMonitor(0.999));
+  double square = 0.0, plain_square = 0.0;
+  for (std::size_t k = 0; k < 4200; ++k) {
+    if (k == 4000) monitor.setEffects({drive.effect}, LinearStrut{kCarB1, kCarB0});
+    const MonitorReport* started = monitor.addSample(drive.samples[k]);
+    const MonitorReport* base = plain.addSample(drive.samples[k]);
+    if (k < 4000 || started == nullptr || !started->comparison.predicted || !base->comparison.predicted) continue;
+    square += std::pow(started->comparison.measured - *started->comparison.predicted, 2);
+    plain_square += std::pow(base->comparison.measured - *base->comparison.predicted, 2);
+  }
+  EXPECT_GT(square, 0.0);
+  EXPECT_LT(square, 0.5 * plain_square);  // within two seconds
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor

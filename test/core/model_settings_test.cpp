@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -79,7 +80,8 @@ TEST(ModelSettings, YamlAndBackKeepsEveryBit) {
     StrutModel model = exampleModel();
     model.damping_to_mass = -std::min(number, 1e14);
     model.effects[0].coefficient = number;
-    model.effects[0].shapes[0] = number;
+    const double shape = std::clamp(number, 1e-9, 1e9);
+    model.effects[0].shapes[0] = shape;
     model.reading[0].coefficients = {-number};
     OptionMap values = parse(toYaml(model));
     const StrutModel back = takeModel(values, builtInEffects());
@@ -91,7 +93,7 @@ TEST(ModelSettings, YamlAndBackKeepsEveryBit) {
     EXPECT_EQ(back.effects[0].coefficient, -4e-12);
     EXPECT_EQ(back.effects[1].effect.name, "bump_stop");
     EXPECT_EQ(back.effects[1].coefficient, number);
-    EXPECT_EQ(back.effects[1].shapes, std::vector<double>{number});
+    EXPECT_EQ(back.effects[1].shapes, std::vector<double>{shape});
     ASSERT_EQ(back.reading.size(), 1u);
     EXPECT_EQ(back.reading[0].effect.name, "clock_offset");
     EXPECT_EQ(back.reading[0].coefficients, std::vector<double>{-number});
@@ -130,7 +132,7 @@ TEST(ModelSettings, RefusesMoreEffectsThanAStrutStateHolds) {
   OptionMap values{{"damping_to_mass", 3.0}, {"stiffness_to_mass", 13.8}};
   for (const ForceEffect& effect : forceEffects()) {
     values["effects/" + effect.name + "/coefficient"] = 1.0;
-    for (const ShapeParameter& shape : effect.shapes) values["effects/" + effect.name + '/' + shape.name] = 1.0;
+    for (const ShapeParameter& shape : effect.shapes) values["effects/" + effect.name + '/' + shape.name] = 2.0;
   }
   expectNamed(refusal(values), {"effects", "at most 8"});
 }

@@ -175,7 +175,7 @@ class LiveSearchTest(unittest.TestCase):
                 (["clock_offset"], {}, ["effect clock_offset", "quadratic_damping"]),
                 ([EFFECT, EFFECT], {}, [EFFECT, "twice"]),
                 (["bump_stop"], {"bump_stop/gap": 0.1}, ["bump_stop/gap", "bump_stop/g"]),
-                (["bump_stop"], {"bump_stop/g": -0.1}, ["bump_stop/g = -0.1", "above 0"])):
+                (["bump_stop"], {"bump_stop/g": -0.1}, ["bump_stop/g = -0.1", "must be in"])):
             answer = self.services.set_effects(names, list(shapes), list(shapes.values()))
             self.assertFalse(answer.success, names)
             for word in words:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/compare/residual_analysis.h"
+#include "suspension_health_monitor/internal/fit/band_noise.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/initial_states.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
@@ -91,9 +92,10 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   filter.period = records.front()->period();
   filter.horizon_samples = comparison.horizon_samples = horizonFor(options, comparison.model, filter.period);
   comparison.one_step = oneStepError(comparison.segments, comparison.model, filter);
-  // Noise cannot leave more than this very model does.
-  comparison.noise_floor = std::min(estimateNoiseFloor(records, comparison.model), comparison.free_run.rmse);
+  comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
+  comparison.noise_floor = floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
+                                           residualsOf(comparison.segments), filter.period, comparison.model);
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
   const ExpectedNoise noise{comparison.noise_floor, comparison.model.damping_to_mass,

@@ -1,68 +1,18 @@
-#include <Eigen/Core>
 #include <cmath>
 #include <complex>
-#include <unsupported/Eigen/FFT>
 
 #include "residual_series.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
-#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/periodogram.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kWindowPeriods = 12.0;  // natural periods in a window, at least
-constexpr std::size_t kShortestWindow = 32;
-constexpr std::size_t kFewestWindows = 16;
-constexpr double kIndependent = 1.0 / (1.0 + 2.0 / 36.0);  // of half overlapping Hann windows (Welch)
-
-using Spectrum = std::vector<std::complex<double>>;
-
-std::size_t windowsIn(std::size_t samples, std::size_t length) {
-  return samples < length ? 0 : 1 + (samples - length) / (length / 2);
+std::vector<std::size_t> sizesOf(const ResidualSeries& series) {
+  std::vector<std::size_t> sizes;
+  for (std::size_t s = 0; s + 1 < series.begins.size(); ++s) sizes.push_back(series.begins[s + 1] - series.begins[s]);
+  return sizes;
 }
-
-std::size_t windowsIn(const ResidualSeries& series, std::size_t length) {
-  std::size_t count = 0;
-  for (std::size_t s = 0; s + 1 < series.begins.size(); ++s)
-    count += windowsIn(series.begins[s + 1] - series.begins[s], length);
-  return count;
-}
-
-/// A power of two.
-std::size_t windowLength(const ResidualSeries& series) {
-  std::size_t length = kShortestWindow;
-  while (static_cast<double>(length) < kWindowPeriods * series.natural_period) length *= 2;
-  while (length > kShortestWindow && windowsIn(series, length) < kFewestWindows) length /= 2;
-  return length;
-}
-
-/// Spectra of windows under the same taper.
-class Periodogram {
- public:
-  explicit Periodogram(std::size_t length) : taper_(length), windowed_(length) {
-    for (std::size_t i = 0; i < length; ++i) {
-      taper_[i] = 0.5 - 0.5 * std::cos(2.0 * kPi * static_cast<double>(i) / static_cast<double>(length));
-      power_ += taper_[i] * taper_[i];
-    }
-    fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  }
-
-  double taperPower() const { return power_; }
-
-  const Spectrum& of(const double* values, Spectrum& into) {
-    double mean = 0.0;
-    for (std::size_t i = 0; i < taper_.size(); ++i) mean += values[i];
-    mean /= static_cast<double>(taper_.size());
-    for (std::size_t i = 0; i < taper_.size(); ++i) windowed_[i] = taper_[i] * (values[i] - mean);
-    fft_.fwd(into, windowed_);
-    return into;
-  }
-
- private:
-  std::vector<double> taper_, windowed_;
-  double power_ = 0.0;
-  Eigen::FFT<double> fft_;
-};
 
 /// Sums over all windows, by frequency.
 struct SpectralSums {
@@ -85,14 +35,15 @@ struct SpectralSums {
 
 std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series, const std::vector<ComparedSegment>& segments,
                                            const ExpectedNoise& noise) {
-  const std::size_t length = windowLength(series);
-  const std::size_t windows = windowsIn(series, length);
+  const std::vector<std::size_t> sizes = sizesOf(series);
+  const std::size_t length = Periodogram::lengthFor(sizes, series.natural_period);
+  const std::size_t windows = Periodogram::windowsIn(sizes, length);
   if (windows < 2) return std::nullopt;
   Periodogram periodogram(length);
   SpectralSums sums(length / 2 + 1);
   Spectrum r, y, w;
   for (std::size_t s = 0; s < segments.size(); ++s)
-    for (std::size_t i = 0; i < windowsIn(segments[s].size(), length); ++i) {
+    for (std::size_t i = 0; i < Periodogram::windowsIn(segments[s].size(), length); ++i) {
       const std::size_t first = i * (length / 2);
       sums.add(periodogram.of(&series.residual[series.begins[s] + first], r),
                periodogram.of(&segments[s].measured[first], y),
@@ -100,7 +51,7 @@ std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series, const s
     }
 
   ResidualSpectrum result;
-  result.num_averages = std::max(1.0, kIndependent * static_cast<double>(windows));
+  result.num_averages = std::max(1.0, Periodogram::kIndependent * static_cast<double>(windows));
   // gamma^2 of unrelated signals: P(gamma^2 > x) = (1 - x)^(n - 1).
   result.coherence_threshold = 1.0 - std::pow(0.05, 1.0 / std::max(1e-3, result.num_averages - 1.0));
   const double b1 = noise.damping_to_mass, b0 = noise.stiffness_to_mass;

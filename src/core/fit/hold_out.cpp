@@ -41,8 +41,9 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
   HoldOut result;
   double sum = 0.0, squares = 0.0;
   for (const DriveRecord* record : records) {
-    const auto period = static_cast<std::size_t>(
-        std::max(4.0, std::round(2.0 * kPi / std::sqrt(stiffness_to_mass) / record->period())));
+    const double natural_period = std::round(2.0 * kPi / std::sqrt(stiffness_to_mass) / record->period());
+    const double longest = static_cast<double>(record->numSamples());  // then nothing is held out
+    const auto period = static_cast<std::size_t>(std::max(4.0, std::min(natural_period, longest)));
     const std::size_t block = std::max<std::size_t>(1, record->numSamples() / kBlocks);
     std::size_t position = 0;  // in the record
     for (const DriveSegment& segment : record->segments()) {

@@ -8,6 +8,7 @@
 #include "suspension_health_monitor/internal/fit/hat_functions.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -191,11 +192,21 @@ double ofBothSensors(double body_noise, double period, const StrutModel& model) 
 }  // namespace
 
 double estimateNoiseFloor(const Records& records, const StrutModel& model) {
-  return ofBothSensors(bodyNoise(segmentsOf(records), model, true), records.front()->period(), model);
+  const double noise = ofBothSensors(bodyNoise(segmentsOf(records), model, true), records.front()->period(), model);
+  return noise > 0.0 ? std::max(noise, accuracyOfFreeRuns(records)) : 0.0;
 }
 
 double estimateSamplingFloor(const Records& records, const StrutModel& model) {
   return ofBothSensors(bodyNoise(segmentsOf(records), model, false), records.front()->period(), model);
+}
+
+double accuracyOfFreeRuns(const Records& records) {
+  double squares = 0.0, count = 0.0;
+  for (const DriveSegment* segment : segmentsOf(records)) {
+    for (const double y : segment->sprung) squares += square(y);
+    count += static_cast<double>(segment->size());
+  }
+  return BandlimitedInterpolator::kAccuracy * std::sqrt(squares / count);
 }
 
 }  // namespace suspension_health_monitor

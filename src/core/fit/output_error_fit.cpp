@@ -165,4 +165,12 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
   return fit;
 }
 
+FitOutcome withoutFit(const Records& records, const StrutModel& model) {
+  ModelFit fit;
+  fit.model = model;
+  for (const DriveSegment* segment : segmentsOf(records))
+    if (!addResiduals(*segment, {}, fit)) return FitFailure::kRunsAway;
+  return fit;
+}
+
 }  // namespace suspension_health_monitor

@@ -58,17 +58,24 @@ std::optional<HorizonSurvey::Choice> HorizonSurvey::choose() const {
   return best;
 }
 
-std::optional<int> HorizonSurvey::horizonSamples() const {
+std::optional<HorizonSurvey::Result> HorizonSurvey::result() const {
   const std::optional<Choice> choice = choose();
   if (!choice) return std::nullopt;
-  return suspension_health_monitor::horizonSamples(choice->horizon, period_, rule_);
+  const Eigen::Matrix3d& moments = choice->candidate->moments;
+  const Eigen::Vector2d theta = choice->candidate->theta();
+  return Result{suspension_health_monitor::horizonSamples(choice->horizon, period_, rule_), theta[kDampingToMass],
+                theta[kStiffnessToMass], theta.dot(moments.topRightCorner<2, 1>()) / moments(2, 2)};
+}
+
+std::optional<int> HorizonSurvey::horizonSamples() const {
+  const std::optional<Result> proposed = result();
+  if (!proposed) return std::nullopt;
+  return proposed->horizon_samples;
 }
 
 bool HorizonSurvey::isClear() const {
   const std::optional<Choice> choice = choose();
-  if (!choice || choice->distance > std::log(kStep)) return false;
-  const Eigen::Matrix3d& moments = choice->candidate->moments;
-  return choice->candidate->theta().dot(moments.topRightCorner<2, 1>()) >= 0.5 * moments(2, 2);
+  return choice && choice->distance <= std::log(kStep) && result()->explained >= kClear;
 }
 
 bool HorizonSurvey::dampingIsNegative() const {

@@ -6,6 +6,7 @@
 #include "find_by_name.h"
 #include "setting_groups.h"
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/model/shape_range.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -35,9 +36,7 @@ std::vector<ActiveEffect> takeEffects(OptionMap& values, const std::vector<Force
     active.coefficient = numbers.front();
     active.shapes.assign(numbers.begin() + 1, numbers.end());
     for (std::size_t i = 0; i < active.shapes.size(); ++i)
-      if (!(active.shapes[i] > 0.0))
-        throw std::invalid_argument(group + '/' + wanted[i + 1] + " = " + std::to_string(active.shapes[i]) + " [" +
-                                    active.effect.shapes[i].unit + "], must be above 0");
+      requireAllowed(group + '/' + wanted[i + 1], active.effect.shapes[i], active.shapes[i]);
     result.push_back(std::move(active));
   }
   return result;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/model/shape_range.h"
 #include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
@@ -60,9 +61,10 @@ void check(const ActiveEffect& active) {
   if (active.shapes.size() != active.effect.shapes.size())
     throw std::invalid_argument("effect " + active.effect.name + ": " + std::to_string(active.shapes.size()) +
                                 " shapes, must be " + std::to_string(active.effect.shapes.size()));
-  bool finite = std::isfinite(active.coefficient);
-  for (const double shape : active.shapes) finite = finite && std::isfinite(shape);
-  if (!finite) throw std::invalid_argument("effect " + active.effect.name + ": coefficient and shapes must be finite");
+  if (!std::isfinite(active.coefficient))
+    throw std::invalid_argument("effect " + active.effect.name + ": coefficient must be finite");
+  for (std::size_t i = 0; i < active.shapes.size(); ++i)
+    requireAllowed(active.effect.name + '/' + active.effect.shapes[i].name, active.effect.shapes[i], active.shapes[i]);
 }
 
 }  // namespace

@@ -35,11 +35,12 @@ ModelTracker::ModelTracker(const MonitorSettings& options)
       figures_due_(kFiguresEvery),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {}
 
-void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report) {
+void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut,
+                              ModelReport& report) {
   const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
   free_run_.setEffects(effects);  // may throw: first
   identifier_.changeEffects(columns);
-  has_own_model_ = false;
+  has_own_model_ = strut && free_run_.trySetModel(strut->damping_to_mass, strut->stiffness_to_mass);
   starts_.clear();
   for (std::size_t j = 0; j < effects.size(); ++j) {
     starts_.push_back(identifier_.coefficient(j));

@@ -28,15 +28,14 @@ void StrutPipeline::start(double period) {
   grid_.emplace(period, settings_.grid(period));
   if (settings_.tyre) tyre_.emplace(settings_);
   if (baseline_) monitor_->setBaseline(*baseline_);
-  if (!effects_.empty()) monitor_->setEffects(effects_);
+  if (!effects_.empty()) monitor_->setEffects(effects_, strut_);
 }
 
-void StrutPipeline::setEffects(const std::vector<ActiveEffect>& effects) {
+void StrutPipeline::setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut) {
   requireUsable(effects);
-  if (monitor_)
-    monitor_->setEffects(effects);
-  else
-    effects_ = effects;
+  if (monitor_) return monitor_->setEffects(effects, strut);
+  effects_ = effects;
+  strut_ = strut;
 }
 
 void StrutPipeline::setBaseline(const Baseline& baseline) {

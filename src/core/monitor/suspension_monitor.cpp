@@ -36,7 +36,7 @@ void SuspensionMonitor::changeModels(const Change& change) {
   if (extended_) change(*extended_, report_);
 }
 
-void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
+void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut) {
   if (effects.empty()) {
     if (extended_) static_cast<ModelReport&>(report_) = base_;
     extended_.reset();
@@ -44,7 +44,7 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects) {
   }
   ModelTracker next = tracker();
   ModelReport report = report_;
-  next.setEffects(effects, report);
+  next.setEffects(effects, strut, report);
   if (!extended_) {
     base_ = report_;
     reported_until_ = series_.newest();

@@ -5,6 +5,7 @@
 
 #include "model_evaluator.h"
 #include "separating_drive.h"
+#include "suspension_health_monitor/internal/fit/band_noise.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/record/sampling_limit.h"
 #include "suspension_health_monitor/internal/statistics.h"
@@ -74,8 +75,11 @@ Selection select(const std::vector<EvaluatedModel>& ranking) {
 class Search {
  public:
   Search(const Records& records, const HoldOut& held_out, const ModelFit& rough, std::size_t most_forces,
-         const DiagnoseOptions& options)
-      : records_(records), options_(options), evaluator_(records, held_out, outlierOf(rough), most_forces, options) {}
+         const DiagnoseOptions& options, const std::optional<StrutModel>& lagged)
+      : records_(records),
+        options_(options),
+        lagged_(lagged),
+        evaluator_(records, held_out, outlierOf(rough), most_forces, options, lagged) {}
 
   SearchResult run(const ModelFit& rough);
 
@@ -89,6 +93,7 @@ class Search {
   EvaluatedModel withoutSuperfluous(EvaluatedModel current) const;
   EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick);
   double explainedShare(const EvaluatedModel& after, double floor) const;
+  double floorOf(const EvaluatedModel& after, double floor) const;
   bool standsAlone(const EvaluatedModel& candidate) const;
   bool isExplained(const EvaluatedModel& after) const;
   void conclude(const EvaluatedModel& last);
@@ -97,6 +102,7 @@ class Search {
 
   const Records& records_;
   const DiagnoseOptions& options_;
+  const std::optional<StrutModel>& lagged_;
   ModelEvaluator evaluator_;
   EvaluatedModel base_;
   std::optional<Selection> suspect_;  // the best addition to the base
@@ -161,6 +167,7 @@ EvaluatedModel Search::extend() {
                     ranking.end());
     if (round == 0) result_.ranking = asReported(ranking);
     if (ranking.empty() || !ranking.front().ranked.fitted) break;
+    if (current.ranked.held_out_rmse < accuracyOfFreeRuns(records_)) break;
     // Whatever a free run leaves of data that it was not fitted to is above the floor.
     result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
     if (!ranking.front().ranked.significant) break;
@@ -195,11 +202,16 @@ double Search::explainedShare(const EvaluatedModel& after, double floor) const {
   return structure > 0.0 ? (square(base_.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
 }
 
+double Search::floorOf(const EvaluatedModel& after, double floor) const {
+  return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals, records_.front()->period(),
+                         after.ranked.model);
+}
+
 // Names are given if the model with them leaves noise only, or next to nothing of what there was to explain; or if it
 // takes most of that and no other law of travel and travel rate would take the rest: that comes from elsewhere, or was
 // lost in sampling.
 bool Search::isExplained(const EvaluatedModel& after) const {
-  const double lowest = std::min(sampling_floor_, after.ranked.held_out_rmse);
+  const double lowest = floorOf(after, sampling_floor_);
   const double share = explainedShare(after, lowest);
   if (share < kExplained) return false;
   const double left = square(after.ranked.held_out_rmse) - square(lowest);
@@ -216,6 +228,7 @@ FittedModel Search::finalFit(const EvaluatedModel& last) const {
 }
 
 void Search::conclude(const EvaluatedModel& last) {
+  if (!suspect_) result_.noise_floor = floorOf(base_, result_.noise_floor);  // else a law takes a part of it
   result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
   if (result_.structured_share > 0.0)
     result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
@@ -243,6 +256,7 @@ void Search::name(Verdict verdict, const EvaluatedModel& model) {
 
 SearchResult Search::run(const ModelFit& rough) {
   base_ = evaluator_.evaluate(rough.model, rough.initial, nullptr);
+  if (!base_.ranked.fitted && lagged_) base_ = evaluator_.asItIs(rough);
   if (!base_.ranked.fitted) {
     result_.shortcoming = Shortcoming::kNoStableFit;
     return result_;
@@ -274,14 +288,17 @@ SearchResult without(Shortcoming shortcoming) {
 
 }  // namespace
 
-SearchResult searchEffects(const Records& records, const StrutModel& start, const DiagnoseOptions& options) {
+SearchResult searchEffects(const Records& records, const StrutModel& start, const DiagnoseOptions& options,
+                           const std::optional<StrutModel>& lagged) {
   if (segmentsOf(records).empty()) return without(Shortcoming::kTooShort);
-  const FitOutcome rough = fitOutputError(records, {}, start);
+  FitOutcome rough = fitOutputError(records, {}, start);
+  if (!rough && lagged)
+    rough = withoutFit(records, {lagged->damping_to_mass, lagged->stiffness_to_mass, start.effects, start.reading});
   if (!rough) return without(Shortcoming::kNoStableFit);
   const std::optional<HoldOut> held_out = splitHoldOut(records, rough->model.stiffness_to_mass);
   if (!held_out) return without(Shortcoming::kTooShort);
   const std::size_t most_forces = start.effects.size() + static_cast<std::size_t>(options.most_forces);
-  return Search(records, *held_out, *rough, most_forces, options).run(*rough);
+  return Search(records, *held_out, *rough, most_forces, options, lagged).run(*rough);
 }
 
 }  // namespace suspension_health_monitor

@@ -12,17 +12,16 @@ namespace {
 
 constexpr double kWindow = 4.0;  // natural periods
 
-struct Point {
-  double time, frequency;  // [s], [-]
+struct Window {
+  double time, frequency;  // in the middle [s]; ln of rms velocity over rms position of the wheel
 };
 
-std::vector<Point> frequencies(const Records& records, double stiffness_to_mass) {
-  const double window = kWindow * 2.0 * kPi / std::sqrt(stiffness_to_mass);
-  std::vector<Point> points;
-  double mean = 0.0;
+std::vector<Window> windowsOf(const Records& records, double stiffness_to_mass) {
+  const double length_in_time = kWindow * 2.0 * kPi / std::sqrt(stiffness_to_mass);
+  std::vector<Window> windows;
   for (const DriveSegment* segment : segmentsOf(records)) {
     const MotionError wheel = motionError(segment->unsprung, 0.0, segment->period, stiffness_to_mass);
-    const auto length = static_cast<std::size_t>(std::ceil(window / segment->period));
+    const auto length = static_cast<std::size_t>(std::ceil(length_in_time / segment->period));
     for (std::size_t first = 0; first + length <= segment->size(); first += length) {
       double position = 0.0, velocity = 0.0;
       for (std::size_t k = first; k < first + length; ++k) {
@@ -30,23 +29,40 @@ std::vector<Point> frequencies(const Records& records, double stiffness_to_mass)
         velocity += square(wheel.travel_rate[k]);
       }
       if (!(position > 0.0 && velocity > 0.0)) continue;
-      points.push_back({segment->timeDriven(first + length / 2), 0.5 * std::log(velocity / position)});
-      mean += points.back().frequency;
+      windows.push_back({segment->timeDriven(first + length / 2), 0.5 * std::log(velocity / position)});
     }
   }
-  for (Point& point : points) point.frequency -= mean / static_cast<double>(points.size());
-  return points;
+  return windows;
 }
 
-double at(const std::vector<Point>& points, double time) {
-  const auto after =
-      std::lower_bound(points.begin(), points.end(), time, [](const Point& p, double t) { return p.time < t; });
+/// What frequency says of the time at some time [s].
+struct TimeTold {
+  double time, told;
+};
+
+/// By the windows whose frequencies are next to a window's, one below and one above: not by its own time. At the ends
+/// by the two next ones.
+std::vector<TimeTold> toldByFrequency(std::vector<Window> windows) {
+  std::vector<TimeTold> result;
+  if (windows.size() < 3) return result;
+  std::sort(windows.begin(), windows.end(), [](const Window& a, const Window& b) { return a.frequency < b.frequency; });
+  const auto last = windows.size() - 1;
+  result.push_back({windows[0].time, 2.0 * windows[1].time - windows[2].time});
+  for (std::size_t i = 1; i < last; ++i)
+    result.push_back({windows[i].time, (windows[i - 1].time + windows[i + 1].time) / 2.0});
+  result.push_back({windows[last].time, 2.0 * windows[last - 1].time - windows[last - 2].time});
+  std::sort(result.begin(), result.end(), [](const TimeTold& a, const TimeTold& b) { return a.time < b.time; });
+  return result;
+}
+
+/// In straight lines between the windows, and on along the outermost ones.
+double at(const std::vector<TimeTold>& points, double time) {
   if (points.empty()) return 0.0;
-  if (after == points.begin()) return points.front().frequency;
-  if (after == points.end()) return points.back().frequency;
-  const Point& before = *(after - 1);
+  const auto after = std::lower_bound(points.begin() + 1, points.end() - 1, time,
+                                      [](const TimeTold& p, double t) { return p.time < t; });
+  const TimeTold& before = *(after - 1);
   const double share = (time - before.time) / (after->time - before.time);
-  return before.frequency + share * (after->frequency - before.frequency);
+  return before.told + share * (after->told - before.told);
 }
 
 }  // namespace
@@ -57,11 +73,11 @@ bool dependsOnTime(const ActiveEffect& active) {
 }
 
 ForceEffect frequencyRival(const ForceEffect& effect, const Records& records, double stiffness_to_mass) {
-  const std::vector<Point> points = frequencies(records, stiffness_to_mass);
-  const auto instead = [points](ForceEffect::Law law) {
-    return [points, law](const StrutMotion& motion, const double* shapes) {
+  const std::vector<TimeTold> told = toldByFrequency(windowsOf(records, stiffness_to_mass));
+  const auto instead = [told](ForceEffect::Law law) {
+    return [told, law](const StrutMotion& motion, const double* shapes) {
       StrutMotion there = motion;
-      there.time = at(points, motion.time);
+      there.time = at(told, motion.time);
       return law(there, shapes);
     };
   };

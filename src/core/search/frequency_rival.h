@@ -8,10 +8,11 @@ namespace suspension_health_monitor {
 /// @return true if the force depends on time at some motion.
 bool dependsOnTime(const ActiveEffect& active);
 
-/// The rival of a law that changes with time: the same with the frequency of the wheel's motion in the place of time.
+/// The rival of a law that changes with time: the same with the time that the frequency of the wheel's motion tells.
 /// Where that does as well, as on a sweep, nobody can tell a part that wears from one that answers to frequency.
 /// Frequency: ln of rms velocity over rms position of the wheel (motionError() of w'') in windows of four natural
-/// periods, less its mean; in straight lines between their middles.
+/// periods. It tells the mean time of the two windows that are next in frequency; in straight lines between the
+/// middles.
 ForceEffect frequencyRival(const ForceEffect& effect, const Records& records, double stiffness_to_mass);
 
 }  // namespace suspension_health_monitor

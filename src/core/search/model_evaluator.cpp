@@ -29,12 +29,13 @@ std::vector<std::string> namesOf(const StrutModel& model) {
 std::size_t complexity(const StrutModel& model) { return numbersOf(model).size() - 2; }
 
 ModelEvaluator::ModelEvaluator(const Records& records, const HoldOut& held_out, double outlier, std::size_t most_forces,
-                               const DiagnoseOptions& options)
+                               const DiagnoseOptions& options, const std::optional<StrutModel>& lagged)
     : records_(records),
       held_out_(held_out),
       outlier_(outlier),
       most_forces_(std::min(most_forces, kMostEffects)),
-      options_(options) {}
+      options_(options),
+      lagged_(lagged) {}
 
 EvaluatedModel ModelEvaluator::weighed(const StrutModel& model, const Residuals& residuals) const {
   EvaluatedModel evaluated;
@@ -68,6 +69,9 @@ FitFailure ModelEvaluator::againstPhysics(const ModelFit& fit) const {
     if (active.effect.positive && !(active.coefficient > 0.0)) return FitFailure::kWrongSign;
     if (hasShapeAtEnd(active, fit.motion)) return FitFailure::kShapeAtEnd;
   }
+  // A strut carries its body: an effect that makes the spring superfluous does something else's work.
+  const bool is_spring = fit.model.stiffness_to_mass > normalQuantile(kFalseAlarm) * fit.stddev[1];
+  if (fit.model.effects.size() > given && !is_spring) return FitFailure::kNoSpring;
   return FitFailure::kNone;
 }
 
@@ -93,6 +97,27 @@ EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vect
   evaluated.to_explain = before != nullptr ? before->to_explain : evaluated.loss;
   if (before != nullptr) rank(*before, evaluated);
   return evaluated;
+}
+
+EvaluatedModel ModelEvaluator::asItIs(const ModelFit& fit) const {
+  EvaluatedModel evaluated = weighed(fit.model, fit.residuals);
+  evaluated.fit = fit;
+  evaluated.ranked.fitted = true;
+  evaluated.to_explain = evaluated.loss;
+  return evaluated;
+}
+
+// A delay is linear only where it is short against the motion.
+std::optional<ScreenedModel> ModelEvaluator::screen(const Screening& screening,
+                                                    const MeasurementEffect& reading) const {
+  std::optional<ScreenedModel> screened = screening.screen(reading);
+  if (!lagged_ || lagged_->reading.front().effect.name != reading.name) return screened;
+  StrutModel model = screening.model();
+  model.damping_to_mass = lagged_->damping_to_mass;
+  model.stiffness_to_mass = lagged_->stiffness_to_mass;
+  model.reading.push_back(lagged_->reading.front());
+  std::optional<ScreenedModel> second = screening.asItIs(model);
+  return second && (!screened || second->training_gain > screened->training_gain) ? second : screened;
 }
 
 std::vector<EvaluatedModel> ModelEvaluator::screenAll(const EvaluatedModel& current, const Tick& tick) const {
@@ -138,7 +163,7 @@ std::vector<EvaluatedModel> ModelEvaluator::screenAll(const EvaluatedModel& curr
     if (i < forces.size()) {
       if (!full && !isPresent(forces[i].name)) screenForce(i, forces[i]);
     } else if (const MeasurementEffect& reading = readings[i - forces.size()]; !isPresent(reading.name)) {
-      if (const auto screened = screening.screen(reading)) note(i, reading.name, *screened);
+      if (const auto screened = screen(screening, reading)) note(i, reading.name, *screened);
     }
   };
   double done = 0.0;
@@ -179,8 +204,7 @@ bool ModelEvaluator::isToldByFrequency(const EvaluatedModel& candidate, const Ev
   if (!start) return false;
   const EvaluatedModel as_frequency = evaluate(start->model, current.fit.initial, &current);
   if (!as_frequency.ranked.fitted) return false;
-  const PairedTest gain = as_frequency.gainOf(candidate);
-  return !(gain.removed_share > kWorthHaving && isSignificant(gain, kSure));
+  return !isWorthHaving(as_frequency, candidate);
 }
 
 std::vector<EvaluatedModel> ModelEvaluator::rankAdditions(const EvaluatedModel& current, const Tick& tick) const {

@@ -43,14 +43,18 @@ class ModelEvaluator {
   using Tick = std::function<void(double share)>;
 
   /// @param outlier  residual that begins to count as an outlier [m/s^2].
-  /// @param most_forces  force effects that a model may have.  The arguments must outlive this object.
+  /// @param most_forces  force effects that a model may have.  @param lagged  as searchEffects() has it.
+  /// The arguments must outlive this object.
   ModelEvaluator(const Records& records, const HoldOut& held_out, double outlier, std::size_t most_forces,
-                 const DiagnoseOptions& options);
+                 const DiagnoseOptions& options, const std::optional<StrutModel>& lagged);
 
   /// @param initial  first guess of the initial states.  @param before  the model to compare with, if any.
   /// @return check ranked.fitted: a fit that failed, or came to what physics does not allow, is a result with a reason.
   EvaluatedModel evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
                           const EvaluatedModel* before) const;
+
+  /// A model as it is.
+  EvaluatedModel asItIs(const ModelFit& fit) const;
 
   /// Every candidate that is not in the model added to it: all screened, those fitted that may be the best.
   /// @return best first, those that were fitted before those that were only screened.
@@ -73,6 +77,7 @@ class ModelEvaluator {
   std::vector<EvaluatedModel> screenAll(const EvaluatedModel& current, const Tick& tick) const;
   void fitAll(const std::vector<std::size_t>& wanted, const EvaluatedModel& current,
               std::vector<EvaluatedModel>& ranking, const Tick& tick) const;
+  std::optional<ScreenedModel> screen(const Screening& screening, const MeasurementEffect& reading) const;
   EvaluatedModel weighed(const StrutModel& model, const Residuals& residuals) const;
   void rank(const EvaluatedModel& before, EvaluatedModel& evaluated) const;
   EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) const;
@@ -84,6 +89,7 @@ class ModelEvaluator {
   double outlier_;
   std::size_t most_forces_;
   const DiagnoseOptions& options_;
+  const std::optional<StrutModel>& lagged_;
 };
 
 }  // namespace suspension_health_monitor

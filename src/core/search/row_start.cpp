@@ -1,14 +1,20 @@
 #include "row_start.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "shape_scan.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/rough_model.h"
+#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr std::size_t kMostRows = 4000;   // a start need not be better than the noise in them allows
+constexpr double kStretchPeriods = 32.0;  // natural periods: long against the memory of any law
 
 double mean(const std::vector<double>& values) {
   double sum = 0.0;
@@ -16,24 +22,43 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+/// The parts of a segment that are looked at: all of it, or stretches that are spread evenly over it.
+/// @param share  of the samples, 0 .. 1.
+std::vector<std::pair<std::size_t, std::size_t>> stretchesOf(std::size_t size, std::size_t length, double share) {
+  if (share >= 1.0) return {{0, size}};
+  std::vector<std::pair<std::size_t, std::size_t>> stretches;
+  const auto step = static_cast<std::size_t>(static_cast<double>(length) / share);
+  for (std::size_t first = 0; first < size; first += step)
+    stretches.emplace_back(first, std::min(size, first + length));
+  return stretches;
+}
+
 }  // namespace
 
 RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelFit& fit) : fit_(fit) {
   const double b0 = fit.model.stiffness_to_mass;
+  const std::vector<const DriveSegment*> segments = segmentsOf(records);
+  double samples = 0.0;
+  for (const DriveSegment* segment : segments) samples += static_cast<double>(segment->size());
   std::vector<double> measured, weight;
   double travel = 0.0, rate = 0.0;
-  for (const DriveSegment* segment : segmentsOf(records)) {
-    std::vector<double> relative = segment->unsprung;
-    for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment->sprung[k];
-    const MotionError motion = motionError(relative, mean(relative), segment->period, b0);
-    for (std::size_t k = 0; k < relative.size(); ++k) {
-      motion_.push_back({motion.travel[k], motion.travel_rate[k], segment->timeDriven(k), 0.0, segment->sprung[k]});
-      measured.push_back(segment->sprung[k]);
-      weight.push_back(held_out.training[ends_.size()][k]);
-      travel += square(motion.travel[k]);
-      rate += square(motion.travel_rate[k]);
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const DriveSegment& segment = *segments[s];
+    std::vector<double> relative = segment.unsprung;
+    for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment.sprung[k];
+    const MotionError motion = motionError(relative, mean(relative), segment.period, b0);
+    const auto length =
+        static_cast<std::size_t>(std::ceil(kStretchPeriods * 2.0 * kPi / (std::sqrt(b0) * segment.period)));
+    for (const auto& [first, end] : stretchesOf(segment.size(), length, kMostRows / samples)) {
+      for (std::size_t k = first; k < end; ++k) {
+        motion_.push_back({motion.travel[k], motion.travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});
+        measured.push_back(segment.sprung[k]);
+        weight.push_back(held_out.training[s][k]);
+        travel += square(motion.travel[k]);
+        rate += square(motion.travel_rate[k]);
+      }
+      ends_.push_back(motion_.size());
     }
-    ends_.push_back(motion_.size());
   }
   const auto count = static_cast<Eigen::Index>(motion_.size());
   scale_ = {std::sqrt(travel / static_cast<double>(count)), std::sqrt(rate / static_cast<double>(count)),

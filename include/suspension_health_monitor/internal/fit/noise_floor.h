@@ -16,12 +16,15 @@ namespace suspension_health_monitor {
 /// free-form force over the travel and rate of the model's free run is fitted to what the interpolation leaves. From
 /// the median, so that a blow into an end stop is no noise, and with such blows kept out of the fits. The wheel's
 /// sensor is taken to be as noisy; its noise comes through the model.
-/// @return 0 if there are too few samples to tell.
+/// @return 0 if there are too few samples to tell; not below accuracyOfFreeRuns().
 double estimateNoiseFloor(const Records& records, const StrutModel& model);
 
 /// The same without taking out what changes quickly: noise, and what sampling loses of forces with corners. No model
 /// that is driven by samples of w'' can be asked to leave less.
 double estimateSamplingFloor(const Records& records, const StrutModel& model);
+
+/// What a free run of the true model leaves where no sensor has noise: the interpolation of w'' is not exact [m/s^2].
+double accuracyOfFreeRuns(const Records& records);
 
 /// @return 1 - floor^2 / rmse^2, not below 0: the share of a mean square that is not noise.
 inline double structuredShare(double rmse, double noise_floor) {

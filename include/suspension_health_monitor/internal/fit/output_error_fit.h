@@ -58,4 +58,8 @@ struct FitOutcome : std::optional<ModelFit> {
 FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>& masks, const StrutModel& start,
                           const FitOptions& options = {});
 
+/// A model as it is, with the residuals of its free run from rest.
+/// @return no fit if the model runs away.
+FitOutcome withoutFit(const Records& records, const StrutModel& model);
+
 }  // namespace suspension_health_monitor

@@ -18,6 +18,7 @@ class HorizonSurvey {
  public:
   static constexpr int kLongest = 4096;  ///< [samples], a horizon that is long enough for any strut
   static constexpr int kEnough = 40000;  ///< samples of a drive that are worth looking at
+  static constexpr double kClear = 0.5;  ///< share of the output that a strut explains at least
 
   /// @param period  sampling time [s].
   /// @param longest  L of the longest horizon tried, >= 8.
@@ -28,6 +29,16 @@ class HorizonSurvey {
 
   /// Starts anew after a gap; what was learnt stays.
   void interrupt();
+
+  /// What the horizon gives that is proposed.
+  struct Result {
+    int horizon_samples;
+    double damping_to_mass, stiffness_to_mass;
+    double explained;  ///< share of the output that the strut explains, 0 .. 1
+  };
+
+  /// @return nothing if no horizon has given parameters of a strut yet.
+  std::optional<Result> result() const;
 
   /// @return L; nothing if no horizon has given parameters of a strut yet.
   std::optional<int> horizonSamples() const;

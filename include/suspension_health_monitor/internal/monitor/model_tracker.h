@@ -29,8 +29,10 @@ class ModelTracker {
   /// Goes on with other effects: estimates and covariance of b1, b0 and of the effects that stay (same name and shapes)
   /// carry over, as does the free run. Coefficients of the others are start values. The estimates are valid again after
   /// enough rows of the new model.
+  /// @param strut  b1 and b0 that belong to the start values; the free run goes on with them until there are estimates.
   /// @throws std::invalid_argument  as FreeRun::setEffects().
-  void setEffects(const std::vector<ActiveEffect>& effects, ModelReport& report);
+  void setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut,
+                  ModelReport& report);
 
   const std::vector<ActiveEffect>& effects() const { return free_run_.model().effects; }
 
@@ -70,7 +72,7 @@ class ModelTracker {
   bool period_fits_ = true;
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
-  bool has_own_model_ = false;  // the free run has had parameters of LA
+  bool has_own_model_ = false;  // the free run has had parameters of LA, or those that belong to the start values
   std::uint64_t runaways_ = 0;
   EveryN model_due_, figures_due_;
   RunningComparison comparison_;

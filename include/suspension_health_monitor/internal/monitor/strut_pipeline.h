@@ -32,7 +32,7 @@ class StrutPipeline {
   void push(Side side, Stamp stamp, double acceleration);
 
   /// As SuspensionMonitor::setEffects().
-  void setEffects(const std::vector<ActiveEffect>& effects);
+  void setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut = {});
 
   /// @throws std::invalid_argument  if a value of it is not above 0 and finite.
   void setBaseline(const Baseline& baseline);
@@ -70,6 +70,7 @@ class StrutPipeline {
   PeriodMeasurement measurement_{kSpacingsForPeriod};
   std::vector<Reading> early_;         // that wait for the sample period
   std::vector<ActiveEffect> effects_;  // until there is a monitor, as is the baseline
+  std::optional<LinearStrut> strut_;   // that belongs to them
   std::optional<Baseline> baseline_;
   std::optional<UniformGrid> grid_;
   std::optional<SuspensionMonitor> monitor_;

@@ -27,8 +27,10 @@ class SuspensionMonitor {
 
   /// Has these effects in the model from now on; none: the plain model. Estimates carry over, coefficients are start
   /// values, shapes stay as they are given. Not for the sample path: allocates.
+  /// @param strut  b1 and b0 that belong to these coefficients, if they are known: those of the plain model stand for a
+  /// part of the effects.
   /// @throws std::invalid_argument  naming what is wrong with the effects; the model then stays as it was.
-  void setEffects(const std::vector<ActiveEffect>& effects);
+  void setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut = {});
 
   /// @return the effects in the model, with the coefficients that the free run has now.
   const std::vector<ActiveEffect>& effects() const { return tracker().effects(); }

@@ -8,13 +8,13 @@ namespace suspension_health_monitor {
 /// Values of a sampled signal between its samples: a weighted sum of the twelve samples on either side, whose weights
 /// minimise a mean square error over all frequencies up to 0.9 of Nyquist's, the low ones counting most.
 /// A wheel on a rough road is shaken close to that limit, where straight lines and even cubic splines leave errors of
-/// the size of the sensor noise. Here a sine is good to 2e-4 of its amplitude up to 0.5 of Nyquist's frequency, to 1e-3
-/// up to 0.75, and to 2e-2 at 0.88.
-/// Source: least squares fractional delay, Laakso, Valimaki, Karjalainen and Laine, IEEE Signal Processing Magazine 13
-/// (1996), 30-60, eq. (35)-(38).
+/// the size of the sensor noise. Here a sine is good to kAccuracy of its amplitude up to 0.5 of Nyquist's frequency, to
+/// 1e-3 up to 0.75, and to 2e-2 at 0.88. Source: least squares fractional delay, Laakso, Valimaki, Karjalainen and
+/// Laine, IEEE Signal Processing Magazine 13 (1996), 30-60, eq. (35)-(38).
 class BandlimitedInterpolator {
  public:
   static constexpr int kHalfWidth = 12;
+  static constexpr double kAccuracy = 2e-4;  ///< of a sine's amplitude, up to half of Nyquist's frequency
 
   /// @param fraction  position between sample k (0) and sample k + 1 (1).
   explicit BandlimitedInterpolator(double fraction);

@@ -1,0 +1,100 @@
+#include "suspension_health_monitor/internal/fit/band_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/periodogram.h"
+#include "suspension_health_monitor/internal/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::size_t kParts = 4;           // of the drives, in each of which noise is the same
+constexpr std::size_t kWindowsOfPart = 12;  // at least, for an average over them
+
+/// Spectra of the residuals, part by part.
+struct PartSpectra {
+  std::size_t length;  // of a window
+  std::vector<std::vector<double>> parts;
+  double averages;  // independent ones in each
+};
+
+/// Sums from the first frequency to each: of the weights g, and of g / S.
+struct BandSums {
+  std::vector<double> weight{0.0}, resistance{0.0};
+
+  /// @param inverse  of S, summed over the parts.
+  void add(double g, double inverse) {
+    weight.push_back(weight.back() + g);
+    resistance.push_back(resistance.back() + g * inverse);
+  }
+
+  /// @return the power of the largest white noise under the spectra in a band of frequencies, of all parts.
+  double whiteIn(std::size_t first, std::size_t end) const {
+    const double level = kParts * static_cast<double>(end - first) / (resistance[end] - resistance[first]);
+    return kParts * level * (weight[end] - weight[first]);
+  }
+};
+
+std::optional<PartSpectra> spectraOf(const Residuals& residuals, double natural_period) {
+  std::vector<std::size_t> sizes;
+  for (const std::vector<double>& segment : residuals) sizes.push_back(segment.size());
+  const std::size_t length = Periodogram::lengthFor(sizes, natural_period, kParts * kWindowsOfPart);
+  const std::size_t windows = Periodogram::windowsIn(sizes, length);
+  if (windows < kParts * kWindowsOfPart) return std::nullopt;
+  PartSpectra spectra{length, {kParts, std::vector<double>(length / 2, 0.0)}, 0.0};
+  spectra.averages = Periodogram::kIndependent * static_cast<double>(windows / kParts);
+  Periodogram periodogram(length);
+  Spectrum spectrum;
+  std::size_t window = 0;
+  for (const std::vector<double>& segment : residuals)
+    for (std::size_t i = 0; i < Periodogram::windowsIn(segment.size(), length); ++i) {
+      std::vector<double>& power = spectra.parts[window++ * kParts / windows];
+      periodogram.of(&segment[i * (length / 2)], spectrum);
+      for (std::size_t f = 1; f < length / 2; ++f) power[f] += std::norm(spectrum[f]);
+    }
+  return spectra;
+}
+
+}  // namespace
+
+double bandNoiseShare(const Residuals& residuals, double period, const StrutModel& model) {
+  const double natural_period = 2.0 * kPi / (std::sqrt(model.stiffness_to_mass) * period);
+  const std::optional<PartSpectra> spectra = spectraOf(residuals, natural_period);
+  if (!spectra) return 0.0;
+  BandSums sums;
+  double all = 0.0;
+  for (std::size_t f = 1; f < spectra->length / 2; ++f) {
+    const double frequency = static_cast<double>(f) / (static_cast<double>(spectra->length) * period);
+    const double gain = transmissibility(model.damping_to_mass, model.stiffness_to_mass, frequency);
+    double resistance = 0.0;
+    for (const std::vector<double>& power : spectra->parts) {
+      if (!(power[f] > 0.0)) return 0.0;
+      resistance += 1.0 / power[f];
+      all += power[f];
+    }
+    sums.add(1.0 + gain * gain, resistance);
+  }
+  // A sensor passes what the strut does: the band begins below its natural frequency and goes beyond twice that.
+  const auto natural = static_cast<std::size_t>(static_cast<double>(spectra->length) / natural_period);
+  double white = 0.0;
+  for (std::size_t first = 0; first < natural; ++first)
+    for (std::size_t end = 2 * natural + 1; end < sums.weight.size(); ++end)
+      white = std::max(white, sums.whiteIn(first, end));
+  const double scatter =
+      spectra->averages / (spectra->averages - 1.0);  // 1 / S of an average over so many windows is as much too large
+  return std::min(1.0, scatter * white / all);
+}
+
+double floorOfResidual(double rmse, double noise_floor, const Residuals& residuals, double period,
+                       const StrutModel& model) {
+  const double in_band = rmse * std::sqrt(bandNoiseShare(residuals, period, model));
+  return std::min(rmse, isStructured(rmse, in_band) ? noise_floor : std::max(noise_floor, in_band));
+}
+
+}  // namespace suspension_health_monitor
