@@ -17,11 +17,11 @@ bool hasGravity(double mean) { return std::abs(mean) > kGravity / 2.0; }
 
 }  // namespace
 
-void SensorCheck::Reading::add(double now, double slow, double quick) {
+void SensorCheck::Reading::add(double now, double quick) {
   still = now == last ? still + 1.0 : 0.0;
-  const double off = now - mean, change = now - last;
+  const double off = now - mean(), change = now - last;
   last = now;
-  mean += slow * off;
+  limited.add(now);
   variance += quick * (off * off - variance);
   step += quick * (change * change - step);
 }
@@ -31,15 +31,15 @@ void SensorCheck::add(const CornerSample& sample) {
   const auto revives = [&](const Reading& reading, double now) { return isStill(reading) && now != reading.last; };
   if (samples_ == 0.0 || revives(readings_[0], sample.sprung_acceleration) ||
       revives(readings_[1], sample.unsprung_acceleration)) {
-    readings_ = {};
+    readings_ = {unread_, unread_};
     readings_[0].last = sample.sprung_acceleration;
     readings_[1].last = sample.unsprung_acceleration;
     samples_ = pending_since_ = 0.0;
   }
   samples_ += 1.0;
-  const double slow = 1.0 / std::min(samples_, memory_), quick = std::min(1.0, kQuick * slow);
-  readings_[0].add(sample.sprung_acceleration, slow, quick);
-  readings_[1].add(sample.unsprung_acceleration, slow, quick);
+  const double quick = std::min(1.0, kQuick / std::min(samples_, memory_));
+  readings_[0].add(sample.sprung_acceleration, quick);
+  readings_[1].add(sample.unsprung_acceleration, quick);
 }
 
 const SensorReport& SensorCheck::judge(const StrutEstimate& la, bool la_tells) {
@@ -49,7 +49,7 @@ const SensorReport& SensorCheck::judge(const StrutEstimate& la, bool la_tells) {
   const bool stuck = found == SensorFault::kSprungStuck || found == SensorFault::kUnsprungStuck;
   if (stuck || samples_ - pending_since_ >= memory_) {
     report_.fault = found;
-    report_.mean = {readings_[0].mean, readings_[1].mean};
+    report_.mean = {readings_[0].mean(), readings_[1].mean()};
   }
   return report_;
 }
@@ -79,7 +79,7 @@ SensorFault SensorCheck::judgeMeans() const {
   if (isOff(readings_[0])) return SensorFault::kSprungGravity;
   if (isOff(readings_[1])) return SensorFault::kUnsprungGravity;
   const auto clear = [](const Reading& reading) { return reading.meanNoise() < kGravity / 4.0; };
-  if (clear(readings_[0]) && clear(readings_[1]) && hasGravity(readings_[0].mean) != hasGravity(readings_[1].mean))
+  if (clear(readings_[0]) && clear(readings_[1]) && hasGravity(readings_[0].mean()) != hasGravity(readings_[1].mean()))
     return SensorFault::kGravityOnOneSide;
   return SensorFault::kNone;
 }
@@ -87,21 +87,21 @@ SensorFault SensorCheck::judgeMeans() const {
 // What two means tell that each of them does not.
 SensorFault SensorCheck::judgeGravity() const {
   const auto reads_gravity = [](const Reading& reading) {
-    return hasGravity(reading.mean) && reading.meanNoise() < kGravity / 2.0;
+    return hasGravity(reading.mean()) && reading.meanNoise() < kGravity / 2.0;
   };
   const auto in_g = [](const Reading& reading) {
     const double noise = reading.meanNoise();
-    return std::abs(std::abs(reading.mean) - 1.0) < kInG + noise && noise < 2.0 * kInG;
+    return std::abs(std::abs(reading.mean()) - 1.0) < kInG + noise && noise < 2.0 * kInG;
   };
   const bool sprung = reads_gravity(readings_[0]), unsprung = reads_gravity(readings_[1]);
-  if (sprung && unsprung && readings_[0].mean * readings_[1].mean < 0.0) return SensorFault::kGravityOpposed;
+  if (sprung && unsprung && readings_[0].mean() * readings_[1].mean() < 0.0) return SensorFault::kGravityOpposed;
   if (unsprung && in_g(readings_[0])) return SensorFault::kSprungInG;
   if (sprung && in_g(readings_[1])) return SensorFault::kUnsprungInG;
   return SensorFault::kNone;
 }
 
 bool SensorCheck::isOff(const Reading& reading) const {
-  const double off = std::min(std::abs(reading.mean), std::abs(std::abs(reading.mean) - kGravity));
+  const double off = std::min(std::abs(reading.mean()), std::abs(std::abs(reading.mean()) - kGravity));
   return off > tolerance_ * kGravity + reading.meanNoise();
 }
 

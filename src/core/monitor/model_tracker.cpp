@@ -106,7 +106,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
   if (!figures_due_()) return;
   comparison.rmse = comparison.base_rmse = comparison_.rmse();
   comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
-  free_run_fails_ = comparison.fit_percent < 0.0 && comparison_.isFull();
+  free_run_fails_ = comparison_.isWorseThanConstant();
 }
 
 void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/identification/limited_mean.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -25,7 +26,8 @@ class SensorCheck {
  public:
   /// @param gravity_tolerance  share of g by which a mean may be off; 0: means are not judged.
   /// @param memory  in samples, above 0.
-  SensorCheck(double gravity_tolerance, double memory) : tolerance_(gravity_tolerance), memory_(memory) {}
+  SensorCheck(double gravity_tolerance, double memory)
+      : tolerance_(gravity_tolerance), memory_(memory), unread_(1.0 - 1.0 / std::max(memory, 1.0)) {}
 
   void add(const CornerSample& sample);
 
@@ -37,9 +39,12 @@ class SensorCheck {
 
  private:
   struct Reading {
-    double last = 0.0, mean = 0.0, variance = 0.0, step = 0.0;  // step: mean square from sample to sample
-    double still = 0.0;                                         // samples without any change
-    void add(double now, double slow, double quick);
+    explicit Reading(double forgetting_factor) : limited(forgetting_factor) {}
+    LimitedMean limited;
+    double last = 0.0, variance = 0.0, step = 0.0;  // step: mean square from sample to sample
+    double still = 0.0;                             // samples without any change
+    void add(double now, double quick);
+    double mean() const { return limited.mean(); }
     double meanNoise() const { return kMeanNoise * std::sqrt(variance); }
     bool isMotion() const { return step < kWhiteShare * 2.0 * variance; }
   };
@@ -57,10 +62,11 @@ class SensorCheck {
   bool isOff(const Reading& reading) const;
 
   double tolerance_, memory_;
+  Reading unread_;
   double samples_ = 0.0;        // taken in since a sensor came back
   double pending_since_ = 0.0;  // in samples taken in
   SensorFault pending_ = SensorFault::kNone;
-  std::array<Reading, 2> readings_;
+  std::array<Reading, 2> readings_{unread_, unread_};
   SensorReport report_;
 };
 
