@@ -4,11 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/plain_text.h"
+
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kDefaultHorizon = 0.6;    // [s], the paper's
-constexpr int kMostSamples = 100000;       // of a horizon: more is a wrong unit
 constexpr int kUpdatesPerTwoHorizons = 3;  // of health: rows within a horizon share most of their samples
 
 }  // namespace
@@ -46,18 +47,18 @@ MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions
 void MonitorSettings::validate() const {
   suspension_health_monitor::validate<MonitorOptions>(*this, kMonitorFields);
   if (fastest_forgetting_factor && *fastest_forgetting_factor > forgetting_factor)
-    throw std::invalid_argument("fastest_forgetting_factor = " + std::to_string(*fastest_forgetting_factor) +
-                                ", must be at most forgetting_factor = " + std::to_string(forgetting_factor));
+    throw std::invalid_argument("fastest_forgetting_factor = " + numberText(*fastest_forgetting_factor) +
+                                ", must be at most forgetting_factor = " + numberText(forgetting_factor));
   health(sample_period.value_or(1.0)).validate();
   if (sample_period) filter(*sample_period);
 }
 
 int MonitorSettings::horizonSamples(double period) const {
   const double horizon = integration_horizon.value_or(kDefaultHorizon);
-  if (horizon / period > kMostSamples)
-    throw std::invalid_argument("integration_horizon = " + std::to_string(horizon) + " [s], must be at most " +
-                                std::to_string(kMostSamples) + " samples of sample_period = " + std::to_string(period) +
-                                " [s]");
+  if (horizon / period > kMostHorizonSamples)
+    throw std::invalid_argument("integration_horizon = " + numberText(horizon) + " [s], must be at most " +
+                                std::to_string(kMostHorizonSamples) +
+                                " samples of sample_period = " + numberText(period) + " [s]");
   return static_cast<int>(std::lround(horizon / period));
 }
 
@@ -66,9 +67,8 @@ IntegralFilterOptions MonitorSettings::filter(double period) const {
   try {
     HorizonIntegral(filter.horizon_samples, filter.period, filter.rule);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(
-        "integration_horizon = " + std::to_string(integration_horizon.value_or(kDefaultHorizon)) +
-        " [s] with sample_period = " + std::to_string(period) + " [s] makes " + error.what());
+    throw std::invalid_argument("integration_horizon = " + numberText(integration_horizon.value_or(kDefaultHorizon)) +
+                                " [s] with sample_period = " + numberText(period) + " [s] makes " + error.what());
   }
   return filter;
 }

@@ -9,6 +9,7 @@
 #include "model_file.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "whole_file.h"
 #include "yaml_settings.h"
@@ -83,7 +84,7 @@ ActiveEffect LiveModel::make(const std::string& name, Shapes& given, const Scale
     const std::string full = name + '/' + shape.name;
     if (const auto found = given.find(full); found != given.end()) {
       if (!(found->second > 0.0 && std::isfinite(found->second)))
-        throw std::invalid_argument(full + " = " + std::to_string(found->second) + " [" + shape.unit +
+        throw std::invalid_argument(full + " = " + numberText(found->second) + " [" + shape.unit +
                                     "], must be above 0");
       made.shapes.push_back(found->second);
       given.erase(found);

@@ -22,6 +22,8 @@ struct EstimatorOptions {
   LeastAbsoluteOptions least_absolute;
 };
 
+inline constexpr int kMostHorizonSamples = 100000;  ///< more is a wrong unit
+
 /// The options of a monitor with what follows from them: the preset's way to make rows and to estimate, and the
 /// settings of each part. Group, name, unit, meaning and range of each option stand in kMonitorFields only.
 struct MonitorSettings : MonitorOptions {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -17,12 +18,26 @@ bool hasGravity(double mean) { return std::abs(mean) > kGravity / 2.0; }
 
 }  // namespace
 
+SensorCheck::SensorCheck(double gravity_tolerance, double memory, int horizon_samples)
+    : tolerance_(gravity_tolerance),
+      memory_(memory),
+      unread_(1.0 - 1.0 / std::max(memory, 1.0), 1.0 / (1.0 + horizon_samples / (2.0 * kPi * kBandTimes))) {}
+
+double SensorCheck::bodyBeyondStrut() const {
+  const Reading& body = readings_[0];
+  return body.variance > 0.0 ? std::max(0.0, 1.0 - body.band / body.variance) : 0.0;
+}
+
+double SensorCheck::bodyBeyondStrutLevel() const { return std::sqrt(bodyBeyondStrut() * readings_[0].variance); }
+
 void SensorCheck::Reading::add(double now, double quick) {
   still = now == last ? still + 1.0 : 0.0;
   const double off = now - mean(), change = now - last;
   last = now;
   limited.add(now);
   variance += quick * (off * off - variance);
+  smooth += gain * (off - smooth);
+  band += quick * (smooth * smooth - band);
   step += quick * (change * change - step);
 }
 
@@ -67,9 +82,9 @@ SensorFault SensorCheck::find(const StrutEstimate& la, bool la_tells) const {
 SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
   const bool is_strut = la.explained >= kLeastExplained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
   if (is_strut) return SensorFault::kNone;
-  const bool body_moves = readings_[0].isMotion(), wheel_moves = readings_[1].isMotion();
+  const bool body_moves = readings_[0].isOfStrut(), wheel_moves = readings_[1].isMotion();
   if (body_moves && la.damping_to_mass < -kCertain * la.damping_to_mass_stddev) return SensorFault::kNegativeDamping;
-  const bool may_be_swapped = readings_[0].variance > kMuchLarger * readings_[1].variance;
+  const bool may_be_swapped = readings_[0].band > kMuchLarger * readings_[1].band;
   return wheel_moves && (body_moves || may_be_swapped) ? SensorFault::kUnrelated : SensorFault::kNone;
 }
 

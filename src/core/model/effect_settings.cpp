@@ -6,6 +6,7 @@
 #include "find_by_name.h"
 #include "setting_groups.h"
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -36,7 +37,7 @@ std::vector<ActiveEffect> takeEffects(OptionMap& values, const std::vector<Force
     active.shapes.assign(numbers.begin() + 1, numbers.end());
     for (std::size_t i = 0; i < active.shapes.size(); ++i)
       if (!(active.shapes[i] > 0.0))
-        throw std::invalid_argument(group + '/' + wanted[i + 1] + " = " + std::to_string(active.shapes[i]) + " [" +
+        throw std::invalid_argument(group + '/' + wanted[i + 1] + " = " + numberText(active.shapes[i]) + " [" +
                                     active.effect.shapes[i].unit + "], must be above 0");
     result.push_back(std::move(active));
   }
@@ -56,7 +57,7 @@ std::vector<ActiveMeasurementEffect> takeReadings(OptionMap& values, const std::
 
 void setEffect(OptionMap& values, const std::string& assignment, const std::vector<MeasurementEffect>& faults) {
   const auto refuse = [&] {
-    throw std::invalid_argument("--effect " + assignment + ", must be NAME=COEFFICIENT[,SHAPE=VALUE]...");
+    throw std::invalid_argument("--effect " + shortened(assignment) + ", must be NAME=COEFFICIENT[,SHAPE=VALUE]...");
   };
   std::istringstream parts(assignment);
   std::string part, group, first = kCoefficient;

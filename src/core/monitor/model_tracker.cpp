@@ -70,6 +70,7 @@ void ModelTracker::judge(ModelReport& report) {
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
     EstimateFacts facts = identifier_.facts(*estimate);
     facts.period_fits = period_fits_;
+    facts.undersampled = undersampled_;
     facts.free_run_fails = estimate == &report.la && free_run_fails_;
     estimate->doubt = doubtOf(facts);
   }
@@ -109,8 +110,9 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
   free_run_fails_ = comparison_.isWorseThanConstant();
 }
 
-void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {
-  period_fits_ = fits;
+void ModelTracker::setInput(const InputStatus& input, ModelReport& report) {
+  period_fits_ = input.period_fits;
+  undersampled_ = input.sampling_limit[0].isReached() || input.sampling_limit[1].isReached();
   judge(report);
 }
 

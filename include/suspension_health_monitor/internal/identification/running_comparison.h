@@ -17,8 +17,8 @@ class RunningComparison {
   void add(double measured, double predicted);
 
   /// @return true if the prediction was farther from the measurement than a constant for more than half of the window,
-  /// once half of its weight is in. It asks how often, not by how much: a sum of squares that holds one wrong reading of
-  /// a thousand times the usual forgets it after fourteen windows.
+  /// once half of its weight is in. It asks how often, not by how much: a sum of squares that holds one wrong reading
+  /// of a thousand times the usual forgets it after fourteen windows.
   bool isWorseThanConstant() const { return means_.weight() > half_weight_ && worse_.mean() > 0.5; }
 
   /// @return root mean square of (measured - predicted) about its mean; 0 before the first sample.

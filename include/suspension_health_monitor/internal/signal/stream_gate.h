@@ -17,8 +17,8 @@ namespace suspension_health_monitor {
 /// Clipping is recognised without knowing the sensor's range: flat tops at the very highest or lowest value that the
 /// sensor has ever read, of a sensor that resolves far finer (RangeEnd). From then on every reading at that value is
 /// kept out, until a reading beyond it shows that it was no limit.
-/// Absurd is what no vehicle survives, more than kMostOfAVehicle, unless the sensor reads like that: a hundred times its
-/// usual size passes, for sensors that read in another unit. So nothing behind the gate meets a reading of 1e20.
+/// Absurd is what no vehicle survives, more than kMostOfAVehicle, unless the sensor reads like that: a hundred times
+/// its usual size passes, for sensors that read in another unit. So nothing behind the gate meets a reading of 1e20.
 /// Cost per reading: O(1), no allocation.
 class StreamGate {
  public:
