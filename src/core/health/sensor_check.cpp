@@ -80,7 +80,9 @@ SensorFault SensorCheck::find(const StrutEstimate& la, bool la_tells) const {
 }
 
 SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
-  const bool is_strut = la.explained >= kLeastExplained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
+  // Of what an engine does to the body the wheel explains nothing.
+  const double least_explained = kLeastExplained * (1.0 - std::sqrt(bodyBeyondStrut()));
+  const bool is_strut = la.explained >= least_explained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
   if (is_strut) return SensorFault::kNone;
   const bool body_moves = readings_[0].isOfStrut(), wheel_moves = readings_[1].isMotion();
   if (body_moves && la.damping_to_mass < -kCertain * la.damping_to_mass_stddev) return SensorFault::kNegativeDamping;

@@ -106,7 +106,7 @@ LawExpression makeLaw(const std::string& where, const std::string& text, const s
   try {
     return {text, names, has_memory};
   } catch (const std::invalid_argument& error) {
-    refuse(where + " = \"" + shortened(text) + '"', shortened(error.what(), 1000));
+    refuse(where + " = \"" + shortened(text) + '"', error.what());
   }
 }
 
