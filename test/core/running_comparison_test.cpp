@@ -80,7 +80,7 @@ TEST(RunningComparison, SaysWhetherAConstantWouldDoBetter) {
     const double y = 9.81 + std::sin(0.1 * k);
     good.add(y, 0.3 + 0.1 * std::sin(0.1 * k));  // a tenth of the motion, with an offset
     bad.add(y, -0.1 * std::sin(0.1 * k));
-    if (k < 68) EXPECT_FALSE(bad.isWorseThanConstant()) << k;  // half a window: 100 ln 2 samples
+    EXPECT_FALSE(k < 68 && bad.isWorseThanConstant()) << k;  // half a window: 100 ln 2 samples
   }
   EXPECT_FALSE(good.isWorseThanConstant());
   EXPECT_TRUE(bad.isWorseThanConstant());
@@ -91,7 +91,7 @@ TEST(RunningComparison, IsNoWorseThanAConstantForAReadingThatIsWrong) {
   for (int k = 0; k < 500; ++k) {
     const double y = std::sin(0.1 * k);
     comparison.add(y, 0.9 * y + (k == 400 ? 1e6 : 0.0));
-    if (k > 68) EXPECT_FALSE(comparison.isWorseThanConstant()) << k;
+    EXPECT_FALSE(k > 68 && comparison.isWorseThanConstant()) << k;
   }
   EXPECT_LT(comparison.fitPercent(), 0.0);
 }

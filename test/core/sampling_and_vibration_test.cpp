@@ -58,8 +58,8 @@ std::vector<double> decimated(const std::vector<double>& values, bool filtered) 
 /// What was said of a drive, from 20 s on.
 struct Said {
   long samples = 0, valid = 0, warned = 0, accused = 0;
-  std::string of_input;
-  double worst = 0.0;  // error of a valid b1 or b0, as a share
+  std::string of_input;  // at last
+  double worst = 0.0;    // error of a valid b1 or b0, as a share
 };
 
 /// @param engine  amplitude at the body's sensor, 25 to 40 Hz [m/s^2].
@@ -90,8 +90,8 @@ Said listen(const std::vector<double>& body, const std::vector<double>& wheel, d
     const Stamp stamp = fromSeconds(1.0 + time);
     monitor.push(Side::kSprung, stamp, 9.81 + body[k] + engine * std::sin(phase) + noise(random));
     monitor.push(Side::kUnsprung, stamp, 9.81 + wheel[k] + noise(random));
+    if (const std::string now = describeShaking(monitor.input()); time > 20.0 && !now.empty()) said.of_input = now;
   }
-  said.of_input = describeShaking(monitor.input());
   return said;
 }
 

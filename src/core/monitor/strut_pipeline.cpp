@@ -60,12 +60,15 @@ void StrutPipeline::reconfigure(const MonitorSettings& settings) {
 
 void StrutPipeline::push(Side side, Stamp stamp, double acceleration) {
   if (is_refused_) return;
+  const Reading reading{side, stamp, acceleration};
   if (!monitor_) {
-    measurePeriod({side, stamp, acceleration});
-    return;
+    measurePeriod(reading);
+  } else if (early_.empty()) {
+    take(reading);
+  } else {  // a sink has thrown while they were replayed
+    early_.push_back(reading);
+    replayEarly();
   }
-  replayEarly();  // what a sink that has thrown has left
-  take({side, stamp, acceleration});
 }
 
 void StrutPipeline::measurePeriod(const Reading& reading) {
@@ -105,7 +108,8 @@ void StrutPipeline::startOnce(double period) {
 // A sink may throw; readings that come after those that it has seen wait for the next push().
 void StrutPipeline::replayEarly() {
   while (replayed_ < early_.size()) take(early_[replayed_++]);
-  if (!early_.empty()) early_ = {};
+  early_ = {};
+  replayed_ = 0;
 }
 
 void StrutPipeline::take(const Reading& reading) {
