@@ -21,8 +21,9 @@ def refused(program, *arguments):
 @pytest.mark.parametrize("text, words", [
     ("rate: 50\n---\nrate: 100\n", ["line 3", "a second document begins, must be one"]),
     (f"scenario: {MEGABYTE[:900_000]}\n", ["scenario", "900000 characters", "must be one of"]),
-    (f"{MEGABYTE[:900_000]}: 1\n", ["900000 characters", "must be at most 200"]),
-    ("rate: 1" + "0" * 1000 + "\n", ["rate", "must be in [0.1, 20000]"])])
+    (f"{MEGABYTE[:900]}: 1\n", ["900 characters", "must be at most 200"]),
+    ("rate: 1" + "0" * 1000 + "\n", ["rate", "must be in [0.1, 20000]"])],
+    ids=["two documents", "a long value", "a long name", "a long number"])
 def test_settings(program, tmp_path, text, words):
     path = tmp_path / "settings.yaml"
     path.write_text(text)
@@ -37,7 +38,8 @@ def test_settings(program, tmp_path, text, words):
     ("own", LAW % ("v + " * 500 + "v"), ["effects/own/force", "2001 characters", "must be at most 1000"]),
     ("own", LAW % ("q" * 900), ["effects/own/force", "900 characters"]),
     ("own" * 30, LAW % "v", ["effects/own", "must be at most 64 characters"]),
-    ("own", '{force: "v", unit: "%s"}' % ("N" * 300), ["must be at most 200 characters"])])
+    ("own", '{force: "v", unit: "%s"}' % ("N" * 300), ["must be at most 200 characters"])],
+    ids=["NUL", "a long law", "a long word", "a long name", "a long unit"])
 def test_laws(program, tmp_path, name, law, words):
     path = tmp_path / "laws.yaml"
     path.write_text("effects: {%s: %s}\n" % (name, law))
@@ -47,10 +49,9 @@ def test_laws(program, tmp_path, name, law, words):
 
 
 def test_numbers_of_any_size_stay_short(program, tmp_path):
-    for value in ("1e300", "-1e300", "1e-300"):
-        result = program("horizon", "--damping-to-mass", value, "--stiffness-to-mass", "1e300")
-        assert result.returncode in (0, 2)
-        assert len(result.stderr) < SHORT
+    for value in ("1e300", "-1e300", "1e13"):
+        message = refused(program, "horizon", "--damping-to-mass", value, "--stiffness-to-mass", "60")
+        assert f"damping_to_mass = {float(value):g} " in message.replace("e+", "e") or "must be above 0" in message
     message = refused(program, "simulate", "--set", "rate=1e300", "-o", tmp_path / "out.bag")
     assert "rate = " in message and "must be in" in message
 
