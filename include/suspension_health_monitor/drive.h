@@ -63,9 +63,9 @@ enum class Shortcoming {
 };
 
 /// A drive without gaps.
-/// @param period  sampling time T [s], above 0.
+/// @param period  sampling time T [s], in [1e-5, 10].
 /// @param sprung_acceleration, unsprung_acceleration  z'' and w'' [m/s^2], of equal length.
-/// @throws std::invalid_argument  if the lengths differ or the period is not above 0.
+/// @throws std::invalid_argument  if the lengths differ or the period is none of a sensor.
 Drive makeDrive(double period, const std::vector<double>& sprung_acceleration,
                 const std::vector<double>& unsprung_acceleration);
 

@@ -22,6 +22,7 @@ enum class EstimateDoubt {
   kNotExcited,           ///< parked: the rows are the sensors' noise; the estimate is held
   kDampingNotExcited,    ///< the same of the damping alone; the stiffness goes on
   kStiffnessNotExcited,  ///< the same of the stiffness alone; the damping goes on
+  kUndersampled,         ///< a sensor shakes at half the sampling rate, and the model explains too little
   kOutsideForce,         ///< something else than the wheel moves the body
   kNotExplained,         ///< the model explains less than half of what was measured
   kNotAStrut,            ///< a parameter that has to be above 0 is not
@@ -189,7 +190,25 @@ struct InputStatus {
   double mean_period = 0.0;    ///< of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
   bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
 
+  /// How a sensor shakes at half the sampling rate: what lies beyond is folded back into the strut's band.
+  struct SamplingLimit {
+    double density = 0.0;  ///< power density there over the mean one; 1 for white noise
+    double level = 0.0;    ///< rms of white noise of that density [m/s^2]
+
+    /// @return true if more than the noise of a sensor lies there.
+    bool isReached() const { return density > kMostDensity && level > kMostNoise; }
+
+    static constexpr double kMostDensity = 0.125;  // filtered at 0.7 of the limit: 0.06; not filtered: 0.2 and more
+    static constexpr double kMostNoise = 0.5;      // [m/s^2]
+  };
+  std::array<SamplingLimit, 2> sampling_limit{};  ///< of the sprung and the unsprung sensor, as of the newest judgement
+  double beyond_strut = 0.0;        ///< share of the body's power above the strut's band, likewise, in [0, 1]
+  double beyond_strut_level = 0.0;  ///< and its rms [m/s^2]
+
   static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
 };
+
+/// @return that a sensor shakes as the estimation cannot follow, in words; empty if none does.
+std::string describeShaking(const InputStatus& input);
 
 }  // namespace suspension_health_monitor

@@ -41,7 +41,8 @@ class StrutMonitor {
   /// Takes in one reading of one sensor; each stream comes in the order in which it was measured.
   /// @param stamp  time of the measurement.
   /// @param acceleration  along the strut, up positive [m/s^2]; gravity may be in it.
-  /// @throws std::invalid_argument  if the options or the effects do not fit the sample period that was measured.
+  /// @throws std::invalid_argument  once, if the options or the effects do not fit the sample period that was measured:
+  /// no reading counts any more. What the sink throws comes out, too; no reading is lost by it.
   void push(Side side, Stamp stamp, double acceleration);
 
   /// Has these effects in the model from now on, none: the plain strut. Estimates carry over; coefficients are start

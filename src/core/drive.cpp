@@ -4,11 +4,20 @@
 #include <stdexcept>
 #include <string>
 
+#include "suspension_health_monitor/internal/plain_text.h"
+
 namespace suspension_health_monitor {
+namespace {
+
+constexpr double kShortestPeriod = 1e-5, kLongestPeriod = 10.0;  // [s], as of sample_period
+
+}  // namespace
 
 Drive makeDrive(double period, const std::vector<double>& sprung_acceleration,
                 const std::vector<double>& unsprung_acceleration) {
-  if (!(period > 0.0)) throw std::invalid_argument("period = " + std::to_string(period) + " [s], must be above 0");
+  if (!(period >= kShortestPeriod && period <= kLongestPeriod))
+    throw std::invalid_argument("period = " + numberText(period) + " [s], must be in [" + numberText(kShortestPeriod) +
+                                ", " + numberText(kLongestPeriod) + "]");
   if (sprung_acceleration.size() != unsprung_acceleration.size())
     throw std::invalid_argument(std::to_string(sprung_acceleration.size()) + " sprung and " +
                                 std::to_string(unsprung_acceleration.size()) +

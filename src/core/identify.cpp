@@ -25,10 +25,11 @@ IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions&
   monitor.integration_horizon = horizon * period;
   monitor.alignment = "paired";
   DriveIdentification identification(monitor);
+  constexpr Stamp kLater(1);  // 0 is the stamp that a driver has not set; a drive may begin with it
   for (const Drive& drive : drives)
     for (const CornerSample& sample : drive.samples) {
-      identification.push(Side::kSprung, sample.stamp, sample.sprung_acceleration);
-      identification.push(Side::kUnsprung, sample.stamp, sample.unsprung_acceleration);
+      identification.push(Side::kSprung, sample.stamp + kLater, sample.sprung_acceleration);
+      identification.push(Side::kUnsprung, sample.stamp + kLater, sample.unsprung_acceleration);
     }
   return identification.result();
 }

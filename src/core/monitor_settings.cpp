@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kDefaultHorizon = 0.6;          // [s], the paper's
-constexpr int kMostSamples = 100000;             // of a horizon: more is a wrong unit
 constexpr double kFewestSamplesOfMemory = 10.0;  // lambda = 0.9
 constexpr int kUpdatesPerTwoHorizons = 3;        // of health: rows within a horizon share most of their samples
-
-std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
 
 }  // namespace
 
@@ -58,27 +52,27 @@ void MonitorSettings::validate() const {
   static_cast<HealthThresholds&>(thresholds) = *this;
   thresholds.validate();
   if (!forgetting_factor && fastest_memory && *fastest_memory > memory)
-    throw std::invalid_argument("fastest_memory = " + shortNumber(*fastest_memory) +
-                                " [s], must be at most memory = " + shortNumber(memory) + " [s]");
+    throw std::invalid_argument("fastest_memory = " + numberText(*fastest_memory) +
+                                " [s], must be at most memory = " + numberText(memory) + " [s]");
   if (!sample_period) return;
   filter(*sample_period);
   const double fastest = fastestForgettingFactor(*sample_period), slow = forgettingFactor(*sample_period);
   if (fastest > slow)
-    throw std::invalid_argument("fastest_memory = " + shortNumber(*fastest_memory) +
-                                " [s], must be at most that of forgetting_factor = " + shortNumber(slow));
+    throw std::invalid_argument("fastest_memory = " + numberText(*fastest_memory) +
+                                " [s], must be at most that of forgetting_factor = " + numberText(slow));
   if (fastest < 1.0 - 1.0 / kFewestSamplesOfMemory)
     throw std::invalid_argument(std::string(fastest_memory ? "fastest_memory" : "memory") + " = " +
-                                shortNumber(fastest_memory.value_or(memory)) + " [s], must be at least " +
-                                shortNumber(kFewestSamplesOfMemory * *sample_period) +
-                                " [s], ten samples of sample_period = " + shortNumber(*sample_period) + " [s]");
+                                numberText(fastest_memory.value_or(memory)) + " [s], must be at least " +
+                                numberText(kFewestSamplesOfMemory * *sample_period) +
+                                " [s], ten samples of sample_period = " + numberText(*sample_period) + " [s]");
 }
 
 int MonitorSettings::horizonSamples(double period) const {
   const double horizon = integration_horizon.value_or(kDefaultHorizon);
-  if (horizon / period > kMostSamples)
-    throw std::invalid_argument("integration_horizon = " + std::to_string(horizon) + " [s], must be at most " +
-                                std::to_string(kMostSamples) + " samples of sample_period = " + std::to_string(period) +
-                                " [s]");
+  if (horizon / period > kMostHorizonSamples)
+    throw std::invalid_argument("integration_horizon = " + numberText(horizon) + " [s], must be at most " +
+                                std::to_string(kMostHorizonSamples) +
+                                " samples of sample_period = " + numberText(period) + " [s]");
   return static_cast<int>(std::lround(horizon / period));
 }
 
@@ -87,9 +81,8 @@ IntegralFilterOptions MonitorSettings::filter(double period) const {
   try {
     HorizonIntegral(filter.horizon_samples, filter.period, filter.rule);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(
-        "integration_horizon = " + std::to_string(integration_horizon.value_or(kDefaultHorizon)) +
-        " [s] with sample_period = " + std::to_string(period) + " [s] makes " + error.what());
+    throw std::invalid_argument("integration_horizon = " + numberText(integration_horizon.value_or(kDefaultHorizon)) +
+                                " [s] with sample_period = " + numberText(period) + " [s] makes " + error.what());
   }
   return filter;
 }

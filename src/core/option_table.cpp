@@ -3,11 +3,14 @@
 #include <boost/lexical_cast/try_lexical_convert.hpp>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
+
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr std::size_t kLongestName = 200;  // with its groups
 
 /// Names that were options once, separated by spaces, and what serves instead.
 struct FormerOptions {
@@ -29,20 +32,13 @@ constexpr FormerOptions kFormerOptions[] = {
      "its default always holds"},
 };
 
-std::string format(double value) {
-  std::ostringstream out;
-  out.precision(std::numeric_limits<double>::max_digits10 - 2);
-  out << value;
-  return out.str();
-}
-
 std::string format(const OptionValue& value) {
   struct Formatter {
     std::string operator()(bool b) const { return b ? "true" : "false"; }
     std::string operator()(int i) const { return std::to_string(i); }
-    std::string operator()(double d) const { return format(d); }
-    std::string operator()(const std::string& s) const { return '"' + s + '"'; }
-    std::string operator()(const UnusableList& list) const { return list.text; }
+    std::string operator()(double d) const { return numberText(d); }
+    std::string operator()(const std::string& s) const { return '"' + shortened(s) + '"'; }
+    std::string operator()(const UnusableList& list) const { return shortened(list.text); }
   };
   return std::visit(Formatter{}, value);
 }
@@ -61,7 +57,7 @@ std::string allowedText(const option_table::Bound& option) {
     return words;
   }
   const char* const whole = std::holds_alternative<int*>(option.member) ? "a whole number " : "";
-  return whole + ("in [" + format(option.min)) + ", " + format(option.max) + "]";
+  return whole + ("in [" + numberText(option.min)) + ", " + numberText(option.max) + "]";
 }
 
 [[noreturn]] void refuse(const option_table::Bound& option, const OptionValue& value) {
@@ -173,13 +169,20 @@ OptionDescription describe(const Bound& option) {
 
 }  // namespace option_table
 
+void requireNameLength(const std::string& name) {
+  if (name.size() > kLongestName)
+    throw std::invalid_argument("name " + shortened(name) + ", must be at most " + std::to_string(kLongestName) +
+                                " characters");
+}
+
 void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>& known) {
   if (values.empty()) return;
   const std::string& name = values.begin()->first;
   for (const FormerOptions& former : kFormerOptions)
     if (isChoice(former.names, name))
       throw std::invalid_argument(name + " is no option any more: " + std::string(former.instead));
-  std::string message = "unknown option " + name + " = " + format(values.begin()->second);
+  requireNameLength(name);
+  std::string message = "unknown option " + shortened(name) + " = " + format(values.begin()->second);
   const auto difference = [&](const OptionDescription& other) {  // share of the letters
     return static_cast<double>(editDistance(name, other.name)) /
            static_cast<double>(std::max(name.size(), other.name.size()));

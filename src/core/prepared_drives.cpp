@@ -8,6 +8,8 @@
 #include "suspension_health_monitor/internal/identification/clock_lag.h"
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/record/untestable_effects.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
@@ -18,13 +20,14 @@ double periodOf(const std::vector<Drive>& drives, const std::optional<double>& s
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   if (!sample_period) return medianPeriod(drives);
   if (!(*sample_period > 0.0 && std::isfinite(*sample_period)))
-    throw std::invalid_argument("sample_period = " + std::to_string(*sample_period) + " [s], must be above 0");
+    throw std::invalid_argument("sample_period = " + numberText(*sample_period) + " [s], must be above 0");
   return *sample_period;
 }
 
 StrutModel roughStart(const std::vector<Drive>& drives, double period, std::optional<int> horizon_samples) {
-  if (horizon_samples && *horizon_samples < 1)
-    throw std::invalid_argument("horizon_samples = " + std::to_string(*horizon_samples) + ", must be 1 or more");
+  if (horizon_samples && !(*horizon_samples >= 1 && *horizon_samples <= kMostHorizonSamples))
+    throw std::invalid_argument("horizon_samples = " + std::to_string(*horizon_samples) + ", must be in [1, " +
+                                std::to_string(kMostHorizonSamples) + "]");
   if (!horizon_samples) horizon_samples = surveyHorizon(drives, period, HorizonSurvey::kEnough);
   if (!horizon_samples) return {};
   IntegralFilterOptions filter;

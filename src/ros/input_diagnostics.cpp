@@ -73,6 +73,8 @@ void InputDiagnostics::describeSeries(const SuspensionMonitor& monitor, Status& 
   if (input.gaps + input.restarts > gaps_before_) status.mergeSummary(DiagnosticStatus::WARN, "gap in the input");
   gaps_before_ = input.gaps + input.restarts;
   if (!input.period_fits) status.mergeSummary(DiagnosticStatus::WARN, "stamps do not fit sample_period");
+  if (const std::string shaking = describeShaking(input); !shaking.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, shaking);
   status.addf("rate [Hz]", "%.4g", input.mean_period > 0.0 ? 1.0 / input.mean_period : 0.0);
   status.addf("sample_period [s]", "%.9g", monitor.period());
   status.addf("horizon_samples", "%d", monitor.horizonSamples());

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "whole_file.h"
 #include "yaml_settings.h"
@@ -46,8 +47,8 @@ double needed(const std::optional<double>& value, const char* name) {
 // value that is not known to half of itself can prove nothing.
 void checkStddev(double stddev, double value, const char* name) {
   if (!(stddev <= 0.5 * value))
-    throw std::invalid_argument(std::string(name) + "_stddev = " + std::to_string(stddev) +
-                                ", must be at most half of " + name + " = " + std::to_string(value));
+    throw std::invalid_argument(std::string(name) + "_stddev = " + numberText(stddev) + ", must be at most half of " +
+                                name + " = " + numberText(value));
 }
 
 Baseline toBaseline(const BaselineSettings& settings) {

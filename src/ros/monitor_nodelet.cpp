@@ -4,6 +4,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "parameters.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -181,8 +182,8 @@ void MonitorNodelet::keepBaseline() {
 SearchTask MonitorNodelet::giveSamples(double window) const {
   const double kept = options_.shell.diagnose_window;
   if (!(window >= 0.0 && window <= kept))
-    throw std::invalid_argument("window = " + (std::isnan(window) ? "nan" : std::to_string(window)) +
-                                " [s], must be in [0, " + std::to_string(kept) + "] (diagnose/window)");
+    throw std::invalid_argument("window = " + numberText(window) + " [s], must be in [0, " + numberText(kept) +
+                                "] (diagnose/window)");
   const SuspensionMonitor* monitor = pipeline_->monitor();
   if (monitor == nullptr) throw std::runtime_error("the sample period is still being measured: drive on");
   const double span = window > 0.0 ? window : kept;

@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -21,6 +23,17 @@ constexpr const char* kUnfinished = ".part";  // and the number of the process
 [[noreturn]] void failToWrite(const std::string& path, int error) {
   throw std::runtime_error(path + ": cannot be written" +
                            (error == 0 ? " to its end" : std::string(": ") + std::strerror(error)));
+}
+
+// The names of unfinished files, where a signal handler may read them. No work of this program has more at a time; a
+// file beyond is one that a second signal leaves to the next writer.
+std::array<std::atomic<const char*>, 64> unfinished_files{};
+
+void exchangeFirst(const char* expected, const char* wanted) {
+  for (std::atomic<const char*>& file : unfinished_files) {
+    const char* found = expected;
+    if (file.compare_exchange_strong(found, wanted)) return;
+  }
 }
 
 /// Removes what processes that were killed left of this file: its lock went with the process.
@@ -42,6 +55,11 @@ void removeAbandoned(const std::string& path) {
 
 }  // namespace
 
+void removeUnfinishedFiles() noexcept {
+  for (const std::atomic<const char*>& file : unfinished_files)
+    if (const char* const path = file.load()) unlink(path);
+}
+
 WholeFile::WholeFile(const std::string& path) : path_(path), temporary_path_(path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -52,12 +70,13 @@ WholeFile::WholeFile(const std::string& path) : path_(path), temporary_path_(pat
   temporary_path_ = path_ + kUnfinished + std::to_string(getpid());
   while (!lock()) {
   }
+  exchangeFirst(nullptr, temporary_path_.c_str());
 }
 
 /// @return false if somebody took the new file for an abandoned one, between its making and its locking.
 bool WholeFile::lock() {
-  descriptor_ = open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) failToWrite(path_, errno);
+  descriptor_ = open(temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) failToWrite(errno == EEXIST ? temporary_path_ : path_, errno);
   flock(descriptor_, LOCK_EX | LOCK_NB);  // where files cannot be locked, it goes without
   struct stat made {};
   if (fstat(descriptor_, &made) != 0 || made.st_nlink > 0) return true;
@@ -68,12 +87,14 @@ bool WholeFile::lock() {
 WholeFile::~WholeFile() {
   if (descriptor_ < 0) return;
   std::remove(temporary_path_.c_str());
+  exchangeFirst(temporary_path_.c_str(), nullptr);
   close(descriptor_);
 }
 
 void WholeFile::commit() {
   if (descriptor_ < 0) return;
   if (fsync(descriptor_) != 0 || std::rename(temporary_path_.c_str(), path_.c_str()) != 0) failToWrite(path_, errno);
+  exchangeFirst(temporary_path_.c_str(), nullptr);
   close(std::exchange(descriptor_, -1));
 }
 

@@ -9,7 +9,8 @@ namespace suspension_health_monitor {
 /// Without commit() (an error on the way) nothing is left, and a file that was there before stays as it was.
 /// A process that is killed leaves the file under its name as it was, and its unfinished one beside it, which is
 /// removed when that file is written next. After commit() the content outlives a loss of power, too. A link stays a
-/// link; what is no regular file (a pipe, /dev/null) is written to as it is.
+/// link; what is no regular file (a pipe, /dev/null) is written to as it is. The unfinished file is made anew, never
+/// one that is there already: a link that somebody has put in its place is not followed.
 class WholeFile {
  public:
   /// @throws std::runtime_error  naming the file, if it cannot be written.
@@ -30,6 +31,10 @@ class WholeFile {
   std::string path_, temporary_path_;
   int descriptor_ = -1;  // of the unfinished file: locked as long as this process lives
 };
+
+/// Removes the unfinished files of this process, which is about to end without their destructors. It may be called in a
+/// signal handler.
+void removeUnfinishedFiles() noexcept;
 
 /// Writes lines of text into a WholeFile.
 class TextFile {

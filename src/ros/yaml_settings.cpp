@@ -7,6 +7,9 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
+
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -42,10 +45,11 @@ class Flattening {
     }
     if (node.IsNull() && name.empty()) return;  // a file of comments only sets nothing
     const bool plain = node.IsScalar() || node.IsSequence();
-    if (!plain || name.empty()) refuse(node, (name.empty() ? "the file" : name) + " must be a name with a plain value");
+    if (!plain || name.empty())
+      refuse(node, (name.empty() ? "the file" : shortened(name)) + " must be a name with a plain value");
     const OptionValue value = node.IsScalar() ? OptionValue(node.as<std::string>()) : toValue(node);
     if (node.IsScalar()) count(node.Scalar().size());
-    if (!values_.emplace(name, value).second) refuse(node, name + " is given twice, must be given once");
+    if (!values_.emplace(name, value).second) refuse(node, shortened(name) + " is given twice, must be given once");
   }
 
   /// A list of texts, such as the names of effects, as one text with commas; of other lists their text, one level deep.
@@ -82,9 +86,14 @@ class Flattening {
 OptionMap parseYaml(const std::string& text, const std::string& name) {
   if (text.size() > kLargestText) refuseSize(name);
   try {
-    return Flattening(name)(YAML::Load(text));
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1)
+      throw std::invalid_argument(name + ": line " + std::to_string(documents[1].Mark().line + 1) +
+                                  ": a second document begins, must be one");
+    return Flattening(name)(documents.empty() ? YAML::Node() : documents.front());
   } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(name + ": line " + std::to_string(error.mark.line + 1) + ": " + error.msg);
+    throw std::invalid_argument(name + ": line " + std::to_string(error.mark.line + 1) + ": " +
+                                shortened(error.msg, 1000));
   }
 }
 

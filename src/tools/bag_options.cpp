@@ -9,6 +9,7 @@
 #include "command.h"
 #include "errors.h"
 #include "survey.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -47,7 +48,7 @@ BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_diffe
   bags.start = values["start"].as<double>();
   if (values.count("end") != 0) bags.end = values["end"].as<double>();
   if (!(bags.start >= 0.0 && bags.end > bags.start))
-    throw std::invalid_argument("--start " + std::to_string(bags.start) + " --end " + std::to_string(bags.end) +
+    throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
                                 " [s], must be 0 <= start < end");
   const OptionMap settings = gatherOptions(values);
   options.pipeline = PipelineOptions::fromValues(settings);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "../ros/yaml_settings.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -44,7 +45,7 @@ OptionMap gatherOptions(const po::variables_map& values) {
   for (const std::string& assignment : values["set"].as<std::vector<std::string>>()) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw std::invalid_argument("--set " + assignment + ", must be NAME=VALUE");
+      throw std::invalid_argument("--set " + shortened(assignment) + ", must be NAME=VALUE");
     options[assignment.substr(0, equals)] = assignment.substr(equals + 1);
   }
   return options;

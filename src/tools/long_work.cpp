@@ -6,12 +6,22 @@
 #include <cstdio>
 #include <utility>
 
+#include "../ros/whole_file.h"
+
 namespace suspension_health_monitor {
 namespace {
 
 volatile std::sig_atomic_t noted = 0;  // the signal; 0: none
 
-extern "C" void noteSignal(int signal) { noted = signal; }
+extern "C" void noteSignal(int signal) {
+  if (noted == 0) {
+    noted = signal;
+    return;
+  }
+  removeUnfinishedFiles();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
 
 constexpr int kWidth = 40;
 
@@ -27,7 +37,7 @@ int Interrupted::endProgram() const {
 Interruption::Interruption() {
   struct sigaction action {};
   action.sa_handler = noteSignal;
-  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     sigaction(kSignals[i], nullptr, &before_[i]);

@@ -53,6 +53,16 @@ def test_a_signal_leaves_no_part_of_the_bag(program, tmp_path, number):
     assert (tmp_path / "out.bag").read_bytes() == b"here first"
 
 
+def test_a_second_signal_ends_it_at_once_and_leaves_no_part(program, tmp_path):
+    process = start(program, tmp_path, LONG)
+    wait_for_growth(tmp_path)
+    for number in [signal.SIGSTOP, signal.SIGINT, signal.SIGTERM, signal.SIGCONT]:  # it sees both before it can work
+        process.send_signal(number)
+    assert process.communicate(timeout=conftest.HANGS) == (b"", b"")
+    assert process.returncode in [-signal.SIGINT, -signal.SIGTERM]
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_signal_that_the_parent_ignores_stays_ignored(program, tmp_path):
     process = start(program, tmp_path, LONG, SIGHUP=signal.SIG_IGN)
     wait_for_growth(tmp_path)

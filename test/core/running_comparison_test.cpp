@@ -74,6 +74,28 @@ TEST(RunningComparison, FitIs100ForAPerfectModelAnd0ForAConstantAndBelowForAWors
   EXPECT_NEAR(opposite.fitPercent(), -100.0, 1e-9);
 }
 
+TEST(RunningComparison, SaysWhetherAConstantWouldDoBetter) {
+  RunningComparison good(0.99), bad(0.99);
+  for (int k = 0; k < 500; ++k) {
+    const double y = 9.81 + std::sin(0.1 * k);
+    good.add(y, 0.3 + 0.1 * std::sin(0.1 * k));  // a tenth of the motion, with an offset
+    bad.add(y, -0.1 * std::sin(0.1 * k));
+    EXPECT_FALSE(k < 68 && bad.isWorseThanConstant()) << k;  // half a window: 100 ln 2 samples
+  }
+  EXPECT_FALSE(good.isWorseThanConstant());
+  EXPECT_TRUE(bad.isWorseThanConstant());
+}
+
+TEST(RunningComparison, IsNoWorseThanAConstantForAReadingThatIsWrong) {
+  RunningComparison comparison(0.99);
+  for (int k = 0; k < 500; ++k) {
+    const double y = std::sin(0.1 * k);
+    comparison.add(y, 0.9 * y + (k == 400 ? 1e6 : 0.0));
+    EXPECT_FALSE(k > 68 && comparison.isWorseThanConstant()) << k;
+  }
+  EXPECT_LT(comparison.fitPercent(), 0.0);
+}
+
 TEST(RunningComparison, LeavesOutAConstantDifference) {
   RunningComparison offset(0.99), none(0.99);
   for (int k = 0; k < 500; ++k) {

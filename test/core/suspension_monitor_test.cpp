@@ -64,6 +64,7 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
 }
 
 // Readings of the wheel that are two samples ahead: rows over a short horizon fit a strut that the free run is not.
+// Near 0 the figure, which weighs large errors most, and the count of samples that a constant fits better may differ.
 TEST(SuspensionMonitor, AnEstimateWhoseFreeRunFailsIsNotValidAtAnySample) {
   SimulationOptions drive;
   drive.scenario = "iso_road";
@@ -78,7 +79,7 @@ TEST(SuspensionMonitor, AnEstimateWhoseFreeRunFailsIsNotValidAtAnySample) {
   for (std::size_t k = 0; k + 2 < samples.size(); ++k) {
     const MonitorReport& report =
         *monitor.addSample({samples[k].stamp, samples[k].sprung_acceleration, samples[k + 2].unsprung_acceleration});
-    if (toSeconds(samples[k].stamp - samples[0].stamp) < 30.0 || !(report.comparison.fit_percent < 0.0)) continue;
+    if (toSeconds(samples[k].stamp - samples[0].stamp) < 30.0 || !(report.comparison.fit_percent < -15.0)) continue;
     EXPECT_FALSE(report.la.valid()) << k;
     failed += report.la.doubt == EstimateDoubt::kFreeRunFails ? 1 : 0;
   }

@@ -47,7 +47,7 @@ TEST_F(Streams, GoOnAfterAStampSomewhatInTheFuture) {
 TEST_F(Streams, SilenceOfOneFillsNoMemoryAndIsMadeGood) {
   run(0, 10);
   const int many = 3 * static_cast<int>(UniformGrid::kMostWaiting);
-  for (int k = 0; k < many; ++k) EXPECT_FALSE(grid_.push(Side::kSprung, at(200 + 20 * k), k));
+  for (int k = 0; k < many; ++k) EXPECT_FALSE(grid_.push(Side::kSprung, at(200 + 20 * k), 0.01 * k));
   // All but the capacity is gone already, the rest goes when the other one comes back.
   EXPECT_EQ(grid_.rejected().count(RejectReason::kMissingPartner), 2 * UniformGrid::kMostWaiting);
   EXPECT_EQ(run(200 + 20 * many, 100), 100);
@@ -56,11 +56,11 @@ TEST_F(Streams, SilenceOfOneFillsNoMemoryAndIsMadeGood) {
 
 TEST_F(Streams, OneMayRunAheadByTheCapacity) {
   const int most = static_cast<int>(UniformGrid::kMostWaiting);
-  for (int k = 0; k < most; ++k) grid_.push(Side::kSprung, at(20 * k), k);
+  for (int k = 0; k < most; ++k) grid_.push(Side::kSprung, at(20 * k), 0.01 * k);
   for (int k = 0; k < most; ++k) {
-    const auto sample = grid_.push(Side::kUnsprung, at(20 * k), -k);
+    const auto sample = grid_.push(Side::kUnsprung, at(20 * k), -0.01 * k);
     ASSERT_TRUE(sample);
-    ASSERT_EQ(sample->sprung_acceleration, k);
+    ASSERT_EQ(sample->sprung_acceleration, 0.01 * k);
   }
 }
 

@@ -177,22 +177,45 @@ TEST(UniformGrid, RefusesAPeriodThatIsNone) {
     EXPECT_THROW(UniformGrid{period}, std::invalid_argument) << period;
 }
 
-TEST(UniformGrid, KeepsAnAbsurdSpikeOutAndTakesANewLevelAfterThree) {
-  UniformGrid grid(0.02);
-  const auto push = [&](int k, double wheel) {
-    grid.push(Side::kSprung, at(20 * k), 9.81 + 0.01 * (k % 2));
-    return grid.push(Side::kUnsprung, at(20 * k), wheel).has_value();
-  };
-  for (int k = 0; k < 200; ++k) ASSERT_TRUE(push(k, 9.0 + 0.01 * (k % 2)));
-  EXPECT_TRUE(push(200, -8e6));  // large, but not a million times the usual
-  EXPECT_FALSE(push(201, 1e15));
-  EXPECT_EQ(grid.rejected().count(RejectReason::kAbsurd), 1u);
-  EXPECT_TRUE(push(202, 9.0));
-  EXPECT_FALSE(push(203, 1e15));
-  EXPECT_FALSE(push(204, 1e15));
-  EXPECT_FALSE(push(205, -1e15));
-  EXPECT_TRUE(push(206, 1e15));  // then it is how the sensor reads now
-  EXPECT_EQ(grid.rejected().count(RejectReason::kAbsurd), 4u);
+/// Readings of both sensors, one every 20 ms. @return whether the sample comes.
+class TwoSensors {
+ public:
+  bool push(double body, double wheel) {
+    const Stamp stamp = at(20 * k_++);
+    grid.push(Side::kSprung, stamp, body);
+    return grid.push(Side::kUnsprung, stamp, wheel).has_value();
+  }
+  UniformGrid grid{0.02};
+
+ private:
+  int k_ = 0;
+};
+
+TEST(UniformGrid, KeepsOutWhatNoVehicleSurvivesAndWhatStandsBetween) {
+  TwoSensors sensors;
+  for (int k = 0; k < 200; ++k) ASSERT_TRUE(sensors.push(9.81 + 0.01 * (k % 2), 9.0 + 0.01 * (k % 2)));
+  EXPECT_TRUE(sensors.push(9.81, -900.0));  // a wheel that hits the stop
+  EXPECT_FALSE(sensors.push(9.82, 1100.0));
+  EXPECT_FALSE(sensors.push(9.81, 9.0));
+  EXPECT_FALSE(sensors.push(9.82, 1e15));
+  for (int k = 0; k < 9; ++k) EXPECT_FALSE(sensors.push(9.81 + 0.01 * (k % 2), 9.0 + 0.01 * (k % 2))) << k;
+  EXPECT_TRUE(sensors.push(9.81, 9.0));
+  EXPECT_EQ(sensors.grid.rejected().count(RejectReason::kAbsurd), 12u);
+}
+
+// Parked, gravity taken out: the first bump is a hundred thousand times the usual.
+TEST(UniformGrid, TakesTheFirstBumpOfAVehicleThatHasStoodStill) {
+  TwoSensors sensors;
+  for (int k = 0; k < 20000; ++k) ASSERT_TRUE(sensors.push(0.003 * std::sin(k), 0.003 * std::cos(k)));
+  EXPECT_TRUE(sensors.push(50.0, 500.0));
+  EXPECT_EQ(sensors.grid.rejected().total(), 0u);
+}
+
+TEST(UniformGrid, TakesSensorsThatReadInAnotherUnitSoonAfterTheStart) {
+  TwoSensors sensors;  // in mm/s^2
+  int kept_out = 0;
+  for (int k = 0; k < 1000; ++k) kept_out += sensors.push(9810.0 + k % 7, 9810.0 + 3000.0 * std::sin(k)) ? 0 : 1;
+  EXPECT_LE(kept_out, 20);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ EstimateFacts nothingAgainstIt() {
   EstimateFacts facts;
   facts.has_row = facts.is_physical = facts.has_stddev = true;
   facts.rows = facts.fewest_rows = 50.0;
-  facts.explained = kLeastExplained;
+  facts.explained = kLeastExplained;  // enough but for shaking sensors
   return facts;
 }
 
@@ -35,6 +35,7 @@ const std::vector<Flaw> kFlaws{
     {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.excites_damping = f.excites_stiffness = false; }},
     {EstimateDoubt::kDampingNotExcited, [](EstimateFacts& f) { f.excites_damping = false; }},
     {EstimateDoubt::kStiffnessNotExcited, [](EstimateFacts& f) { f.excites_stiffness = false; }},
+    {EstimateDoubt::kUndersampled, [](EstimateFacts& f) { f.undersampled = true; }},
     {EstimateDoubt::kOutsideForce, [](EstimateFacts& f) { f.outside_force = true; }},
     {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
     {EstimateDoubt::kNotAStrut, [](EstimateFacts& f) { f.is_physical = false; }},
@@ -66,6 +67,15 @@ TEST(ValidityGate, NamesTheFirstOfSeveralFlaws) {
       kFlaws[j].make(facts);
       EXPECT_EQ(doubtOf(facts), kFlaws[i].doubt) << describe(kFlaws[i].doubt) << ", " << describe(kFlaws[j].doubt);
     }
+}
+
+TEST(ValidityGate, AModelThatExplainsWhatAShakingSensorReadsIsTrusted) {
+  EstimateFacts facts = nothingAgainstIt();
+  facts.undersampled = true;
+  facts.explained = kLeastExplainedOfShaking;
+  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kNone);
+  facts.explained = std::nan("");
+  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kUndersampled);
 }
 
 TEST(ValidityGate, NumbersThatAreNoneAreFlaws) {

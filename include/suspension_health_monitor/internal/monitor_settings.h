@@ -27,6 +27,7 @@ struct EstimatorOptions {
 /// Rows that an estimate needs before it is worth something, in horizons: noise of a tenth then makes an error of 1 or
 /// 2 %.
 inline constexpr double kFewestHorizons = 5.0 / 3.0;
+inline constexpr int kMostHorizonSamples = 100000;  ///< more is a wrong unit
 
 /// The options of a monitor with what follows from them: the preset's way to make rows and to estimate, and the
 /// settings of each part. Group, name, unit, meaning and range of each option stand in kMonitorFields only.

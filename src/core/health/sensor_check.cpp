@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -17,12 +18,26 @@ bool hasGravity(double mean) { return std::abs(mean) > kGravity / 2.0; }
 
 }  // namespace
 
-void SensorCheck::Reading::add(double now, double slow, double quick) {
+SensorCheck::SensorCheck(double gravity_tolerance, double memory, int horizon_samples)
+    : tolerance_(gravity_tolerance),
+      memory_(memory),
+      unread_(1.0 - 1.0 / std::max(memory, 1.0), 1.0 / (1.0 + horizon_samples / (2.0 * kPi * kBandTimes))) {}
+
+double SensorCheck::bodyBeyondStrut() const {
+  const Reading& body = readings_[0];
+  return body.variance > 0.0 ? std::max(0.0, 1.0 - body.band / body.variance) : 0.0;
+}
+
+double SensorCheck::bodyBeyondStrutLevel() const { return std::sqrt(bodyBeyondStrut() * readings_[0].variance); }
+
+void SensorCheck::Reading::add(double now, double quick) {
   still = now == last ? still + 1.0 : 0.0;
-  const double off = now - mean, change = now - last;
+  const double off = now - mean(), change = now - last;
   last = now;
-  mean += slow * off;
+  limited.add(now);
   variance += quick * (off * off - variance);
+  smooth += gain * (off - smooth);
+  band += quick * (smooth * smooth - band);
   step += quick * (change * change - step);
 }
 
@@ -31,15 +46,15 @@ void SensorCheck::add(const CornerSample& sample) {
   const auto revives = [&](const Reading& reading, double now) { return isStill(reading) && now != reading.last; };
   if (samples_ == 0.0 || revives(readings_[0], sample.sprung_acceleration) ||
       revives(readings_[1], sample.unsprung_acceleration)) {
-    readings_ = {};
+    readings_ = {unread_, unread_};
     readings_[0].last = sample.sprung_acceleration;
     readings_[1].last = sample.unsprung_acceleration;
     samples_ = pending_since_ = 0.0;
   }
   samples_ += 1.0;
-  const double slow = 1.0 / std::min(samples_, memory_), quick = std::min(1.0, kQuick * slow);
-  readings_[0].add(sample.sprung_acceleration, slow, quick);
-  readings_[1].add(sample.unsprung_acceleration, slow, quick);
+  const double quick = std::min(1.0, kQuick / std::min(samples_, memory_));
+  readings_[0].add(sample.sprung_acceleration, quick);
+  readings_[1].add(sample.unsprung_acceleration, quick);
 }
 
 const SensorReport& SensorCheck::judge(const StrutEstimate& la, bool la_tells) {
@@ -49,7 +64,7 @@ const SensorReport& SensorCheck::judge(const StrutEstimate& la, bool la_tells) {
   const bool stuck = found == SensorFault::kSprungStuck || found == SensorFault::kUnsprungStuck;
   if (stuck || samples_ - pending_since_ >= memory_) {
     report_.fault = found;
-    report_.mean = {readings_[0].mean, readings_[1].mean};
+    report_.mean = {readings_[0].mean(), readings_[1].mean()};
   }
   return report_;
 }
@@ -65,11 +80,13 @@ SensorFault SensorCheck::find(const StrutEstimate& la, bool la_tells) const {
 }
 
 SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
-  const bool is_strut = la.explained >= kLeastExplained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
+  // Of what an engine does to the body the wheel explains nothing.
+  const double least_explained = kLeastExplained * (1.0 - std::sqrt(bodyBeyondStrut()));
+  const bool is_strut = la.explained >= least_explained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
   if (is_strut) return SensorFault::kNone;
-  const bool body_moves = readings_[0].isMotion(), wheel_moves = readings_[1].isMotion();
+  const bool body_moves = readings_[0].isOfStrut(), wheel_moves = readings_[1].isMotion();
   if (body_moves && la.damping_to_mass < -kCertain * la.damping_to_mass_stddev) return SensorFault::kNegativeDamping;
-  const bool may_be_swapped = readings_[0].variance > kMuchLarger * readings_[1].variance;
+  const bool may_be_swapped = readings_[0].band > kMuchLarger * readings_[1].band;
   return wheel_moves && (body_moves || may_be_swapped) ? SensorFault::kUnrelated : SensorFault::kNone;
 }
 
@@ -79,7 +96,7 @@ SensorFault SensorCheck::judgeMeans() const {
   if (isOff(readings_[0])) return SensorFault::kSprungGravity;
   if (isOff(readings_[1])) return SensorFault::kUnsprungGravity;
   const auto clear = [](const Reading& reading) { return reading.meanNoise() < kGravity / 4.0; };
-  if (clear(readings_[0]) && clear(readings_[1]) && hasGravity(readings_[0].mean) != hasGravity(readings_[1].mean))
+  if (clear(readings_[0]) && clear(readings_[1]) && hasGravity(readings_[0].mean()) != hasGravity(readings_[1].mean()))
     return SensorFault::kGravityOnOneSide;
   return SensorFault::kNone;
 }
@@ -87,21 +104,21 @@ SensorFault SensorCheck::judgeMeans() const {
 // What two means tell that each of them does not.
 SensorFault SensorCheck::judgeGravity() const {
   const auto reads_gravity = [](const Reading& reading) {
-    return hasGravity(reading.mean) && reading.meanNoise() < kGravity / 2.0;
+    return hasGravity(reading.mean()) && reading.meanNoise() < kGravity / 2.0;
   };
   const auto in_g = [](const Reading& reading) {
     const double noise = reading.meanNoise();
-    return std::abs(std::abs(reading.mean) - 1.0) < kInG + noise && noise < 2.0 * kInG;
+    return std::abs(std::abs(reading.mean()) - 1.0) < kInG + noise && noise < 2.0 * kInG;
   };
   const bool sprung = reads_gravity(readings_[0]), unsprung = reads_gravity(readings_[1]);
-  if (sprung && unsprung && readings_[0].mean * readings_[1].mean < 0.0) return SensorFault::kGravityOpposed;
+  if (sprung && unsprung && readings_[0].mean() * readings_[1].mean() < 0.0) return SensorFault::kGravityOpposed;
   if (unsprung && in_g(readings_[0])) return SensorFault::kSprungInG;
   if (sprung && in_g(readings_[1])) return SensorFault::kUnsprungInG;
   return SensorFault::kNone;
 }
 
 bool SensorCheck::isOff(const Reading& reading) const {
-  const double off = std::min(std::abs(reading.mean), std::abs(std::abs(reading.mean) - kGravity));
+  const double off = std::min(std::abs(reading.mean()), std::abs(std::abs(reading.mean()) - kGravity));
   return off > tolerance_ * kGravity + reading.meanNoise();
 }
 

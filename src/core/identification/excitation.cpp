@@ -141,7 +141,7 @@ void Excitation::judgeHeld() {
 
 void Excitation::restart() {
   reset();
-  offset_ = RunningMean(kOffsetMemory);
+  offset_ = LimitedMean(kOffsetMemory);
   most_.setZero();
   parts_.fill(Part());
   usual_.fill(Usual());

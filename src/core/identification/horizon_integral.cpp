@@ -8,6 +8,7 @@
 #include <string>
 
 #include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -52,7 +53,7 @@ HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule r
       leaves_other_parity_(intervals % 2 == 0 ? 1 : 0) {
   if (intervals < 1) refuseIntervals(intervals, "at least 1");
   if (!(std::isfinite(period) && period > 0.0))
-    throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be above 0");
+    throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be above 0");
   switch (rule) {
     case IntegrationRule::kTrapezoid: end_corrections_ = {-1.0 / 2}; break;
     case IntegrationRule::kSimpson:

@@ -19,10 +19,12 @@ constexpr double kFilterHalfPower = 1.0019063576966072;
 
 constexpr double kMostSamples = 1e6;
 
+constexpr double kLargest = 1e12;  // [1/s], [1/s^2]: their squares stay numbers
+
 void requireAboveZero(const char* name, double value, const char* unit) {
-  if (std::isfinite(value) && value > 0.0) return;
+  if (value > 0.0 && value <= kLargest) return;
   std::ostringstream message;
-  message << name << " = " << value << " [" << unit << "], must be above 0";
+  message << name << " = " << value << " [" << unit << "], must be above 0 and at most " << kLargest;
   throw std::invalid_argument(message.str());
 }
 

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "suspension_health_monitor/internal/plain_text.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -19,7 +21,7 @@ void LeastAbsoluteOptions::validate() const {
   if (start_rows < 1)
     throw std::invalid_argument("start_rows = " + std::to_string(start_rows) + ", must be at least 1");
   if (!(std::isfinite(small_divisor) && small_divisor >= 0.0))
-    throw std::invalid_argument("small_divisor = " + std::to_string(small_divisor) + ", must be at least 0");
+    throw std::invalid_argument("small_divisor = " + numberText(small_divisor) + ", must be at least 0");
 }
 
 RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive,

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "suspension_health_monitor/internal/plain_text.h"
+
 namespace suspension_health_monitor {
 
 namespace {
@@ -16,9 +18,9 @@ constexpr double kMostStartRows = 3000.0;  // for a memory that is longer
 
 void RecursiveOptions::validate() const {
   if (!(forgetting_factor > 0.0 && forgetting_factor <= 1.0))
-    throw std::invalid_argument("forgetting_factor = " + std::to_string(forgetting_factor) + ", must be in (0, 1]");
+    throw std::invalid_argument("forgetting_factor = " + numberText(forgetting_factor) + ", must be in (0, 1]");
   if (!(std::isfinite(initial_variance) && initial_variance > 0.0))
-    throw std::invalid_argument("initial_variance = " + std::to_string(initial_variance) + ", must be above 0");
+    throw std::invalid_argument("initial_variance = " + numberText(initial_variance) + ", must be above 0");
   if (correlated_rows < 0)
     throw std::invalid_argument("correlated_rows = " + std::to_string(correlated_rows) + ", must be at least 0");
 }

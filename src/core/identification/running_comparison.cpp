@@ -7,11 +7,18 @@
 namespace suspension_health_monitor {
 
 RunningComparison::RunningComparison(double forgetting_factor)
-    : means_(forgetting_factor), half_weight_(0.5 / (1.0 - std::min(forgetting_factor, 1.0 - 1e-12))) {}
+    : means_(forgetting_factor),
+      residual_(forgetting_factor),
+      measured_(forgetting_factor),
+      worse_(forgetting_factor),
+      half_weight_(0.5 / (1.0 - std::min(forgetting_factor, 1.0 - 1e-12))) {}
 
 void RunningComparison::add(double measured, double predicted) {
   const double residual = measured - predicted;
   means_.add({residual, residual * residual, measured, measured * measured});
+  residual_.add(residual);
+  measured_.add(measured);
+  worse_.add(std::abs(residual - residual_.mean()) > std::abs(measured - measured_.mean()) ? 1.0 : 0.0);
 }
 
 double RunningComparison::deviation(Mean value, Mean square) const {

@@ -55,7 +55,7 @@ std::vector<ActiveMeasurementEffect> takeReadings(OptionMap& values, const std::
 
 void setEffect(OptionMap& values, const std::string& assignment, const std::vector<MeasurementEffect>& faults) {
   const auto refuse = [&] {
-    throw std::invalid_argument("--effect " + assignment + ", must be NAME=COEFFICIENT[,SHAPE=VALUE]...");
+    throw std::invalid_argument("--effect " + shortened(assignment) + ", must be NAME=COEFFICIENT[,SHAPE=VALUE]...");
   };
   std::istringstream parts(assignment);
   std::string part, group, first = kCoefficient;

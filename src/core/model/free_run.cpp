@@ -8,6 +8,7 @@
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/model/shape_range.h"
 #include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -71,7 +72,7 @@ void check(const ActiveEffect& active) {
 
 FreeRun::FreeRun(double period) : period_(period) {
   if (!(std::isfinite(period) && period > 0.0))
-    throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be above 0");
+    throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be above 0");
   splits();
 }
 
@@ -101,9 +102,9 @@ void FreeRun::split(double steps) {
 void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
   if (trySetModel(damping_to_mass, stiffness_to_mass)) return;
   throw std::invalid_argument(
-      "damping_to_mass = " + std::to_string(damping_to_mass) +
-      " [1/s], stiffness_to_mass = " + std::to_string(stiffness_to_mass) +
-      " [1/s^2]: both must be above 0 and slow enough for sample_period = " + std::to_string(period_) + " [s]");
+      "damping_to_mass = " + numberText(damping_to_mass) +
+      " [1/s], stiffness_to_mass = " + numberText(stiffness_to_mass) +
+      " [1/s^2]: both must be above 0 and slow enough for sample_period = " + numberText(period_) + " [s]");
 }
 
 void requireUsable(const std::vector<ActiveEffect>& effects) {

@@ -5,6 +5,8 @@
 #include <regex>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/plain_text.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -25,6 +27,7 @@ std::string listNames(const mu::Parser& parser) {
   std::string message = std::regex_replace(
       error.GetMsg(), std::regex("( found)? at (expression )?position -?[0-9]+[.]?|[.]$"), std::string());
   message = std::regex_replace(message, std::regex(" \"([^\"]*[^\" ]) *\""), " \"$1\"");
+  message = shortened(message, 200);
   const int position = error.GetPos();
   const bool inside = position >= 0 && position < static_cast<int>(text.size());
   message += inside ? " at character " + std::to_string(position + 1) : " at the end";

@@ -21,6 +21,7 @@ std::map<std::string, OptionMap> takeGroups(OptionMap& values, const std::string
   for (auto entry = values.lower_bound(start);
        entry != values.end() && entry->first.compare(0, start.size(), start) == 0; entry = values.erase(entry)) {
     const std::string& key = entry->first;
+    requireNameLength(key);
     const std::size_t slash = key.find('/', start.size());
     if (slash == std::string::npos || slash == start.size())
       throw std::invalid_argument(key + " must be " + start + "NAME/SETTING");

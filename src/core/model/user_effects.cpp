@@ -8,9 +8,12 @@
 #include "law_expression.h"
 #include "setting_groups.h"
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr std::size_t kLongestName = 64, kLongestText = 200, kLongestLaw = 1000;  // [characters]
 
 struct LawSettings {
   std::string force, memory_rate, unit, finding = "a law of your own";
@@ -60,11 +63,25 @@ void checkName(const std::string& where, const std::string& name) {
   static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
   if (name.find_first_of(letters) != 0 || name.find_first_not_of(letters + "0123456789_") != std::string::npos)
     refuse(where, "the name must be letters, digits and _, a letter first");
+  if (name.size() > kLongestName)
+    refuse(where, "the name must be at most " + std::to_string(kLongestName) + " characters");
 }
 
 void checkText(const std::string& where, const std::string& text) {
   if (std::any_of(text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }))
     refuse(where, "must be one line");
+  if (text.size() > kLongestText) refuse(where, "must be at most " + std::to_string(kLongestText) + " characters");
+}
+
+/// A law may go over several lines.
+void checkLaw(const std::string& where, const std::string& law) {
+  const auto is_control = [](unsigned char letter) { return letter < ' ' && letter != '\n' && letter != '\t'; };
+  const auto control = std::find_if(law.begin(), law.end(), is_control);
+  if (control != law.end())
+    refuse(where, "has a character that is no text at " + std::to_string(control - law.begin() + 1) +
+                      ", must be letters, digits and signs");
+  if (law.size() > kLongestLaw)
+    refuse(where, "has " + std::to_string(law.size()) + " characters, must be at most " + std::to_string(kLongestLaw));
 }
 
 ShapeParameter makeShape(const std::string& where, const std::string& name, const OptionMap& values) {
@@ -83,12 +100,13 @@ ShapeParameter makeShape(const std::string& where, const std::string& name, cons
 
 LawExpression makeLaw(const std::string& where, const std::string& text, const std::vector<ShapeParameter>& shapes,
                       bool has_memory) {
+  checkLaw(where, text);
   std::vector<std::string> names;
   for (const ShapeParameter& shape : shapes) names.push_back(shape.name);
   try {
     return {text, names, has_memory};
   } catch (const std::invalid_argument& error) {
-    refuse(where + " = \"" + text + "\"", error.what());
+    refuse(where + " = \"" + shortened(text) + '"', error.what());
   }
 }
 
@@ -111,8 +129,8 @@ void checkFinite(const std::string& where, const ForceEffect::Law& law, const st
           for (const double time : {0.0, 100.0})
             for (const bool largest : {false, true})
               if (!std::isfinite(law({travel, rate, time, memory}, shapesAt(shapes, size, largest).data())))
-                refuse(where, "is not finite at d = " + std::to_string(travel) + ", v = " + std::to_string(rate) +
-                                  ", t = " + std::to_string(time) + ", s = " + std::to_string(memory));
+                refuse(where, "is not finite at d = " + numberText(travel) + ", v = " + numberText(rate) +
+                                  ", t = " + numberText(time) + ", s = " + numberText(memory));
 }
 
 void checkNew(const std::string& where, const std::string& name) {
@@ -124,12 +142,12 @@ void checkNew(const std::string& where, const std::string& name) {
 }
 
 ForceEffect makeUserEffect(const std::string& name, OptionMap values) {
-  const std::string where = "effects/" + name;
+  const std::string where = "effects/" + shortened(name);
   checkName(where, name);
   checkNew(where, name);
   std::vector<ShapeParameter> shapes;
   for (const auto& [shape, settings] : takeGroups(values, "shapes"))
-    shapes.push_back(makeShape(where + "/shapes/" + shape, shape, settings));
+    shapes.push_back(makeShape(where + "/shapes/" + shortened(shape), shape, settings));
   if (shapes.size() > kMostUserShapes)
     refuse(where, std::to_string(shapes.size()) + " shapes, must be at most " + std::to_string(kMostUserShapes));
   for (const char* wanted : {"force", "unit"})
@@ -145,11 +163,11 @@ ForceEffect makeUserEffect(const std::string& name, OptionMap values) {
                      settings.finding,
                      makeLaw(where + "/force", settings.force, shapes, has_memory),
                      shapes};
-  checkFinite(where + "/force = \"" + settings.force + '"', effect.force, shapes);
+  checkFinite(where + "/force = \"" + shortened(settings.force) + '"', effect.force, shapes);
   if (!has_memory) return effect;
   effect.law += ", s' = " + settings.memory_rate;
   effect.memory_rate = makeLaw(where + "/memory_rate", settings.memory_rate, shapes, has_memory);
-  checkFinite(where + "/memory_rate = \"" + settings.memory_rate + '"', effect.memory_rate, shapes);
+  checkFinite(where + "/memory_rate = \"" + shortened(settings.memory_rate) + '"', effect.memory_rate, shapes);
   return effect;
 }
 

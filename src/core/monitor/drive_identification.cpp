@@ -73,7 +73,7 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   }
   EstimateFacts facts;
   facts.period_fits = monitor().input().period_fits;
-  facts.has_row = solution.has_value();
+  facts.has_row = monitor().input().rows > 0;
   facts.rows = strut.rows;
   facts.fewest_rows = kFewestHorizons * monitor().horizonSamples();
   facts.explained = strut.explained;

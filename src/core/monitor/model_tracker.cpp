@@ -71,6 +71,7 @@ void ModelTracker::judge(ModelReport& report) {
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
     EstimateFacts facts = identifier_.facts(*estimate);
     facts.period_fits = period_fits_;
+    facts.undersampled = undersampled_;
     facts.free_run_fails = estimate == &report.la && free_run_fails_;
     estimate->doubt = doubtOf(facts);
   }
@@ -107,11 +108,12 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
   if (!figures_due_()) return;
   comparison.rmse = comparison.base_rmse = comparison_.rmse();
   comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
-  free_run_fails_ = comparison.fit_percent < 0.0 && comparison_.isFull();
+  free_run_fails_ = comparison_.isWorseThanConstant();
 }
 
-void ModelTracker::setPeriodFits(bool fits, ModelReport& report) {
-  period_fits_ = fits;
+void ModelTracker::setInput(const InputStatus& input, ModelReport& report) {
+  period_fits_ = input.period_fits;
+  undersampled_ = input.sampling_limit[0].isReached() || input.sampling_limit[1].isReached();
   judge(report);
 }
 

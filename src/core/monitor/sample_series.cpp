@@ -30,6 +30,8 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
   last_ = sample.stamp;
   ++status_.samples;
   recent_[size_++ % recent_.size()] = sample;
+  spectra_[0].add(sample.sprung_acceleration, how == Continuity::kContinues);
+  spectra_[1].add(sample.unsprung_acceleration, how == Continuity::kContinues);
   return how;
 }
 
@@ -38,7 +40,15 @@ void SampleSeries::countSpacings() {
   status_.mean_period = spacing_.mean();
 }
 
-void SampleSeries::judgePeriod() {
+void SampleSeries::Spectrum::add(double value, bool continues) {
+  if (!continues) limit.startNewSeries();
+  mean.add(value);
+  limit.add(value - mean.mean());
+}
+
+void SampleSeries::judge() {
+  for (std::size_t i = 0; i < spectra_.size(); ++i)
+    status_.sampling_limit[i] = {spectra_[i].limit.density(), spectra_[i].limit.level()};
   countSpacings();
   if (spacing_.weight() < kSpacings) return;
   status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;

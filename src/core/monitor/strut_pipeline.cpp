@@ -5,12 +5,14 @@
 #include <string>
 #include <utility>
 
+#include "suspension_health_monitor/internal/plain_text.h"
+
 namespace suspension_health_monitor {
 namespace {
 
 void requirePositive(const char* name, const std::optional<double>& value) {
   if (value && !(*value > 0.0 && std::isfinite(*value)))
-    throw std::invalid_argument("baseline " + std::string(name) + " = " + std::to_string(*value) +
+    throw std::invalid_argument("baseline " + std::string(name) + " = " + numberText(*value) +
                                 ", must be above 0 and finite");
 }
 
@@ -56,10 +58,16 @@ void StrutPipeline::reconfigure(const MonitorSettings& settings) {
 }
 
 void StrutPipeline::push(Side side, Stamp stamp, double acceleration) {
-  if (monitor_)
-    take({side, stamp, acceleration});
-  else
-    measurePeriod({side, stamp, acceleration});
+  if (is_refused_) return;
+  const Reading reading{side, stamp, acceleration};
+  if (!monitor_) {
+    measurePeriod(reading);
+  } else if (early_.empty()) {
+    take(reading);
+  } else {  // a sink has thrown while they were replayed
+    early_.push_back(reading);
+    replayEarly();
+  }
 }
 
 void StrutPipeline::measurePeriod(const Reading& reading) {
@@ -79,9 +87,28 @@ void StrutPipeline::measurePeriod(const Reading& reading) {
   }
   early_.push_back(reading);
   if (const std::optional<double> period = measurement_.period()) {
-    start(*period);
-    for (const Reading& waiting : std::exchange(early_, {})) take(waiting);
+    startOnce(*period);
+    replayEarly();
   }
+}
+
+// Settings that do not fit what was measured will not fit it at the next reading either: that is said once.
+void StrutPipeline::startOnce(double period) {
+  try {
+    start(period);
+  } catch (const std::invalid_argument&) {
+    is_refused_ = true;
+    monitor_.reset();
+    early_ = {};
+    throw;
+  }
+}
+
+// A sink may throw; readings that come after those that it has seen wait for the next push().
+void StrutPipeline::replayEarly() {
+  while (replayed_ < early_.size()) take(early_[replayed_++]);
+  early_ = {};
+  replayed_ = 0;
 }
 
 void StrutPipeline::take(const Reading& reading) {

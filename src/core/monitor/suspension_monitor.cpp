@@ -25,8 +25,10 @@ SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options)
       series_(fromSeconds(*options.sample_period)),
       plain_(options),
       health_(options.health(*options.sample_period)),
-      sensors_(options.gravity_tolerance, std::max(options.comparison_window / *options.sample_period,
-                                                   kFewestUpdates * health_.options().rows_per_update)),
+      sensors_(options.gravity_tolerance,
+               std::max(options.comparison_window / *options.sample_period,
+                        kFewestUpdates * health_.options().rows_per_update),
+               health_.options().horizon_samples),
       health_due_(health_.options().rows_per_update) {}
 
 // Of the plain model's tracker with its report, and of the extended one's.
@@ -93,8 +95,9 @@ const CornerSample* SuspensionMonitor::track(const CornerSample& sample) {
 }
 
 void SuspensionMonitor::judgeHealth() {
-  series_.judgePeriod();
-  changeModels([&](ModelTracker& model, ModelReport& report) { model.setPeriodFits(input().period_fits, report); });
+  series_.noteBeyondStrut(sensors_.bodyBeyondStrut(), sensors_.bodyBeyondStrutLevel());
+  series_.judge();
+  changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input(), report); });
   if (options_.fastest_memory) health_.setMemory(report_.la.effective_rows);
   const bool la_tells =
       !tracker().holds() && report_.la.effective_rows >= options_.fewestRows(kHorizonsOfSensorCheck, period());

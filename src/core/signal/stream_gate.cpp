@@ -6,10 +6,10 @@
 namespace suspension_health_monitor {
 namespace {
 
-// A spike of this size takes an estimator with forgetting thousands of rows to forget; no road makes one.
-constexpr double kAbsurdRatio = 1e6;
-constexpr int kMostAbsurd = 3;             // in a row; after that it is how the sensor reads now
-constexpr double kFewestForAbsurd = 10.0;  // soon: a spike among the first rows would be remembered longest
+// A hundred g: an impact that breaks wheels. Bumps into the stops are a few hundred m/s^2.
+constexpr double kMostOfAVehicle = 1000.0;  // [m/s^2]
+constexpr double kMostTimesUsual = 100.0;   // beyond that, whatever the unit
+constexpr double kMostInAnyUnit = 1e9;      // [m/s^2]: a vehicle's in micro-g
 
 constexpr double kFewestForUsual = 100.0;
 
@@ -47,11 +47,10 @@ std::optional<RejectReason> StreamGate::faultOfStamp(Stamp stamp) const {
 
 bool StreamGate::isAbsurd(double acceleration) {
   const double size = std::abs(acceleration);
-  const bool absurd = size_.weight() >= kFewestForAbsurd && size_.mean() > 0.0 && size > kAbsurdRatio * size_.mean() &&
-                      absurd_in_a_row_ < kMostAbsurd;
-  absurd_in_a_row_ = absurd ? absurd_in_a_row_ + 1 : 0;
-  if (!absurd) size_.add(size);
-  return absurd;
+  const double most = std::clamp(kMostTimesUsual * usual_size_.median(), kMostOfAVehicle, kMostInAnyUnit);
+  usual_size_.add(size);
+  believed_ = size > most ? 0 : std::min(believed_ + 1, kBelievedAgain);
+  return believed_ < kBelievedAgain;
 }
 
 void StreamGate::noteValue(double acceleration) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
@@ -13,7 +14,7 @@ namespace {
 // Before the conversion to whole nanoseconds, which is undefined for NaN and what does not fit.
 Stamp checked(double period) {
   if (!(period >= 1e-9 && period <= 1e9))
-    throw std::invalid_argument("sample_period = " + std::to_string(period) + " [s], must be in [1e-9, 1e9]");
+    throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be in [1e-9, 1e9]");
   return fromSeconds(period);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 namespace suspension_health_monitor {
@@ -77,7 +78,7 @@ double isoDisplacementDensity(char road_class, double spatial_frequency) {
 IsoRoad::IsoRoad(char road_class, double speed, int seed)
     : amplitude_(kComponents), omega_(kComponents), phase_(kComponents), table_(kBlockIntervals + 1) {
   if (!(speed > 0.0 && std::isfinite(speed))) {
-    throw std::invalid_argument("speed = " + std::to_string(speed) + " [m/s], must be positive");
+    throw std::invalid_argument("speed = " + numberText(speed) + " [m/s], must be positive");
   }
   RandomStream random(seed, RandomPurpose::kRoad);
   const double width = std::log(kHighest / kLowest) / kComponents;

@@ -90,6 +90,8 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNotExcited: return "parked: no excitation of damping and stiffness, estimates held";
     case EstimateDoubt::kDampingNotExcited: return "no excitation of damping, its estimate is held";
     case EstimateDoubt::kStiffnessNotExcited: return "no excitation of stiffness, its estimate is held";
+    case EstimateDoubt::kUndersampled:
+      return "an IMU shakes at half the sampling rate and beyond: sample faster, or filter before sampling";
     case EstimateDoubt::kOutsideForce:
       return "something else than the wheel moves the body, or did so just now: wind, loading, a sensor that is not on "
              "the wheel";
@@ -100,6 +102,24 @@ std::string describe(EstimateDoubt doubt) {
       return "the model, driven by the wheel, fits the body's motion worse than a constant";
   }
   return "unknown";
+}
+
+std::string describeShaking(const InputStatus& input) {
+  constexpr double kMostBeyond = 0.5, kLeastLevel = 0.3;  // of the power; [m/s^2]: more than a sensor's noise
+  std::vector<std::string> found;
+  for (const Side side : {Side::kUnsprung, Side::kSprung}) {
+    const InputStatus::SamplingLimit& limit = input.sampling_limit[static_cast<std::size_t>(side)];
+    if (limit.isReached())
+      found.push_back(
+          formatted("the %s IMU shakes near half the sampling rate (power density there %.0f %% of its mean "
+                    "one): sample faster or filter before sampling",
+                    side == Side::kSprung ? "sprung" : "unsprung", 100.0 * limit.density));
+  }
+  if (input.beyond_strut > kMostBeyond && input.beyond_strut_level > kLeastLevel)
+    found.push_back(
+        formatted("the sprung IMU shakes above the strut's band (%.0f %% of its power, %.2g m/s^2): engine?",
+                  100.0 * input.beyond_strut, input.beyond_strut_level));
+  return join(found, "; ");
 }
 
 std::string describe(const SensorReport& report) {

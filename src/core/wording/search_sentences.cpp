@@ -106,8 +106,8 @@ const char* reasonOf(FitFailure failure) {
 }
 
 std::string reasonOf(Shortcoming shortcoming, const StrutModel& start) {
-  const std::string numbers = "damping/mass " + std::to_string(start.damping_to_mass) + ", stiffness/mass " +
-                              std::to_string(start.stiffness_to_mass);
+  const std::string numbers =
+      formatted("damping/mass %.4g, stiffness/mass %.4g", start.damping_to_mass, start.stiffness_to_mass);
   switch (shortcoming) {
     case Shortcoming::kNoDampedSpring: return "show no damped spring (" + numbers + ")";
     case Shortcoming::kTooFast: return "are sampled too slowly for so stiff a strut (" + numbers + ")";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/identification/limited_mean.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -25,7 +26,9 @@ class SensorCheck {
  public:
   /// @param gravity_tolerance  share of g by which a mean may be off; 0: means are not judged.
   /// @param memory  in samples, above 0.
-  SensorCheck(double gravity_tolerance, double memory) : tolerance_(gravity_tolerance), memory_(memory) {}
+  /// @param horizon_samples  of the filter, near a period of the body's bounce: what is ten times as fast is no motion
+  /// of the strut but that of an engine.
+  SensorCheck(double gravity_tolerance, double memory, int horizon_samples);
 
   void add(const CornerSample& sample);
 
@@ -35,18 +38,30 @@ class SensorCheck {
 
   const SensorReport& report() const { return report_; }
 
+  /// @return share of the body's power of late above the strut's band, in [0, 1], and its rms [m/s^2].
+  double bodyBeyondStrut() const;
+  double bodyBeyondStrutLevel() const;
+
  private:
   struct Reading {
-    double last = 0.0, mean = 0.0, variance = 0.0, step = 0.0;  // step: mean square from sample to sample
-    double still = 0.0;                                         // samples without any change
-    void add(double now, double slow, double quick);
+    Reading(double forgetting_factor, double band_gain) : limited(forgetting_factor), gain(band_gain) {}
+    LimitedMean limited;
+    double gain, smooth = 0.0,
+                 band = 0.0;  // of the low-pass that leaves the strut's band; its output, and the variance
+    double last = 0.0, variance = 0.0, step = 0.0;  // step: mean square from sample to sample
+    double still = 0.0;                             // samples without any change
+    void add(double now, double quick);
+    double mean() const { return limited.mean(); }
     double meanNoise() const { return kMeanNoise * std::sqrt(variance); }
     bool isMotion() const { return step < kWhiteShare * 2.0 * variance; }
+    bool isOfStrut() const { return isMotion() && band > kBandShare * variance; }
   };
 
   static constexpr double kMeanNoise = 0.2;  // of the rms: more than a mean over the memory is off by
   static constexpr double kQuick = 10.0;     // motion is forgotten so much sooner than the mean: else a stop takes long
   static constexpr double kWhiteShare = 0.5;  // of 2 variance, the mean square step of white noise
+  static constexpr double kBandTimes = 10.0;  // the bounce: a wheel hops below that
+  static constexpr double kBandShare = 0.4;   // of the variance: the low-pass leaves half at the end of the band
   static constexpr double kStill = 0.5;       // of the memory
 
   bool isStill(const Reading& reading) const { return reading.still >= kStill * memory_; }
@@ -57,10 +72,11 @@ class SensorCheck {
   bool isOff(const Reading& reading) const;
 
   double tolerance_, memory_;
+  Reading unread_;
   double samples_ = 0.0;        // taken in since a sensor came back
   double pending_since_ = 0.0;  // in samples taken in
   SensorFault pending_ = SensorFault::kNone;
-  std::array<Reading, 2> readings_;
+  std::array<Reading, 2> readings_{unread_, unread_};
   SensorReport report_;
 };
 

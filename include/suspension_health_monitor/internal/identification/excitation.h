@@ -4,10 +4,10 @@
 #include <array>
 #include <limits>
 
+#include "suspension_health_monitor/internal/identification/limited_mean.h"
 #include "suspension_health_monitor/internal/identification/regression_row.h"
 #include "suspension_health_monitor/internal/identification/regressor_noise.h"
 #include "suspension_health_monitor/internal/identification/row_moments.h"
-#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 
 namespace suspension_health_monitor {
@@ -114,7 +114,7 @@ class Excitation {
   RegressorNoise noise_;
   Block block_, before_;                            // the present one; the one before it, without a gap
   Block since_held_;                                // those since something is held
-  RunningMean offset_;                              // of phi_0
+  LimitedMean offset_;                              // of phi_0
   Eigen::Vector2d most_ = Eigen::Vector2d::Zero();  // of the best strut; 0: none is known
   std::array<Part, kNumStrutParameters> parts_;
   std::array<Usual, kNumStrutParameters + 1> usual_;  // of damping, stiffness and wheel

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "suspension_health_monitor/internal/identification/limited_mean.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 
 namespace suspension_health_monitor {
@@ -15,8 +16,10 @@ class RunningComparison {
 
   void add(double measured, double predicted);
 
-  /// @return true once at least half a window's weight of samples is in.
-  bool isFull() const { return means_.weight() > half_weight_; }
+  /// @return true if the prediction was farther from the measurement than a constant for more than half of the window,
+  /// once half of its weight is in. It asks how often, not by how much: a sum of squares that holds one wrong reading
+  /// of a thousand times the usual forgets it after fourteen windows.
+  bool isWorseThanConstant() const { return means_.weight() > half_weight_ && worse_.mean() > 0.5; }
 
   /// @return root mean square of (measured - predicted) about its mean; 0 before the first sample.
   double rmse() const;
@@ -34,6 +37,8 @@ class RunningComparison {
   double deviation(Mean value, Mean square) const;
 
   RunningMeans<kNumMeans> means_;
+  LimitedMean residual_, measured_;
+  RunningMean worse_;  // 1 where the prediction is farther off than the mean measurement, else 0
   double half_weight_;
 };
 

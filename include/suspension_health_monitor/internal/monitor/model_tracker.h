@@ -50,8 +50,9 @@ class ModelTracker {
   /// Another drive begins, perhaps of another vehicle: nothing is held any more.
   void startNewDrive(ModelReport& report);
 
-  /// @param fits  false: no estimate is valid from now on, because samples do not come at the sample period.
-  void setPeriodFits(bool fits, ModelReport& report);
+  /// @param input  from now on no estimate is valid while samples come at another period than that of the options, or
+  /// sensors shake as the sampling cannot show.
+  void setInput(const InputStatus& input, ModelReport& report);
 
   /// As StrutIdentifier::setForgetting().
   void setForgetting(const MonitorSettings& options) { identifier_.setForgetting(options); }
@@ -69,7 +70,7 @@ class ModelTracker {
   void compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report);
 
   StrutIdentifier identifier_;
-  bool period_fits_ = true;
+  bool period_fits_ = true, undersampled_ = false;
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
   bool has_own_model_ = false;  // the free run has had parameters of LA, or those that belong to the start values

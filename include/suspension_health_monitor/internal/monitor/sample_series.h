@@ -1,14 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/identification/limited_mean.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/mean_spacing.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/sampling_limit_power.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -17,7 +20,8 @@ namespace suspension_health_monitor {
 /// one that was said. Cost per sample: O(1), no allocation.
 class SampleSeries {
  public:
-  explicit SampleSeries(Stamp period) : period_(period) {}
+  explicit SampleSeries(Stamp period)
+      : period_(period), spectra_{Spectrum(forgettingOf(period)), Spectrum(forgettingOf(period))} {}
 
   /// Takes in the next sample if it can be.
   /// @return how it follows the one before, kGap and kClockJumped beginning a new series; empty: it was rejected.
@@ -25,8 +29,14 @@ class SampleSeries {
 
   void countRow() { ++status_.rows; }
 
-  /// Judges the spacings up to now.
-  void judgePeriod();
+  /// Judges the spacings up to now, and how the sensors shake.
+  void judge();
+
+  /// @param share, level  of the body's motion above the strut's band.
+  void noteBeyondStrut(double share, double level) {
+    status_.beyond_strut = share;
+    status_.beyond_strut_level = level;
+  }
 
   /// @return the sample FreeRun::kDelay before the newest one; nullptr: the series is too short yet.
   const CornerSample* delayed() const;
@@ -42,6 +52,17 @@ class SampleSeries {
   const RejectCounts& rejected() const { return rejected_; }
 
  private:
+  /// Of one sensor.
+  struct Spectrum {
+    explicit Spectrum(double forgetting_factor) : mean(forgetting_factor), limit(forgetting_factor) {}
+    void add(double value, bool continues);
+    LimitedMean mean;
+    SamplingLimitPower limit;
+  };
+
+  static double forgettingOf(Stamp period) { return 1.0 - std::min(1.0, toSeconds(period) / kSpectrumMemory); }
+  static constexpr double kSpectrumMemory = 10.0;  // [s]
+
   const CornerSample& at(std::size_t number) const { return recent_[number % recent_.size()]; }
   void countSpacings();
 
@@ -50,6 +71,7 @@ class SampleSeries {
   std::array<CornerSample, FreeRun::kDelay + 1> recent_{};  // by their number in the series, modulo
   std::size_t size_ = 0;                                    // of the series
   MeanSpacing spacing_;
+  std::array<Spectrum, 2> spectra_;  // sprung, unsprung
   InputStatus status_;
   RejectCounts rejected_;
 };

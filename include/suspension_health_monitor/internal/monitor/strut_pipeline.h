@@ -28,7 +28,8 @@ class StrutPipeline {
 
   /// Takes in one reading of one sensor; each stream comes in the order in which it was measured.
   /// @param acceleration  along the strut, up positive [m/s^2].
-  /// @throws std::invalid_argument  if settings or effects do not fit the sample period that was measured.
+  /// @throws std::invalid_argument  once, if settings or effects do not fit the sample period that was measured: no
+  /// reading counts any more. What a sink throws comes out, too; no reading is lost by it.
   void push(Side side, Stamp stamp, double acceleration);
 
   /// As SuspensionMonitor::setEffects().
@@ -63,12 +64,16 @@ class StrutPipeline {
 
   void measurePeriod(const Reading& reading);
   void start(double period);
+  void startOnce(double period);
+  void replayEarly();
   void take(const Reading& reading);
 
   MonitorSettings settings_;
   Sinks sinks_;
   PeriodMeasurement measurement_{kSpacingsForPeriod};
   std::vector<Reading> early_;         // that wait for the sample period
+  std::size_t replayed_ = 0;           // of these, since the period is known
+  bool is_refused_ = false;            // the settings do not fit the sample period that was measured
   std::vector<ActiveEffect> effects_;  // until there is a monitor, as is the baseline
   std::optional<LinearStrut> strut_;   // that belongs to them
   std::optional<Baseline> baseline_;

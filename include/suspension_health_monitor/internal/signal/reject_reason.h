@@ -13,8 +13,8 @@ namespace suspension_health_monitor {
 /// Why a reading was kept out.
 enum class RejectReason : std::size_t {
   kNotMeasured,     ///< the message says that it carries no acceleration (covariance -1)
-  kNotFinite,       ///< NaN, infinite or absurdly large (isUsable())
-  kAbsurd,          ///< a million times what this sensor has read on average, for at most three readings
+  kNotFinite,       ///< NaN, infinite, or too large to be computed with (isUsable())
+  kAbsurd,          ///< more than 1000 m/s^2 and a hundred times what this sensor usually reads
   kZeroStamp,       ///< stamp 0 in a series that has stamps
   kRepeatedStamp,   ///< same stamp as the reading before
   kTimeWentBack,    ///< older than the reading before; a jump far back starts a new series

@@ -8,6 +8,7 @@
 #include "suspension_health_monitor/internal/signal/range_end.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/signal/stream_timing.h"
+#include "suspension_health_monitor/internal/signal/usual_size.h"
 
 namespace suspension_health_monitor {
 
@@ -16,12 +17,14 @@ namespace suspension_health_monitor {
 /// Clipping is recognised without knowing the sensor's range: flat tops at the very highest or lowest value that the
 /// sensor has ever read, of a sensor that resolves far finer (RangeEnd). From then on every reading at that value is
 /// kept out, until a reading beyond it shows that it was no limit.
+/// Absurd is what no vehicle survives, more than kMostOfAVehicle, unless the sensor reads like that: a hundred times
+/// its usual size passes, for sensors that read in another unit. So nothing behind the gate meets a reading of 1e20.
 /// Cost per reading: O(1), no allocation.
 class StreamGate {
  public:
   /// @param period  sampling time T; a reading that is more than 50 T older than its predecessor is a clock that jumped
   ///                or a bag that loops, not a message that was overtaken.
-  explicit StreamGate(Stamp period) : longest_overtaking_(50 * period) {}
+  explicit StreamGate(Stamp period) : longest_overtaking_(50 * period), usual_size_(toSeconds(period)) {}
 
   enum class Verdict {
     kPasses,
@@ -49,6 +52,8 @@ class StreamGate {
   const StreamTiming& timing() const { return timing_; }
 
  private:
+  static constexpr int kBelievedAgain = 10;  // readings: what stands between absurd ones is as wrong as they are
+
   std::optional<RejectReason> faultOfStamp(Stamp stamp) const;
   bool isAbsurd(double acceleration);
   bool isClipped(double acceleration);
@@ -59,11 +64,11 @@ class StreamGate {
   std::optional<Stamp> last_;
   std::optional<double> value_;  // of the last reading
   int equal_in_a_row_ = 0;
-  int absurd_in_a_row_ = 0;
+  int believed_ = kBelievedAgain;                // readings in a row that are not absurd, up to kBelievedAgain
   double finest_step_ = 0.0;                     // other than 0
   RangeEnd upper_{1.0}, lower_{-1.0};            // of all readings that passed, the clipped ones included
   RunningMean repeated_{StreamTiming::kMemory};  // 1 for a reading that equals the one before, both extremes left out
-  RunningMean size_{StreamTiming::kMemory};      // |acceleration|
+  UsualSize usual_size_;                         // |acceleration|, of all that are numbers
   RunningMean mean_{StreamTiming::kMemory},
       deviation_{StreamTiming::kMemory};  // of the acceleration; |acceleration - mean|
   RejectCounts rejected_;
