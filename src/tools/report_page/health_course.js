@@ -21,8 +21,7 @@ function levelSpans({events, duration}) {
 const levelsLayer = spans => (context, plot) => {
   const [bottom, top] = plot.y.range;
   for (const level of ['OK', 'STALE', 'WARN', 'ERROR']) {
-    context.fillStyle = colour(TONES[level]);
-    context.globalAlpha = level === 'STALE' ? 0.45 : 0.85;
+    context.fillStyle = colour(AREAS[level]);
     for (const {from, to} of spans.filter(each => each.level === level)) {
       const left = plot.x.pixel(from);
       context.fillRect(left, top, Math.max(1, plot.x.pixel(to) - left), bottom - top);
@@ -74,12 +73,14 @@ function intervalLayer(time, {value, stddev}) {
   });
 }
 
-/** What an axis has to show: nearly all estimates, the healthy value and its thresholds. */
-function domainOf({value, healthy}, [, error]) {
-  const seen = value.filter(isNumber).sort((a, b) => a - b);
-  const most = seen.length - 1;
+/** What an axis has to show: nearly all of the estimates and their intervals, the healthy value and its thresholds. */
+function domainOf({value, stddev, healthy}, [, error]) {
+  const end = (side, share) => {
+    const seen = value.map((each, i) => each + side * INTERVAL * stddev[i]).filter((_, i) => isNumber(value[i]));
+    return seen.sort((a, b) => a - b)[Math.round(share * (seen.length - 1))];
+  };
   const references = healthy.filter(isNumber).flatMap(each => [each * (1 - error), each * (1 + error)]);
-  return padded([seen[Math.round(0.005 * most)], seen[Math.round(0.995 * most)], ...references], 0.12);
+  return padded([end(-1, 0.02), end(1, 0.98), ...references]);
 }
 
 /** One parameter over time with its healthy value and thresholds. */
@@ -120,7 +121,7 @@ class HealthView {
           toolButton('+', () => this.zoom(0.5), 'show less'),
           toolButton('whole drive', () => this.show(this.whole), 'everything')),
       legend(
-          ...LEVELS.map(level => [TONES[level], `${level}: ${MEANINGS[level]}`, 'area']),
+          ...LEVELS.map(level => [AREAS[level], levelName(level), 'area']),
           ...(findings.early_warnings.length ? [['suspect', 'early warning']] : [])),
       figure('Level', hosts[0]),
       legend(

@@ -8,7 +8,7 @@ function eventsSection({events}) {
                        ({time, after, level, message}) => element(
                            'tr', {'data-event': level, 'data-time': time},
                            element('td', {class: 'number minor'}, time.toFixed(2)),
-                           element('td', {class: 'number'}, span(after)),
+                           element('td', {class: 'moment'}, span(after)),
                            element('td', {}, element('b', {class: 'level', 'data-level': level}, level)),
                            element('td', {}, typeset(message))));
   const left = events.length - rows.length;
@@ -22,7 +22,7 @@ function eventsSection({events}) {
                   'thead', {},
                   element(
                       'tr', {}, element('th', {class: 'number minor'}, 'stamp [s]'),
-                      element('th', {class: 'number'}, 'after'), element('th', {}, 'level'),
+                      element('th', {class: 'moment'}, 'after'), element('th', {}, 'level'),
                       element('th', {}, 'reason'))),
               element('tbody', {}, rows))),
       left > 0 ? element('p', {class: 'lede'}, `${left} more: --json and --csv have all.`) : null);

@@ -14,6 +14,14 @@ const MEANINGS = {
   STALE: 'cannot tell'
 };
 
+const AREAS = {
+  OK: 'ok-area',
+  WARN: 'warn-area',
+  ERROR: 'error-area',
+  STALE: 'stale-area'
+};
+const levelName = level => (MEANINGS[level] === level ? level : `${level}: ${MEANINGS[level]}`);
+
 /** "12.3 s", "2 min 5 s", "1 h 2 min" */
 function span(seconds) {
   if (seconds < 99.95) return `${rounded(seconds, 3)} s`;
@@ -29,13 +37,13 @@ function headline({events}) {
   const {after, message} = events.find(each => each.level === level);
   if (level === 'OK') return 'Neither a warning nor an error';
   if (level === 'STALE') return 'The monitor could not tell';
-  return typeset(`${capitalised(MEANINGS[level])} after ${span(after)}: ${message}`);
+  return typeset(`${capitalised(MEANINGS[level])} after ${span(after)}: ${message.split(';')[0]}`);
 }
 
 function levelFigures({seconds, duration}) {
   const one = level => element(
       'div', {style: `--colour: var(--${TONES[level]})`, 'data-seconds': seconds[level], 'data-level': level},
-      element('dt', {}, level, MEANINGS[level] === level ? '' : `: ${MEANINGS[level]}`),
+      element('dt', {}, levelName(level)),
       element(
           'dd', {}, span(seconds[level]), ' ',
           element('small', {}, duration > 0 ? percent(100 * seconds[level] / duration) : '')));
