@@ -43,8 +43,8 @@ function estimateRow(name, estimate) {
 function estimatesSection({estimates}) {
   return section(
       'estimates', 'Estimates at the end',
-      'What the monitor’s two estimators know after the last reading, ± standard deviation: la, which outliers do not ' +
-          'move, is the one that is judged by; ls, least squares, beside it.',
+      'What the monitor’s two estimators know after the last reading, ± standard deviation: la, which outliers hardly ' +
+          'move, and ls, least squares.',
       element(
           'div', {class: 'wide'},
           element(
