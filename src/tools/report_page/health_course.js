@@ -94,10 +94,10 @@ function parameterPlot(host, time, parameter, thresholds, axes) {
     height: 250,
     name: `${axes.y.title} over time`,
     layers: [
-      marksLayer(axes.marks, 'muted', [2, 4]), intervalLayer(time, parameter), lineLayer(time, healthy, 'fine'),
+      marksLayer(axes.marks, 'muted', [2, 4]), intervalLayer(time, parameter),
       ...[-warn, warn].map(share => lineLayer(time, level(share), 'open', {width: 1.3, dash: [6, 4]})),
       ...[-error, error].map(share => lineLayer(time, level(share), 'found', {width: 1.3, dash: [6, 4]})),
-      lineLayer(time, value, 'after', {width: 1.6})
+      lineLayer(time, value, 'after', {width: 1.6}), lineLayer(time, healthy, 'fine', {width: 1.4})
     ],
     hover(x) {
       const i = nearestIndex(time, x);
