@@ -14,16 +14,12 @@ using nlohmann::json;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // null in JSON: no line there
 
-json toJson(const HealthMoment& moment) {
-  return {{"time", toSeconds(moment.stamp)},
-          {"after", toSeconds(moment.elapsed)},
-          {"level", nameOf(moment.level)},
-          {"message", moment.message}};
-}
-
-json toJson(const std::vector<HealthMoment>& moments) {
+json listOf(const std::vector<HealthMoment>& moments) {
   json list = json::array();
-  for (const HealthMoment& moment : moments) list.push_back(toJson(moment));
+  for (const HealthMoment& moment : moments) {
+    list.push_back(toJson(moment));
+    list.back()["after"] = toSeconds(moment.elapsed);
+  }
   return list;
 }
 
@@ -75,8 +71,9 @@ json findingsOf(const HealthContent& content) {
           {"recordings", recordings},
           {"duration", toSeconds(content.log.elapsed())},
           {"seconds", secondsJson(content.log)},
-          {"events", toJson(content.log.events())},
-          {"early_warnings", toJson(content.log.earlyWarnings())},
+          {"events", listOf(content.log.events())},
+          {"end", toJson(content.log.latest())},
+          {"early_warnings", listOf(content.log.earlyWarnings())},
           {"thresholds",
            {{"damping", {settings.damping_warn, settings.damping_error}},
             {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},

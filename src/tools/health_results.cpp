@@ -75,9 +75,14 @@ void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const s
   }
   std::printf("early warnings %zu", log.earlyWarnings().size());
   if (!log.earlyWarnings().empty()) std::printf(", the first at %.2f s", toSeconds(log.earlyWarnings().front().stamp));
-  std::printf("\n\nat the end:\n");
+  const HealthMoment end = log.latest();
+  std::printf("\n\nat the end %s: %s\n", nameOf(end.level), end.message.c_str());
   printEstimate("LS", monitor.report().ls, monitor.options().sprung_mass);
   printEstimate("LA", monitor.report().la, monitor.options().sprung_mass);
+}
+
+json toJson(const HealthMoment& moment) {
+  return {{"time", toSeconds(moment.stamp)}, {"level", nameOf(moment.level)}, {"message", moment.message}};
 }
 
 json secondsJson(const HealthLog& log) {
@@ -100,10 +105,10 @@ json estimatesJson(const SuspensionMonitor& monitor) {
 json toJson(const HealthLog& log, const SuspensionMonitor& monitor) {
   json result = estimatesJson(monitor);
   json events = json::array();
-  for (const HealthMoment& event : log.events())
-    events.push_back({{"time", toSeconds(event.stamp)}, {"level", nameOf(event.level)}, {"message", event.message}});
+  for (const HealthMoment& event : log.events()) events.push_back(toJson(event));
   result["seconds"] = secondsJson(log);
   result["events"] = events;
+  result["end"] = toJson(log.latest());
   result["warn_events"] = log.count(HealthLevel::kWarn);
   result["error_events"] = log.count(HealthLevel::kError);
   result["early_warnings"] = log.earlyWarnings().size();

@@ -28,6 +28,9 @@ std::string describeReference(const Baseline& baseline, const std::string& file)
 /// The result for people: a line per change of level, then the times, and the estimates at the end.
 void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference);
 
+/// @return time, level and message by name.
+nlohmann::json toJson(const HealthMoment& moment);
+
 /// @return the seconds by level.
 nlohmann::json secondsJson(const HealthLog& log);
 

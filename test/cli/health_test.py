@@ -225,6 +225,7 @@ def test_a_sensor_that_dies_leaves_the_rest_unknown(program, healthy_bag, tmp_pa
     assert said.result["events"][-1]["time"] - START == pytest.approx(60.0 + TIMEOUT, abs=0.05)
     assert sum(said.result["seconds"].values()) == pytest.approx(DURATION, abs=1e-6)
     assert said.result["seconds"]["OK"] <= 42.0
+    assert "no reading accepted for 60 s" in said.result["end"]["message"]
 
 
 @pytest.mark.parametrize("first_start", [100.0, 5000.0], ids=["in order", "the later one first"])
@@ -245,6 +246,9 @@ def test_parked_is_a_result(program, tmp_path):
     assert levels(said) == ["STALE"]
     assert said.result["seconds"] == {"OK": 0.0, "WARN": 0.0, "ERROR": 0.0, "STALE": pytest.approx(59.98, abs=1e-6)}
     assert said.rows[-1]["message"].startswith("cannot tell: ")
+    assert said.result["end"] == {"level": "STALE", "message": said.rows[-1]["message"], "time": pytest.approx(
+        1_700_000_000 + 59.98, abs=1e-6)}
+    assert "at the end STALE: " + said.rows[-1]["message"] in said.text
 
 
 def test_bags_that_tell_nothing_are_refused_and_leave_nothing(program, worn_bag, paper_bag, tmp_path):
@@ -321,7 +325,9 @@ def test_page_says_what_the_result_says(page):
     for bag in page.bags:
         assert bag.name in verdict.one("p", class_="source").text
     canvases = list(shown.all("canvas"))
-    assert len(canvases) == 3
+    assert len(canvases) == (1 if page.case == "parked" else 3)
+    assert ("No estimate was ever valid" in shown.one("section", id="course").text) == (page.case == "parked")
+    assert page.result["end"]["message"].replace("m/s^2", "m/s²").split(" -")[0] in verdict.text
     for canvas in canvases:
         pixels = int(canvas.attributes["width"]) * int(canvas.attributes["height"])
         assert int(canvas.attributes["data-painted"]) > 0.01 * pixels, canvas.attributes["aria-label"]

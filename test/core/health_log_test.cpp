@@ -61,6 +61,8 @@ TEST(HealthLog, EachLevelHoldsUntilTheNext) {
   EXPECT_DOUBLE_EQ(toSeconds(log.elapsed()), 20.0);
   EXPECT_EQ(log.events()[2].stamp, fromSeconds(20.0));
   EXPECT_EQ(log.events()[2].elapsed, fromSeconds(10.0));
+  EXPECT_EQ(log.latest().level, HealthLevel::kError);
+  EXPECT_EQ(log.latest().stamp, fromSeconds(30.0));
 }
 
 TEST(HealthLog, WhatIsKnownIsOldAfterTheTimeout) {
@@ -94,6 +96,8 @@ TEST(HealthLog, ReadingsWithoutReportsAreTimeToo) {
   EXPECT_EQ(levels(log), "STALE OK STALE ");
   EXPECT_NEAR(secondsOf(log, HealthLevel::kOk), 7.0, 1e-6);
   EXPECT_NEAR(secondsOf(log, HealthLevel::kStale), 4.0 + 8.0, 1e-6);
+  EXPECT_EQ(log.latest().level, HealthLevel::kStale);
+  EXPECT_EQ(log.latest().message, log.events().back().message);
 }
 
 TEST(HealthLog, NoTimePassesBetweenRecordingsWhicheverIsTheOlder) {

@@ -36,6 +36,14 @@ void HealthLog::finishRecording() {
   in_recording_ = false;
 }
 
+HealthMoment HealthLog::latest() const {
+  return momentOf(elapsed_ > reported_ + timeout_ ? silence(elapsed_) : describe(health_));
+}
+
+std::string HealthLog::silence(Stamp until) const {
+  return describeNoReading(toSeconds(until - reported_), describe(health_));
+}
+
 std::size_t HealthLog::count(HealthLevel level) const {
   return static_cast<std::size_t>(
       std::count_if(events_.begin(), events_.end(), [&](const HealthMoment& event) { return event.level == level; }));
@@ -47,7 +55,7 @@ void HealthLog::goTo(Stamp stamp) {
   const Stamp until = elapsed_ + (stamp - now_), old_at = std::max(elapsed_, reported_ + timeout_);
   if (until > old_at && level_ != HealthLevel::kStale) {
     pass(old_at - elapsed_);
-    changeTo(HealthLevel::kStale, describeNoReading(toSeconds(until - reported_), describe(health_)));
+    changeTo(HealthLevel::kStale, silence(until));
   }
   pass(until - elapsed_);
 }

@@ -5,9 +5,9 @@ class TimeAxis extends Axis {
   setDomain(domain) {
     this.domain = domain;
     const last = domain[1];
-    this.scale = last < 600  ? {factor: 1, unit: 's'} :
-        last < 3 * 3600 ? {factor: 1 / 60, unit: 'min'} :
-                          {factor: 1 / 3600, unit: 'h'};
+    this.scale = last < 600 ? {factor: 1, unit: 's'} :
+        last < 3 * 3600     ? {factor: 1 / 60, unit: 'min'} :
+                              {factor: 1 / 3600, unit: 'h'};
   }
 }
 
@@ -124,15 +124,25 @@ class HealthView {
           ...LEVELS.map(level => [AREAS[level], levelName(level), 'area']),
           ...(findings.early_warnings.length ? [['suspect', 'early warning']] : [])),
       figure('Level', hosts[0]),
-      legend(
-          ['after', 'estimate (la)'], ['after', '95 % interval', 'band'], ['fine', 'healthy'],
-          ['open', 'warning', 'dashed'], ['found', 'error', 'dashed']),
-      figure('Damping / mass', hosts[1]), figure('Stiffness / mass', hosts[2])
+      ...this.hasEstimates ?
+          [
+            legend(
+                ['after', 'estimate (la)'], ['after', '95 % interval', 'band'], ['fine', 'healthy'],
+                ['open', 'warning', 'dashed'], ['found', 'error', 'dashed']),
+            figure('Damping / mass', hosts[1]), figure('Stiffness / mass', hosts[2])
+          ] :
+          [element('p', {}, 'No estimate was ever valid.')]
     ];
     whenPlaced(() => this.build(hosts));
   }
 
-  get whole() { return [0, this.findings.duration]; }
+  get hasEstimates() {
+    return this.findings.course.damping.value.some(isNumber);
+  }
+
+  get whole() {
+    return [0, this.findings.duration];
+  }
 
   build([band, damping, stiffness]) {
     const {course, thresholds, recordings, duration} = this.findings;
@@ -140,10 +150,9 @@ class HealthView {
     const marks = recordings.slice(1).map(({from}) => from);
     const one = (host, name, title, unit) =>
         parameterPlot(host, course.time, course[name], thresholds[name], {x: axis(), y: {title, unit}, marks});
-    this.plots = [
-      this.bandPlot(band, axis(), marks), one(damping, 'damping', 'b₁', '1/s'),
-      one(stiffness, 'stiffness', 'b₀', '1/s^2')
-    ];
+    this.plots = [this.bandPlot(band, axis(), marks)];
+    if (this.hasEstimates)
+      this.plots.push(one(damping, 'damping', 'b₁', '1/s'), one(stiffness, 'stiffness', 'b₀', '1/s^2'));
     for (const plot of this.plots) listenZoom(plot, this);
     this.show(this.whole);
   }
@@ -161,7 +170,8 @@ class HealthView {
       layers: [levelsLayer(spans), marksLayer(marks, 'ink', [2, 4]), marksLayer(early, 'suspect')],
       hover(at) {
         const here = spans.filter(({from}) => from <= at).pop();
-        return here && {title: `${here.level} for ${span(here.to - here.from)}`, at, rows: [[typeset(here.message), '']]};
+        return here &&
+            {title: `${here.level} for ${span(here.to - here.from)}`, at, rows: [[typeset(here.message), '']]};
       }
     });
   }
@@ -181,13 +191,16 @@ class HealthView {
     this.show(this.window.map(edge => centre + factor * (edge - centre)));
   }
 
-  move(seconds) { this.show(this.window.map(edge => edge + seconds)); }
+  move(seconds) {
+    this.show(this.window.map(edge => edge + seconds));
+  }
 }
 
 function courseSection(findings) {
   const drives = findings.recordings.length > 1 ? ' Dotted lines part the recordings.' : '';
   return section(
       'course', 'Level, damping and stiffness over time',
-      `Time is what the recordings cover, one after the other.${drives} Where an estimate is not valid there is no line.`,
+      `Time is what the recordings cover, one after the other.${
+          drives} Where an estimate is not valid there is no line.`,
       new HealthView(findings).content);
 }

@@ -6,8 +6,10 @@ function buildHealthPage() {
     healthVerdictSection(findings), courseSection(findings), eventsSection(findings), estimatesSection(findings),
     element(
         'footer', {},
-        element('p', {}, 'Made by suspension_bag health, through the code of the live monitor. Everything on this page ' +
-                             'is in this one file.'))
+        element(
+            'p', {},
+            'Made by suspension_bag health, through the code of the live monitor. Everything on this page ' +
+                'is in this one file.'))
   ]);
 }
 

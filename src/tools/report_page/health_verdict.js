@@ -51,19 +51,18 @@ function levelFigures({seconds, duration}) {
 }
 
 function healthVerdictSection(findings) {
-  const {events, early_warnings: early, judged_by: reference} = findings;
-  const worst = worstLevel(events), last = events[events.length - 1];
+  const {events, end, early_warnings: early, judged_by: reference} = findings;
+  const worst = worstLevel(events);
   return element(
       'section', {id: 'verdict', 'data-level': worst}, element('p', {class: 'source'}, findings.source),
       element('h1', {}, element('span', {class: 'pill'}, worst), element('br'), headline(findings)),
-      element(
-          'p', {class: 'answer'}, element('b', {}, `At the end ${last.level}: `), `${typeset(last.message)}.`),
+      element('p', {class: 'answer'}, element('b', {}, `At the end ${end.level}: `), `${typeset(end.message)}.`),
       element('p', {}, `Judged by ${typeset(reference)}.`),
       early.length ? element(
                          'p', {},
                          `Early warning${early.length > 1 ? 's' : ''} after ${
-                             joined(early.slice(0, 5).map(({after}) => span(after)))}${
-                             early.length > 5 ? `, ${early.length} in all` : ''}.`) :
-                     null,
+                             joined(early.slice(0, 5).map(
+                                 ({after}) => span(after)))}${early.length > 5 ? `, ${early.length} in all` : ''}.`) :
+                                                                                 null,
       levelFigures(findings));
 }

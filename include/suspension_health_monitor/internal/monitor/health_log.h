@@ -50,6 +50,9 @@ class HealthLog {
   /// @return the moments at which an early warning began.
   const std::vector<HealthMoment>& earlyWarnings() const { return early_warnings_; }
 
+  /// @return what is known now.
+  HealthMoment latest() const;
+
   /// @return how long a level held; the four of them add up to elapsed().
   Stamp duration(HealthLevel level) const { return durations_[static_cast<std::size_t>(level)]; }
 
@@ -64,6 +67,7 @@ class HealthLog {
   void pass(Stamp duration);
   void changeTo(HealthLevel level, const std::string& message);
   void write(const HealthMoment& moment);
+  std::string silence(Stamp until) const;
   HealthMoment momentOf(const std::string& message) const { return {now_, elapsed_, level_, message, la_}; }
 
   Stamp timeout_;
