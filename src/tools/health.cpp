@@ -1,5 +1,8 @@
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "../ros/conversions.h"
 #include "../ros/imu_pipeline.h"

@@ -35,30 +35,32 @@ std::string sourceOf(const HealthContent& content) {
 
 void HealthCourse::add(const HealthMoment& moment, const Baseline& healthy) {
   if (count_++ % stride_ != 0) return;
-  points_.push_back({toSeconds(moment.elapsed), moment.la, healthy});
+  const auto if_valid = [&](double number) { return moment.la.valid() ? number : kNothing; };
+  points_.push_back({toSeconds(moment.elapsed),
+                     {if_valid(moment.la.damping_to_mass), if_valid(moment.la.damping_to_mass_stddev),
+                      healthy.damping_to_mass.value_or(kNothing)},
+                     {if_valid(moment.la.stiffness_to_mass), if_valid(moment.la.stiffness_to_mass_stddev),
+                      healthy.stiffness_to_mass.value_or(kNothing)}});
   if (points_.size() < 2 * kMostPoints) return;
   for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];
   points_.resize(points_.size() / 2);
   stride_ *= 2;
 }
 
+json HealthCourse::toJson(Parameter Point::*parameter) const {
+  json value = json::array(), stddev = value, healthy = value;
+  for (const Point& point : points_) {
+    value.push_back((point.*parameter).value);
+    stddev.push_back((point.*parameter).stddev);
+    healthy.push_back((point.*parameter).healthy);
+  }
+  return shortened({{"value", value}, {"stddev", stddev}, {"healthy", healthy}});
+}
+
 json HealthCourse::toJson() const {
   json time = json::array();
-  std::array<json, 6> series;
-  series.fill(json::array());
-  for (const Point& point : points_) {
-    time.push_back(std::round(1e3 * point.time) / 1e3);
-    const bool valid = point.la.valid();
-    const std::array values{
-        valid ? point.la.damping_to_mass : kNothing,          valid ? point.la.damping_to_mass_stddev : kNothing,
-        point.healthy.damping_to_mass.value_or(kNothing),     valid ? point.la.stiffness_to_mass : kNothing,
-        valid ? point.la.stiffness_to_mass_stddev : kNothing, point.healthy.stiffness_to_mass.value_or(kNothing)};
-    for (std::size_t i = 0; i < values.size(); ++i) series[i].push_back(values[i]);
-  }
-  for (json& each : series) each = shortened(std::move(each));
-  return {{"time", time},
-          {"damping", {{"value", series[0]}, {"stddev", series[1]}, {"healthy", series[2]}}},
-          {"stiffness", {{"value", series[3]}, {"stddev", series[4]}, {"healthy", series[5]}}}};
+  for (const Point& point : points_) time.push_back(std::round(1e3 * point.time) / 1e3);
+  return {{"time", time}, {"damping", toJson(&Point::damping)}, {"stiffness", toJson(&Point::stiffness)}};
 }
 
 json findingsOf(const HealthContent& content) {

@@ -22,11 +22,17 @@ class HealthCourse {
  private:
   static constexpr std::size_t kMostPoints = 4000;  // more than twice a screen's pixels
 
+  /// One parameter; NaN: not known.
+  struct Parameter {
+    double value, stddev, healthy;
+  };
+
   struct Point {
     double time;  // elapsed [s]
-    StrutEstimate la;
-    Baseline healthy;
+    Parameter damping, stiffness;
   };
+
+  nlohmann::json toJson(Parameter Point::*parameter) const;
 
   std::vector<Point> points_;
   std::size_t count_ = 0, stride_ = 1;

@@ -1,7 +1,6 @@
 // Puts the page together, section by section.
 
-const TERMS =
-    'Travel is positive in compression; forces are per unit of the body’s mass, positive upwards. Held out: ' +
+const TERMS = 'Travel is positive in compression; forces are per unit of the body’s mass, positive upwards. Held out: ' +
     'stretches of the drive that no fit has seen. Everything on this page is in this one file.';
 
 function buildPage() {

@@ -26,9 +26,7 @@ class TimeView {
     whenPlaced(() => this.build(hosts));
   }
 
-  get whole() {
-    return [0, this.drive.duration];
-  }
+  get whole() { return [0, this.drive.duration]; }
 
   /** Some periods of the strut around the largest error: they tell more than the whole drive. */
   firstWindow() {
@@ -114,9 +112,7 @@ class TimeView {
     this.show(this.window.map(edge => centre + factor * (edge - centre)));
   }
 
-  move(seconds) {
-    this.show(this.window.map(edge => edge + seconds));
-  }
+  move(seconds) { this.show(this.window.map(edge => edge + seconds)); }
 
   drawWindow(context, strip) {
     const [left, right] = this.window.map(edge => strip.x.pixel(edge));
@@ -171,8 +167,9 @@ class TimeView {
     return {
       title: `${rounded(time, 5)} s${held ? ', held out' : ''}`,
       at: time,
-      rows: names.filter(name => stretch.values[name])
-                .map(name => [labels[name], quantity(stretch.values[name][k], 'm/s^2'), name.replace('residual_', '')])
+      rows:
+          names.filter(name => stretch.values[name])
+              .map(name => [labels[name], quantity(stretch.values[name][k], 'm/s^2'), name.replace('residual_', '')])
     };
   }
 }
