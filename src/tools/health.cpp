@@ -59,8 +59,8 @@ class RecordedMonitor {
       recordings.push_back({std::filesystem::path(path).filename().string(), log_.elapsed()});
       ImuBags bag = bags;
       bag.paths = {path};
-      readImuMessages(bag, [&](Side side, const sensor_msgs::Imu& imu) {
-        if (side != Side::kRoad) log_.addReading(toStamp(imu.header.stamp));
+      readImuMessages(bag, [&](Side side, const sensor_msgs::Imu& imu, Stamp recorded) {
+        if (side != Side::kRoad) log_.addReading(toStamp(imu.header.stamp), recorded);
         pipeline_.push(side, imu);
         return true;
       });

@@ -23,10 +23,13 @@ MonitorReport reportAt(double seconds, HealthLevel level, bool early = false) {
   return report;
 }
 
+/// One that is recorded when it is measured.
+void addReading(HealthLog& log, Stamp stamp) { log.addReading(stamp, stamp); }
+
 /// Readings and reports of one level every kPeriod from `from` up to `to` [s].
 void drive(HealthLog& log, double from, double to, HealthLevel level, bool early = false) {
   for (Stamp stamp = fromSeconds(from); stamp <= fromSeconds(to); stamp += kPeriod) {
-    log.addReading(stamp);
+    addReading(log, stamp);
     MonitorReport report = reportAt(0.0, level, early);
     report.stamp = stamp;
     log.addReport(report);
@@ -89,9 +92,9 @@ TEST(HealthLog, AGapShorterThanTheTimeoutChangesNothing) {
 
 TEST(HealthLog, ReadingsWithoutReportsAreTimeToo) {
   HealthLog log(kTimeout);
-  for (double time = 1.0; time < 5.0; time += 0.1) log.addReading(fromSeconds(time));
+  for (double time = 1.0; time < 5.0; time += 0.1) addReading(log, fromSeconds(time));
   drive(log, 5.0, 10.0, HealthLevel::kOk);
-  for (double time = 10.1; time < 20.05; time += 0.1) log.addReading(fromSeconds(time));
+  for (double time = 10.1; time < 20.05; time += 0.1) addReading(log, fromSeconds(time));
   log.finishRecording();
   EXPECT_EQ(levels(log), "STALE OK STALE ");
   EXPECT_NEAR(secondsOf(log, HealthLevel::kOk), 7.0, 1e-6);
@@ -105,7 +108,7 @@ TEST(HealthLog, NoTimePassesBetweenRecordingsWhicheverIsTheOlder) {
     HealthLog log(kTimeout);
     drive(log, 1e6, 1e6 + 10.0, HealthLevel::kOk);
     log.finishRecording();
-    log.addReading(fromSeconds(second));
+    addReading(log, fromSeconds(second));
     log.addReport(reportAt(1e6 + 10.05, HealthLevel::kOk));  // that was still on its way
     drive(log, second, second + 10.0, HealthLevel::kOk);
     log.finishRecording();
@@ -127,11 +130,33 @@ TEST(HealthLog, OneStampOfAnotherAgeCostsNothing) {
   for (const double wild : {0.0, 3.0, 4e9}) {
     HealthLog log(kTimeout);
     drive(log, 1000.0, 1010.0, HealthLevel::kOk);
-    log.addReading(fromSeconds(wild));
+    addReading(log, fromSeconds(wild));
     drive(log, 1010.1, 1020.0, HealthLevel::kOk);
     log.finishRecording();
     EXPECT_DOUBLE_EQ(toSeconds(log.elapsed()), 20.0) << wild;
   }
+}
+
+TEST(HealthLog, SilenceIsNoLongerThanTheRecording) {
+  HealthLog log(kTimeout);
+  Stamp recorded = fromSeconds(5.0);
+  const auto run = [&](double from, double to) {
+    for (Stamp stamp = fromSeconds(from); stamp <= fromSeconds(to); stamp += kPeriod, recorded += kPeriod) {
+      log.addReading(stamp, recorded);
+      MonitorReport report = reportAt(0.0, HealthLevel::kOk);
+      report.stamp = stamp;
+      log.addReport(report);
+    }
+  };
+  run(100.0, 110.0);
+  run(1.7e9, 1.7e9 + 10.0);  // the clock was set
+  recorded += std::chrono::seconds(20);
+  run(1.7e9 + 31.0, 1.7e9 + 40.0);
+  log.addReading(fromSeconds(4e9), recorded);  // a wrong stamp at the very end
+  log.finishRecording();
+  EXPECT_NEAR(toSeconds(log.elapsed()), 10.0 + 0.1 + 10.0 + 20.1 + 9.0 + 0.1, 1e-6);
+  EXPECT_DOUBLE_EQ(sum(log), toSeconds(log.elapsed()));
+  EXPECT_EQ(levels(log), "STALE OK STALE OK ");
 }
 
 TEST(HealthLog, EarlyWarningsAreCountedWhenTheyBegin) {
@@ -184,7 +209,7 @@ TEST(HealthLog, IsTheMonitorsOwnLevelsAndSentences) {
       travel += 0.001 * rate;
     }
     const Stamp stamp = fromSeconds(100.0 + i * period);
-    log.addReading(stamp);
+    addReading(log, stamp);
     monitor.push(Side::kSprung, stamp, 9.81 + damping * rate + 13.8 * travel);
     monitor.push(Side::kUnsprung, stamp, 9.81 + wheel);
   }

@@ -2,22 +2,24 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 
-void HealthLog::addReading(Stamp stamp) {
+void HealthLog::addReading(Stamp stamp, Stamp recorded) {
   if (stamp <= Stamp::zero()) return;  // no stamp at all
   newest_reading_ = stamp;
+  newest_recorded_ = recorded;
   if (in_recording_) return;
   in_recording_ = true;
   now_ = stamp;
+  recorded_ = recorded;
   if (events_.empty()) changeTo(HealthLevel::kStale, describe(health_));
 }
 
 void HealthLog::addReport(const MonitorReport& report) {
-  if (!in_recording_) addReading(report.stamp);
   // One that is newer than all readings of this recording is about the end of the one before.
   goTo(std::min(report.stamp, newest_reading_));
   reported_ = elapsed_;
@@ -51,13 +53,17 @@ std::size_t HealthLog::count(HealthLevel level) const {
 
 void HealthLog::goTo(Stamp stamp) {
   if (stamp < now_ && newest_reading_ < now_) now_ = stamp;  // the clock went back, not a report that comes late
+  const Stamp recorded = newest_recorded_ - std::exchange(recorded_, newest_recorded_);
   if (stamp <= now_) return;
-  const Stamp until = elapsed_ + (stamp - now_), old_at = std::max(elapsed_, reported_ + timeout_);
+  Stamp step = stamp - now_;
+  if (step > timeout_) step = std::clamp(recorded, Stamp::zero(), step);
+  const Stamp until = elapsed_ + step, old_at = std::max(elapsed_, reported_ + timeout_);
   if (until > old_at && level_ != HealthLevel::kStale) {
     pass(old_at - elapsed_);
     changeTo(HealthLevel::kStale, silence(until));
   }
   pass(until - elapsed_);
+  now_ = stamp;
 }
 
 void HealthLog::pass(Stamp duration) {

@@ -25,8 +25,9 @@ struct HealthMoment {
 ///
 /// The time covered is that from the first to the last reading of each recording, by their stamps; none passes between
 /// two recordings, nor where the clock goes back. The level is that of the newest report. As in /diagnostics it is
-/// kStale once no reading has been accepted for the time-out, and before the first report.
-/// Cost per reading and report: O(1); memory grows with the changes only.
+/// kStale once no reading has been accepted for the time-out, and before the first report; such a silence lasts no
+/// longer than the recording took, whatever a stamp says. Cost per reading and report: O(1); memory grows with the
+/// changes only.
 class HealthLog {
  public:
   using Sink = std::function<void(const HealthMoment&)>;
@@ -36,7 +37,8 @@ class HealthLog {
   explicit HealthLog(Stamp timeout, Sink sink = {}) : timeout_(timeout), sink_(std::move(sink)) {}
 
   /// Notes that a sensor of the strut has given a reading, whether or not it will be accepted.
-  void addReading(Stamp stamp);
+  /// @param recorded  when it was recorded, by any clock.
+  void addReading(Stamp stamp, Stamp recorded);
 
   /// Takes in a report of what came of the readings so far.
   void addReport(const MonitorReport& report);
@@ -73,7 +75,8 @@ class HealthLog {
   Stamp timeout_;
   Sink sink_;
   bool in_recording_ = false;
-  Stamp now_{}, newest_reading_{};
+  Stamp now_{}, newest_reading_{};        // stamps
+  Stamp recorded_{}, newest_recorded_{};  // when what they belong to was recorded
   Stamp elapsed_{}, reported_{}, due_{};  // reported_: elapsed at the newest report; due_: at the next second
   HealthLevel level_ = HealthLevel::kStale;
   HealthReport health_;  // the newest, as the estimate
