@@ -217,6 +217,21 @@ def test_silence_is_not_health(program, healthy_bag, tmp_path):
     assert levels(said)[-1] == "OK" and set(levels(said)) == {"STALE", "OK"}
 
 
+@pytest.mark.parametrize("changed", [lambda k: k == 6000, lambda k: k == 11000, lambda k: k >= 6000],
+                         ids=["one", "the last", "the clock is set"])
+def test_stamps_of_another_age_are_no_years(program, healthy_bag, tmp_path, changed):
+    with rosbag.Bag(str(healthy_bag)) as source, rosbag.Bag(str(tmp_path / "years.bag"), "w") as bag:
+        messages = source.read_messages([imu_bag.SPRUNG, imu_bag.UNSPRUNG])
+        for k, (topic, message, time) in enumerate(itertools.islice(messages, 11001)):
+            if changed(k):
+                message.header.stamp.secs += 1_700_000_000
+            bag.write(topic, message, time)
+    said = health(program, tmp_path, [tmp_path / "years.bag"], *SETTINGS)
+    assert sum(said.result["seconds"].values()) == pytest.approx(110.0, abs=0.1)
+    assert said.result["seconds"]["OK"] > 90.0
+    assert said.result["end"]["level"] == "OK"
+
+
 @pytest.mark.parametrize("dead", [imu_bag.SPRUNG, imu_bag.UNSPRUNG])
 def test_a_sensor_that_dies_leaves_the_rest_unknown(program, healthy_bag, tmp_path, dead):
     bag = copied(healthy_bag, tmp_path / "dead.bag", lambda topic, time: topic != dead or 20.0 < time < 60.0)
