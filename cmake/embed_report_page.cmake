@@ -1,27 +1,37 @@
 # cmake -DFOLDER=src/tools/report_page -DOUTPUT=report_template.cpp -P embed_report_page.cmake
-# Puts style and scripts into the page and the page into a C++ file.
+# Puts style and scripts into the pages and the pages into a C++ file.
 
 cmake_minimum_required(VERSION 3.16)
 # The order of the scripts: what others use comes first.
-set(scripts elements numbers theme axes plot layers heat_map drives time_view verdict ladder views tables adding page)
+set(shared elements numbers theme axes plot layers)
+set(searchTemplate_title "Which effect is missing?")
+set(searchTemplate_scripts ${shared} heat_map drives time_zoom time_view verdict ladder views tables adding showing page)
+set(healthTemplate_title "How healthy is the strut?")
+set(healthTemplate_scripts ${shared} time_zoom health_verdict health_course health_tables showing health_page)
 
-file(READ ${FOLDER}/page.html page)
+file(READ ${FOLDER}/page.html frame)
 file(READ ${FOLDER}/page.css style)
-set(script)
-foreach(name ${scripts})
-  file(READ ${FOLDER}/${name}.js text)
-  string(APPEND script "${text}\n")
-endforeach()
-string(REPLACE "@@style@@" "${style}" page "${page}")
-string(REPLACE "@@scripts@@" "${script}" page "${page}")
-
-file(WRITE ${OUTPUT} "#include \"tools/report_parts.h\"
-
-namespace suspension_health_monitor {
-
-std::string_view reportTemplate() {
+set(functions)
+foreach(function searchTemplate healthTemplate)
+  set(script)
+  foreach(name ${${function}_scripts})
+    file(READ ${FOLDER}/${name}.js text)
+    string(APPEND script "${text}\n")
+  endforeach()
+  set(page "${frame}")
+  string(REPLACE "@@title@@" "${${function}_title}" page "${page}")
+  string(REPLACE "@@style@@" "${style}" page "${page}")
+  string(REPLACE "@@scripts@@" "${script}" page "${page}")
+  string(APPEND functions "std::string_view ${function}() {
   return R\"~page~(${page})~page~\";
 }
 
-}  // namespace suspension_health_monitor
+")
+endforeach()
+
+file(WRITE ${OUTPUT} "#include \"tools/html_page.h\"
+
+namespace suspension_health_monitor {
+
+${functions}}  // namespace suspension_health_monitor
 ")

@@ -83,9 +83,7 @@ void MonitorDiagnostics::describeSilence(const SuspensionMonitor& monitor, Statu
   if (samples != accepted_.samples || now < accepted_.at) accepted_ = {samples, now};
   const double silent = (now - accepted_.at).toSec();
   if (silent <= input_timeout_) return;
-  const std::string before = status.message;
-  status.summaryf(DiagnosticStatus::STALE, "cannot tell: no reading accepted for %.0f s; before: %s", silent,
-                  before.c_str());
+  status.summary(DiagnosticStatus::STALE, describeNoReading(silent, status.message));
 }
 
 void MonitorDiagnostics::describeModel(Status& status) {

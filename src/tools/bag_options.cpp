@@ -32,7 +32,7 @@ void addBagOptions(po::options_description& description) {
   add("json", po::value<std::string>(), "write the result as JSON");
 }
 
-BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_differ) {
+BagOptions readLiveOptions(const po::variables_map& values) {
   BagOptions options;
   ImuBags& bags = options.bags;
   bags.paths = values["bag"].as<std::vector<std::string>>();
@@ -54,12 +54,16 @@ BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_diffe
   options.pipeline = PipelineOptions::fromValues(settings);
   options.pipeline.monitor.tyre = bags.topics.size() > 2;
   if (!options.pipeline.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
-  MonitorOptions& monitor = options.pipeline.monitor;
-  options.period_measured = !monitor.sample_period;
-  options.horizon_measured = !monitor.integration_horizon;
-  if (!options.period_measured) requireFittingPeriod(bags, *monitor.sample_period);
+  options.period_measured = !options.pipeline.monitor.sample_period;
+  if (!options.period_measured) requireFittingPeriod(bags, *options.pipeline.monitor.sample_period);
+  return options;
+}
+
+BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_differ) {
+  BagOptions options = readLiveOptions(values);
+  options.horizon_measured = !options.pipeline.monitor.integration_horizon;
   if (options.period_measured || options.horizon_measured)
-    measureOpenSettings(bags, options.pipeline, clocks_may_differ);
+    measureOpenSettings(options.bags, options.pipeline, clocks_may_differ);
   return options;
 }
 

@@ -16,7 +16,7 @@ namespace suspension_health_monitor {
 /// What every subcommand that reads bags understands.
 struct BagOptions {
   ImuBags bags;
-  PipelineOptions pipeline;  ///< sample_period and the horizon are always set: configured, or measured from the bags
+  PipelineOptions pipeline;
   bool period_measured = false;
   bool horizon_measured = false;
 };
@@ -24,9 +24,14 @@ struct BagOptions {
 /// Adds the common options to a subcommand's own.
 void addBagOptions(boost::program_options::options_description& description);
 
-/// Collects the common options; reads the beginning of the bags for what the settings leave open.
+/// Collects the common options. What they leave open, sample_period and integration_horizon, stays open: a monitor
+/// finds it out as it does live.
 /// @throws std::invalid_argument, InputError, TooLittleError  as command.h.
+BagOptions readLiveOptions(const boost::program_options::variables_map& values);
+
+/// The same, with what they leave open measured from the bags.
 /// @param clocks_may_differ  as measureOpenSettings().
+/// @throws std::invalid_argument, InputError, TooLittleError  likewise.
 BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ = false);
 
 /// Names of the options that addModelOptions() adds; their values are files that are read.

@@ -22,6 +22,7 @@ struct Command {
 
 void simulate(const Arguments& arguments);
 void identify(const Arguments& arguments);
+void health(const Arguments& arguments);
 void compare(const Arguments& arguments);
 void diagnose(const Arguments& arguments);
 void effects(const Arguments& arguments);

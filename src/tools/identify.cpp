@@ -94,16 +94,6 @@ class Digest {
   std::size_t stride_ = 1;
 };
 
-nlohmann::json toJson(const IdentifiedStrut& estimate) {
-  return {{"damping_to_mass", estimate.damping_to_mass},
-          {"stiffness_to_mass", estimate.stiffness_to_mass},
-          {"damping_to_mass_stddev", estimate.damping_to_mass_stddev},
-          {"stiffness_to_mass_stddev", estimate.stiffness_to_mass_stddev},
-          {"natural_frequency", estimate.naturalFrequency()},
-          {"damping_ratio", estimate.dampingRatio()},
-          {"valid", estimate.valid}};
-}
-
 nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
   nlohmann::json json{{"damping_to_wheel_mass", estimate.damping_to_wheel_mass},
                       {"stiffness_to_wheel_mass", estimate.stiffness_to_wheel_mass},
@@ -141,34 +131,6 @@ void writeJson(std::FILE* out, const DriveIdentification& identification, const 
     result["tyre"] = {{"ls", toJson(tyre->report().ls, monitor.report().ls)},
                       {"la", toJson(tyre->report().la, monitor.report().la)}};
   std::fprintf(out, "%s\n", result.dump(2).c_str());
-}
-
-void printInput(const DriveIdentification& identification, const BagOptions& options, const RejectCounts& rejected) {
-  const SuspensionMonitor& monitor = identification.monitor();
-  const InputStatus& input = monitor.input();
-  std::printf("sample period %.6g s%s, horizon %d samples = %.4g s%s\n", monitor.period(),
-              options.period_measured ? " (measured)" : "", monitor.horizonSamples(),
-              monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
-  std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
-              input.rows, input.gaps, input.restarts);
-  if (identification.grid().resamples()) std::printf(", bridged %" PRIu64, identification.grid().bridged());
-  if (rejected.total() == 0) std::printf(", rejected 0");
-  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
-    if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
-      std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
-  std::printf("\nreadings %s\n\n", identification.grid().describeAlignment().c_str());
-}
-
-void checkEnough(const DriveIdentification& identification, const RejectCounts& rejected) {
-  const SuspensionMonitor& monitor = identification.monitor();
-  if (monitor.input().rows > 0) return;
-  std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed (" +
-                        std::to_string(2 * monitor.horizonSamples() + 1) +
-                        " samples; usable samples in all: " + std::to_string(monitor.input().samples) +
-                        ", gaps: " + std::to_string(monitor.input().gaps) + ")";
-  const std::string slow = identification.grid().whatIsTooSlow();
-  if (!slow.empty()) message += "; " + slow;
-  throw TooLittleError(message + describeRejected(rejected));
 }
 
 std::string suspicions(const DriveIdentification& identification) {
@@ -214,7 +176,7 @@ void identify(const Arguments& arguments) {
   });
   RejectCounts rejected = sensors.rejected();
   rejected += identification.rejected();
-  checkEnough(identification, rejected);
+  requireRows(identification.monitor(), identification.grid(), rejected);
   table.finish();
 
   const IdentifyResult result = identification.result();
@@ -222,7 +184,7 @@ void identify(const Arguments& arguments) {
   if (json) json->commit();
   if (csv) csv->commit();
   const SuspensionMonitor& monitor = identification.monitor();
-  printInput(identification, options, rejected);
+  printInput(monitor, identification.grid(), options, rejected);
   printTable(digest.reports());
   std::printf("\nat the end, over the last %.0f rows:\n", result.la.rows);
   const std::optional<double>& mass = pipeline.monitor.sprung_mass;

@@ -1,9 +1,12 @@
 #include "identify_tables.h"
 
+#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
+#include "bag_samples.h"
+#include "errors.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -34,6 +37,33 @@ bool isHeld(EstimateDoubt doubt) {
 
 }  // namespace
 
+void printInput(const SuspensionMonitor& monitor, const UniformGrid& grid, const BagOptions& options,
+                const RejectCounts& rejected) {
+  const InputStatus& input = monitor.input();
+  std::printf("sample period %.6g s%s, horizon %d samples = %.4g s%s\n", monitor.period(),
+              options.period_measured ? " (measured)" : "", monitor.horizonSamples(),
+              monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
+  std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
+              input.rows, input.gaps, input.restarts);
+  if (grid.resamples()) std::printf(", bridged %" PRIu64, grid.bridged());
+  if (rejected.total() == 0) std::printf(", rejected 0");
+  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
+    if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
+      std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
+  std::printf("\nreadings %s\n\n", grid.describeAlignment().c_str());
+}
+
+void requireRows(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected) {
+  if (monitor.input().rows > 0) return;
+  std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed (" +
+                        std::to_string(2 * monitor.horizonSamples() + 1) +
+                        " samples; usable samples in all: " + std::to_string(monitor.input().samples) +
+                        ", gaps: " + std::to_string(monitor.input().gaps) + ")";
+  const std::string slow = grid.whatIsTooSlow();
+  if (!slow.empty()) message += "; " + slow;
+  throw TooLittleError(message + describeRejected(rejected));
+}
+
 void printTable(const std::vector<MonitorReport>& reports) {
   std::printf("              damping/mass [1/s]   stiffness/mass [1/s^2]   free run\n");
   std::printf("      time s      LS        LA          LS         LA       rmse m/s^2   fit %%   valid\n");
@@ -58,6 +88,16 @@ void printResult(const char* name, const IdentifiedStrut& estimate, const std::o
   if (mass)
     std::printf("    damping %.4g N s/m, stiffness %.5g N/m\n", *mass * estimate.damping_to_mass,
                 *mass * estimate.stiffness_to_mass);
+}
+
+nlohmann::json toJson(const IdentifiedStrut& estimate) {
+  return {{"damping_to_mass", estimate.damping_to_mass},
+          {"stiffness_to_mass", estimate.stiffness_to_mass},
+          {"damping_to_mass_stddev", estimate.damping_to_mass_stddev},
+          {"stiffness_to_mass_stddev", estimate.stiffness_to_mass_stddev},
+          {"natural_frequency", estimate.naturalFrequency()},
+          {"damping_ratio", estimate.dampingRatio()},
+          {"valid", estimate.valid}};
 }
 
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut) {

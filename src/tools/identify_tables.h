@@ -1,20 +1,31 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bag_options.h"
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 
 namespace suspension_health_monitor {
 
+/// What a monitor made of the bags: period and horizon, samples, what was kept out, how readings were aligned.
+void printInput(const SuspensionMonitor& monitor, const UniformGrid& grid, const BagOptions& options,
+                const RejectCounts& rejected);
+
+/// @throws TooLittleError  saying why, if the bags have not given one regression row.
+void requireRows(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected);
+
 /// Estimates over time, a line per report; "-" for what is not known.
 void printTable(const std::vector<MonitorReport>& reports);
 
 /// @param name  of the estimator.  @param mass  of the body [kg], for damping and stiffness in SI.
 void printResult(const char* name, const IdentifiedStrut& estimate, const std::optional<double>& mass);
+
+nlohmann::json toJson(const IdentifiedStrut& estimate);
 
 /// @param strut  by the same estimator.
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);

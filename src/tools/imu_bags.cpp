@@ -15,7 +15,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-using Take = std::function<bool(Side, const sensor_msgs::Imu&)>;
+using Take = std::function<bool(Side, const sensor_msgs::Imu&, Stamp)>;
 
 std::string listImuTopics(const std::vector<BagConnection>& connections) {
   std::vector<std::string> list;
@@ -125,7 +125,7 @@ class Delivery {
     if (side == sides_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
     if (!side->second || !range_.contains(message.time)) return true;
     decode(file_, message, "", imu_);
-    return take_(*side->second, imu_);
+    return take_(*side->second, imu_, Stamp(static_cast<Stamp::rep>(message.time)));
   }
 
   BagFile& file_;
@@ -171,6 +171,10 @@ double duration(const ImuBags& bags) {
     sum += std::max(0.0, end - bags.start);
   }
   return sum;
+}
+
+void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take) {
+  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu, Stamp) { return take(side, imu); });
 }
 
 void readImuMessages(const ImuBags& bags, const Take& take) {

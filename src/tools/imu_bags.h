@@ -48,4 +48,8 @@ std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<st
 /// @throws TooLittleError  if a bag holds no message at all.
 void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take);
 
+/// The same with the time of each message's recording.
+void readImuMessages(const ImuBags& bags,
+                     const std::function<bool(Side, const sensor_msgs::Imu&, Stamp recorded)>& take);
+
 }  // namespace suspension_health_monitor

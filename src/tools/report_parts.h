@@ -1,15 +1,10 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "report_page.h"
 
 namespace suspension_health_monitor {
-
-/// The page with style and scripts in it and "@@findings@@" where its JSON goes.
-/// Made from report_page/ when the package is built (cmake/embed_report_page.cmake).
-std::string_view reportTemplate();
 
 /// The drives over time: measured z'' and the residuals before and after, packed as 16-bit numbers, with the stretches
 /// that were held out and a window that is worth looking at first.

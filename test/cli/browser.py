@@ -69,14 +69,40 @@ class Reader(html.parser.HTMLParser):
         self.open[-1].children.append(data)
 
 
-def shown(path, profile):
+# Notes what the page is wider than, once its own scripts have run. What lies in a box that scrolls can be reached.
+MEASURE = """<script>(() => {
+const reaches = [...document.querySelectorAll('body *')].filter(node => {
+  const box = node.getBoundingClientRect();
+  return box.width > 0 && (box.right > innerWidth + 1 || box.left < -1) && !node.closest('.wide, #tooltip');
+});
+Object.assign(parent.document.documentElement.dataset, {
+  width: innerWidth,
+  dark: matchMedia('(prefers-color-scheme: dark)').matches,
+  cut: reaches.map(node => `${node.tagName}.${node.className}`).join(' '),
+  scrolls: [...document.querySelectorAll('.wide')].filter(node => node.scrollWidth > node.clientWidth + 1).length
+});
+})();</script>"""
+
+
+def measured(path, profile, width, dark):
+    """What is cut off at a width [px], in data-cut of the root element. The page is shown in a frame, since a browser's
+    window is not made as narrow as a phone's."""
+    profile.mkdir(exist_ok=True)
+    (profile / "page.html").write_text(path.read_text().replace("</body>", MEASURE + "</body>"))
+    (profile / "frame.html").write_text(f'<!DOCTYPE html><html><body><iframe src="page.html" width="{width}" height="900" '
+                                        'style="border: 0"></iframe></body></html>')
+    return shown(profile / "frame.html", profile / "browser", dark)
+
+
+def shown(path, profile, dark=False):
     """The page at `path` as it is once its scripts have run. profile: a folder that the browser may write to."""
     browser = find_browser()
     if browser is None:
         pytest.skip("no browser that runs: install chromium to see what the page shows")
-    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-               "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}", "--window-size=1200,900",
-               "--virtual-time-budget=5000", "--dump-dom", path.as_uri()]
+    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars",
+               "--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}", "--window-size=1200,900", "--allow-file-access-from-files",
+               f"--blink-settings=preferredColorScheme={0 if dark else 1}", "--virtual-time-budget=5000", "--dump-dom",
+               path.as_uri()]
     environment = {**os.environ, "HOME": str(profile)}
     result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", timeout=600,
                             env=environment)

@@ -15,6 +15,8 @@ OPTIONS = {
     "simulate": ["-o [ --output ]", "--config", "--set", "--scenario", "--vehicle", "--seed", "--duration", "--rate"],
     "identify": ["--config", "--set", "--sprung-topic", "/sprung/imu", "--unsprung-topic", "/unsprung/imu", "--start",
                  "--end", "--csv", "--json"],
+    "health": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--baseline", "--csv", "--json",
+               "--report"],
     "compare": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--json", "--model",
                 "--effects-file"],
     "horizon": ["--damping-to-mass", "--stiffness-to-mass", "--json"],

@@ -27,6 +27,7 @@ def commands(bag):
     return {
         "simulate": (["simulate", "--scenario", "paper_clean", "--duration", "600", "-o", "out.bag"], ["out.bag"]),
         "identify": (["identify", bag, "--csv", "rows.csv", "--json", "result.json"], ["rows.csv", "result.json"]),
+        "health": (["health", bag, "--csv", "rows.csv", "--json", "result.json"], ["rows.csv", "result.json"]),
         "compare": (["compare", bag, "--end", "60", "--json", "result.json"], ["result.json"]),
     }
 
@@ -36,7 +37,7 @@ def start(program, arguments, folder):
                             stderr=subprocess.DEVNULL)
 
 
-@pytest.mark.parametrize("name", ["simulate", "identify", "compare"])
+@pytest.mark.parametrize("name", ["simulate", "identify", "health", "compare"])
 def test_killed_at_any_moment(program, long_bag, tmp_path, name):
     arguments, files = commands(long_bag)[name]
     whole = {}

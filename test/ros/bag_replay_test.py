@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A replayed bag gives live what suspension_bag gives offline: every estimate, at the measurement's own stamp."""
+"""A replayed bag gives live what suspension_bag gives offline: every estimate and every change of level, at the
+measurement's own stamp."""
 import csv
 import math
 import os
@@ -11,7 +12,7 @@ import rosbag
 import rospy
 import rostest
 from ros_session import PACKAGE, REPOSITORY, Collector, is_finite, replayed, run_tool, settings_file
-from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
+from suspension_health_monitor.msg import ModelComparison, ParameterEstimate, SuspensionHealth
 
 SETTINGS = os.path.join(REPOSITORY, "config", "paper.yaml")
 DURATION = 70.0  # [s], with both losses of readings
@@ -19,6 +20,7 @@ FILLING = 60  # samples before the first regression row: two horizons of 30
 DELAY = 12  # samples that the comparison is late, so the last ones have none
 RATE = 20  # bag seconds per wall second
 TOLERANCE = 1e-9  # relative; both ways run the same code
+LEVELS = ("OK", "WARN", "ERROR", "STALE")
 NOT_COMPARED = ModelComparison(predicted=math.nan, residual=math.nan)
 
 
@@ -29,6 +31,18 @@ def read_csv(path):
                 for line in csv.DictReader(stream)}
 
 
+def changes(moments):
+    """Those of (stamp, level, reason) at which the level is not that before; all begins with STALE."""
+    before = ["STALE", *(level for _, level, _ in moments)]
+    return [moment for moment, level in zip(moments, before) if moment[1] != level]
+
+
+def read_levels(path):
+    """(stamp in nanoseconds, level, reason) of each row of `health --csv`."""
+    with open(path, encoding="utf-8", newline="") as stream:
+        return [(int(Decimal(row["time"]) * 10**9), row["level"], row["message"]) for row in csv.DictReader(stream)]
+
+
 class BagReplayTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -37,6 +51,8 @@ class BagReplayTest(unittest.TestCase):
             run_tool("simulate", "--scenario", "paper_outliers", "--seed", "3", "--duration", str(DURATION), "-o", bag)
             run_tool("identify", bag, "--config", SETTINGS, "--csv", table)
             cls.offline = read_csv(table)
+            run_tool("health", bag, "--config", SETTINGS, "--csv", table)
+            cls.levels = read_levels(table)
             with rosbag.Bag(bag) as messages:
                 cls.stamps = {message.header.stamp.to_nsec() for _, message, _ in messages.read_messages("/sprung/imu")}
             cls.replay(bag, settings_file(folder, "paper.yaml"))
@@ -44,12 +60,13 @@ class BagReplayTest(unittest.TestCase):
     @classmethod
     def replay(cls, bag, config):
         collectors = [Collector("/monitor/ls", ParameterEstimate), Collector("/monitor/la", ParameterEstimate),
-                      Collector("/monitor/comparison", ModelComparison)]
+                      Collector("/monitor/comparison", ModelComparison),
+                      Collector("/monitor/health", SuspensionHealth)]
         with replayed(collectors, bag=bag, rate=RATE, config=config) as player:
             status = player.wait_for_end()
         if status != 0:
             raise AssertionError(f"replay.launch ended with {status}:\n{player.output()}")
-        cls.ls, cls.la, cls.comparison = (collector.by_stamp() for collector in collectors)
+        cls.ls, cls.la, cls.comparison, cls.health = (collector.by_stamp() for collector in collectors)
 
     def test_every_sample_of_the_bag_gives_an_estimate_with_its_stamp(self):
         self.assertEqual(len(self.stamps), DURATION * 50 + 1)
@@ -76,6 +93,14 @@ class BagReplayTest(unittest.TestCase):
                 offline = line[name]
                 same = math.isclose(live, offline, rel_tol=TOLERANCE) or (math.isnan(live) and math.isnan(offline))
                 self.assertTrue(same, f"{name} at {stamp} ns: live {live}, offline {offline}")
+
+    def test_levels_change_live_as_offline(self):
+        live = [(stamp, LEVELS[health.level], health.reason) for stamp, health in sorted(self.health.items())]
+        self.assertEqual(set(self.health), self.stamps)
+        self.assertEqual(changes(self.levels), changes(live))
+        self.assertGreater(len(changes(live)), 4, "a drive in which something happens")
+        for stamp, level, reason in self.levels[1:]:  # the first row is that of the first reading, before any report
+            self.assertEqual((level, reason), (LEVELS[self.health[stamp].level], self.health[stamp].reason))
 
     def test_estimates_are_those_of_the_drive(self):
         last = self.la[max(self.la)]

@@ -13,19 +13,6 @@ namespace {
 
 constexpr double kInterval = 1.96;  // standard deviations either way: 95 %
 
-IdentifiedStrut atTheEnd(const StrutEstimate& estimate) {
-  IdentifiedStrut strut{estimate.damping_to_mass,
-                        estimate.stiffness_to_mass,
-                        estimate.damping_to_mass_stddev,
-                        estimate.stiffness_to_mass_stddev,
-                        estimate.effective_rows,
-                        estimate.explained,
-                        estimate.valid(),
-                        {}};
-  if (!strut.valid) strut.reason = describe(estimate.doubt);
-  return strut;
-}
-
 bool isAboveZero(double value, double stddev) { return value > kInterval * stddev; }
 
 }  // namespace
@@ -38,6 +25,19 @@ std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
                 "to have it measured",
                 monitor.input().mean_period, monitor.period());
   return text;
+}
+
+IdentifiedStrut atTheEnd(const StrutEstimate& estimate) {
+  IdentifiedStrut strut{estimate.damping_to_mass,
+                        estimate.stiffness_to_mass,
+                        estimate.damping_to_mass_stddev,
+                        estimate.stiffness_to_mass_stddev,
+                        estimate.effective_rows,
+                        estimate.explained,
+                        estimate.valid(),
+                        {}};
+  if (!strut.valid) strut.reason = describe(estimate.doubt);
+  return strut;
 }
 
 DriveIdentification::DriveIdentification(const MonitorSettings& settings, Sink sink)

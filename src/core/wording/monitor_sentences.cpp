@@ -69,6 +69,20 @@ std::string describeLoad(const CornerComparisonReport& report) {
 
 }  // namespace
 
+const char* nameOf(HealthLevel level) {
+  switch (level) {
+    case HealthLevel::kOk: return "OK";
+    case HealthLevel::kWarn: return "WARN";
+    case HealthLevel::kError: return "ERROR";
+    case HealthLevel::kStale: break;
+  }
+  return "STALE";
+}
+
+std::string describeNoReading(double seconds, const std::string& before) {
+  return formatted("cannot tell: no reading accepted for %.0f s; before: ", seconds) + before;
+}
+
 std::string describe(AlignmentJudge::Verdict verdict) {
   switch (verdict) {
     case AlignmentJudge::Verdict::kApart: return "the sensors read at different instants";

@@ -37,12 +37,11 @@ class TimeView {
   }
 
   toolbar() {
-    const button = (text, action, hint) => element('button', {type: 'button', onclick: action, title: hint}, text);
     const bar = element(
-        'div', {class: 'toolbar'}, button('−', () => this.zoom(2), 'show more'),
-        button('+', () => this.zoom(0.5), 'show less'),
-        button('largest error', () => this.show(this.firstWindow()), 'where the model fails most'),
-        button('whole drive', () => this.show(this.whole), 'everything'));
+        'div', {class: 'toolbar'}, toolButton('−', () => this.zoom(2), 'show more'),
+        toolButton('+', () => this.zoom(0.5), 'show less'),
+        toolButton('largest error', () => this.show(this.firstWindow()), 'where the model fails most'),
+        toolButton('whole drive', () => this.show(this.whole), 'everything'));
     if (this.drives.length > 1)
       bar.prepend(element(
           'select', {'aria-label': 'drive', onchange: event => this.choose(Number(event.target.value))},
@@ -82,7 +81,7 @@ class TimeView {
         [levelLayer(0, 'muted', []), seriesLayer(drive, 'residual_before', 'before'), ...after('residual_after')],
         this.window);
     this.listenStrip(hosts.strip);
-    for (const each of [this.signals, this.residuals]) this.listenDetail(each);
+    for (const each of [this.signals, this.residuals]) listenZoom(each, this);
     this.choose(0);
   }
 
@@ -151,44 +150,6 @@ class TimeView {
         action();
       }
     });
-  }
-
-  /** A mouse drags a new window, a finger drags the drive along; a double click shows everything. */
-  listenDetail(plot) {
-    let from = null;
-    const {canvas} = plot;
-    const at = event => plot.x.value(event.clientX - canvas.getBoundingClientRect().left);
-    canvas.addEventListener('pointerdown', event => {
-      from = at(event);
-      canvas.setPointerCapture(event.pointerId);
-    });
-    canvas.addEventListener('pointermove', event => {
-      if (from === null) return;
-      if (event.pointerType === 'touch')
-        this.move(from - at(event));
-      else
-        this.markSelection(plot, from, at(event));
-    });
-    canvas.addEventListener('pointerup', event => {
-      const to = at(event);
-      const wide = Math.abs(plot.x.pixel(to) - plot.x.pixel(from)) > 6;
-      if (event.pointerType !== 'touch' && wide) this.show([Math.min(from, to), Math.max(from, to)]);
-      from = null;
-    });
-    canvas.addEventListener('pointercancel', () => {
-      from = null;
-    });
-    canvas.addEventListener('dblclick', () => this.show(this.whole));
-    canvas.addEventListener('wheel', event => {
-      if (!event.ctrlKey) return;  // the page scrolls
-      event.preventDefault();
-      this.zoom(event.deltaY > 0 ? 1.25 : 0.8, at(event));
-    }, {passive: false});
-  }
-
-  markSelection(plot, from, to) {
-    plot.draw();
-    spanLayer([[Math.min(from, to), Math.max(from, to)]], 'window')(plot.canvas.getContext('2d'), plot);
   }
 
   readings(time, names) {

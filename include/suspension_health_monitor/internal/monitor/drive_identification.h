@@ -14,6 +14,9 @@ namespace suspension_health_monitor {
 /// @return what is wrong with the stamps for the sample period that was given, in words; nothing: they fit.
 std::optional<std::string> periodWarning(const SuspensionMonitor& monitor);
 
+/// @return the strut as an estimator of the live monitor knows it at the end of a drive.
+IdentifiedStrut atTheEnd(const StrutEstimate& estimate);
+
 /// Identifies the strut of a recorded drive reading by reading: what identify() does with arrays and `suspension_bag
 /// identify` with bags of any length. LS, LA and the tyre are those of a StrutPipeline, as live; instrumental variables
 /// run over the whole drive beside them. Cost per reading: O(1) amortised; memory does not grow with the drive.
@@ -50,7 +53,7 @@ class DriveIdentification {
   IdentifiedStrut overTheDrive() const;
 
   StrutPipeline strut_;
-  InputStatus seen_;  // of the monitor, before the newest sample
+  InputStatus seen_;                                  // of the monitor, before the newest sample
   std::optional<InstrumentalVariables> whole_drive_;  // none: there are effects in the model
 };
 

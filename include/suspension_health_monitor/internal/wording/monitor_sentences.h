@@ -10,6 +10,12 @@ namespace suspension_health_monitor {
 
 /// What the live monitor has found, in words for people; the rest of it is declared in monitor_report.h.
 
+/// @return "OK", "WARN", "ERROR" or "STALE".
+const char* nameOf(HealthLevel level);
+
+/// @param seconds  for which no reading was accepted.  @param before  what was said until then.
+std::string describeNoReading(double seconds, const std::string& before);
+
 /// @return why readings are resampled; empty if pairing does well.
 std::string describe(AlignmentJudge::Verdict verdict);
 

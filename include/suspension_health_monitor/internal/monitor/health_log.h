@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "suspension_health_monitor/monitor_report.h"
+
+namespace suspension_health_monitor {
+
+/// What a monitor says at one time of recorded drives.
+struct HealthMoment {
+  Stamp stamp{};    ///< of the measurement
+  Stamp elapsed{};  ///< time that the recordings have covered until then, one after the other
+  HealthLevel level = HealthLevel::kStale;
+  std::string message;  ///< why, as ~health and /diagnostics say it
+  StrutEstimate la;
+};
+
+/// Writes down what a monitor says over recordings that are read one after the other: every change of level, and how
+/// long each level held.
+///
+/// The time covered is that from the first to the last reading of each recording, by their stamps; none passes between
+/// two recordings, nor where the clock goes back. The level is that of the newest report. As in /diagnostics it is
+/// kStale once no reading has been accepted for the time-out, and before the first report; such a silence lasts no
+/// longer than the recording took, whatever a stamp says. Cost per reading and report: O(1); memory grows with the
+/// changes only.
+class HealthLog {
+ public:
+  using Sink = std::function<void(const HealthMoment&)>;
+
+  /// @param timeout  silence after which what is known is old.
+  /// @param sink  called with every change of level and with the first report of every second between.
+  explicit HealthLog(Stamp timeout, Sink sink = {}) : timeout_(timeout), sink_(std::move(sink)) {}
+
+  /// Notes that a sensor of the strut has given a reading, whether or not it will be accepted.
+  /// @param recorded  when it was recorded, by any clock.
+  void addReading(Stamp stamp, Stamp recorded);
+
+  /// Takes in a report of what came of the readings so far.
+  void addReport(const MonitorReport& report);
+
+  /// The recording ends; the next reading begins another.
+  void finishRecording();
+
+  /// @return changes of level in the order of time; the first is the kStale that everything begins with.
+  const std::vector<HealthMoment>& events() const { return events_; }
+
+  /// @return the moments at which an early warning began.
+  const std::vector<HealthMoment>& earlyWarnings() const { return early_warnings_; }
+
+  /// @return what is known now.
+  HealthMoment latest() const;
+
+  /// @return how long a level held; the four of them add up to elapsed().
+  Stamp duration(HealthLevel level) const { return durations_[static_cast<std::size_t>(level)]; }
+
+  /// @return the time covered.
+  Stamp elapsed() const { return elapsed_; }
+
+  /// @return how many of the events are changes to a level.
+  std::size_t count(HealthLevel level) const;
+
+ private:
+  void goTo(Stamp stamp);
+  void pass(Stamp duration);
+  void changeTo(HealthLevel level, const std::string& message);
+  void write(const HealthMoment& moment);
+  std::string silence(Stamp until) const;
+  HealthMoment momentOf(const std::string& message) const { return {now_, elapsed_, level_, message, la_}; }
+
+  Stamp timeout_;
+  Sink sink_;
+  bool in_recording_ = false;
+  Stamp now_{}, newest_reading_{};        // stamps
+  Stamp recorded_{}, newest_recorded_{};  // when what they belong to was recorded
+  Stamp elapsed_{}, reported_{}, due_{};  // reported_: elapsed at the newest report; due_: at the next second
+  HealthLevel level_ = HealthLevel::kStale;
+  HealthReport health_;  // the newest, as the estimate
+  StrutEstimate la_;
+  std::array<Stamp, 4> durations_{};  // by level
+  std::vector<HealthMoment> events_, early_warnings_;
+};
+
+}  // namespace suspension_health_monitor

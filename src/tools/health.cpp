@@ -1,0 +1,132 @@
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../ros/conversions.h"
+#include "../ros/imu_pipeline.h"
+#include "../ros/live_baseline.h"
+#include "../ros/live_model.h"
+#include "../ros/whole_file.h"
+#include "bag_options.h"
+#include "bag_samples.h"
+#include "command.h"
+#include "errors.h"
+#include "health_page.h"
+#include "health_results.h"
+#include "html_page.h"
+#include "identify_tables.h"
+#include "long_work.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr const char* kBaseline = "baseline";
+
+/// The options as a live monitor would have them, with the file of --baseline for baseline_file.
+BagOptions readOptions(const po::variables_map& values) {
+  BagOptions options = readLiveOptions(values);
+  if (values.count(kBaseline) == 0) return options;
+  std::string& file = options.pipeline.shell.baseline_file;
+  file = values[kBaseline].as<std::string>();
+  readBaselineFile(file);  // a live monitor would learn one if it is not there, and that is not what was asked for
+  return options;
+}
+
+/// The monitor of MonitorNodelet over recorded drives, with its log.
+class RecordedMonitor {
+ public:
+  /// @param row  called as HealthLog calls its sink, with what the strut is judged by then.
+  RecordedMonitor(const BagOptions& options, const std::function<void(const HealthMoment&, const Baseline&)>& row)
+      : baseline_(options.pipeline),
+        log_(fromSeconds(options.pipeline.shell.input_timeout),
+             [this, row](const HealthMoment& moment) { row(moment, pipeline_.strut().baseline()); }),
+        pipeline_(
+            options.pipeline, [this](const MonitorReport& report) { log_.addReport(report); },
+            options.bags.transforms.get()) {
+    pipeline_.strut().setEffects(LiveModel(options.pipeline.shell).effects());
+    if (baseline_.known()) pipeline_.strut().setBaseline(*baseline_.known());
+  }
+
+  /// Reads one bag after the other.
+  /// @throws InputError, TooLittleError  as readImuMessages(), or if the bags hold too little for one estimate.
+  std::vector<HealthContent::Recording> read(const ImuBags& bags) {
+    std::vector<HealthContent::Recording> recordings;
+    for (const std::string& path : bags.paths) {
+      recordings.push_back({std::filesystem::path(path).filename().string(), log_.elapsed()});
+      ImuBags bag = bags;
+      bag.paths = {path};
+      readImuMessages(bag, [&](Side side, const sensor_msgs::Imu& imu, Stamp recorded) {
+        if (side != Side::kRoad) log_.addReading(toStamp(imu.header.stamp), recorded);
+        pipeline_.push(side, imu);
+        return true;
+      });
+      log_.finishRecording();
+    }
+    requireEnough();
+    return recordings;
+  }
+
+  const HealthLog& log() const { return log_; }
+  const SuspensionMonitor& monitor() const { return *pipeline_.monitor(); }
+  const UniformGrid& grid() const { return *pipeline_.strut().grid(); }
+  RejectCounts rejected() const { return pipeline_.rejected(); }
+  bool hasBaselineOfFile() const { return baseline_.known().has_value(); }
+
+ private:
+  void requireEnough() const {
+    if (pipeline_.monitor() == nullptr)
+      throw TooLittleError(
+          "the sample period cannot be measured: too few readings with increasing stamps on one of "
+          "the topics" +
+          describeRejected(rejected()));
+    requireRows(monitor(), grid(), rejected());
+  }
+
+  LiveBaseline baseline_;
+  HealthLog log_;
+  ImuPipeline pipeline_;
+};
+
+}  // namespace
+
+void health(const Arguments& arguments) {
+  po::options_description description("options");
+  addBagOptions(description);
+  auto add = description.add_options();
+  add(kBaseline, po::value<std::string>(), "YAML file with the healthy strut, as the monitor writes it");
+  add("csv", po::value<std::string>(), "write a line per second and change of level, full precision");
+  add("report", po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
+  const auto values = parse(arguments, "health BAG... [OPTION]...", description, "bag");
+  if (!values) return;
+  requireSeparateFiles(*values, {"bag", "config", kBaseline}, {"csv", "json"});
+  const BagOptions options = readOptions(*values);
+
+  const Interruption interruption;
+  std::optional<TextFile> csv, json;
+  std::optional<HtmlPage> page;
+  if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
+  if (values->count("csv") != 0) csv.emplace((*values)["csv"].as<std::string>());
+  if (values->count("report") != 0) page.emplace((*values)["report"].as<std::string>());
+  HealthTable table(csv ? csv->stream() : nullptr);
+  HealthCourse course;
+  RecordedMonitor recorded(options, [&](const HealthMoment& moment, const Baseline& healthy) {
+    table.add(moment);
+    if (page) course.add(moment, healthy);
+  });
+  const std::vector<HealthContent::Recording> recordings = recorded.read(options.bags);
+
+  const SuspensionMonitor& monitor = recorded.monitor();
+  const std::string reference =
+      describeReference(monitor.baseline(), recorded.hasBaselineOfFile() ? options.pipeline.shell.baseline_file : "");
+  if (json) json->commit(toJson(recorded.log(), monitor).dump(2) + '\n');
+  if (csv) csv->commit();
+  if (page) page->write(healthTemplate(), findingsOf({recorded.log(), course, monitor, recordings, reference}));
+  printInput(monitor, recorded.grid(), options, recorded.rejected());
+  printHealth(recorded.log(), monitor, reference);
+}
+
+}  // namespace suspension_health_monitor

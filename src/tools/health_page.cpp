@@ -1,0 +1,86 @@
+#include "health_page.h"
+
+#include <cmath>
+#include <limits>
+
+#include "health_results.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // null in JSON: no line there
+
+json listOf(const std::vector<HealthMoment>& moments) {
+  json list = json::array();
+  for (const HealthMoment& moment : moments) {
+    list.push_back(toJson(moment));
+    list.back()["after"] = toSeconds(moment.elapsed);
+  }
+  return list;
+}
+
+std::string sourceOf(const HealthContent& content) {
+  std::vector<std::string> names;
+  for (const HealthContent::Recording& recording : content.recordings) names.push_back(recording.name);
+  const double period = content.monitor.period();
+  return join(names) + formatted(": %.4g s at %.4g Hz, horizon %.4g s", toSeconds(content.log.elapsed()), 1.0 / period,
+                                 content.monitor.horizonSamples() * period);
+}
+
+}  // namespace
+
+void HealthCourse::add(const HealthMoment& moment, const Baseline& healthy) {
+  if (count_++ % stride_ != 0) return;
+  const auto if_valid = [&](double number) { return moment.la.valid() ? number : kNothing; };
+  points_.push_back({toSeconds(moment.elapsed),
+                     {if_valid(moment.la.damping_to_mass), if_valid(moment.la.damping_to_mass_stddev),
+                      healthy.damping_to_mass.value_or(kNothing)},
+                     {if_valid(moment.la.stiffness_to_mass), if_valid(moment.la.stiffness_to_mass_stddev),
+                      healthy.stiffness_to_mass.value_or(kNothing)}});
+  if (points_.size() < 2 * kMostPoints) return;
+  for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];
+  points_.resize(points_.size() / 2);
+  stride_ *= 2;
+}
+
+json HealthCourse::toJson(Parameter Point::*parameter) const {
+  json value = json::array(), stddev = value, healthy = value;
+  for (const Point& point : points_) {
+    value.push_back((point.*parameter).value);
+    stddev.push_back((point.*parameter).stddev);
+    healthy.push_back((point.*parameter).healthy);
+  }
+  return shortened({{"value", value}, {"stddev", stddev}, {"healthy", healthy}});
+}
+
+json HealthCourse::toJson() const {
+  json time = json::array();
+  for (const Point& point : points_) time.push_back(std::round(1e3 * point.time) / 1e3);
+  return {{"time", time}, {"damping", toJson(&Point::damping)}, {"stiffness", toJson(&Point::stiffness)}};
+}
+
+json findingsOf(const HealthContent& content) {
+  const MonitorSettings& settings = content.monitor.options();
+  json recordings = json::array();
+  for (const HealthContent::Recording& recording : content.recordings)
+    recordings.push_back({{"name", recording.name}, {"from", toSeconds(recording.from)}});
+  return {{"source", sourceOf(content)},
+          {"judged_by", content.reference},
+          {"recordings", recordings},
+          {"duration", toSeconds(content.log.elapsed())},
+          {"seconds", secondsJson(content.log)},
+          {"events", listOf(content.log.events())},
+          {"end", toJson(content.log.latest())},
+          {"early_warnings", listOf(content.log.earlyWarnings())},
+          {"thresholds",
+           {{"damping", {settings.damping_warn, settings.damping_error}},
+            {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},
+          {"course", content.course.toJson()},
+          {"estimates", estimatesJson(content.monitor)}};
+}
+
+}  // namespace suspension_health_monitor

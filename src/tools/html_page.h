@@ -1,0 +1,48 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "../ros/whole_file.h"
+
+namespace suspension_health_monitor {
+
+/// FOLDER/report.html: one page for people that needs no other file and no network. It appears whole or not at all.
+/// What a page is made of lies in report_page/; the numbers travel in it as JSON.
+class HtmlPage {
+ public:
+  /// @param folder  made if it is not there, and taken away again if nothing is written.
+  /// @throws std::runtime_error  naming the file or folder, if it cannot be written.
+  explicit HtmlPage(const std::string& folder);
+
+  /// @param page  the template, with "@@findings@@" where its JSON goes.
+  /// @throws std::runtime_error  naming the file, if it cannot be written.
+  void write(std::string_view page, const nlohmann::json& findings);
+
+ private:
+  class Folder {
+   public:
+    explicit Folder(const std::string& path);
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+   private:
+    std::string path_;
+    bool made_;
+  };
+
+  Folder folder_;  // before the file, so that it is empty by the time that it is taken away
+  TextFile file_;
+};
+
+/// @return a copy with numbers to five digits: a figure shows no more, and the page stays small.
+nlohmann::json shortened(nlohmann::json value);
+
+/// The pages with style and scripts in them and "@@findings@@" where their JSON goes: of a search, and of health.
+/// Made from report_page/ when the package is built (cmake/embed_report_page.cmake).
+std::string_view searchTemplate();
+std::string_view healthTemplate();
+
+}  // namespace suspension_health_monitor

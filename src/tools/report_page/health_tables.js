@@ -1,0 +1,61 @@
+// Events, and the estimates at the end.
+
+const MOST_EVENTS = 500;  // that a person would read
+
+function eventsSection({events}) {
+  const rows = events.slice(0, MOST_EVENTS)
+                   .map(
+                       ({time, after, level, message}) => element(
+                           'tr', {'data-event': level, 'data-time': time},
+                           element('td', {class: 'number minor'}, time.toFixed(2)),
+                           element('td', {class: 'moment'}, span(after)),
+                           element('td', {}, element('b', {class: 'level', 'data-level': level}, level)),
+                           element('td', {}, typeset(message))));
+  const left = events.length - rows.length;
+  return section(
+      'events', 'Events', 'Every change of level with its reason.',
+      element(
+          'div', {class: 'wide'},
+          element(
+              'table', {},
+              element(
+                  'thead', {},
+                  element(
+                      'tr', {}, element('th', {class: 'number minor'}, 'stamp [s]'),
+                      element('th', {class: 'moment'}, 'after'), element('th', {}, 'level'),
+                      element('th', {}, 'reason'))),
+              element('tbody', {}, rows))),
+      left > 0 ? element('p', {class: 'lede'}, `${left} more: --json and --csv have all.`) : null);
+}
+
+function estimateRow(name, estimate) {
+  const value = key => withDeviation(estimate[key], estimate[`${key}_stddev`]);
+  return element(
+      'tr', {'data-estimator': name}, element('td', {}, element('b', {}, name)),
+      element('td', {class: 'number'}, value('damping_to_mass')),
+      element('td', {class: 'number'}, value('stiffness_to_mass')),
+      element('td', {class: 'number minor'}, rounded(estimate.natural_frequency, 4)),
+      element('td', {class: 'number minor'}, rounded(estimate.damping_ratio, 3)),
+      element('td', {class: 'number minor'}, rounded(estimate.offset, 3)),
+      element('td', {}, estimate.valid ? 'yes' : 'no'));
+}
+
+function estimatesSection({estimates}) {
+  return section(
+      'estimates', 'Estimates at the end',
+      'What the monitor’s two estimators know after the last reading, ± standard deviation: la, which outliers hardly ' +
+          'move, and ls, least squares.',
+      element(
+          'div', {class: 'wide'},
+          element(
+              'table', {},
+              element(
+                  'thead', {},
+                  element(
+                      'tr', {}, element('th', {}, ''), element('th', {class: 'number'}, 'b₁ damping/mass [1/s]'),
+                      element('th', {class: 'number'}, 'b₀ stiffness/mass [1/s²]'),
+                      element('th', {class: 'number minor'}, 'frequency [Hz]'),
+                      element('th', {class: 'number minor'}, 'damping ratio'),
+                      element('th', {class: 'number minor'}, 'offset [m/s²]'), element('th', {}, 'valid'))),
+              element('tbody', {}, Object.entries(estimates).map(([name, each]) => estimateRow(name, each))))));
+}
