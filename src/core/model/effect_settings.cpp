@@ -7,6 +7,7 @@
 #include "setting_groups.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/model/shape_range.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
