@@ -139,14 +139,14 @@ class FieldSimulator {
   void designFilter() {
     const double k = std::tan(M_PI * 0.35 * drive_.rate / kFieldRate);
     const std::array q{0.54119610, 1.3065630};
-    for (int i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
       const double norm = 1.0 / (1.0 + k / q[i] + k * k);
       sections_[i] = {k * k * norm, 2.0 * (k * k - 1.0) * norm, (1.0 - k / q[i] + k * k) * norm};
     }
   }
 
-  double filtered(int channel, double x) {
-    for (int i = 0; i < 2; ++i) {
+  double filtered(std::size_t channel, double x) {
+    for (std::size_t i = 0; i < 2; ++i) {
       const auto& [gain, a1, a2] = sections_[i];
       auto& [s1, s2] = memory_[channel][i];
       const double y = gain * x + s1;

@@ -1,11 +1,13 @@
-// Prints the tables of doc/field.md: what health says of a strut in the field, over hours, and how soon it finds a
-// change. Usage: field_table healthy|steps|accuracy [MEMORY_SECONDS [HOURS]]
+// Prints the tables of doc/health.md, "In the field": what is said of a strut as it is met there.
+//   field_table healthy|steps|accuracy [MEMORY [HOURS]]     memory in seconds, default 2; hours of a drive, default 10
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <functional>
+#include <future>
+#include <limits>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "field_drive.h"
@@ -14,241 +16,245 @@
 namespace suspension_health_monitor {
 namespace {
 
-double memory = 2.0, hours = 10.0;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
-MonitorSettings settingsFor(const FieldDrive& drive) {
+MonitorSettings settingsFor(const FieldDrive& drive, double memory) {
   MonitorOptions options;
   options.sample_period = 1.0 / drive.rate;
-  options.forgetting_factor = 1.0 - 1.0 / (drive.rate * memory);
+  options.memory = memory;
   options.nominal_damping_to_mass = drive.vehicle.b1;
   options.nominal_stiffness_to_mass = drive.vehicle.b0;
-  return MonitorSettings(options);
+  return options;
+}
+
+bool isRaised(HealthLevel level) { return level == HealthLevel::kWarn || level == HealthLevel::kError; }
+
+/// Calls look(time, report) for every sample of a drive.
+template <class Look>
+void follow(const FieldDrive& drive, double memory, double seconds, const Look& look) {
+  FieldSimulator simulator(drive);
+  SuspensionMonitor monitor(settingsFor(drive, memory));
+  while (simulator.time() < seconds)
+    if (const MonitorReport* report = monitor.addSample(simulator.next())) look(simulator.time(), *report);
 }
 
 struct Counts {
-  int warn = 0, error = 0, early = 0, outlier_events = 0, sensor = 0;
-  double stale = 0, outliers = 0, samples = 0;
-  std::vector<std::string> words;
+  int warn = 0, error = 0, early = 0, sensor = 0;
+  double stale = 0.0, outliers = 0.0, samples = 0.0;
+  std::string words;  // of the first alarm
 };
 
-Counts count(const FieldDrive& drive, double seconds) {
-  FieldSimulator simulator(drive);
-  SuspensionMonitor monitor(settingsFor(drive));
+Counts count(const FieldDrive& drive, double memory, double seconds) {
   Counts counts;
   HealthReport before;
-  while (simulator.time() < seconds) {
-    const MonitorReport* report = monitor.addSample(simulator.next());
-    if (report == nullptr) continue;
-    const HealthReport& now = report->health;
-    const bool rises =
-        now.level != before.level && (now.level == HealthLevel::kWarn || now.level == HealthLevel::kError);
-    counts.warn += rises && now.level == HealthLevel::kWarn;
-    counts.error += rises && now.level == HealthLevel::kError;
-    if (rises && counts.words.size() < 3) counts.words.push_back(describe(now));
-    counts.early += now.early_warning && !before.early_warning;
-    counts.outlier_events += now.outliers && !before.outliers;
-    counts.sensor += now.sensor.fault != SensorFault::kNone && before.sensor.fault == SensorFault::kNone;
-    counts.stale += now.level == HealthLevel::kStale;
-    counts.outliers += now.outliers;
-    ++counts.samples;
+  follow(drive, memory, seconds, [&](double, const MonitorReport& report) {
+    const HealthReport& now = report.health;
+    if (now.level != before.level && isRaised(now.level)) {
+      ++(now.level == HealthLevel::kWarn ? counts.warn : counts.error);
+      if (counts.words.empty()) counts.words = describe(now);
+    }
+    counts.early += int{now.early_warning && !before.early_warning};
+    counts.sensor += int{now.sensor.fault != SensorFault::kNone && before.sensor.fault == SensorFault::kNone};
+    counts.stale += now.level == HealthLevel::kStale ? 1.0 : 0.0;
+    counts.outliers += now.outliers ? 1.0 : 0.0;
+    counts.samples += 1.0;
     before = now;
-  }
+  });
   return counts;
 }
 
-struct Case {
+struct Healthy {
   std::string name;
   FieldDrive drive;
 };
 
-std::vector<Case> healthyCases() {
-  std::vector<Case> cases;
-  int seed = 100;
-  const auto add = [&](const std::string& name, double road, double speed, int rate, auto change) {
-    FieldDrive drive;
-    drive.vehicle = kFieldVehicles[seed % 4];
-    drive.road = road;
-    drive.speed = speed;
-    drive.rate = rate;
-    drive.offset = 0.3;
-    drive.seed = static_cast<unsigned>(seed++);
-    change(drive);
-    cases.push_back({name, drive});
-  };
+std::vector<Healthy> healthyDrives() {
   struct Way {
     const char* name;
     double road, speed;
     int rate;
   };
-  const std::vector<Way> ways{{"A 30 m/s, 100 Hz", 16e-6, 30.0, 100},
-                              {"C 15 m/s, 200 Hz", 256e-6, 15.0, 200},
-                              {"E 3 m/s, 100 Hz", 4096e-6, 3.0, 100},
-                              {"B 20 m/s, 500 Hz", 64e-6, 20.0, 500},
-                              {"A 3 m/s, 200 Hz", 16e-6, 3.0, 200}};
-  for (const Way& way : ways) {
-    const auto with = [&](const char* what, auto change) {
-      add(std::string(what) + ", " + way.name, way.road, way.speed, way.rate, change);
-    };
-    with("plain", [](FieldDrive&) {});
-    with("payload +15 %", [](FieldDrive& d) { d.mass = 1.15; });
-    with("payload +30 %", [](FieldDrive& d) { d.mass = 1.3; });
-    with("payload -15 %", [](FieldDrive& d) { d.mass = 0.85; });
-    with("payload -30 %", [](FieldDrive& d) { d.mass = 0.7; });
-    with("potholes, washboard", [](FieldDrive& d) { d.potholes = d.washboard = true; });
-    with("stop and go", [](FieldDrive& d) { d.stops = true; });
-    with("engine 0.5", [](FieldDrive& d) { d.engine = 0.5; });
-    with("engine 1.5", [](FieldDrive& d) { d.engine = 1.5; });
-    with("fade 5 %", [](FieldDrive& d) { d.fade = 0.05; });
-    with("offset drifts 0.3", [](FieldDrive& d) { d.offset_swing = 0.3; });
-  }
-  return cases;
+  struct Condition {
+    const char* name;
+    std::function<void(FieldDrive&)> set;
+  };
+  const std::vector<Condition> conditions{
+      {"plain", [](FieldDrive&) {}},
+      {"payload +15 %", [](FieldDrive& drive) { drive.mass = 1.15; }},
+      {"payload +30 %", [](FieldDrive& drive) { drive.mass = 1.3; }},
+      {"payload -15 %", [](FieldDrive& drive) { drive.mass = 0.85; }},
+      {"payload -30 %", [](FieldDrive& drive) { drive.mass = 0.7; }},
+      {"potholes, washboard", [](FieldDrive& drive) { drive.potholes = drive.washboard = true; }},
+      {"stop and go", [](FieldDrive& drive) { drive.stops = true; }},
+      {"engine 0.5 m/s^2", [](FieldDrive& drive) { drive.engine = 0.5; }},
+      {"engine 1.5 m/s^2", [](FieldDrive& drive) { drive.engine = 1.5; }},
+      {"fade 5 %", [](FieldDrive& drive) { drive.fade = 0.05; }},
+      {"offset +- 0.3 m/s^2", [](FieldDrive& drive) { drive.offset_swing = 0.3; }},
+  };
+  std::vector<Healthy> drives;
+  for (const Way& way : {Way{"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, Way{"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200},
+                         Way{"E, 3 m/s, 100 Hz", 4096e-6, 3.0, 100}, Way{"B, 20 m/s, 500 Hz", 64e-6, 20.0, 500},
+                         Way{"A, 3 m/s, 200 Hz", 16e-6, 3.0, 200}})
+    for (const Condition& condition : conditions) {
+      FieldDrive drive;
+      drive.vehicle = kFieldVehicles[drives.size() % kFieldVehicles.size()];
+      drive.road = way.road;
+      drive.speed = way.speed;
+      drive.rate = way.rate;
+      drive.offset = 0.3;
+      drive.seed = 100 + static_cast<unsigned>(drives.size());
+      condition.set(drive);
+      drives.push_back({std::string(way.name) + " | " + condition.name, drive});
+    }
+  return drives;
 }
 
-void printHealthy() {
-  const std::vector<Case> cases = healthyCases();
+void printHealthy(double memory, double hours) {
   std::printf(
-      "| drive, %.0f h, memory %.1f s | vehicle | WARN | ERROR | early | outlier flag | cannot tell | sensor | words "
-      "|\n"
-      "|---|---|---|---|---|---|---|---|---|\n",
-      hours, memory);
-  for (std::size_t i = 0; i < cases.size(); i += 2) {
-    Counts counts[2];
-    std::thread other([&] {
-      if (i + 1 < cases.size()) counts[1] = count(cases[i + 1].drive, 3600.0 * hours);
-    });
-    counts[0] = count(cases[i].drive, 3600.0 * hours);
-    other.join();
-    for (std::size_t j = i; j < std::min(i + 2, cases.size()); ++j) {
-      const Counts& c = counts[j - i];
-      std::string words;
-      for (const std::string& word : c.words) words += word + "; ";
-      std::printf("| %s | %s | %d | %d | %d | %.1f %%, %d | %.1f %% | %d | %s |\n", cases[j].name.c_str(),
-                  cases[j].drive.vehicle.name, c.warn, c.error, c.early, 100 * c.outliers / c.samples, c.outlier_events,
-                  100 * c.stale / c.samples, c.sensor, words.c_str());
-    }
+      "| road, %.0f h | what | vehicle | WARN | ERROR | early notices | outliers | cannot tell | sensor accused "
+      "| said first |\n|---|---|---|---|---|---|---|---|---|---|\n",
+      hours);
+  const std::vector<Healthy> drives = healthyDrives();
+  const auto start = [&](std::size_t i) {
+    return std::async(std::launch::async, count, drives[i].drive, memory, 3600.0 * hours);
+  };
+  std::future<Counts> next = start(0);
+  for (std::size_t i = 0; i < drives.size(); ++i) {  // two at a time
+    std::future<Counts> present = std::move(next);
+    if (i + 1 < drives.size()) next = start(i + 1);
+    const Counts found = present.get();
+    std::printf("| %s | %s | %d | %d | %d | %.1f %% | %.1f %% | %d | %s |\n", drives[i].name.c_str(),
+                drives[i].drive.vehicle.name, found.warn, found.error, found.early,
+                100.0 * found.outliers / found.samples, 100.0 * found.stale / found.samples, found.sensor,
+                found.words.c_str());
     std::fflush(stdout);
   }
 }
 
-void printSteps() {
-  std::printf(
-      "| step at 120 s, memory %.1f s | payload | false before | WARN [s]: found, median, most | ERROR: found, median, "
-      "most | right part |\n"
-      "|---|---|---|---|---|---|\n",
-      memory);
+constexpr double kStepAt = 120.0, kStepDrive = 300.0;  // [s]
+constexpr std::size_t kStepDrives = 8;
+
+FieldDrive stepDrive(std::size_t i) {
+  constexpr std::array kRoads{16e-6, 64e-6, 256e-6, 1024e-6};
+  constexpr std::array kSpeeds{10.0, 20.0, 15.0, 5.0};
+  constexpr std::array kRates{200, 500, 200, 100};
+  FieldDrive drive;
+  drive.vehicle = kFieldVehicles[i % 4];
+  drive.road = kRoads[i / 2 % 4];
+  drive.speed = kSpeeds[(i + i / 4) % 4];
+  drive.rate = kRates[i % 4];
+  drive.offset = 0.2;
+  drive.change_at = kStepAt;
+  drive.seed = 900 + static_cast<unsigned>(i);
+  return drive;
+}
+
+std::string foundAndMedian(std::vector<double> delays) {
+  std::sort(delays.begin(), delays.end());
+  const auto found = std::count_if(delays.begin(), delays.end(), [](double delay) { return delay < kNever; });
+  const double median = 0.5 * (delays[kStepDrives / 2 - 1] + delays[kStepDrives / 2]);
+  std::string text = std::to_string(found);
+  if (std::isfinite(median)) text += ", " + std::to_string(std::lround(median)) + " s";
+  return text;
+}
+
+void printSteps(double memory) {
   struct Step {
     const char* name;
     double damping, stiffness;
   };
+  std::printf(
+      "| step | body mass | before it | WARN: found of 8, median after | ERROR | right part |\n"
+      "|---|---|---|---|---|---|\n");
   for (const double mass : {1.0, 1.3, 0.7})
-    for (const Step& step : {Step{"damping -20 %", 0.8, 1.0},
-                             {"damping -30 %", 0.69, 1.0},
-                             {"damping -50 %", 0.5, 1.0},
-                             {"stiffness -20 %", 1.0, 0.8},
-                             {"stiffness -30 %", 1.0, 0.69},
-                             {"both -30 %", 0.7, 0.7}}) {
+    for (const Step& step :
+         {Step{"damping -20 %", 0.8, 1.0}, Step{"damping -31 %", 0.69, 1.0}, Step{"damping -50 %", 0.5, 1.0},
+          Step{"stiffness -20 %", 1.0, 0.8}, Step{"stiffness -31 %", 1.0, 0.69}}) {
       std::vector<double> warn, error;
-      int early = 0, right = 0;
-      std::string words;
-      for (int i = 0; i < 8; ++i) {
-        FieldDrive drive;
-        drive.vehicle = kFieldVehicles[i % 4];
-        drive.road = std::array{16e-6, 64e-6, 256e-6, 1024e-6}[(i / 2) % 4];
-        drive.speed = std::array{10.0, 20.0, 15.0, 5.0}[(i + i / 4) % 4];
-        drive.rate = std::array{100, 200, 500, 200}[(i + 1) % 4];
-        drive.offset = 0.2;
+      int before = 0, right = 0;
+      for (std::size_t i = 0; i < kStepDrives; ++i) {
+        FieldDrive drive = stepDrive(i);
         drive.mass = mass;
-        drive.change_at = 120.0;
         drive.damping_left = step.damping;
         drive.stiffness_left = step.stiffness;
-        drive.seed = 900 + static_cast<unsigned>(i);
-        FieldSimulator simulator(drive);
-        SuspensionMonitor monitor(settingsFor(drive));
-        double first_warn = 1e9, first_error = 1e9;
+        double first_warn = kNever, first_error = kNever;
         HealthReport last;
-        while (simulator.time() < 300.0) {
-          const MonitorReport* report = monitor.addSample(simulator.next());
-          if (report == nullptr) continue;
-          last = report->health;
-          const bool raised = last.level == HealthLevel::kWarn || last.level == HealthLevel::kError;
-          if (raised && simulator.time() < 120.0) ++early;
-          if (raised) first_warn = std::min(first_warn, simulator.time() - 120.0);
-          if (last.level == HealthLevel::kError) first_error = std::min(first_error, simulator.time() - 120.0);
-        }
+        follow(drive, memory, kStepDrive, [&](double time, const MonitorReport& report) {
+          const bool changes = report.health.level != last.level;
+          last = report.health;
+          if (!isRaised(last.level)) return;
+          before += int{time < kStepAt && changes};
+          first_warn = std::min(first_warn, time - kStepAt);
+          if (last.level == HealthLevel::kError) first_error = std::min(first_error, time - kStepAt);
+        });
         warn.push_back(first_warn);
         error.push_back(first_error);
-        const bool of_damping = step.damping < 1.0;
-        const auto raised = [](HealthLevel level) {
-          return level == HealthLevel::kWarn || level == HealthLevel::kError;
-        };
-        right += raised(of_damping ? last.damping_level : last.stiffness_level) &&
-                 !raised(of_damping ? last.stiffness_level : last.damping_level);
-        if (i < 2) words += describe(last) + "; ";
+        const bool damper = isRaised(last.damping_level), spring = isRaised(last.stiffness_level);
+        right += int{step.damping < 1.0 ? damper && !spring : spring && !damper};
       }
-      const auto text = [](std::vector<double>& delays) {
-        std::sort(delays.begin(), delays.end());
-        const auto found = std::count_if(delays.begin(), delays.end(), [](double d) { return d < 1e8; });
-        char line[64];
-        std::snprintf(line, sizeof line, "%ld, %.1f, %.1f", static_cast<long>(found), delays[3],
-                      delays[found > 0 ? found - 1 : 0]);
-        return std::string(line);
-      };
-      std::printf("| %s | %+.0f %% | %d | %s | %s | %d of 8 | %s |\n", step.name, 100 * (mass - 1), early,
-                  text(warn).c_str(), text(error).c_str(), right, words.c_str());
+      std::printf("| %s | %+.0f %% | %d | %s | %s | %d |\n", step.name, 100.0 * (mass - 1.0), before,
+                  foundAndMedian(warn).c_str(), foundAndMedian(error).c_str(), right);
       std::fflush(stdout);
     }
 }
 
-void printAccuracy() {
-  std::printf(
-      "| road, rate | vehicle | offset | b1 LS, LA off by [%%] (median) | b0 LS, LA | inside 95 %%: b1 LS, b0 LS, b1 "
-      "LA, b0 LA |\n|---|---|---|---|---|---|\n");
+/// Errors of one estimate of one parameter.
+struct Errors {
+  std::vector<double> relative;
+  double inside = 0.0;
+
+  void add(double value, double stddev, double truth) {
+    relative.push_back(value / truth - 1.0);
+    inside += std::abs(value - truth) < 1.96 * stddev ? 1.0 : 0.0;
+  }
+};
+
+std::string medianAndShare(Errors errors) {
+  if (errors.relative.empty()) return "-";
+  const auto middle = errors.relative.begin() + static_cast<std::ptrdiff_t>(errors.relative.size() / 2);
+  std::nth_element(errors.relative.begin(), middle, errors.relative.end());
+  char text[48];
+  std::snprintf(text, sizeof text, "%+.1f %%, %.0f %%", 100.0 * *middle,
+                100.0 * errors.inside / static_cast<double>(errors.relative.size()));
+  return text;
+}
+
+void printAccuracy(double memory) {
   struct Offset {
     double constant, swing;
   };
+  std::printf(
+      "| road, rate | vehicle | offset [m/s^2] | b1 of LS: median error, inside 95 %% | b0 of LS | b1 of LA | b0 "
+      "of LA |\n|---|---|---|---|---|---|---|\n");
   unsigned seed = 1;
   for (const double road : {16e-6, 256e-6})
     for (const int rate : {50, 100, 200, 500})
       for (const FieldVehicle& vehicle : kFieldVehicles)
-        for (const Offset& offset : {Offset{0.0, 0.0}, {0.05, 0.0}, {0.3, 0.0}, {0.8, 0.0}, {0.0, 0.3}}) {
+        for (const Offset& offset : {Offset{0.0, 0.0}, Offset{0.8, 0.0}, Offset{0.0, 0.3}}) {
           FieldDrive drive;
           drive.vehicle = vehicle;
           drive.road = road;
           drive.rate = rate;
           drive.offset = offset.constant;
           drive.offset_swing = offset.swing;
+          drive.offset_period = 3770.0;  // 0.3 m/s^2 in ten minutes
           drive.seed = seed++;
-          FieldSimulator simulator(drive);
-          SuspensionMonitor monitor(settingsFor(drive));
-          std::vector<double> errors[4];
-          double inside[4] = {}, valid = 0, samples = 0;
-          int next = 20;
-          while (simulator.time() < 600.0) {
-            const MonitorReport* report = monitor.addSample(simulator.next());
-            if (report == nullptr || simulator.time() < next) continue;
-            next += 2;
-            ++samples;
-            if (!report->la.valid() || !report->ls.valid()) continue;
-            ++valid;
-            const auto take = [&](int i, double value, double stddev, double truth) {
-              errors[i].push_back(value / truth - 1);
-              inside[i] += std::abs(value - truth) < 1.96 * stddev;
-            };
-            take(0, report->ls.damping_to_mass, report->ls.damping_to_mass_stddev, vehicle.b1);
-            take(1, report->ls.stiffness_to_mass, report->ls.stiffness_to_mass_stddev, vehicle.b0);
-            take(2, report->la.damping_to_mass, report->la.damping_to_mass_stddev, vehicle.b1);
-            take(3, report->la.stiffness_to_mass, report->la.stiffness_to_mass_stddev, vehicle.b0);
-          }
-          const auto median = [](std::vector<double>& v) {
-            if (v.empty()) return std::nan("");
-            std::nth_element(v.begin(), v.begin() + v.size() / 2, v.end());
-            return 100 * v[v.size() / 2];
-          };
-          std::printf(
-              "| %s %d Hz | %s | %.2f +- %.1f | %.1f, %.1f | %.1f, %.1f | %.0f, %.0f, %.0f, %.0f (valid %.0f %%)|\n",
-              road < 2e-5 ? "A" : "C", rate, vehicle.name, offset.constant, offset.swing, median(errors[0]),
-              median(errors[2]), median(errors[1]), median(errors[3]), 100 * inside[0] / valid, 100 * inside[1] / valid,
-              100 * inside[2] / valid, 100 * inside[3] / valid, 100 * valid / samples);
+          std::array<Errors, 4> errors;
+          double next = 20.0;
+          follow(drive, memory, 600.0, [&](double time, const MonitorReport& report) {
+            if (time < next || !report.ls.valid() || !report.la.valid()) return;
+            next = time + 2.0;
+            for (std::size_t e = 0; e < 2; ++e) {
+              const StrutEstimate& estimate = e == 0 ? report.ls : report.la;
+              errors[2 * e].add(estimate.damping_to_mass, estimate.damping_to_mass_stddev, vehicle.b1);
+              errors[2 * e + 1].add(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev, vehicle.b0);
+            }
+          });
+          std::printf("| %s, %d Hz | %s | %.1f%s | %s | %s | %s | %s |\n", road < 2e-5 ? "A" : "C", rate, vehicle.name,
+                      offset.constant, offset.swing > 0.0 ? ", drifts" : "", medianAndShare(errors[0]).c_str(),
+                      medianAndShare(errors[1]).c_str(), medianAndShare(errors[2]).c_str(),
+                      medianAndShare(errors[3]).c_str());
+          std::fflush(stdout);
         }
 }
 
@@ -258,14 +264,14 @@ void printAccuracy() {
 int main(int argc, char** argv) {
   using namespace suspension_health_monitor;
   const std::string what = argc > 1 ? argv[1] : "";
-  if (argc > 2) memory = std::atof(argv[2]);
-  if (argc > 3) hours = std::atof(argv[3]);
+  const double memory = argc > 2 ? std::atof(argv[2]) : 2.0, hours = argc > 3 ? std::atof(argv[3]) : 10.0;
   if (what == "healthy")
-    printHealthy();
+    printHealthy(memory, hours);
   else if (what == "steps")
-    printSteps();
+    printSteps(memory);
   else if (what == "accuracy")
-    printAccuracy();
+    printAccuracy(memory);
   else
-    return std::fprintf(stderr, "usage: field_table healthy|steps|accuracy [MEMORY_SECONDS [HOURS]]\n"), 2;
+    return std::fprintf(stderr, "usage: field_table healthy|steps|accuracy [MEMORY [HOURS]]\n"), 2;
+  return 0;
 }

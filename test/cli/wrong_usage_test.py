@@ -89,9 +89,9 @@ def test_settings_file_that_cannot_be_read(program, paper_bag, tmp_path, name): 
 
 
 def test_settings_that_contradict_each_other(program, paper_bag, tmp_path):
-    arguments = ["--set", "forgetting_factor=0.98", "--set", "fastest_forgetting_factor=0.99"]
+    arguments = ["--set", "memory=1", "--set", "fastest_memory=2"]
     program.refuse(2, ["identify", paper_bag, *arguments],
-                   ["fastest_forgetting_factor", "at most forgetting_factor"], tmp_path)
+                   ["fastest_memory = 2 [s]", "at most memory = 1 [s]"], tmp_path)
 
 
 def test_set_overrides_the_file(program, paper_bag):

@@ -143,7 +143,7 @@ class InputDiagnosticsTest(unittest.TestCase):
             drive.stop()
 
     def test_horizon_too_short_for_the_measured_period_is_an_error_until_reset(self):
-        with load_monitor("coarse", {"integration_horizon": 0.06}):  # 3 samples; the cubic rule needs 5
+        with load_monitor("coarse", {"integration_horizon": 0.06}):  # 3 samples; the rule needs 5
             drive = drive_for("coarse")
             publish(drive, 100, lambda index, imu: None)
             status = drive.input_status(lambda s: "must be at least 5" in s.message)

@@ -14,19 +14,20 @@ from suspension_health_monitor.msg import SuspensionHealth
 
 START = 1000.0  # [s]
 # Not one of them is the default. b1 of the drive is 3 1/s: 25 % below nominal.
-GIVEN = {"forgetting_factor": 0.98, "publish_every": 1,
+GIVEN = {"memory": 1.0, "publish_every": 1,
          "health": {"damping_warn": 0.2, "damping_error": 0.5, "stiffness_warn": 0.4, "stiffness_error": 2,
                     "confirm_time": 0.5},
          "nominal": {"damping_to_mass": 4.0, "stiffness_to_mass": 13.8}}
-AS_GIVEN = {"forgetting_factor": 0.98, "publish_every": 1, "health/damping_warn": 0.2, "health/damping_error": 0.5,
+AS_GIVEN = {"memory": 1.0, "publish_every": 1, "health/damping_warn": 0.2, "health/damping_error": 0.5,
             "health/stiffness_warn": 0.4, "health/stiffness_error": 2.0, "health/confirm_time": 0.5}
 # What is asked for, and what the warning must hold.
 REFUSED = {
     "error below warn": ({"health/damping_error": 0.1}, ["health/damping_error = 0.1", "at least health/damping_warn"]),
     "warn above error": ({"health/stiffness_warn": 3.0}, ["health/stiffness_error", "at least health/stiffness_warn"]),
-    "out of range": ({"forgetting_factor": 1.5}, ["forgetting_factor = 1.5", "must be in [0.9, 1]"]),
+    "out of range": ({"memory": -1.0}, ["memory = -1", "must be in [0.0001, 1000000]"]),
+    "too short": ({"memory": 0.1}, ["memory = 0.1 [s]", "must be at least 0.2 [s]"]),
     "not a number": ({"health/confirm_time": float("nan")}, ["health/confirm_time = nan", "must be in"]),
-    "one wrong, one right": ({"publish_every": 0, "forgetting_factor": 0.95}, ["publish_every = 0", "must be"]),
+    "one wrong, one right": ({"publish_every": 0, "memory": 0.5}, ["publish_every = 0", "must be"]),
 }
 
 
@@ -83,7 +84,7 @@ class ReconfigureTest(unittest.TestCase):
             client.close()
 
     def test_a_change_jumps_no_other(self):
-        for name, value in (("forgetting_factor", 0.995), ("health/damping_error", 0.6), ("publish_every", 3)):
+        for name, value in (("memory", 4.0), ("health/damping_error", 0.6), ("publish_every", 3)):
             before = self.now()
             self.assertEqual(self.turn(**{name: value}), {**before, name: value})
             self.assertEqual(rospy.get_param("/monitor/" + name), value)
@@ -116,7 +117,7 @@ class ReconfigureTest(unittest.TestCase):
         self.drive.feed(0, 600, START)
         before = self.drive.estimates.messages[-1]
         self.assertTrue(before.valid)
-        self.turn(**{"forgetting_factor": 0.99, "health/damping_warn": 0.1})
+        self.turn(**{"memory": 2.0, "health/damping_warn": 0.1})
         count = len(self.drive.estimates.messages)
         self.drive.feed(600, 700, START)
         for estimate in self.drive.estimates.messages[count:]:

@@ -27,7 +27,7 @@ WRONG = {
     "model that is a folder": ({"model_file": "/"}, ["model_file = /: is a folder, must be a YAML file"]),
     "laws that are not there": ({"effects_file": "/none.yaml"}, ["effects_file = /none.yaml: cannot be read"]),
     "nested, of the search": ({"diagnose": {"window": 0}}, ["diagnose/window = 0", "must be in [0.01, 1000000]"]),
-    "contradiction": ({"fastest_forgetting_factor": 0.995}, ["fastest_forgetting_factor = 0.995", "forgetting_factor"]),
+    "contradiction": ({"fastest_memory": 3.0}, ["fastest_memory = 3 [s]", "at most memory = 2 [s]"]),
     "former option": ({"forgetting_rule": "exponential"}, ["forgetting_rule is no option any more: preset: paper"]),
 }
 WRONG_COMPARISON = {

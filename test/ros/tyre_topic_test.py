@@ -46,14 +46,14 @@ class TyreTopicTest(unittest.TestCase):
                         self.assertAlmostEqual(getattr(estimate, field) / truth, 1.0, delta=0.02, msg=f"{name} {field}")
                 self.wait_for_task(DiagnosticStatus.OK, "wheel and tyre are known")
 
-    def test_forgetting_factor_that_is_turned_reaches_the_tyre(self):
+    def test_memory_that_is_turned_reaches_the_tyre(self):
         estimates = self.estimates["la"]
         with start_node("monitor_node", "monitor", MONITOR):
             estimates.wait_for_publisher()
             client = Client("/monitor", timeout=PATIENCE)
             with start_node("simulator_node", "simulator", dict(DRIVE, road_imu=True), **PACED):
                 estimates.wait_for(lambda message: message.effective_rows > 1000.0, "a long memory")
-                client.update_configuration({"forgetting_factor": 0.99})
+                client.update_configuration({"memory": 0.2})
                 later = rospy.Time.from_sec(DRIVE["start_time"] + 2.0)  # 1000 rows
                 short = estimates.wait_for(lambda message: message.header.stamp > later and
                                            message.effective_rows < 150.0, "a short memory")
