@@ -24,7 +24,7 @@ void require(bool holds, const char* law) {
 MonitorSettings takeOptions(FuzzBytes& bytes) {
   constexpr std::array kPeriods{1e-5, 1e-3, 0.005, 0.02, 0.1, 10.0};
   constexpr std::array kForgetting{0.9, 0.98, 0.99, 0.999, 1.0};
-  constexpr std::array kRules{IntegrationRule::kTrapezoid, IntegrationRule::kSimpson, IntegrationRule::kCubic};
+  constexpr std::array kRules{IntegrationRule::kTrapezoid, IntegrationRule::kSimpson, IntegrationRule::kBandLimited};
   MonitorSettings options;
   options.sample_period = kPeriods[bytes.choose(kPeriods.size())];
   options.integration_horizon = static_cast<double>(1 + bytes.choose(60)) * *options.sample_period;
@@ -40,7 +40,7 @@ MonitorSettings takeOptions(FuzzBytes& bytes) {
   if ((flags & 32U) != 0) options.nominal_stiffness_to_mass = 13.8;
   if ((flags & 64U) != 0) estimators.recursive.initial_variance = 1e15;
   if ((flags & 128U) != 0) estimators.least_absolute.start_rows = 1;
-  if (bytes.choose(60) % 2 != 0) options.fastest_forgetting_factor = 0.9;
+  if (bytes.choose(60) % 2 != 0) options.fastest_memory = 10.0 * *options.sample_period;
   return options;
 }
 

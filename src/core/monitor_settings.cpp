@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kDefaultHorizon = 0.6;          // [s], the paper's
 constexpr double kFewestSamplesOfMemory = 10.0;  // lambda = 0.9
+constexpr double kRounding = 1e-12;              // of 1 - T / memory
 constexpr int kUpdatesPerTwoHorizons = 3;        // of health: rows within a horizon share most of their samples
 
 }  // namespace
@@ -57,10 +58,10 @@ void MonitorSettings::validate() const {
   if (!sample_period) return;
   filter(*sample_period);
   const double fastest = fastestForgettingFactor(*sample_period), slow = forgettingFactor(*sample_period);
-  if (fastest > slow)
+  if (fastest > slow + kRounding)
     throw std::invalid_argument("fastest_memory = " + numberText(*fastest_memory) +
                                 " [s], must be at most that of forgetting_factor = " + numberText(slow));
-  if (fastest < 1.0 - 1.0 / kFewestSamplesOfMemory)
+  if (fastest < 1.0 - 1.0 / kFewestSamplesOfMemory - kRounding)
     throw std::invalid_argument(std::string(fastest_memory ? "fastest_memory" : "memory") + " = " +
                                 numberText(fastest_memory.value_or(memory)) + " [s], must be at least " +
                                 numberText(kFewestSamplesOfMemory * *sample_period) +
