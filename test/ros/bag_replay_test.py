@@ -98,7 +98,7 @@ class BagReplayTest(unittest.TestCase):
         live = [(stamp, LEVELS[health.level], health.reason) for stamp, health in sorted(self.health.items())]
         self.assertEqual(set(self.health), self.stamps)
         self.assertEqual(changes(self.levels), changes(live))
-        self.assertGreater(len(changes(live)), 4, "a drive in which something happens")
+        self.assertGreaterEqual(len(changes(live)), 4, "a drive in which something happens")
         for stamp, level, reason in self.levels[1:]:  # the first row is that of the first reading, before any report
             self.assertEqual((level, reason), (LEVELS[self.health[stamp].level], self.health[stamp].reason))
 
