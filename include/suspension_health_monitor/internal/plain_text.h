@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -7,6 +8,7 @@ namespace suspension_health_monitor {
 
 /// @return the number as short as it can be told from its neighbours that somebody would write: "0.02", "1e+300".
 inline std::string numberText(double value) {
+  if (std::isnan(value)) return "nan";  // of either sign
   char text[32];
   std::snprintf(text, sizeof text, "%.15g", value);
   return text;
