@@ -31,7 +31,7 @@ struct IdentifiedStrut {
 struct IdentifyOptions {
   std::optional<double> sample_period;  ///< T [s]; nothing: the median spacing of the samples
   std::optional<int> horizon_samples;   ///< L of the integral filter; nothing: proposed from the data
-  double memory = 2.0;                  ///< of ls and la [s], at least 10 samples
+  std::optional<double> memory;         ///< of ls and la [s], at least 10 samples; nothing: 2, or 10/3 of the horizon
 };
 
 struct IdentifyResult {

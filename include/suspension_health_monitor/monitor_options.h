@@ -27,11 +27,12 @@ struct MonitorOptions : HealthThresholds {
   std::string alignment = "auto";             ///< or "paired", "resampled": how readings become samples
   bool tyre = false;                          ///< there is a third sensor, where the tyre touches the road
   std::optional<double> integration_horizon;  ///< h of the integral filter [s]; left out: 0.6
-  double memory = 2.0;                        ///< of the estimates: a row that old counts 1/e [s]
-  std::optional<double> fastest_memory;       ///< while the strut changes, at most memory [s]; left out: it stays
-  std::optional<double> forgetting_factor;    ///< lambda, instead of memory: 1/(1 - lambda) rows [-]
-  double comparison_window = 10.0;            ///< memory of the free run's rmse [s]
-  std::optional<double> sprung_mass;          ///< [kg], for results in SI
+  std::optional<double> memory;  ///< of the estimates: a row that old counts 1/e [s]; left out: 2, or 10/3 of the
+                                 ///< horizon if that is more
+  std::optional<double> fastest_memory;     ///< while the strut changes, at most memory [s]; left out: it stays
+  std::optional<double> forgetting_factor;  ///< lambda, instead of memory: 1/(1 - lambda) rows [-]
+  double comparison_window = 10.0;          ///< memory of the free run's rmse [s]
+  std::optional<double> sprung_mass;        ///< [kg], for results in SI
 
   /// @param preset  "default" or "paper".
   /// @return the values of a preset, to which options are set.

@@ -52,9 +52,9 @@ void MonitorSettings::validate() const {
   HealthOptions thresholds;
   static_cast<HealthThresholds&>(thresholds) = *this;
   thresholds.validate();
-  if (!forgetting_factor && fastest_memory && *fastest_memory > memory)
+  if (!forgetting_factor && fastest_memory && *fastest_memory > presentMemory())
     throw std::invalid_argument("fastest_memory = " + numberText(*fastest_memory) +
-                                " [s], must be at most memory = " + numberText(memory) + " [s]");
+                                " [s], must be at most memory = " + numberText(presentMemory()) + " [s]");
   if (!sample_period) return;
   filter(*sample_period);
   const double fastest = fastestForgettingFactor(*sample_period), slow = forgettingFactor(*sample_period);
@@ -63,7 +63,7 @@ void MonitorSettings::validate() const {
                                 " [s], must be at most that of forgetting_factor = " + numberText(slow));
   if (fastest < 1.0 - 1.0 / kFewestSamplesOfMemory - kRounding)
     throw std::invalid_argument(std::string(fastest_memory ? "fastest_memory" : "memory") + " = " +
-                                numberText(fastest_memory.value_or(memory)) + " [s], must be at least " +
+                                numberText(fastest_memory.value_or(presentMemory())) + " [s], must be at least " +
                                 numberText(kFewestSamplesOfMemory * *sample_period) +
                                 " [s], ten samples of sample_period = " + numberText(*sample_period) + " [s]");
 }
@@ -104,6 +104,11 @@ RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {
   recursive.forgetting_factor = forgettingFactor(*sample_period);
   recursive.correlated_rows = correlated_rows;
   return recursive;
+}
+
+double MonitorSettings::presentMemory() const {
+  constexpr double kMemory = 2.0, kHorizons = 10.0 / 3.0;  // the same for the default horizon
+  return memory.value_or(std::max(kMemory, kHorizons * integration_horizon.value_or(kDefaultHorizon)));
 }
 
 double MonitorSettings::fewestRows(double horizons, double period) const {

@@ -4,6 +4,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "parameters.h"
 
@@ -31,6 +32,7 @@ bool isWhole(const Bound& option) { return std::holds_alternative<int*>(option.m
 }  // namespace
 
 LiveSettings::LiveSettings(PipelineOptions options) {
+  options.monitor.memory = MonitorSettings(options.monitor).presentMemory();
   for (const Bound& option : bindLive(options)) values_[std::string(option.name)] = *option_table::valueOf(option);
 }
 
@@ -49,9 +51,13 @@ LiveSettings LiveSettings::ends(double Bound::*end) {
 
 PipelineOptions LiveSettings::appliedTo(PipelineOptions options) const {
   OptionMap values = values_;
-  const double memory = options.monitor.memory;
+  const std::optional<double> given = options.monitor.memory;
+  const double memory = MonitorSettings(options.monitor).presentMemory();
   takeOptions(values, kMonitorFields, options.monitor);
-  if (options.monitor.memory != memory) options.monitor.forgetting_factor.reset();  // what was turned counts
+  if (options.monitor.memory == memory)
+    options.monitor.memory = given;
+  else
+    options.monitor.forgetting_factor.reset();  // what was turned counts
   takeOptions(values, kShellFields, options.shell);
   options.monitor.validate();
   return options;

@@ -69,7 +69,7 @@ TEST(MonitorInvariance, TimeScalesTheParameters) {
   MonitorSettings fast_options = liveOptions();
   fast_options.sample_period = 0.02 / kFaster;
   fast_options.integration_horizon = 0.6 / kFaster;
-  fast_options.memory /= kFaster;
+  fast_options.memory = 2.0 / kFaster;
   SuspensionMonitor reference(liveOptions()), fast(fast_options);
   for (const CornerSample& sample : healthyPaperDrive(30.0, 0.024)) {
     reference.addSample(sample);

@@ -54,7 +54,11 @@ TEST(MonitorSettings, MonitorUsesTheHorizon) {
 
 TEST(MonitorSettings, PresetGivesWhatIsNotGiven) {
   OptionMap nothing, one_line{{"preset", "paper"}}, with_factor{{"preset", "paper"}, {"forgetting_factor", 0.97}};
-  EXPECT_EQ(takeMonitorOptions(nothing).memory, 2.0);
+  EXPECT_FALSE(takeMonitorOptions(nothing).memory);
+  MonitorSettings slow;
+  EXPECT_EQ(slow.presentMemory(), 2.0);
+  slow.integration_horizon = 6.0;
+  EXPECT_DOUBLE_EQ(slow.presentMemory(), 20.0);
   EXPECT_FALSE(takeMonitorOptions(nothing).forgetting_factor);
   const MonitorSettings paper = takeMonitorOptions(one_line), other = takeMonitorOptions(with_factor);
   EXPECT_EQ(paper.preset, "paper");

@@ -59,7 +59,10 @@ struct MonitorSettings : MonitorOptions {
 
   /// @param period  sampling time [s].
   /// @return lambda: forgetting_factor, or that of memory.
-  double forgettingFactor(double period) const { return forgetting_factor.value_or(1.0 - period / memory); }
+  double forgettingFactor(double period) const { return forgetting_factor.value_or(1.0 - period / presentMemory()); }
+
+  /// @return memory [s], or what it is if it is left out.
+  double presentMemory() const;
 
   /// @param period  sampling time [s].
   /// @return the smallest lambda that rows may be forgotten by.
@@ -92,8 +95,11 @@ inline constexpr std::array kMonitorFields{
     MonitorField{"estimation", "integration_horizon", "s",
                  "horizon h of the integral filter, near one period of the body's bounce; left out: 0.6",
                  &MonitorOptions::integration_horizon, 1e-5, 1e6},
-    MonitorField{"estimation", "memory", "s", "of the estimates: what is that old counts 1/e, at least 10 samples",
-                 &MonitorOptions::memory, 1e-4, 1e6},
+    MonitorField{
+        "estimation", "memory", "s",
+        "of the estimates: what is that old counts 1/e, 10 samples at least; left out: 2 or 10/3 of the horizon, the "
+        "longer",
+        &MonitorOptions::memory, 1e-4, 1e6},
     MonitorField{"estimation", "fastest_memory", "s",
                  "while damping or stiffness move, at most memory; left out: the memory stays",
                  &MonitorOptions::fastest_memory, 1e-4, 1e6},
