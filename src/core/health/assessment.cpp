@@ -39,21 +39,28 @@ double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); 
 
 constexpr double kHeldShare = 0.5;  // of the significance that a level began with
 
+/// A change of one parameter, and what it is judged by.
+struct PartChange {
+  double size;          ///< [-]
+  double stddev;        ///< of ln(1 + size)
+  double significance;  ///< also against a load that explains the same
+  double blind;         ///< standard deviation that a change is proved against
+  double warn, error;   ///< thresholds [-]
+};
+
 // Level of one parameter. A level that holds already ends below its threshold less the hysteresis, or less a standard
 // deviation if that is more, or when the change has lost half of the significance that it began with.
-// @param blind  standard deviation that a change is proved against.
-HealthLevel levelOf(double change, double stddev, double significance, double blind, double warn, double error,
-                    HealthLevel before, const HealthOptions& options) {
-  const double size = std::abs(change);
+HealthLevel levelOf(const PartChange& change, HealthLevel before, const HealthOptions& options) {
+  const double size = std::abs(change.size);
   const auto reaches = [&](HealthLevel level, double threshold) {
     const bool holds = before >= level && before != HealthLevel::kStale;
-    if (significance < options.min_significance * (holds ? kHeldShare : 1.0)) return false;
-    return size + 1e-9 >= threshold - (holds ? std::fmax(options.hysteresis, stddev) : 0.0);
+    if (change.significance < options.min_significance * (holds ? kHeldShare : 1.0)) return false;
+    return size + 1e-9 >= threshold - (holds ? std::fmax(options.hysteresis, change.stddev) : 0.0);
   };
-  if (reaches(HealthLevel::kError, error)) return HealthLevel::kError;
-  if (reaches(HealthLevel::kWarn, warn)) return HealthLevel::kWarn;
+  if (reaches(HealthLevel::kError, change.error)) return HealthLevel::kError;
+  if (reaches(HealthLevel::kWarn, change.warn)) return HealthLevel::kWarn;
   // A change as large as the error threshold would not be certain.
-  return options.min_significance * blind > error ? HealthLevel::kStale : HealthLevel::kOk;
+  return options.min_significance * change.blind > change.error ? HealthLevel::kStale : HealthLevel::kOk;
 }
 
 }  // namespace
@@ -159,8 +166,8 @@ StrutChange HealthAssessment::change() const {
 void HealthAssessment::noteLoad(const StrutChange& change) {
   if (!change.load_alone) return;
   const double apart = std::abs(change.measured_damping->size - change.measured_stiffness->size);
-  const double stddev = std::hypot(change.measured_damping->stddev, change.measured_stiffness->stddev);
-  if (apart + kLoadCertain * stddev < kLoadShare * std::min(options_.damping_warn, options_.stiffness_warn))
+  if (apart + kLoadCertain * change.apartStddev() <
+      kLoadShare * std::min(options_.damping_warn, options_.stiffness_warn))
     known_load_ = std::log1p(*change.payload);
 }
 
@@ -182,23 +189,27 @@ void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
   now.stiffness_change = change.stiffness;
   now.payload_change = change.payload;
   now.load_doubt = doubtOfLoad(change);
-  const double unless_load = change.load_alone ? change.load_alone->distance : HUGE_VAL;
-  const auto blind = [&](const std::optional<LogChange>& part) {
-    if (!change.load_alone) return part->stddev;
-    const double apart = std::hypot(change.measured_damping->stddev, change.measured_stiffness->stddev);
-    return std::fmax(part->stddev, apart);  // NaN: not known
+  const auto part = [&](double size, double stddev, const LogChange& measured, double warn, double error) {
+    const double significance = logSize(size) / stddev;
+    if (!change.load_alone) return PartChange{size, stddev, significance, measured.stddev, warn, error};
+    return PartChange{size,
+                      stddev,
+                      std::fmin(significance, change.load_alone->distance),
+                      std::fmax(measured.stddev, change.apartStddev()),
+                      warn,
+                      error};  // NaN: not known
   };
   if (change.damping) {
-    now.damping_significance = std::fmin(logSize(*change.damping) / change.damping_stddev, unless_load);
-    damping_.level =
-        levelOf(*change.damping, change.damping_stddev, now.damping_significance, blind(change.measured_damping),
-                options_.damping_warn, options_.damping_error, damping_.level, options_);
+    const PartChange damping = part(*change.damping, change.damping_stddev, *change.measured_damping,
+                                    options_.damping_warn, options_.damping_error);
+    now.damping_significance = damping.significance;
+    damping_.level = levelOf(damping, damping_.level, options_);
   }
   if (change.stiffness) {
-    now.stiffness_significance = std::fmin(logSize(*change.stiffness) / change.stiffness_stddev, unless_load);
-    stiffness_.level = levelOf(*change.stiffness, change.stiffness_stddev, now.stiffness_significance,
-                               blind(change.measured_stiffness), options_.stiffness_warn, options_.stiffness_error,
-                               stiffness_.level, options_);
+    const PartChange stiffness = part(*change.stiffness, change.stiffness_stddev, *change.measured_stiffness,
+                                      options_.stiffness_warn, options_.stiffness_error);
+    now.stiffness_significance = stiffness.significance;
+    stiffness_.level = levelOf(stiffness, stiffness_.level, options_);
   }
   now.damping_level = damping_.level;
   now.stiffness_level = stiffness_.level;

@@ -47,7 +47,6 @@ double withDifference(double stddev, double ls, double la) {
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
       with_offset_(options.estimators.with_offset),
-      removes_noise_shift_(options.estimators.removes_noise_shift),
       regression_(filter_, 0, with_offset_),
       excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), RegressorNoise(filter_)),
       least_squares_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples)),
@@ -56,8 +55,8 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       forgetting_{!options.estimators.forgets_unexcited, {}},
       past_{present(), present()},
       stddevs_due_(kStddevsEvery),
-      noise_level_(filter_),
       silent_rows_(filter_.horizon_samples) {
+  if (options.estimators.removes_noise_shift) noise_level_.emplace(filter_);
   noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
   rows_ = std::numeric_limits<double>::infinity();  // the plain columns are there from the first row on
   setForgetting(options);
@@ -119,7 +118,7 @@ void StrutIdentifier::update(const RegressionRow& row) {
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
-  if (la_is_valid_) noise_level_.add(innovation);
+  if (la_is_valid_ && noise_level_) noise_level_->add(innovation);
   const bool is_lost = kLost * least_squares_.meanAbsoluteResidual() < least_absolute_.meanAbsoluteResidual();
   lost_memories_ = is_lost ? lost_memories_ + 1.0 - forgettingFactor() : 0.0;
   if (lost_memories_ > kMostLost) least_absolute_.beginAgain(least_squares_);
@@ -183,7 +182,7 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   // For a normal distribution the variance is pi/2 times the mean size squared.
   const double size = least_absolute_.usualResidual();
   const double present = 0.5 * kPi * size * size / noise.residualGain(strut);
-  const std::optional<double> lasting = removes_noise_shift_ ? noise_level_.sensorVariance(noise, strut) : std::nullopt;
+  const std::optional<double> lasting = noise_level_ ? noise_level_->sensorVariance(noise, strut) : std::nullopt;
   const double variance = std::min(lasting.value_or(present), present);
   const Eigen::Vector2d moment = noise.moment(strut, variance);
   // Beside a parameter that is held P is not that of the rows.
@@ -235,7 +234,7 @@ void StrutIdentifier::startNewSeries() {
   regression_.reset();
   least_squares_.interrupt();
   least_absolute_.interrupt();
-  noise_level_.interrupt();
+  if (noise_level_) noise_level_->interrupt();
   excitation_.reset();
   has_row_ = false;
 }

@@ -19,6 +19,16 @@ function section(id, title, lede, ...content) {
       'section', {id}, element('h2', {}, title), lede ? element('p', {class: 'lede'}, lede) : null, content);
 }
 
+/** Heading of a column. */
+const head = (text, kind) => element('th', {class: kind}, text);
+
+/** A table that a narrow page may scroll sideways. */
+function wideTable(heads, rows) {
+  return element(
+      'div', {class: 'wide'},
+      element('table', {}, element('thead', {}, element('tr', {}, heads)), element('tbody', {}, rows)));
+}
+
 /** Names what the colours mean: entries [colour, text, dashed?]. */
 function legend(...entries) {
   return element(

@@ -14,17 +14,7 @@ function eventsSection({events}) {
   const left = events.length - rows.length;
   return section(
       'events', 'Events', 'Every change of level with its reason.',
-      element(
-          'div', {class: 'wide'},
-          element(
-              'table', {},
-              element(
-                  'thead', {},
-                  element(
-                      'tr', {}, element('th', {class: 'number minor'}, 'stamp [s]'),
-                      element('th', {class: 'moment'}, 'after'), element('th', {}, 'level'),
-                      element('th', {}, 'reason'))),
-              element('tbody', {}, rows))),
+      wideTable([head('stamp [s]', 'number minor'), head('after', 'moment'), head('level'), head('reason')], rows),
       left > 0 ? element('p', {class: 'lede'}, `${left} more: --json and --csv have all.`) : null);
 }
 
@@ -45,17 +35,11 @@ function estimatesSection({estimates}) {
       'estimates', 'Estimates at the end',
       'What the monitor’s two estimators know after the last reading, ± standard deviation: la, which outliers hardly ' +
           'move, and ls, least squares.',
-      element(
-          'div', {class: 'wide'},
-          element(
-              'table', {},
-              element(
-                  'thead', {},
-                  element(
-                      'tr', {}, element('th', {}, ''), element('th', {class: 'number'}, 'b₁ damping/mass [1/s]'),
-                      element('th', {class: 'number'}, 'b₀ stiffness/mass [1/s²]'),
-                      element('th', {class: 'number minor'}, 'frequency [Hz]'),
-                      element('th', {class: 'number minor'}, 'damping ratio'),
-                      element('th', {class: 'number minor'}, 'offset [m/s²]'), element('th', {}, 'valid'))),
-              element('tbody', {}, Object.entries(estimates).map(([name, each]) => estimateRow(name, each))))));
+      wideTable(
+          [
+            head(''), head('b₁ damping/mass [1/s]', 'number'), head('b₀ stiffness/mass [1/s²]', 'number'),
+            head('frequency [Hz]', 'number minor'), head('damping ratio', 'number minor'),
+            head('offset [m/s²]', 'number minor'), head('valid')
+          ],
+          Object.entries(estimates).map(([name, each]) => estimateRow(name, each))));
 }

@@ -20,8 +20,8 @@ function coefficientLines(findings, model, deviations = {}) {
 
 function rankingSection(findings) {
   const {ranking, base, selected, indistinguishable, noise_floor: floor} = findings.search;
-  const longest = Math.max(
-      base.held_out_rmse, ...ranking.map(({held_out_rmse: rmse}) => Math.min(rmse, 1.5 * base.held_out_rmse)));
+  const longest =
+      Math.max(base.held_out_rmse, ...ranking.map(({held_out_rmse: rmse}) => Math.min(rmse, 1.5 * base.held_out_rmse)));
   const scale = scaleFor(base.held_out_rmse, 'm/s^2');
   const rows = ranking.map((ranked, i) => {
     const name = ranked.effects[ranked.effects.length - 1];
@@ -45,20 +45,14 @@ function rankingSection(findings) {
   return section(
       'ranking', 'All candidates',
       'Every effect that is known, added alone to the model, fitted on two thirds of the drive and judged on the ' +
-      'rest. ✓ named; ≈ this drive cannot tell it from the named one; removed: of the error’s mean square; ' +
-      'significant: more than chance would give among so many.',
-      element(
-          'div', {class: 'wide'},
-          element(
-              'table', {},
-              element(
-                  'thead', {},
-                  element(
-                      'tr', {}, element('th', {class: 'number minor'}, '#'), element('th', {}, 'effect'),
-                      element('th', {}, 'held-out error'), element('th', {class: 'number'}, 'removed'),
-                      element('th', {class: 'minor'}, 'significant'),
-                      element('th', {class: 'number minor'}, 'fitted'))),
-              element('tbody', {}, rows))));
+          'rest. ✓ named; ≈ this drive cannot tell it from the named one; removed: of the error’s mean square; ' +
+          'significant: more than chance would give among so many.',
+      wideTable(
+          [
+            head('#', 'number minor'), head('effect'), head('held-out error'), head('removed', 'number'),
+            head('significant', 'minor'), head('fitted', 'number minor')
+          ],
+          rows));
 }
 
 function parameterSection(findings) {
@@ -71,33 +65,18 @@ function parameterSection(findings) {
       'parameters', 'Parameters',
       after ?
           'Fitted to the whole drive, ± standard deviation. What the missing effect had pushed spring and damper to ' +
-          'becomes visible in the change.' :
+              'becomes visible in the change.' :
           'Fitted to the whole drive, ± standard deviation.',
-      element(
-          'div', {class: 'wide'},
-          element(
-              'table', {},
-              element(
-                  'thead', {},
-                  element(
-                      'tr', {}, element('th', {}, 'parameter'), element('th', {class: 'number'}, 'model as it is'),
-                      after ?
-                          [
-                            element('th', {class: 'number'}, 'with the effect'),
-                            element('th', {class: 'number minor'}, 'change')
-                          ] :
-                          null,
-                      element('th', {}, 'unit'))),
-              element(
-                  'tbody', {},
-                  parameters.map(
-                      row => element(
-                          'tr', {},
-                          element(
-                              'td', {}, row.symbol ? [element('b', {}, row.symbol), ' '] : null, spoken(row.title)),
-                          cell(row.before, scaleOf(row)),
-                          after ?
-                              [cell(row.after, scaleOf(row)), element('td', {class: 'number minor'}, change(row))] :
-                              null,
-                          element('td', {}, scaleOf(row).unit)))))));
+      wideTable(
+          [
+            head('parameter'), head('model as it is', 'number'),
+            after ? [head('with the effect', 'number'), head('change', 'number minor')] : null, head('unit')
+          ],
+          parameters.map(
+              row => element(
+                  'tr', {},
+                  element('td', {}, row.symbol ? [element('b', {}, row.symbol), ' '] : null, spoken(row.title)),
+                  cell(row.before, scaleOf(row)),
+                  after ? [cell(row.after, scaleOf(row)), element('td', {class: 'number minor'}, change(row))] : null,
+                  element('td', {}, scaleOf(row).unit)))));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 namespace suspension_health_monitor {
@@ -29,6 +30,9 @@ struct StrutChange {
   std::optional<double> payload;            ///< of the body's mass; empty: only one of the two parameters can be judged
   double damping_stddev, stiffness_stddev;  ///< of ln(1 + change); NaN: not known
   std::optional<LoadAlone> load_alone;      ///< the rival of any damage; empty: there is none
+
+  /// @return standard deviation of x1 - x0, of two that are measured.
+  double apartStddev() const { return std::hypot(measured_damping->stddev, measured_stiffness->stddev); }
 };
 
 /// @param damping, stiffness  their errors are taken as independent.

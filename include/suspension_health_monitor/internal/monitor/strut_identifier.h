@@ -106,7 +106,7 @@ class StrutIdentifier {
   int numModelColumns() const { return offsetColumn().value_or(least_absolute_.numParameters()); }
 
   IntegralFilterOptions filter_;
-  bool with_offset_, removes_noise_shift_;
+  bool with_offset_;
   SuspensionRegression regression_;
   Excitation excitation_;
   RecursiveLeastSquares least_squares_;
@@ -116,10 +116,10 @@ class StrutIdentifier {
   Eigen::VectorXd noise_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
   EveryN stddevs_due_;
   bool has_row_ = false;
-  double rows_ = 0.0;            // of the model's present columns
-  double rows_to_forget_ = 0.0;  // until what a force from outside did is forgotten
-  double lost_memories_ = 0.0;   // that LS has explained far more than LA for
-  NoiseLevel noise_level_;
+  double rows_ = 0.0;                      // of the model's present columns
+  double rows_to_forget_ = 0.0;            // until what a force from outside did is forgotten
+  double lost_memories_ = 0.0;             // that LS has explained far more than LA for
+  std::optional<NoiseLevel> noise_level_;  // none: what the noise shifts is left in the estimates
   SilentRows silent_rows_;
   bool la_is_valid_ = false;
 };
