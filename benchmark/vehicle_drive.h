@@ -16,19 +16,19 @@ namespace vehicle_drive {
 inline constexpr double kPi = 3.14159265358979323846;
 
 struct Strut {
-  double x, y;                   // [m], from the centre of gravity, forward and left
-  double damping, stiffness;     // [N s/m], [N/m]
-  double wheel_mass, tyre;       // [kg], [N/m]
-  double tyre_damping;           // [N s/m]
+  double x, y;                // [m], from the centre of gravity, forward and left
+  double damping, stiffness;  // [N s/m], [N/m]
+  double wheel_mass, tyre;    // [kg], [N/m]
+  double tyre_damping;        // [N s/m]
 };
 
 struct Vehicle {
   std::string name;
   double mass, pitch_inertia, roll_inertia;  // [kg], [kg m^2]; 0: does not rotate so
   std::vector<Strut> struts;
-  double speed;        // [m/s]
-  double roughness;    // ISO 8608 G_d(n0) [m^3]
-  double horizon;      // [s] that suits it
+  double speed;      // [m/s]
+  double roughness;  // ISO 8608 G_d(n0) [m^3]
+  double horizon;    // [s] that suits it
 
   double mobility(std::size_t i, std::size_t j) const {
     double sum = 1.0 / mass;
@@ -164,7 +164,8 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
   std::vector<std::vector<double>> raw(2 * n, std::vector<double>(steps - 1));
   Record record;
   record.travel.assign(n, 0.0), record.travel_rate = record.force = record.travel;
-  record.own.resize(n); record.ownTravel.resize(n);
+  record.own.resize(n);
+  record.ownTravel.resize(n);
   const auto moved = [](const std::vector<double>& s, double by, const std::vector<double>& d) {
     std::vector<double> to = s;
     for (std::size_t i = 0; i < s.size(); ++i) to[i] += by * d[i];
@@ -178,7 +179,8 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
       const Strut& strut = vehicle.struts[i];
       const double d = state[3 + i] - (state[0] + strut.x * state[1] + strut.y * state[2]);
       const double v = state[dof + 3 + i] - (state[dof] + strut.x * state[dof + 1] + strut.y * state[dof + 2]);
-      if (k % kSub == 0 && static_cast<double>(k) * dt >= kLead - 1e-9 && record.own[i].size() < static_cast<std::size_t>(options.seconds * options.rate)) {
+      if (k % kSub == 0 && static_cast<double>(k) * dt >= kLead - 1e-9 &&
+          record.own[i].size() < static_cast<std::size_t>(options.seconds * options.rate)) {
         record.own[i].push_back(force[i] * vehicle.mobility(i, i));
         record.ownTravel[i].push_back(d);
       }

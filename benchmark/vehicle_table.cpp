@@ -46,7 +46,8 @@ const char* wordOf(Verdict verdict) {
 int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "linear";
   const unsigned seeds = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
-  const std::vector<std::string> kinds = argc > 3 ? std::vector<std::string>{argv[3]} : std::vector<std::string>{"half", "sedan", "robot", "truck"};
+  const std::vector<std::string> kinds =
+      argc > 3 ? std::vector<std::string>{argv[3]} : std::vector<std::string>{"half", "sedan", "robot", "truck"};
   const unsigned first = argc > 4 ? static_cast<unsigned>(std::atoi(argv[4])) : 1;
   const double period = 0.01;
   for (const std::string& kind : kinds)
@@ -68,7 +69,9 @@ int main(int argc, char** argv) {
         std::normal_distribution<double> normal;
         for (int i = 0; i < 20000; ++i) {
           const double x = normal(random);
-          square += std::pow(std::string(law.name) == "coulomb_friction" ? std::tanh(x * v / 0.02) : law.shape(x, x), 2) / 20000;
+          square +=
+              std::pow(std::string(law.name) == "coulomb_friction" ? std::tanh(x * v / 0.02) : law.shape(x, x), 2) /
+              20000;
         }
         const double size = 0.15 * record.force[at] / std::sqrt(square);
         const bool friction = std::string(law.name) == "coulomb_friction";
@@ -89,7 +92,8 @@ int main(int argc, char** argv) {
       const auto begin = std::chrono::steady_clock::now();
       const VehicleDiagnosis diagnosis = diagnoseVehicle({drive}, names);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      std::printf("%s %u, hidden: %s. %s (%.1f s)\n", kind.c_str(), seed, hidden.c_str(), diagnosis.summary.c_str(), seconds);
+      std::printf("%s %u, hidden: %s. %s (%.1f s)\n", kind.c_str(), seed, hidden.c_str(), diagnosis.summary.c_str(),
+                  seconds);
       for (std::size_t i = 0; i < diagnosis.struts.size(); ++i) {
         const Diagnosis& found = diagnosis.struts[i];
         std::string selected;
@@ -102,13 +106,16 @@ int main(int argc, char** argv) {
         IdentifyOptions how;
         const IdentifyResult result = identify(separated.struts[i], how);
         const auto percent = [](double value, double truth) { return 100 * (value / truth - 1); };
-        std::printf("   strut %zu: b1 %+.1f b0 %+.1f %%, iv %+.1f %+.1f, la %+.1f (%.1f) %+.1f (%.1f) %s%s, structured %.2f explained %.2f, rmse %.4f floor %.4f\n", i,
-                    percent(separated.models[i].damping_to_mass, vehicle.b1(i)), percent(separated.models[i].stiffness_to_mass, vehicle.b0(i)),
-                    percent(result.iv.damping_to_mass, vehicle.b1(i)), percent(result.iv.stiffness_to_mass, vehicle.b0(i)),
-                    percent(result.la.damping_to_mass, vehicle.b1(i)), 100 * result.la.damping_to_mass_stddev / vehicle.b1(i),
-                    percent(result.la.stiffness_to_mass, vehicle.b0(i)), 100 * result.la.stiffness_to_mass_stddev / vehicle.b0(i),
-                    wordOf(found.verdict), selected.c_str(), found.structured_share, found.explained_share,
-                    found.base.held_out_rmse, found.noise_floor);
+        std::printf(
+            "   strut %zu: b1 %+.1f b0 %+.1f %%, iv %+.1f %+.1f, la %+.1f (%.1f) %+.1f (%.1f) %s%s, structured %.2f "
+            "explained %.2f, rmse %.4f floor %.4f\n",
+            i, percent(separated.models[i].damping_to_mass, vehicle.b1(i)),
+            percent(separated.models[i].stiffness_to_mass, vehicle.b0(i)),
+            percent(result.iv.damping_to_mass, vehicle.b1(i)), percent(result.iv.stiffness_to_mass, vehicle.b0(i)),
+            percent(result.la.damping_to_mass, vehicle.b1(i)), 100 * result.la.damping_to_mass_stddev / vehicle.b1(i),
+            percent(result.la.stiffness_to_mass, vehicle.b0(i)),
+            100 * result.la.stiffness_to_mass_stddev / vehicle.b0(i), wordOf(found.verdict), selected.c_str(),
+            found.structured_share, found.explained_share, found.base.held_out_rmse, found.noise_floor);
       }
       std::fflush(stdout);
     }

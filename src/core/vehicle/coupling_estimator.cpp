@@ -20,8 +20,14 @@ constexpr double kFarRest = 3.0;  // usual ones: a row that is farther off is li
 
 bool CouplingEstimate::isKnown() const { return doubt <= kMostDoubt; }
 
-CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const IntegralFilterOptions& filter,
-                                     double memory)
+std::vector<StrutModel> CouplingEstimate::models() const {
+  std::vector<StrutModel> models;
+  for (Eigen::Index i = 0; i < damping_to_mass.size(); ++i)
+    models.push_back({damping_to_mass[i], stiffness_to_mass[i], {}, {}});
+  return models;
+}
+
+CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const IntegralFilterOptions& filter, double memory)
     : num_struts_(num_struts),
       num_forces_(num_forces),
       noise_(filter),
@@ -115,9 +121,8 @@ const CouplingEstimate& CouplingEstimator::solve() {
 // @return false: there is no strut yet.
 bool CouplingEstimator::start(const Moments& moments) {
   const int regressors = 2 * num_struts_ + num_forces_;
-  const Moments solution = moments.topLeftCorner(regressors, regressors)
-                               .ldlt()
-                               .solve(moments.block(0, regressors, regressors, num_struts_));
+  const Moments solution =
+      moments.topLeftCorner(regressors, regressors).ldlt().solve(moments.block(0, regressors, regressors, num_struts_));
   for (int j = 0; j < num_struts_; ++j) {
     estimate_.damping_to_mass[j] = solution(j, j);
     estimate_.stiffness_to_mass[j] = solution(num_struts_ + j, j);
@@ -217,12 +222,13 @@ void CouplingEstimator::describe(const Moments& plain, const Moments& moments, d
 
   StrutVector scale(n);
   for (int j = 0; j < n; ++j) scale[j] = 1.0 / std::sqrt(sensor_variance * noise_.forceGain(strut(j)));
-  const StrutMatrix against_noise =
-      scale.asDiagonal() * combined(plain).topLeftCorner(n, n) * scale.asDiagonal();
+  const StrutMatrix against_noise = scale.asDiagonal() * combined(plain).topLeftCorner(n, n) * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<StrutMatrix> parts(against_noise);
   estimate_.told_apart = parts.eigenvalues()[0];
   StrutVector sizes = parts.eigenvectors().col(0).cwiseAbs();
-  const auto largest = [&] { return static_cast<int>(std::max_element(sizes.data(), sizes.data() + n) - sizes.data()); };
+  const auto largest = [&] {
+    return static_cast<int>(std::max_element(sizes.data(), sizes.data() + n) - sizes.data());
+  };
   estimate_.first_alike = largest();
   sizes[estimate_.first_alike] = -1.0;
   estimate_.second_alike = largest();
@@ -240,7 +246,8 @@ void CouplingEstimator::describe(const Moments& plain, const Moments& moments, d
     most = std::max(most, share);
   }
   estimate_.doubt = std::sqrt(most) + kNoiseKnown / estimate_.told_apart;
-  if (!(estimate_.doubt >= 0.0) || !(coupling.own_power.minCoeff() > 0.0)) estimate_.doubt = HUGE_VAL;
+  const bool are_struts = estimate_.damping_to_mass.minCoeff() > 0.0 && estimate_.stiffness_to_mass.minCoeff() > 0.0;
+  if (!(estimate_.doubt >= 0.0) || !are_struts || !(coupling.own_power.minCoeff() > 0.0)) estimate_.doubt = HUGE_VAL;
 
   const Moments columns = plain.topLeftCorner(2 * n, 2 * n);
   const Row size = columns.diagonal().cwiseSqrt().cwiseInverse();

@@ -1,56 +1,61 @@
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kWashout = 1.0 / 50.0;  // of the natural frequency
-constexpr double kMeanMemory = 10.0;     // [s]
-
+constexpr double kMeanMemory = 10.0;  // [s]
+constexpr double kLongest = 4.0;      // natural period [s]: softer is no suspension
 constexpr std::array<double, kMostEffects> kNoMemories{};
+
+// That of the slowest strut [samples], even.
+int naturalPeriod(const std::vector<StrutModel>& models, double period) {
+  double slowest = 0.0;
+  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * kPi / std::sqrt(model.stiffness_to_mass));
+  return 2 * std::max(1, static_cast<int>(std::lround(std::min(slowest, kLongest) / (2.0 * period))));
+}
 
 }  // namespace
 
-Decoupler::Strut::Strut(double period, double forgetting_factor)
-    : travel(period), body(forgetting_factor), relative(forgetting_factor) {}
-
-Decoupler::Decoupler(int num_struts, double period)
-    : weights_(num_struts),
-      struts_(static_cast<std::size_t>(num_struts), Strut(period, std::exp(-period / kMeanMemory))) {}
-
-void Decoupler::setModel(int j, const StrutModel& model) {
-  Strut& strut = struts_[static_cast<std::size_t>(j)];
-  strut.model = withoutMemories(model);
-  strut.travel.setWashout(kWashout * std::sqrt(std::max(0.0, model.stiffness_to_mass)));
+Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models)
+    : weights_(coupling), gravity_(models.size(), LimitedMean(std::exp(-period / kMeanMemory))) {
+  const int natural_period = naturalPeriod(models, period);
+  for (const StrutModel& model : models) {
+    models_.push_back(withoutMemories(model));
+    travels_.emplace_back(period, model.stiffness_to_mass, natural_period);
+  }
+  recent_.set_capacity(static_cast<std::size_t>(TravelObserver::delayOf(natural_period)) + 1);
 }
 
 const VehicleSample* Decoupler::push(const VehicleSample& sample) {
-  recent_[size_++ % recent_.size()] = sample;
-  StrutVector moving(sample.sprung.size()), modelled(sample.sprung.size());
-  const VehicleSample& then = recent_[size_ > kDelay ? (size_ - 1 - kDelay) % recent_.size() : 0];
-  for (std::size_t j = 0; j < struts_.size(); ++j) {
+  recent_.push_back(sample);
+  for (std::size_t j = 0; j < models_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
-    Strut& strut = struts_[j];
-    const double relative = sample.unsprung[place] - sample.sprung[place];
-    strut.body.add(sample.sprung[place]);
-    strut.relative.add(relative);
-    strut.travel.push(relative - strut.relative.mean());
-    moving[place] = then.sprung[place] - strut.body.mean();
-    modelled[place] = strut.model.force(strut.travel.travel(), strut.travel.travelRate(), 0.0, kNoMemories.data());
+    gravity_[j].add(sample.sprung[place]);
+    travels_[j].push(sample.unsprung[place] - sample.sprung[place]);
   }
-  if (!struts_.front().travel.full()) return nullptr;
-  const StrutVector neighbours = weights_.neighbours(moving, then.forces, modelled);
-  out_ = then;
+  if (!travels_.front().full()) return nullptr;
+  out_ = recent_.front();
+  StrutVector moving = out_.sprung, modelled(out_.sprung.size());
+  for (std::size_t j = 0; j < models_.size(); ++j) {
+    const auto place = static_cast<Eigen::Index>(j);
+    moving[place] -= gravity_[j].mean();
+    modelled[place] = models_[j].force(travels_[j].travel(), travels_[j].travelRate(), 0.0, kNoMemories.data());
+  }
+  const StrutVector neighbours = weights_.neighbours(moving, out_.forces, modelled);
   out_.sprung -= neighbours;
   out_.unsprung -= neighbours;
   return &out_;
 }
 
 void Decoupler::startNewSeries() {
-  size_ = 0;
-  for (Strut& strut : struts_) strut.travel.startNewSeries();
+  recent_.clear();
+  for (TravelObserver& travel : travels_) travel.startNewSeries();
 }
 
 }  // namespace suspension_health_monitor

@@ -11,12 +11,6 @@ constexpr double kUnmodelled = 0.2;
 
 }  // namespace
 
-NeighbourWeights::NeighbourWeights(int num_struts)
-    : combination_(StrutMatrix::Identity(num_struts, num_struts)), leak_(StrutMatrix::Zero(num_struts, num_struts)) {
-  coupling_.ratios = combination_;
-  coupling_.forces.setZero(num_struts, 0);
-}
-
 NeighbourWeights::NeighbourWeights(const Coupling& coupling)
     : combination_(coupling.ratios), leak_(coupling.ratios), coupling_(coupling) {
   const Eigen::Index n = coupling.numStruts();

@@ -1,22 +1,14 @@
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/signal/continuity.h"
-#include "suspension_health_monitor/internal/vehicle/neighbour_weights.h"
-#include "suspension_health_monitor/internal/vehicle/travel_observer.h"
+#include "suspension_health_monitor/internal/vehicle/decoupler.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kWashout = 1.0 / 5.0;  // of the natural frequency; forward and backward together leave 0.998 there
-constexpr std::array<double, kMostEffects> kNoMemories{};
-
-using Series = std::vector<double>;
 
 /// Samples [from, to) of a drive without a gap.
 struct Stretch {
@@ -28,8 +20,8 @@ std::vector<Stretch> stretchesOf(const Drive& drive, double period) {
   const auto& samples = drive.samples;
   std::vector<Stretch> stretches;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const bool continues = k > 0 && continuity(samples[k].stamp - samples[k - 1].stamp, fromSeconds(period)) ==
-                                        Continuity::kContinues;
+    const bool continues =
+        k > 0 && continuity(samples[k].stamp - samples[k - 1].stamp, fromSeconds(period)) == Continuity::kContinues;
     if (!continues) stretches.push_back({k, k});
     stretches.back().to = k + 1;
   }
@@ -58,93 +50,40 @@ void fill(const StrutDrives& drive, std::size_t k, VehicleSample& sample) {
   }
 }
 
-// Backward in time what the observer's washout is forward: s^2 / (s^2 + 2 zeta omega s + omega^2), by the trapezoid rule.
-void washBackward(double frequency, double period, Series& values) {
-  const double x = frequency * period / 2.0, damping = 2.0 * TravelObserver::kDamping * x;
-  const double scale = 1.0 / (1.0 + damping + x * x);
-  const double a1 = 2.0 * (x * x - 1.0) * scale, a2 = (1.0 - damping + x * x) * scale;
-  double before = 0.0, before_that = 0.0;
-  for (auto value = values.rbegin(); value != values.rend(); ++value) {
-    const double state = *value - a1 * before - a2 * before_that;
-    *value = scale * (state - 2.0 * before + before_that);
-    before_that = before;
-    before = state;
-  }
-}
-
-double meanOf(const Series& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-// What the model of a strut says of its own part of the body's acceleration, at all samples of a stretch but the first
-// and last kDelay.
-Series forcesOf(const Drive& drive, const Stretch& stretch, double period, const StrutModel& model) {
-  Series relative;
-  for (std::size_t k = stretch.from; k < stretch.to; ++k)
-    relative.push_back(drive.samples[k].unsprung_acceleration - drive.samples[k].sprung_acceleration);
-  const double mean = meanOf(relative), frequency = kWashout * std::sqrt(std::max(0.0, model.stiffness_to_mass));
-  TravelObserver observer(period);
-  observer.setWashout(frequency);
-  Series travel, rate;
-  for (const double value : relative) {
-    observer.push(value - mean);
-    if (!observer.full()) continue;
-    travel.push_back(observer.travel());
-    rate.push_back(observer.travelRate());
-  }
-  washBackward(frequency, period, travel);
-  washBackward(frequency, period, rate);
-  Series forces;
-  for (std::size_t k = 0; k < travel.size(); ++k)
-    forces.push_back(model.force(travel[k], rate[k], 0.0, kNoMemories.data()));
-  return forces;
-}
-
 }  // namespace
 
-CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, const IntegralFilterOptions& filter) {
+CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double period) {
   const int n = static_cast<int>(drives.front().size());
-  CouplingEstimator estimator(n, 0, filter, std::numeric_limits<double>::infinity());
+  CouplingSurvey survey(n, 0, period, std::numeric_limits<double>::infinity());
   VehicleSample sample;
   for (const StrutDrives& drive : drives) {
     requireSameStamps(drive);
-    for (const Stretch& stretch : stretchesOf(drive.front(), filter.period)) {
-      estimator.startNewSeries();
+    for (const Stretch& stretch : stretchesOf(drive.front(), period)) {
+      survey.startNewSeries();
       for (std::size_t k = stretch.from; k < stretch.to; ++k) {
         fill(drive, k, sample);
-        estimator.add(sample);
+        survey.add(sample);
       }
     }
   }
-  return estimator.solve();
+  return survey.solve();
 }
 
 StrutDrives separateStruts(const StrutDrives& drive, double period, const Coupling& coupling,
                            const std::vector<StrutModel>& models) {
-  const NeighbourWeights weights(coupling);
-  const auto n = static_cast<Eigen::Index>(drive.size());
+  Decoupler decoupler(period, coupling, models);
   StrutDrives separated(drive.size());
-  StrutVector gravity(n), modelled(n);
   VehicleSample sample;
-  constexpr auto kEnd = static_cast<std::size_t>(TravelObserver::kDelay);
   for (const Stretch& stretch : stretchesOf(drive.front(), period)) {
-    if (stretch.size() < 2 * kEnd) continue;
-    std::vector<Series> forces;
-    for (std::size_t i = 0; i < drive.size(); ++i) {
-      forces.push_back(forcesOf(drive[i], stretch, period, withoutMemories(models[i])));
-      double sum = 0.0;
-      for (std::size_t k = stretch.from; k < stretch.to; ++k) sum += drive[i].samples[k].sprung_acceleration;
-      gravity[static_cast<Eigen::Index>(i)] = sum / static_cast<double>(stretch.size());
-    }
-    for (std::size_t k = 0; k < forces.front().size(); ++k) {
-      for (Eigen::Index i = 0; i < n; ++i) modelled[i] = forces[static_cast<std::size_t>(i)][k];
-      fill(drive, stretch.from + kEnd - 1 + k, sample);
-      const StrutVector neighbours = weights.neighbours(sample.sprung - gravity, sample.forces, modelled);
-      for (Eigen::Index i = 0; i < n; ++i)
-        separated[static_cast<std::size_t>(i)].samples.push_back(
-            {sample.stamp, sample.sprung[i] - neighbours[i], sample.unsprung[i] - neighbours[i]});
+    decoupler.startNewSeries();
+    for (std::size_t k = stretch.from; k < stretch.to; ++k) {
+      fill(drive, k, sample);
+      const VehicleSample* own = decoupler.push(sample);
+      if (own == nullptr) continue;
+      for (std::size_t i = 0; i < drive.size(); ++i) {
+        const auto place = static_cast<Eigen::Index>(i);
+        separated[i].samples.push_back({own->stamp, own->sprung[place], own->unsprung[place]});
+      }
     }
   }
   return separated;

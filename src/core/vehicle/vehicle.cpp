@@ -1,20 +1,13 @@
 #include "suspension_health_monitor/vehicle.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-// Horizons that are tried for the coupling [s]: from a stiff robot to a soft bus.
-constexpr double kShortestHorizon = 0.1, kLongestHorizon = 1.2;
-constexpr double kHorizonStep = 1.4142135623730951;
-constexpr int kFewestSamples = 8;  // of a horizon
 
 std::vector<Drive> flattened(const std::vector<StrutDrives>& drives) {
   std::vector<Drive> all;
@@ -32,20 +25,6 @@ void check(const std::vector<StrutDrives>& drives, const std::vector<std::string
                                   std::to_string(names.size()));
 }
 
-CouplingEstimate couple(const std::vector<StrutDrives>& drives, double period) {
-  std::optional<CouplingEstimate> best;
-  for (double horizon = kShortestHorizon; horizon <= kLongestHorizon; horizon *= kHorizonStep) {
-    IntegralFilterOptions filter;
-    filter.period = period;
-    filter.horizon_samples = static_cast<int>(std::lround(horizon / period));
-    if (filter.horizon_samples < kFewestSamples) continue;
-    const CouplingEstimate estimate = coupleStruts(drives, filter);
-    if (!best || estimate.doubt < best->doubt) best = estimate;
-  }
-  if (!best) throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be at most 0.15");
-  return *best;
-}
-
 std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
   std::vector<std::vector<double>> rows(static_cast<std::size_t>(matrix.rows()));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
@@ -61,9 +40,8 @@ class Separator {
       : drives_(drives) {
     check(drives, names);
     period_ = sample_period ? *sample_period : medianPeriod(flattened(drives));
-    estimate_ = couple(drives, period_);
-    for (Eigen::Index i = 0; i < estimate_.damping_to_mass.size(); ++i)
-      models_.push_back({estimate_.damping_to_mass[i], estimate_.stiffness_to_mass[i], {}, {}});
+    estimate_ = coupleStruts(drives, period_);
+    models_ = estimate_.models();
     coupling_.ratios = rowsOf(estimate_.coupling.ratios);
     coupling_.stddevs = rowsOf(estimate_.stddevs);
     coupling_.condition = estimate_.condition;

@@ -11,10 +11,10 @@ namespace suspension_health_monitor {
 /// with rho_ij = a_ij / a_jj, a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx: ratios that belong to the body and to where
 /// the struts stand, not to what they are worth.
 struct Coupling {
-  StrutMatrix ratios;                                                                          ///< rho [-]
+  StrutMatrix ratios;                                                                              ///< rho [-]
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStruts, kMostKnownForces> forces;  ///< kappa
-  StrutVector own_power;       ///< mean square of I_2^2 p_j, of the drive that it was learned from [(m/s^2)^2]
-  double rest_power = 0.0;     ///< that of what it leaves of I_2^2 z'', the least of all struts
+  StrutVector own_power;    ///< mean square of I_2^2 p_j, of the drive that it was learned from [(m/s^2)^2]
+  double rest_power = 0.0;  ///< that of what it leaves of I_2^2 z'', the least of all struts
 
   Eigen::Index numStruts() const { return ratios.rows(); }
 };

@@ -8,21 +8,25 @@
 #include "suspension_health_monitor/internal/identification/regressor_noise.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 #include "suspension_health_monitor/internal/vehicle/coupling.h"
+#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 
 /// What the rows of all struts say of their coupling.
 struct CouplingEstimate {
   Coupling coupling;
-  StrutMatrix stddevs;                               ///< of the ratios
-  StrutVector damping_to_mass, stiffness_to_mass;    ///< b1_i [1/s], b0_i [1/s^2] over the same rows
-  double condition = HUGE_VAL;                       ///< of the columns of all struts, each scaled to 1
+  StrutMatrix stddevs;                             ///< of the ratios
+  StrutVector damping_to_mass, stiffness_to_mass;  ///< b1_i [1/s], b0_i [1/s^2] over the same rows
+  double condition = HUGE_VAL;                     ///< of the columns of all struts, each scaled to 1
   double told_apart = 0.0;  ///< information of the combination of struts that these rows tell least of, over noise's
   int first_alike = 0, second_alike = 0;  ///< the two struts that it is about
   double doubt = HUGE_VAL;  ///< largest rms that the ratios' errors give a strut's own acceleration, as a share of it
 
   /// @return true if the ratios may be relied upon.
   bool isKnown() const;
+
+  /// @return the linear struts.
+  std::vector<StrutModel> models() const;
 };
 
 /// Estimates how the struts of a vehicle move one another from the rows of all of them,
@@ -64,9 +68,7 @@ class CouplingEstimator {
   double sensorVariance(const Moments& moments) const;
   void describe(const Moments& plain, const Moments& moments, double sensor_variance);
   StrutVector restOf(const Moments& moments) const;
-  Eigen::Vector2d strut(int j) const {
-    return {estimate_.damping_to_mass[j], estimate_.stiffness_to_mass[j]};
-  }
+  Eigen::Vector2d strut(int j) const { return {estimate_.damping_to_mass[j], estimate_.stiffness_to_mass[j]}; }
 
   int num_struts_, num_forces_;
   double forgetting_factor_;  // of a row that is taken

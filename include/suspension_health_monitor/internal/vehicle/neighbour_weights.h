@@ -12,9 +12,6 @@ namespace suspension_health_monitor {
 /// something of the neighbours remains in l_i' z''; that part alone is taken off by their models.
 class NeighbourWeights {
  public:
-  /// Of struts that know nothing of one another.
-  explicit NeighbourWeights(int num_struts);
-
   explicit NeighbourWeights(const Coupling& coupling);
 
   /// @param moving  z'' without gravity [m/s^2].  @param forces  x.
@@ -28,8 +25,8 @@ class NeighbourWeights {
   Coupling coupling_;
 };
 
-/// What of a strut's model is taken off of others: forces of travel and travel rate at an instant. Effects with a memory
-/// are left in.
+/// What of a strut's model is taken off of others: forces of travel and travel rate at an instant. Effects with a
+/// memory are left in.
 StrutModel withoutMemories(StrutModel model);
 
 }  // namespace suspension_health_monitor

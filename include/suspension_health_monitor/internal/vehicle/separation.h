@@ -2,21 +2,19 @@
 
 #include <vector>
 
-#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
-#include "suspension_health_monitor/internal/vehicle/coupling_estimator.h"
+#include "suspension_health_monitor/internal/vehicle/coupling_survey.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
 /// @param drives  of one vehicle.
 /// @return the coupling of its struts over all of them.
-/// @throws std::invalid_argument  if the struts of a drive have not the same stamps.
-CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, const IntegralFilterOptions& filter);
+/// @throws std::invalid_argument  if the struts of a drive have not the same stamps, or as CouplingSurvey.
+CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double period);
 
-/// Every strut of a recorded drive on its own, as Decoupler does it live, but forward and backward in time, so that
-/// nothing is late and the neighbours' travel needs to be known to a fifth of the natural frequency only.
+/// Every strut of a recorded drive on its own, by the Decoupler as live.
 /// @param models  of the struts, as they are known.
-/// @return drives of quarter cars, a little shorter at the ends of every series.
+/// @return drives of quarter cars; each series is shorter by what the Decoupler needs to begin with.
 StrutDrives separateStruts(const StrutDrives& drive, double period, const Coupling& coupling,
                            const std::vector<StrutModel>& models);
 

@@ -6,8 +6,8 @@
 
 namespace suspension_health_monitor {
 
-inline constexpr int kMostStruts = 16;       ///< of a vehicle
-inline constexpr int kMostKnownForces = 4;   ///< that act on its body and are measured
+inline constexpr int kMostStruts = 16;      ///< of a vehicle
+inline constexpr int kMostKnownForces = 4;  ///< that act on its body and are measured
 
 /// One number per strut; on the stack, as samples come.
 using StrutVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostStruts, 1>;

@@ -1,0 +1,114 @@
+#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/signal/continuity.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kCouplingMemory = 60.0;  // [s]: a body and where its struts stand change with the load at most
+constexpr double kCouplingEvery = 1.0;    // [s]
+constexpr double kModelsEvery = 0.1;      // [s]
+
+const std::vector<MonitorSettings>& checked(const std::vector<MonitorSettings>& settings) {
+  if (settings.empty() || settings.size() > static_cast<std::size_t>(kMostStruts))
+    throw std::invalid_argument(std::to_string(settings.size()) + " struts, must be 1 to " +
+                                std::to_string(kMostStruts));
+  for (const MonitorSettings& each : settings) {
+    if (!each.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
+    if (*each.sample_period != *settings.front().sample_period)
+      throw std::invalid_argument("sample_period differs between struts, must be the same for all of a vehicle");
+    each.validate();
+  }
+  return settings;
+}
+
+int samplesOf(double seconds, double period) { return std::max(1, static_cast<int>(std::lround(seconds / period))); }
+
+}  // namespace
+
+VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces)
+    : settings_(checked(settings)),
+      period_(fromSeconds(*settings.front().sample_period)),
+      sink_(std::move(sink)),
+      starts_(settings.size()),
+      survey_(static_cast<int>(settings.size()), num_forces, toSeconds(period_), kCouplingMemory),
+      coupling_due_(samplesOf(kCouplingEvery, toSeconds(period_))),
+      models_due_(samplesOf(kModelsEvery, toSeconds(period_))) {
+  if (settings_.size() == 1) begin();
+}
+
+void VehicleMonitor::begin() {
+  for (std::size_t i = 0; i < settings_.size(); ++i) {
+    struts_.emplace_back(settings_[i]);
+    if (!starts_[i].effects.empty()) struts_[i].setEffects(starts_[i].effects, starts_[i].strut);
+    if (starts_[i].baseline) struts_[i].setBaseline(*starts_[i].baseline);
+  }
+}
+
+void VehicleMonitor::setEffects(std::size_t strut, const std::vector<ActiveEffect>& effects,
+                                const std::optional<LinearStrut>& start) {
+  if (isCoupled()) return struts_[strut].setEffects(effects, start);
+  requireUsable(effects);
+  starts_[strut].effects = effects;
+  starts_[strut].strut = start;
+}
+
+void VehicleMonitor::setBaseline(std::size_t strut, const Baseline& baseline) {
+  if (isCoupled()) return struts_[strut].setBaseline(baseline);
+  starts_[strut].baseline = baseline;
+}
+
+void VehicleMonitor::addSample(const VehicleSample& sample) {
+  const Continuity how = last_ ? continuity(sample.stamp - *last_, period_) : Continuity::kGap;
+  if (how == Continuity::kTooSoon) return;
+  last_ = sample.stamp;
+  if (how != Continuity::kContinues) startNewSeries();
+  const VehicleSample* own = &sample;
+  if (settings_.size() > 1) {
+    survey_.add(sample);
+    if (coupling_due_()) learnCoupling();
+    if (!decoupler_) return;
+    if (models_due_()) takeModels();
+    own = decoupler_->push(sample);
+    if (own == nullptr) return;
+  }
+  for (std::size_t i = 0; i < struts_.size(); ++i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    const MonitorReport* report = struts_[i].addSample({own->stamp, own->sprung[place], own->unsprung[place]});
+    if (report != nullptr && sink_) sink_(i, *report);
+  }
+}
+
+void VehicleMonitor::learnCoupling() {
+  const CouplingEstimate& estimate = survey_.solve();
+  if (!estimate.isKnown()) return;
+  if (decoupler_) return decoupler_->setCoupling(estimate.coupling);
+  const std::vector<StrutModel> models = estimate.models();
+  decoupler_.emplace(toSeconds(period_), estimate.coupling, models);
+  for (std::size_t i = 0; i < settings_.size(); ++i)
+    if (!settings_[i].integration_horizon)
+      settings_[i].integration_horizon = proposeHorizon(models[i].damping_to_mass, models[i].stiffness_to_mass).horizon;
+  begin();
+}
+
+// As long as a strut has no valid estimate it shows in others as the coupling was learned with it.
+void VehicleMonitor::takeModels() {
+  for (std::size_t i = 0; i < struts_.size(); ++i) {
+    const StrutEstimate& la = struts_[i].report().la;
+    if (la.valid()) decoupler_->setModel(i, {la.damping_to_mass, la.stiffness_to_mass, struts_[i].effects(), {}});
+  }
+}
+
+void VehicleMonitor::startNewSeries() {
+  survey_.startNewSeries();
+  if (decoupler_) decoupler_->startNewSeries();
+}
+
+}  // namespace suspension_health_monitor
