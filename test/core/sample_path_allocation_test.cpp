@@ -150,6 +150,26 @@ TEST(SamplePath, AllocatesNothingInAGridThatTurnsToResampling) {
   EXPECT_GT(samples, 900);
 }
 
+TEST(SamplePath, AllocatesNothingInAGridOfManyStreamsThatTurnsToResampling) {
+  std::vector<StreamOptions> streams;
+  for (std::size_t i = 0; i < 8; ++i) streams.push_back({i < 6 ? 0 : i, i != 7});
+  StreamGrid grid(0.02, streams, Alignment::kAuto, 60);
+  Stamp stamp{};
+  int instants = 0, readings = 0;
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              stamp += std::chrono::milliseconds(++readings % 400 == 0 ? 1000 : 20);
+              for (std::size_t i = 0; i < streams.size(); ++i) {
+                if (i == 6 && readings % 97 == 0) continue;
+                const Stamp at = stamp + std::chrono::milliseconds(i < 6 ? 0 : 7);
+                for (auto next = grid.push(i, at, sample.sprung_acceleration); next != nullptr; next = grid.next())
+                  ++instants;
+              }
+            }),
+            0);
+  EXPECT_TRUE(grid.resamples());
+  EXPECT_GT(instants, 900);
+}
+
 TEST(SamplePath, AllocatesNothingInLawsOfTheUser) {
   OptionMap settings{{"effects/own/force", std::string("max(0, d - x)^2 + (v > 0 ? tanh(v / x) : s)")},
                      {"effects/own/memory_rate", std::string("(v - abs(v) * s) / x")},
