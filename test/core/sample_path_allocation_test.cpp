@@ -22,6 +22,7 @@
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 
 namespace {
 std::atomic<long> num_allocations{0};
@@ -167,6 +168,21 @@ TEST(SamplePath, AllocatesNothingInAGridOfManyStreamsThatTurnsToResampling) {
             }),
             0);
   EXPECT_TRUE(grid.resamples());
+  EXPECT_GT(instants, 900);
+}
+
+TEST(SamplePath, AllocatesNothingInTheStrutTopsOfABodyImu) {
+  VehicleChannels channels;
+  channels.body_imu = 0;
+  channels.struts = {{6, {}, {1.0, 0.5, 0.0}}, {7, 8, {0.0, 0.0, 0.0}}};
+  StrutTops tops(std::chrono::milliseconds(20), channels);
+  GridInstant instant{{}, std::vector<double>(9, 1.0), std::vector<bool>(9, true)};
+  int instants = 0, samples = 0;
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample&) {
+              instant.stamp += std::chrono::milliseconds(++samples % 400 == 0 ? 1000 : 20);
+              if (tops.push(instant) != nullptr) ++instants;
+            }),
+            0);
   EXPECT_GT(instants, 900);
 }
 
