@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
+
+namespace suspension_health_monitor {
+
+/// How the struts of a rigid body move one another. At the top of strut i
+///   z_i'' = sum_j rho_ij p_j + sum_k kappa_ik x_k,   p_j = b1_j v_j + b0_j d_j + effects of strut j,   rho_ii = 1,
+/// with rho_ij = a_ij / a_jj, a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx: ratios that belong to the body and to where
+/// the struts stand, not to what they are worth.
+struct Coupling {
+  StrutMatrix ratios;                                                                          ///< rho [-]
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStruts, kMostKnownForces> forces;  ///< kappa
+  StrutVector own_power;       ///< mean square of I_2^2 p_j, of the drive that it was learned from [(m/s^2)^2]
+  double rest_power = 0.0;     ///< that of what it leaves of I_2^2 z'', the least of all struts
+
+  Eigen::Index numStruts() const { return ratios.rows(); }
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "suspension_health_monitor/internal/every_n.h"
+#include "suspension_health_monitor/internal/identification/limited_mean.h"
+#include "suspension_health_monitor/internal/identification/regressor_noise.h"
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/vehicle/coupling.h"
+
+namespace suspension_health_monitor {
+
+/// What the rows of all struts say of their coupling.
+struct CouplingEstimate {
+  Coupling coupling;
+  StrutMatrix stddevs;                               ///< of the ratios
+  StrutVector damping_to_mass, stiffness_to_mass;    ///< b1_i [1/s], b0_i [1/s^2] over the same rows
+  double condition = HUGE_VAL;                       ///< of the columns of all struts, each scaled to 1
+  double told_apart = 0.0;  ///< information of the combination of struts that these rows tell least of, over noise's
+  int first_alike = 0, second_alike = 0;  ///< the two struts that it is about
+  double doubt = HUGE_VAL;  ///< largest rms that the ratios' errors give a strut's own acceleration, as a share of it
+
+  /// @return true if the ratios may be relied upon.
+  bool isKnown() const;
+};
+
+/// Estimates how the struts of a vehicle move one another from the rows of all of them,
+///   I_2^2 z_i'' = sum_j rho_ij (b1_j I_1^2 u_j + b0_j I_0^2 u_j) + sum_k kappa_ik I_2^2 x_k + c_i + e_i,
+/// by least squares over a long memory: rho does not wear. The right side is linear in rho for given b1, b0 and the
+/// other way round; solve() alternates between the two, each step of which lowers the sum of squares. The moments that
+/// the sensors' noise has of itself are taken off (regressor_noise.h).
+///
+/// Tracks that are alike move struts alike: then the rows' information of some combination of struts is not clear of
+/// that of noise, and nothing is known.
+/// Cost per sample: O(N) and, every eighth of a horizon, O(N^2); no allocation.
+class CouplingEstimator {
+ public:
+  /// @param memory  of the rows [samples].
+  CouplingEstimator(int num_struts, int num_forces, const IntegralFilterOptions& filter, double memory);
+
+  /// Takes in the next sample of an uninterrupted uniform series.
+  void add(const VehicleSample& sample);
+
+  /// After a gap.
+  void startNewSeries();
+
+  /// @return what is known by now; O(N^3).
+  const CouplingEstimate& solve();
+
+  const CouplingEstimate& estimate() const { return estimate_; }
+
+ private:
+  static constexpr int kMostColumns = 3 * kMostStruts + kMostKnownForces + 1;
+  using Row = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostColumns, 1>;
+  using Moments = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
+
+  bool fillRow(const VehicleSample& sample);
+  double weightOfRow();
+  bool start(const Moments& moments);
+  void takeOffNoise(Moments& moments, double sensor_variance) const;
+  void alternate(const Moments& moments);
+  Moments combined(const Moments& moments) const;
+  double sensorVariance(const Moments& moments) const;
+  void describe(const Moments& plain, const Moments& moments, double sensor_variance);
+  StrutVector restOf(const Moments& moments) const;
+  Eigen::Vector2d strut(int j) const {
+    return {estimate_.damping_to_mass[j], estimate_.stiffness_to_mass[j]};
+  }
+
+  int num_struts_, num_forces_;
+  double forgetting_factor_;  // of a row that is taken
+  RegressorNoise noise_;
+  std::vector<SuspensionRegression> regressions_;
+  std::vector<LinearIntegralFilter> forces_;
+  EveryN row_due_;
+  Row row_;          // I_1^2 u_j, I_0^2 u_j, I_2^2 x_k, I_2^2 z_i'', 1
+  Moments moments_;  // mean of row row'
+  double weight_ = 0.0;
+  LimitedMean usual_rest_;
+  bool has_start_ = false;
+  CouplingEstimate estimate_;
+};
+
+}  // namespace suspension_health_monitor

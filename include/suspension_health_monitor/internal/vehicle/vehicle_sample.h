@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "suspension_health_monitor/drive.h"
+
+namespace suspension_health_monitor {
+
+inline constexpr int kMostStruts = 16;       ///< of a vehicle
+inline constexpr int kMostKnownForces = 4;   ///< that act on its body and are measured
+
+/// One number per strut; on the stack, as samples come.
+using StrutVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostStruts, 1>;
+
+/// One number per strut and strut.
+using StrutMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostStruts, kMostStruts>;
+
+/// One number per known force.
+using ForceVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostKnownForces, 1>;
+
+/// What all accelerometers of a vehicle read at one instant: CornerSample of every strut.
+struct VehicleSample {
+  Stamp stamp{};
+  StrutVector sprung;    ///< z_i'' [m/s^2] of the body at the top of strut i
+  StrutVector unsprung;  ///< w_i'' [m/s^2] of its wheel carrier
+  ForceVector forces;    ///< known forces, in any unit
+};
+
+}  // namespace suspension_health_monitor

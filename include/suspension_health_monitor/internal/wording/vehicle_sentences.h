@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/internal/vehicle/coupling_estimator.h"
+#include "suspension_health_monitor/vehicle.h"
+
+namespace suspension_health_monitor {
+
+/// @return why the coupling is not known, to be read after "the drives"; empty if it is.
+std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::string>& struts);
+
+/// @return the verdict in a sentence.
+std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::string>& struts);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/drive.h"
+
+namespace suspension_health_monitor {
+
+/// A recorded drive of a vehicle: one Drive per strut, in the same order always, all with the same stamps.
+using StrutDrives = std::vector<Drive>;
+
+/// How the struts of a vehicle move one another through its body: at the top of strut i
+///   z_i'' = sum_j rho_ij p_j,   rho_ij = a_ij / a_jj,   a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx,
+/// where p_j is what strut j does to its own top. doc/vehicle.md derives it.
+struct VehicleCoupling {
+  std::vector<std::vector<double>> ratios;   ///< rho_ij in row i [-]; 1 for j = i
+  std::vector<std::vector<double>> stddevs;  ///< of these
+  double condition = 0.0;                    ///< of the rows of all struts: 1 is best, above 20 tracks are much alike
+  std::string reason;  ///< why the ratios are not known, to be read after "the drives"; empty if they are
+
+  explicit operator bool() const { return reason.empty(); }
+};
+
+/// Every strut on its own: what the others do to the body is taken out of both signals.
+struct SeparatedVehicle {
+  VehicleCoupling coupling;
+  std::vector<std::vector<Drive>> struts;  ///< by strut the drives of a quarter car with its b1 and b0; empty without
+                                           ///< a coupling
+  std::vector<StrutModel> models;          ///< b1, b0 of each by least squares over all drives
+};
+
+/// @param drives  of one vehicle, each with all of its struts.
+/// @param names  of the struts, for what is said of them.
+/// @param sample_period  T [s]; nothing: the median spacing of the samples.
+/// @throws std::invalid_argument  if there is no drive or no strut, if the struts of a drive have not the same stamps,
+/// or for a period that is not above 0.
+SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+                                 const std::optional<double>& sample_period = {});
+
+/// What a search found in a vehicle.
+struct VehicleDiagnosis {
+  VehicleCoupling coupling;
+  std::vector<Diagnosis> struts;  ///< by strut; empty without a coupling
+  Verdict verdict = Verdict::kNothingMissing;
+  std::string summary;  ///< in a sentence: which effect is missing in which strut
+
+  explicit operator bool() const { return static_cast<bool>(coupling); }
+};
+
+/// diagnose() for every strut of a vehicle. An effect in one strut shows in others: what was found in the strut where
+/// it explains most is taken out of them, before they are searched again, until nothing more is found.
+VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+                                 const DiagnoseOptions& options = {});
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,252 @@
+#include "suspension_health_monitor/internal/vehicle/coupling_estimator.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr int kRowsPerHorizon = 8;
+constexpr int kFirstSteps = 30, kSteps = 3;  // of the alternation: from nothing, and from the solution before
+// A share of 3 % of a strut's own acceleration makes its b1 and b0 wrong by as much at most: a fifth of what warns.
+constexpr double kMostDoubt = 0.03;
+// The share that noise has in the rows is known to a half: it is that of the residual, which is not all noise.
+constexpr double kNoiseKnown = 0.5;
+constexpr double kFarRest = 3.0;  // usual ones: a row that is farther off is limited to it
+
+}  // namespace
+
+bool CouplingEstimate::isKnown() const { return doubt <= kMostDoubt; }
+
+CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const IntegralFilterOptions& filter,
+                                     double memory)
+    : num_struts_(num_struts),
+      num_forces_(num_forces),
+      noise_(filter),
+      regressions_(static_cast<std::size_t>(num_struts), SuspensionRegression(filter)),
+      forces_(static_cast<std::size_t>(num_forces), LinearIntegralFilter(2, filter, 2)),
+      row_due_(std::max(1, filter.horizon_samples / kRowsPerHorizon)),
+      usual_rest_(0.0) {
+  const int spacing = std::max(1, filter.horizon_samples / kRowsPerHorizon);
+  forgetting_factor_ = std::exp(-spacing / memory);
+  usual_rest_ = LimitedMean(forgetting_factor_);
+  const int columns = 3 * num_struts + num_forces + 1;
+  row_ = Row::Zero(columns);
+  moments_ = Moments::Zero(columns, columns);
+  estimate_.coupling.ratios = StrutMatrix::Identity(num_struts, num_struts);
+  estimate_.coupling.forces.setZero(num_struts, num_forces);
+  estimate_.coupling.own_power = StrutVector::Zero(num_struts);
+  estimate_.stddevs = StrutMatrix::Constant(num_struts, num_struts, HUGE_VAL);
+  estimate_.damping_to_mass = estimate_.stiffness_to_mass = StrutVector::Zero(num_struts);
+}
+
+void CouplingEstimator::add(const VehicleSample& sample) {
+  if (!fillRow(sample) || !row_due_()) return;
+  const double weight = weightOfRow();
+  weight_ = forgetting_factor_ * weight_ + weight;
+  moments_ += weight / weight_ * (row_ * row_.transpose() - moments_);
+}
+
+// @return false while the filters fill.
+bool CouplingEstimator::fillRow(const VehicleSample& sample) {
+  bool is_full = true;
+  for (int j = 0; j < num_struts_; ++j) {
+    auto& regression = regressions_[static_cast<std::size_t>(j)];
+    const RegressionRow* row = regression.push({sample.stamp, sample.sprung[j], sample.unsprung[j]});
+    is_full = row != nullptr;
+    if (!is_full) continue;
+    row_[j] = row->regressor[kDampingToMass];
+    row_[num_struts_ + j] = row->regressor[kStiffnessToMass];
+    row_[2 * num_struts_ + num_forces_ + j] = row->output;
+  }
+  for (int k = 0; k < num_forces_; ++k) {
+    auto& force = forces_[static_cast<std::size_t>(k)];
+    force.push(sample.forces[k]);
+    row_[2 * num_struts_ + k] = force.output(2);
+  }
+  row_[row_.size() - 1] = 1.0;
+  return is_full;
+}
+
+// Rows whose rest is larger than usual count less, as those of lost readings.
+double CouplingEstimator::weightOfRow() {
+  if (!has_start_) return 1.0;
+  const Coupling& coupling = estimate_.coupling;
+  StrutVector rest(num_struts_);
+  for (int i = 0; i < num_struts_; ++i) {
+    rest[i] = row_[2 * num_struts_ + num_forces_ + i];
+    for (int j = 0; j < num_struts_; ++j)
+      rest[i] -= coupling.ratios(i, j) * strut(j).dot(Eigen::Vector2d(row_[j], row_[num_struts_ + j]));
+    for (int k = 0; k < num_forces_; ++k) rest[i] -= coupling.forces(i, k) * row_[2 * num_struts_ + k];
+  }
+  const double size = rest.norm();
+  usual_rest_.add(size);
+  return std::min(1.0, kFarRest * usual_rest_.mean() / size);
+}
+
+void CouplingEstimator::startNewSeries() {
+  for (auto& regression : regressions_) regression.reset();
+  for (auto& force : forces_) force.reset();
+}
+
+const CouplingEstimate& CouplingEstimator::solve() {
+  if (weight_ <= 0.0) return estimate_;
+  const Eigen::Index columns = row_.size() - 1;
+  const Row mean = moments_.topRightCorner(columns, 1);
+  const Moments plain = moments_.topLeftCorner(columns, columns) - mean * mean.transpose();
+  const bool is_first = !has_start_;
+  if (is_first && !start(plain)) return estimate_;
+  double variance = sensorVariance(plain);
+  for (int i = 0; i < (is_first ? kFirstSteps : kSteps); ++i) {
+    Moments moments = plain;
+    takeOffNoise(moments, variance);
+    alternate(moments);
+    variance = sensorVariance(plain);
+  }
+  Moments moments = plain;
+  takeOffNoise(moments, variance);
+  describe(plain, moments, variance);
+  return estimate_;
+}
+
+// Every strut by the columns of all, without the knowledge that the ratios are the same for damper and spring.
+// @return false: there is no strut yet.
+bool CouplingEstimator::start(const Moments& moments) {
+  const int regressors = 2 * num_struts_ + num_forces_;
+  const Moments solution = moments.topLeftCorner(regressors, regressors)
+                               .ldlt()
+                               .solve(moments.block(0, regressors, regressors, num_struts_));
+  for (int j = 0; j < num_struts_; ++j) {
+    estimate_.damping_to_mass[j] = solution(j, j);
+    estimate_.stiffness_to_mass[j] = solution(num_struts_ + j, j);
+  }
+  has_start_ = solution.allFinite();
+  return has_start_;
+}
+
+// Of all b1, b0 as they are the ratios; of the ratios b1 and b0.
+void CouplingEstimator::alternate(const Moments& moments) {
+  Coupling& coupling = estimate_.coupling;
+  const int n = num_struts_, known = n + num_forces_;
+  const Moments of_struts = combined(moments);
+  const Moments solution = of_struts.topLeftCorner(known, known).ldlt().solve(of_struts.block(0, known, known, n));
+  for (int j = 0; j < n; ++j) {
+    const double own = solution(j, j);
+    coupling.ratios.col(j) = solution.row(j).transpose() / own;
+    estimate_.damping_to_mass[j] *= own;
+    estimate_.stiffness_to_mass[j] *= own;
+  }
+  coupling.forces = solution.middleRows(n, num_forces_).transpose();
+
+  const StrutMatrix products = coupling.ratios.transpose() * coupling.ratios;
+  Moments normal(2 * n, 2 * n);
+  Row right(2 * n);
+  for (int a = 0; a < 2 * n; ++a) {
+    for (int b = 0; b < 2 * n; ++b) normal(a, b) = products(a % n, b % n) * moments(a, b);
+    const auto outputs = moments.row(a).segment(2 * n + num_forces_, n);
+    const auto forces = moments.row(a).segment(2 * n, num_forces_);
+    right[a] = (outputs - forces * coupling.forces.transpose()).dot(coupling.ratios.col(a % n));
+  }
+  const Row own = normal.ldlt().solve(right);
+  estimate_.damping_to_mass = own.head(n);
+  estimate_.stiffness_to_mass = own.tail(n);
+}
+
+// @return the moments of p_j, x_k and I_2^2 z_i'', in this order.
+CouplingEstimator::Moments CouplingEstimator::combined(const Moments& moments) const {
+  const int n = num_struts_, rest = n + num_forces_;
+  Moments to = Moments::Zero(n + rest, 2 * n + rest);
+  for (int j = 0; j < n; ++j) {
+    to(j, j) = estimate_.damping_to_mass[j];
+    to(j, n + j) = estimate_.stiffness_to_mass[j];
+  }
+  for (int k = 0; k < rest; ++k) to(n + k, 2 * n + k) = 1.0;
+  const Moments half = to * moments;
+  return half * to.transpose();
+}
+
+// @return mean square of what the model leaves of each I_2^2 z_i''.
+StrutVector CouplingEstimator::restOf(const Moments& moments) const {
+  const int n = num_struts_, known = n + num_forces_;
+  const Moments of_struts = combined(moments);
+  StrutVector rest(n);
+  for (int i = 0; i < n; ++i) {
+    Row with = Row::Zero(2 * n + num_forces_);
+    with.head(n) = -estimate_.coupling.ratios.row(i).transpose();
+    with.segment(n, num_forces_) = -estimate_.coupling.forces.row(i).transpose();
+    with[known + i] = 1.0;
+    rest[i] = with.dot(of_struts * with);
+  }
+  return rest;
+}
+
+// What noise of both sensors of every strut alike would have to be to leave the least of the rests.
+double CouplingEstimator::sensorVariance(const Moments& moments) const {
+  const StrutVector rest = restOf(moments);
+  double least = HUGE_VAL;
+  for (int i = 0; i < num_struts_; ++i) {
+    double gain = noise_.residualGain(strut(i));
+    for (int j = 0; j < num_struts_; ++j)
+      if (j != i) gain += std::pow(estimate_.coupling.ratios(i, j), 2) * noise_.forceGain(strut(j));
+    least = std::min(least, std::max(0.0, rest[i]) / gain);
+  }
+  return least;
+}
+
+void CouplingEstimator::takeOffNoise(Moments& moments, double sensor_variance) const {
+  const int n = num_struts_;
+  const Eigen::Matrix3d noise = sensor_variance * noise_.rowMoments();
+  for (int j = 0; j < n; ++j) {
+    const std::array<int, 3> columns{j, n + j, 2 * n + num_forces_ + j};
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        moments(columns[static_cast<std::size_t>(a)], columns[static_cast<std::size_t>(b)]) -= noise(a, b);
+  }
+}
+
+// @param plain  with the noise's.
+void CouplingEstimator::describe(const Moments& plain, const Moments& moments, double sensor_variance) {
+  const int n = num_struts_, known = n + num_forces_;
+  Coupling& coupling = estimate_.coupling;
+  const Moments of_struts = combined(moments).topLeftCorner(known, known);
+  const StrutVector rest = restOf(plain);
+  coupling.own_power = of_struts.diagonal().head(n);
+  coupling.rest_power = rest.minCoeff();
+
+  StrutVector scale(n);
+  for (int j = 0; j < n; ++j) scale[j] = 1.0 / std::sqrt(sensor_variance * noise_.forceGain(strut(j)));
+  const StrutMatrix against_noise =
+      scale.asDiagonal() * combined(plain).topLeftCorner(n, n) * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<StrutMatrix> parts(against_noise);
+  estimate_.told_apart = parts.eigenvalues()[0];
+  StrutVector sizes = parts.eigenvectors().col(0).cwiseAbs();
+  const auto largest = [&] { return static_cast<int>(std::max_element(sizes.data(), sizes.data() + n) - sizes.data()); };
+  estimate_.first_alike = largest();
+  sizes[estimate_.first_alike] = -1.0;
+  estimate_.second_alike = largest();
+
+  // One row of a horizon is taken as independent of the others.
+  const Moments inverse = of_struts.ldlt().solve(Moments::Identity(known, known));
+  double most = 0.0;
+  for (int i = 0; i < n; ++i) {
+    double share = 0.0;
+    for (int j = 0; j < n; ++j) {
+      const double variance = i == j ? 0.0 : rest[i] * inverse(j, j) * kRowsPerHorizon / weight_;
+      estimate_.stddevs(i, j) = std::sqrt(variance);
+      share += variance * coupling.own_power[j] / coupling.own_power[i];
+    }
+    most = std::max(most, share);
+  }
+  estimate_.doubt = std::sqrt(most) + kNoiseKnown / estimate_.told_apart;
+  if (!(estimate_.doubt >= 0.0) || !(coupling.own_power.minCoeff() > 0.0)) estimate_.doubt = HUGE_VAL;
+
+  const Moments columns = plain.topLeftCorner(2 * n, 2 * n);
+  const Row size = columns.diagonal().cwiseSqrt().cwiseInverse();
+  const Moments scaled = size.asDiagonal() * columns * size.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Moments> spread(scaled, Eigen::EigenvaluesOnly);
+  estimate_.condition = std::sqrt(spread.eigenvalues()[2 * n - 1] / spread.eigenvalues()[0]);
+}
+
+}  // namespace suspension_health_monitor

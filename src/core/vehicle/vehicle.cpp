@@ -1,0 +1,169 @@
+#include "suspension_health_monitor/vehicle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+// Horizons that are tried for the coupling [s]: from a stiff robot to a soft bus.
+constexpr double kShortestHorizon = 0.1, kLongestHorizon = 1.2;
+constexpr double kHorizonStep = 1.4142135623730951;
+constexpr int kFewestSamples = 8;  // of a horizon
+
+std::vector<Drive> flattened(const std::vector<StrutDrives>& drives) {
+  std::vector<Drive> all;
+  for (const StrutDrives& drive : drives) all.push_back(drive.front());
+  return all;
+}
+
+void check(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names) {
+  if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
+  if (names.empty() || names.size() > static_cast<std::size_t>(kMostStruts))
+    throw std::invalid_argument(std::to_string(names.size()) + " struts, must be 1 to " + std::to_string(kMostStruts));
+  for (const StrutDrives& drive : drives)
+    if (drive.size() != names.size())
+      throw std::invalid_argument("a drive of " + std::to_string(drive.size()) + " struts, must be " +
+                                  std::to_string(names.size()));
+}
+
+CouplingEstimate couple(const std::vector<StrutDrives>& drives, double period) {
+  std::optional<CouplingEstimate> best;
+  for (double horizon = kShortestHorizon; horizon <= kLongestHorizon; horizon *= kHorizonStep) {
+    IntegralFilterOptions filter;
+    filter.period = period;
+    filter.horizon_samples = static_cast<int>(std::lround(horizon / period));
+    if (filter.horizon_samples < kFewestSamples) continue;
+    const CouplingEstimate estimate = coupleStruts(drives, filter);
+    if (!best || estimate.doubt < best->doubt) best = estimate;
+  }
+  if (!best) throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be at most 0.15");
+  return *best;
+}
+
+std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
+  std::vector<std::vector<double>> rows(static_cast<std::size_t>(matrix.rows()));
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows[static_cast<std::size_t>(i)].push_back(matrix(i, j));
+  return rows;
+}
+
+/// Struts with what is known of them, to be separated again as more is known.
+class Separator {
+ public:
+  Separator(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+            const std::optional<double>& sample_period)
+      : drives_(drives) {
+    check(drives, names);
+    period_ = sample_period ? *sample_period : medianPeriod(flattened(drives));
+    estimate_ = couple(drives, period_);
+    for (Eigen::Index i = 0; i < estimate_.damping_to_mass.size(); ++i)
+      models_.push_back({estimate_.damping_to_mass[i], estimate_.stiffness_to_mass[i], {}, {}});
+    coupling_.ratios = rowsOf(estimate_.coupling.ratios);
+    coupling_.stddevs = rowsOf(estimate_.stddevs);
+    coupling_.condition = estimate_.condition;
+    coupling_.reason = reasonOf(estimate_, names);
+  }
+
+  const VehicleCoupling& coupling() const { return coupling_; }
+  const std::vector<StrutModel>& models() const { return models_; }
+  double period() const { return period_; }
+  void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
+
+  std::vector<std::vector<Drive>> separate() const {
+    std::vector<std::vector<Drive>> struts(models_.size());
+    for (const StrutDrives& drive : drives_) {
+      StrutDrives separated = separateStruts(drive, period_, estimate_.coupling, models_);
+      for (std::size_t i = 0; i < struts.size(); ++i) struts[i].push_back(std::move(separated[i]));
+    }
+    return struts;
+  }
+
+ private:
+  const std::vector<StrutDrives>& drives_;
+  double period_ = 0.0;
+  CouplingEstimate estimate_;
+  VehicleCoupling coupling_;
+  std::vector<StrutModel> models_;
+};
+
+bool names(const Diagnosis& strut) {
+  return strut && (strut.verdict == Verdict::kEffectFound || strut.verdict == Verdict::kSuspect);
+}
+
+// @return mean square that what was found explains [(m/s^2)^2].
+double explainedPower(const Diagnosis& strut) {
+  return names(strut)
+             ? strut.explained_share * strut.structured_share * strut.base.held_out_rmse * strut.base.held_out_rmse
+             : 0.0;
+}
+
+Verdict worstOf(const std::vector<Diagnosis>& struts) {
+  for (const Verdict verdict : {Verdict::kEffectFound, Verdict::kSuspect, Verdict::kUnexplained})
+    if (std::any_of(struts.begin(), struts.end(), [&](const Diagnosis& strut) { return strut.verdict == verdict; }))
+      return verdict;
+  return Verdict::kNothingMissing;
+}
+
+}  // namespace
+
+SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+                                 const std::optional<double>& sample_period) {
+  const Separator separator(drives, names, sample_period);
+  SeparatedVehicle separated{separator.coupling(), {}, separator.models()};
+  if (separated.coupling) separated.struts = separator.separate();
+  return separated;
+}
+
+VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& strut_names,
+                                 const DiagnoseOptions& options) {
+  Separator separator(drives, strut_names, options.sample_period);
+  VehicleDiagnosis result;
+  result.coupling = separator.coupling();
+  if (!result) {
+    result.summary = "The drives " + result.coupling.reason + ".";
+    return result;
+  }
+  const std::size_t n = strut_names.size();
+  result.struts.resize(n);
+  std::vector<bool> settled(n, false);
+  double done = 0.0;
+  for (bool goes_on = true; goes_on;) {
+    const auto separated = separator.separate();
+    const auto open = static_cast<double>(std::count(settled.begin(), settled.end(), false));
+    const double step = (1.0 - done) / (open + 1.0);  // what another round would take is not known
+    for (std::size_t i = 0; i < n; ++i) {
+      if (settled[i]) continue;
+      DiagnoseOptions strut = options;
+      strut.sample_period = separator.period();
+      if (options.progress) strut.progress = [&](double share) { options.progress(done + share * step); };
+      result.struts[i] = diagnose(separated[i], strut);
+      done += step;
+    }
+    std::size_t best = n;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (settled[i] || !result.struts[i]) continue;
+      separator.setModel(i, result.struts[i].model());
+      if (names(result.struts[i]) &&
+          (best == n || explainedPower(result.struts[i]) > explainedPower(result.struts[best])))
+        best = i;
+    }
+    goes_on = best < n && open > 1.0;
+    if (best == n) break;
+    settled[best] = true;
+    // What the others seem to lack may be this effect: they are judged anew without it.
+    for (std::size_t i = 0; i < n; ++i)
+      if (!settled[i] && result.struts[i]) separator.setModel(i, result.struts[i].base.model);
+  }
+  result.verdict = worstOf(result.struts);
+  result.summary = summaryOf(result, strut_names);
+  if (options.progress) options.progress(1.0);
+  return result;
+}
+
+}  // namespace suspension_health_monitor

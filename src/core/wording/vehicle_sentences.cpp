@@ -1,0 +1,46 @@
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kAlike = 20.0;  // information over noise's of the least combination: what is alike keeps it below
+
+}  // namespace
+
+std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::string>& struts) {
+  if (estimate.isKnown()) return "";
+  if (!(estimate.damping_to_mass.minCoeff() > 0.0 && estimate.stiffness_to_mass.minCoeff() > 0.0))
+    return "do not show damped springs that move one body: are body and wheel swapped, or an axis upside down?";
+  if (estimate.told_apart < kAlike && struts.size() > 1)
+    return "cannot tell " + struts[static_cast<std::size_t>(estimate.first_alike)] + " from " +
+           struts[static_cast<std::size_t>(estimate.second_alike)] +
+           ": their wheels move alike, or too little. Drive over bumps on one side";
+  return "are too short or too calm to tell how the struts move one another";
+}
+
+std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::string>& struts) {
+  std::vector<std::string> missing, suspects, unexplained, silent;
+  for (std::size_t i = 0; i < struts.size(); ++i) {
+    const Diagnosis& strut = diagnosis.struts[i];
+    if (!strut)
+      silent.push_back(struts[i]);
+    else if (strut.verdict == Verdict::kEffectFound)
+      missing.push_back(join(strut.selected, " and ") + " in " + struts[i]);
+    else if (strut.verdict == Verdict::kSuspect)
+      suspects.push_back(join(strut.selected) + " in " + struts[i]);
+    else if (strut.verdict == Verdict::kUnexplained)
+      unexplained.push_back(struts[i]);
+  }
+  std::vector<std::string> sentences;
+  if (!missing.empty()) sentences.push_back("Missing from the model: " + join(missing) + ".");
+  if (!suspects.empty()) sentences.push_back("Main suspect: " + join(suspects) + ".");
+  if (!unexplained.empty())
+    sentences.push_back("Something that no known effect explains is missing in " + join(unexplained) + ".");
+  if (!silent.empty()) sentences.push_back("Nothing can be said of " + join(silent) + ".");
+  if (sentences.empty()) return "Nothing is missing in any strut: what the models leave is noise.";
+  return join(sentences, " ");
+}
+
+}  // namespace suspension_health_monitor
