@@ -73,9 +73,9 @@ template <class Acceleration, class Rate>
 std::vector<double> topsAfter(const VehicleChannels& channels, const Acceleration& acceleration, const Rate& rate) {
   StrutTops tops(kPeriod, channels);
   const std::vector<double> wheels(channels.struts.size(), 0.0);
-  const VehicleInstant* last = nullptr;
+  const VehicleSample* last = nullptr;
   for (int k = 0; k < 60; ++k) last = tops.push(instantOf(acceleration(0.01 * k), rate(0.01 * k), wheels, k));
-  return last->sprung;
+  return {last->sprung.data(), last->sprung.data() + last->sprung.size()};
 }
 constexpr double kLast = 0.01 * (59 - MotionFilter::kDelay);
 
@@ -124,13 +124,15 @@ TEST(StrutTops, AreThoseOfTheMovingBody) {
   for (int k = 0; k < 300; ++k) {
     const double t = 0.01 * k;
     const Matrix3d to_imu = channels.body_mount.transpose();
-    const VehicleInstant* instant = vehicle.push(
+    const VehicleSample* instant = vehicle.push(
         instantOf(to_imu * body.acceleration(imu, t), to_imu * body.angularRate(t), {1.0, 2.0, 3.0, 4.0}, k));
     if (instant == nullptr) continue;
     ++instants;
     for (std::size_t i = 0; i < tops.size(); ++i) {
-      EXPECT_NEAR(instant->sprung[i], body.acceleration(tops[i], toSeconds(instant->stamp)).z(), 3e-3) << i;
-      EXPECT_NEAR(instant->unsprung[i], 1.0 + static_cast<double>(i), 1e-12);
+      EXPECT_NEAR(instant->sprung[static_cast<Eigen::Index>(i)],
+                  body.acceleration(tops[i], toSeconds(instant->stamp)).z(), 3e-3)
+          << i;
+      EXPECT_NEAR(instant->unsprung[static_cast<Eigen::Index>(i)], 1.0 + static_cast<double>(i), 1e-12);
     }
   }
   EXPECT_EQ(instants, 300 - 2 * vehicle.delay());
@@ -151,11 +153,11 @@ TEST(StrutTops, OfOneMotionAgreeHoweverTheyAreMeasuredUpToHalfTheSamplingRate) {
       const Vector3d alpha(2.0 * std::cos(w * t), -3.0 * std::sin(w * t), 0.0);
       const Vector3d rate(2.0 * std::sin(w * t) / w, 3.0 * std::cos(w * t) / w, 0.0);
       const double top = kGravity + std::sin(w * t) + alpha.cross(position).z();
-      const VehicleInstant* instant = tops.push(instantOf({0.0, 0.0, kGravity + std::sin(w * t)}, rate, {0.0, top}, k));
+      const VehicleSample* instant = tops.push(instantOf({0.0, 0.0, kGravity + std::sin(w * t)}, rate, {0.0, top}, k));
       if (instant == nullptr) continue;
       // 1e-4 of the rate in angle per sample, by the lever arm.
       EXPECT_NEAR(instant->sprung[0], instant->sprung[1], 1e-4 * (3.0 / w) / 0.01 * (1.3 + 0.7)) << frequency;
-      EXPECT_EQ(instant->known_forces[0], instant->sprung[1]);
+      EXPECT_EQ(instant->forces[0], instant->sprung[1]);
     }
   }
 }
@@ -166,13 +168,14 @@ TEST(StrutTops, AreTheReadingsThemselvesWhereEveryStrutHasItsOwn) {
   channels.known_forces = {4};
   StrutTops tops(kPeriod, channels);
   GridInstant reading{Stamp(7), {1.0, 2.0, 3.0, 4.0, 5.0}, std::vector<bool>(5, true)};
-  const VehicleInstant* instant = tops.push(reading);
+  const VehicleSample* instant = tops.push(reading);
   ASSERT_NE(instant, nullptr);
   EXPECT_EQ(tops.delay(), 0);
   EXPECT_EQ(instant->stamp, Stamp(7));
-  EXPECT_EQ(instant->unsprung, (std::vector{1.0, 3.0}));
-  EXPECT_EQ(instant->sprung, (std::vector{2.0, 4.0}));
-  EXPECT_EQ(instant->known_forces, std::vector{5.0});
+  EXPECT_EQ(instant->unsprung, Eigen::Vector2d(1.0, 3.0));
+  EXPECT_EQ(instant->sprung, Eigen::Vector2d(2.0, 4.0));
+  ASSERT_EQ(instant->forces.size(), 1);
+  EXPECT_EQ(instant->forces[0], 5.0);
   EXPECT_EQ(tops.noiseGain(), 1.0);
 }
 
@@ -188,7 +191,7 @@ TEST(StrutTops, TellTheNoiseOfABodysImu) {
   double square = 0.0;
   int count = 0;
   for (int k = 0; k < 50000; ++k) {
-    const VehicleInstant* instant = tops.push(instantOf(three(kAccelerometer), three(kGyro), {0.0}, k));
+    const VehicleSample* instant = tops.push(instantOf(three(kAccelerometer), three(kGyro), {0.0}, k));
     if (instant == nullptr) continue;
     square += instant->sprung[0] * instant->sprung[0];
     ++count;
@@ -196,9 +199,11 @@ TEST(StrutTops, TellTheNoiseOfABodysImu) {
   EXPECT_NEAR(std::sqrt(square / count) / tops.noise(0, kAccelerometer, kGyro), 1.0, 0.02);
 }
 
-TEST(StrutTops, RefuseAStrutThatNothingTellsOf) {
+TEST(StrutTops, RefuseAStrutThatNothingTellsOfAndMoreThanAVehicleHas) {
   VehicleChannels channels;
   channels.struts = {ownImu(0, 1), {2, {}, Vector3d::Zero()}};
+  EXPECT_THROW(StrutTops(kPeriod, channels), std::invalid_argument);
+  channels.struts.assign(kMostStruts + 1, ownImu(0, 1));
   EXPECT_THROW(StrutTops(kPeriod, channels), std::invalid_argument);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace suspension_health_monitor {
 namespace {
@@ -25,25 +26,32 @@ StrutTops::StrutTops(Stamp period, const VehicleChannels& channels) : channels_(
   const bool needs_body = static_cast<std::size_t>(own) < struts;
   if (needs_body && !channels_.body_imu)
     throw std::invalid_argument("a strut without a sprung stream of its own needs the body's IMU");
+  if (struts > static_cast<std::size_t>(kMostStruts) ||
+      channels_.known_forces.size() > static_cast<std::size_t>(kMostKnownForces))
+    throw std::invalid_argument("a vehicle has at most " + std::to_string(kMostStruts) + " struts and " +
+                                std::to_string(kMostKnownForces) + " known forces");
   const std::size_t measured = struts + static_cast<std::size_t>(own) + channels_.known_forces.size();
   signals_.reserve(measured + kBodySignals + kBodyRates);
   if (needs_body) filter_.emplace(period, measured + kBodySignals, kBodyRates);
-  instant_ = {
-      {}, std::vector<double>(struts), std::vector<double>(struts), std::vector<double>(channels_.known_forces.size())};
+  const auto number = static_cast<Eigen::Index>(struts);
+  sample_ = {{},
+             StrutVector::Zero(number),
+             StrutVector::Zero(number),
+             ForceVector::Zero(static_cast<Eigen::Index>(channels_.known_forces.size()))};
 }
 
-const VehicleInstant* StrutTops::push(const GridInstant& instant) {
+const VehicleSample* StrutTops::push(const GridInstant& instant) {
   collect(instant);
   if (!filter_) {
-    instant_.stamp = instant.stamp;
+    sample_.stamp = instant.stamp;
     spread(signals_, {});
-    return &instant_;
+    return &sample_;
   }
   const MotionFilter::Instant* filtered = filter_->push(instant.stamp, signals_);
   if (filtered == nullptr) return nullptr;
-  instant_.stamp = filtered->stamp;
+  sample_.stamp = filtered->stamp;
   spread(filtered->values, filtered->rates);
-  return &instant_;
+  return &sample_;
 }
 
 void StrutTops::collect(const GridInstant& instant) {
@@ -66,18 +74,21 @@ void StrutTops::collect(const GridInstant& instant) {
 
 void StrutTops::spread(const std::vector<double>& values, const std::vector<double>& rates) {
   auto next = values.begin();
-  for (std::size_t i = 0; i < channels_.struts.size(); ++i) {
-    instant_.unsprung[i] = *next++;
-    if (channels_.struts[i].sprung) instant_.sprung[i] = *next++;
+  Eigen::Index i = 0;
+  for (const Strut& strut : channels_.struts) {
+    sample_.unsprung[i] = *next++;
+    if (strut.sprung) sample_.sprung[i] = *next++;
+    ++i;
   }
-  for (double& force : instant_.known_forces) force = *next++;
+  for (i = 0; i < sample_.forces.size(); ++i) sample_.forces[i] = *next++;
   if (!filter_) return;
   const double upward = *next++;
   const Eigen::Vector3d products(next[0], next[1], next[2]);
-  for (std::size_t i = 0; i < channels_.struts.size(); ++i) {
-    const Eigen::Vector3d& r = channels_.struts[i].position;
-    if (!channels_.struts[i].sprung)
-      instant_.sprung[i] = upward + rates[0] * r.y() - rates[1] * r.x() + products.dot(r);
+  i = 0;
+  for (const Strut& strut : channels_.struts) {
+    const Eigen::Vector3d& r = strut.position;
+    if (!strut.sprung) sample_.sprung[i] = upward + rates[0] * r.y() - rates[1] * r.x() + products.dot(r);
+    ++i;
   }
 }
 

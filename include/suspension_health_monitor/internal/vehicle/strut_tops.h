@@ -7,6 +7,7 @@
 
 #include "suspension_health_monitor/internal/signal/grid_streams.h"
 #include "suspension_health_monitor/internal/signal/motion_filter.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
 
@@ -27,13 +28,6 @@ struct VehicleChannels {
   std::vector<std::size_t> known_forces;  ///< streams
 };
 
-/// The vertical acceleration of every strut top and every wheel, and the known forces, at one instant.
-struct VehicleInstant {
-  Stamp stamp{};
-  std::vector<double> sprung, unsprung;  ///< z'' and w'' by strut [m/s^2]
-  std::vector<double> known_forces;      ///< in the streams' units
-};
-
 /// From the streams of a vehicle to what all its struts do, some measured at the strut's top, others from one six-axis
 /// IMU anywhere on the body: with the body turning at omega, alpha = omega',
 ///     z_i'' = [a + alpha x r_i + omega x (omega x r_i)]_z
@@ -46,14 +40,15 @@ struct VehicleInstant {
 class StrutTops {
  public:
   /// @param period  T > 0.
-  /// @throws std::invalid_argument  if a strut has neither a sprung stream nor a body IMU.
+  /// @throws std::invalid_argument  if a strut has neither a sprung stream nor a body IMU, or if there are more struts
+  /// or forces than a VehicleSample holds.
   StrutTops(Stamp period, const VehicleChannels& channels);
 
-  /// @return the instant delay() samples ago, valid until the next call; nullptr while the filter fills, at the start
+  /// @return the sample delay() instants ago, valid until the next call; nullptr while the filter fills, at the start
   /// and after a gap.
-  const VehicleInstant* push(const GridInstant& instant);
+  const VehicleSample* push(const GridInstant& instant);
 
-  /// @return samples by which an instant is late.
+  /// @return samples by which a sample is late.
   int delay() const { return filter_ ? MotionFilter::kDelay : 0; }
 
   /// @param accelerometer, gyro  standard deviations of the white noise of the body's IMU [m/s^2], [rad/s].
@@ -72,7 +67,7 @@ class StrutTops {
   VehicleChannels channels_;
   std::optional<MotionFilter> filter_;
   std::vector<double> signals_;  // of one instant, in the order that collect() gives them
-  VehicleInstant instant_;
+  VehicleSample sample_;
 };
 
 }  // namespace suspension_health_monitor
