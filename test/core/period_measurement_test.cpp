@@ -58,6 +58,18 @@ TEST(PeriodMeasurement, TakesTheJitterOfManyStampsDown) {
   EXPECT_NEAR(*measurement.period(), 0.02, 0.004 * 0.02);
 }
 
+TEST(PeriodMeasurement, OfManyStreamsIsThatOfTheSlowestOneThatIsRequired) {
+  PeriodMeasurement measurement(20, {false, true, true, true});
+  for (int k = 0; k < 30; ++k) {
+    measurement.add(std::size_t{0}, at(0.05 * k));
+    for (std::size_t i = 1; i < 4; ++i) {
+      EXPECT_EQ(measurement.period().has_value(), k > 20 || (k == 20 && i == 4)) << k;
+      measurement.add(i, at((i == 2 ? 0.02 : 0.01) * k));
+    }
+  }
+  EXPECT_NEAR(*measurement.period(), 0.02, 1e-12);
+}
+
 TEST(PeriodMeasurement, TellsOfAStampThatStandsStill) {
   PeriodMeasurement measurement(2);
   EXPECT_TRUE(measurement.add(Side::kSprung, at(0.0)));

@@ -22,6 +22,7 @@
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 
 namespace {
 std::atomic<long> num_allocations{0};
@@ -148,6 +149,41 @@ TEST(SamplePath, AllocatesNothingInAGridThatTurnsToResampling) {
             0);
   EXPECT_TRUE(grid.resamples());
   EXPECT_GT(samples, 900);
+}
+
+TEST(SamplePath, AllocatesNothingInAGridOfManyStreamsThatTurnsToResampling) {
+  std::vector<StreamOptions> streams;
+  for (std::size_t i = 0; i < 8; ++i) streams.push_back({i < 6 ? 0 : i, i != 7});
+  StreamGrid grid(0.02, streams, Alignment::kAuto, 60);
+  Stamp stamp{};
+  int instants = 0, readings = 0;
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
+              stamp += std::chrono::milliseconds(++readings % 400 == 0 ? 1000 : 20);
+              for (std::size_t i = 0; i < streams.size(); ++i) {
+                if (i == 6 && readings % 97 == 0) continue;
+                const Stamp at = stamp + std::chrono::milliseconds(i < 6 ? 0 : 7);
+                for (auto next = grid.push(i, at, sample.sprung_acceleration); next != nullptr; next = grid.next())
+                  ++instants;
+              }
+            }),
+            0);
+  EXPECT_TRUE(grid.resamples());
+  EXPECT_GT(instants, 900);
+}
+
+TEST(SamplePath, AllocatesNothingInTheStrutTopsOfABodyImu) {
+  VehicleChannels channels;
+  channels.body_imu = 0;
+  channels.struts = {{6, {}, {1.0, 0.5, 0.0}}, {7, 8, {0.0, 0.0, 0.0}}};
+  StrutTops tops(std::chrono::milliseconds(20), channels);
+  GridInstant instant{{}, std::vector<double>(9, 1.0), std::vector<bool>(9, true)};
+  int instants = 0, samples = 0;
+  EXPECT_EQ(allocationsPerDrive([&](const CornerSample&) {
+              instant.stamp += std::chrono::milliseconds(++samples % 400 == 0 ? 1000 : 20);
+              if (tops.push(instant) != nullptr) ++instants;
+            }),
+            0);
+  EXPECT_GT(instants, 900);
 }
 
 TEST(SamplePath, AllocatesNothingInLawsOfTheUser) {

@@ -51,7 +51,7 @@ std::vector<double> resampled(const std::vector<double>& times, const std::funct
   for (int k = 10; k < kCount + 10; ++k) {
     const Stamp t = start + k * fromSeconds(kPeriod);
     EXPECT_EQ(stream.advance(t, readings), StreamResampler::Coverage::kCovered) << k;
-    values.push_back(stream.at(t).acceleration);
+    values.push_back(stream.at(t).value);
   }
   return values;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "suspension_health_monitor/drive.h"
 
@@ -9,5 +10,8 @@ namespace suspension_health_monitor {
 /// @return true for an acceleration that can be computed with: not NaN, not infinite, nor so large that sums of its
 /// fourth power would overflow.
 inline bool isUsable(double acceleration) { return std::abs(acceleration) < 1e60; }
+
+/// @return the number of a strut's stream where streams are numbered.
+constexpr std::size_t indexOf(Side side) { return static_cast<std::size_t>(side); }
 
 }  // namespace suspension_health_monitor

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "find_by_name.h"
-#include "setting_groups.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/model/shape_range.h"
 #include "suspension_health_monitor/internal/plain_text.h"

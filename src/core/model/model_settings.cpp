@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "setting_groups.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/model/effect_settings.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
 

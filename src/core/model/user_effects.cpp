@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "law_expression.h"
-#include "setting_groups.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 

@@ -1,53 +1,89 @@
 #include "suspension_health_monitor/internal/signal/paired_grid.h"
 
+#include <algorithm>
+
 namespace suspension_health_monitor {
 
-std::optional<CornerSample> PairedGrid::next(WaitingReadings& waiting) {
-  ReadingQueue& sprung = waiting[Side::kSprung];
-  ReadingQueue& unsprung = waiting[Side::kUnsprung];
-  const bool is_judged = options_.alignment == Alignment::kAuto;
-  while (!sprung.empty() && !unsprung.empty() && judge_.verdict() == AlignmentJudge::Verdict::kDoesWell) {
-    const SensorReading body = sprung.front(), wheel = unsprung.front();
-    if (2 * std::chrono::abs(body.stamp - wheel.stamp) > period_) {
-      drop(body.stamp < wheel.stamp ? sprung : unsprung);
-      if (is_judged) judge_.addLone();
-      continue;
-    }
-    if (options_.has_road && !findRoad(body.stamp, waiting)) return std::nullopt;
-    sprung.pop_front();
-    unsprung.pop_front();
-    if (is_judged) judge_.addPair(body.stamp, wheel.stamp);
-    if (body.still == wheel.still) return CornerSample{body.stamp, body.acceleration, wheel.acceleration};
-    rejected_.add(RejectReason::kStuck);
+bool PairedGrid::next(GridStreams& streams, GridInstant& instant) {
+  while (streams.areWaiting() && verdict() == AlignmentJudge::Verdict::kDoesWell) {
+    if (dropTooOld(streams) || dropLoneReference(streams)) continue;
+    if (!optionalOnesAreReady(streams)) return false;
+    take(streams, instant);
+    if (!streams.rejectStuck()) return true;
   }
-  return std::nullopt;
+  return false;
 }
 
-// @return false: the road's reading of this instant may still come.
-bool PairedGrid::findRoad(Stamp stamp, WaitingReadings& waiting) {
-  ReadingQueue& road = waiting[Side::kRoad];
-  road_acceleration_.reset();
-  if (!road.empty()) road_is_silent_ = false;
-  while (!road.empty() && 2 * (stamp - road.front().stamp) > period_) drop(road);
-  if (road.empty()) {
-    road_is_silent_ = road_is_silent_ || waiting[Side::kSprung].size() > kMostRoadLag;
-    return road_is_silent_;
+// @return true if a reading was dropped. One at a time, so that where the pairing ends does not depend on the order in
+// which readings came.
+bool PairedGrid::dropTooOld(GridStreams& streams) {
+  const Stamp stamp = streams.reference().waiting.front().stamp;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    GridStream& stream = streams[i];
+    if (!stream.options.required || 2 * (stamp - stream.waiting.front().stamp) <= period_) continue;
+    stream.drop();
+    ++streams.reference().missed;
+    if (judge_) judge_->addLone(i);
+    return true;
   }
-  if (2 * (road.front().stamp - stamp) > period_) return true;
-  road_acceleration_ = road.front().acceleration;
-  road.pop_front();
+  return false;
+}
+
+// Nothing that waits is too old. @return true if the reference's reading was dropped, and with it its partners.
+bool PairedGrid::dropLoneReference(GridStreams& streams) {
+  const Stamp stamp = streams.reference().waiting.front().stamp;
+  const auto isTooNew = [&](const GridStream& stream) {
+    return stream.options.required && 2 * (stream.waiting.front().stamp - stamp) > period_;
+  };
+  if (std::none_of(streams.begin(), streams.end(), isTooNew)) return false;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    GridStream& stream = streams[i];
+    if (!stream.options.required || i == streams.referenceIndex()) continue;
+    if (isTooNew(stream)) {
+      ++stream.missed;
+      if (judge_) judge_->addLone(i);
+    } else {
+      if (judge_) judge_->addPair(i, stamp, stream.waiting.front().stamp);
+      stream.drop();
+    }
+  }
+  streams.reference().drop();
   return true;
 }
 
-void PairedGrid::drop(ReadingQueue& queue) {
-  rejected_.add(RejectReason::kMissingPartner);
-  queue.pop_front();
+// @return false: an optional stream's reading of this instant may still come.
+bool PairedGrid::optionalOnesAreReady(GridStreams& streams) const {
+  const Stamp stamp = streams.reference().waiting.front().stamp;
+  for (GridStream& stream : streams) {
+    if (stream.options.required) continue;
+    while (!stream.waiting.empty() && 2 * (stamp - stream.waiting.front().stamp) > period_) stream.drop();
+    if (stream.waiting.empty() && streams.mayStillCome(stream)) return false;
+  }
+  return true;
 }
 
-void PairedGrid::startNewSeries(WaitingReadings& waiting) {
-  judge_.startNewSeries();
-  for (const Side side : {Side::kSprung, Side::kUnsprung, Side::kRoad})
-    while (!waiting[side].empty()) drop(waiting[side]);
+void PairedGrid::take(GridStreams& streams, GridInstant& instant) {
+  instant.stamp = streams.reference().waiting.front().stamp;
+  if (judge_) judge_->addInstant(instant.stamp);
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    GridStream& stream = streams[i];
+    const bool has_reading = stream.options.required ||
+                             (!stream.waiting.empty() && 2 * (stream.waiting.front().stamp - instant.stamp) <= period_);
+    instant.measured[i] = has_reading;
+    if (!has_reading) continue;
+    const SensorReading& reading = stream.waiting.front();
+    if (judge_ && stream.options.required && i != streams.referenceIndex())
+      judge_->addPair(i, instant.stamp, reading.stamp);
+    instant.values[i] = reading.value;
+    stream.is_still = reading.still;
+    stream.waiting.pop_front();
+  }
+}
+
+void PairedGrid::startNewSeries(GridStreams& streams) {
+  if (judge_) judge_->startNewSeries();
+  for (GridStream& stream : streams)
+    while (!stream.waiting.empty()) stream.drop();
 }
 
 }  // namespace suspension_health_monitor

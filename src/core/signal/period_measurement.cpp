@@ -4,19 +4,21 @@
 
 namespace suspension_health_monitor {
 
-bool PeriodMeasurement::add(Side side, Stamp stamp) {
-  const auto index = static_cast<std::size_t>(side);
-  if (last_[index] == stamp) return false;
-  const bool counts = index < spacings_.size() && last_[index] && stamp > *last_[index];
-  if (counts) spacings_[index].push_back(stamp - *last_[index]);
-  last_[index] = stamp;
+bool PeriodMeasurement::add(std::size_t stream, Stamp stamp) {
+  Stream& its = streams_[stream];
+  if (its.last == stamp) return false;
+  if (is_required_[stream] && its.last && stamp > *its.last) its.spacings.push_back(stamp - *its.last);
+  its.last = stamp;
   return true;
 }
 
 std::optional<double> PeriodMeasurement::period() const {
-  if (spacings_[0].size() < spacings_wanted_ || spacings_[1].size() < spacings_wanted_) return std::nullopt;
-  double slower = 0.0;
-  for (std::vector<Stamp> spacings : spacings_) {
+  for (std::size_t i = 0; i < streams_.size(); ++i)
+    if (is_required_[i] && streams_[i].spacings.size() < spacings_wanted_) return std::nullopt;
+  double slowest = 0.0;
+  for (const Stream& stream : streams_) {
+    std::vector<Stamp> spacings = stream.spacings;
+    if (spacings.empty()) continue;  // not required
     const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
     std::nth_element(spacings.begin(), middle, spacings.end());
     const Stamp median = *middle;
@@ -27,9 +29,9 @@ std::optional<double> PeriodMeasurement::period() const {
       sum += spacing;
       ++count;
     }
-    slower = std::max(slower, toSeconds(sum) / count);
+    slowest = std::max(slowest, toSeconds(sum) / count);
   }
-  return slower;
+  return slowest;
 }
 
 }  // namespace suspension_health_monitor

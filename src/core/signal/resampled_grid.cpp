@@ -6,65 +6,80 @@ namespace suspension_health_monitor {
 
 using Coverage = StreamResampler::Coverage;
 
-ResampledGrid::ResampledGrid(Stamp period, bool has_road)
-    : period_(period),
-      has_road_(has_road),
-      streams_{StreamResampler(period), StreamResampler(period), StreamResampler(period)} {}
-
-std::optional<CornerSample> ResampledGrid::next(WaitingReadings& waiting) {
-  while (begin(waiting)) {
+bool ResampledGrid::next(GridStreams& streams, GridInstant& instant) {
+  while (begin(streams)) {
     const Stamp t = *next_;
-    StreamResampler& sprung = stream(Side::kSprung);
-    StreamResampler& unsprung = stream(Side::kUnsprung);
-    const Coverage body = sprung.advance(t, waiting[Side::kSprung]);
-    const Coverage wheel = unsprung.advance(t, waiting[Side::kUnsprung]);
-    if (body == Coverage::kInterrupted || wheel == Coverage::kInterrupted) {
+    const Coverage coverage = advanceRequired(t, streams);
+    if (coverage == Coverage::kInterrupted) {
       next_.reset();
       continue;
     }
-    if (body == Coverage::kComes || wheel == Coverage::kComes || !findRoad(t, waiting)) return std::nullopt;
+    if (coverage == Coverage::kComes || !takeOptional(t, streams, instant)) return false;
     next_ = t + period_;
-    const StreamResampler::Value z = sprung.at(t), w = unsprung.at(t);
-    if (z.still == w.still) return CornerSample{t, z.acceleration, w.acceleration};
-    rejected_.add(RejectReason::kStuck);
+    takeRequired(t, streams, instant);
+    if (!streams.rejectStuck()) return true;
   }
-  return std::nullopt;
+  return false;
 }
 
-// @return false: a stream has no readings.
-bool ResampledGrid::begin(WaitingReadings& waiting) {
+// @return false: a required stream has no readings.
+bool ResampledGrid::begin(const GridStreams& streams) {
   if (next_) return true;
-  const std::optional<Stamp> body = stream(Side::kSprung).earliest(waiting[Side::kSprung]);
-  const std::optional<Stamp> wheel = stream(Side::kUnsprung).earliest(waiting[Side::kUnsprung]);
-  if (!body || !wheel) return false;
-  const Stamp first = std::max(*body, *wheel);
+  std::optional<Stamp> first;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (!streams[i].options.required) continue;
+    const std::optional<Stamp> earliest = resamplers_[i].earliest(streams[i].waiting);
+    if (!earliest) return false;
+    first = first ? std::max(*first, *earliest) : *earliest;
+  }
   if (!origin_) origin_ = first;
-  next_ = *origin_ + (first - *origin_ + period_ - Stamp(1)) / period_ * period_;
+  next_ = *origin_ + (*first - *origin_ + period_ - Stamp(1)) / period_ * period_;
   return true;
 }
 
-// @return false: the road's readings of this instant may still come.
-bool ResampledGrid::findRoad(Stamp t, WaitingReadings& waiting) {
-  road_acceleration_.reset();
-  if (!has_road_) return true;
-  if (!waiting[Side::kRoad].empty()) road_is_silent_ = false;
-  const Coverage coverage = stream(Side::kRoad).advance(t, waiting[Side::kRoad]);
-  if (coverage == Coverage::kCovered) road_acceleration_ = stream(Side::kRoad).at(t).acceleration;
-  if (coverage != Coverage::kComes) return true;
-  road_is_silent_ = road_is_silent_ || waiting[Side::kSprung].size() > kMostRoadLag;
-  return road_is_silent_;
+// @return kInterrupted or kComes if one of them is.
+Coverage ResampledGrid::advanceRequired(Stamp t, GridStreams& streams) {
+  bool is_interrupted = false, comes = false;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (!streams[i].options.required) continue;
+    const Coverage coverage = resamplers_[i].advance(t, streams[i].waiting);
+    if (coverage == Coverage::kInterrupted) {
+      is_interrupted = true;
+      ++streams[i].missed;
+    }
+    comes = comes || coverage == Coverage::kComes;
+  }
+  if (is_interrupted) return Coverage::kInterrupted;
+  return comes ? Coverage::kComes : Coverage::kCovered;
+}
+
+// @return false: readings of an optional stream for this instant may still come.
+bool ResampledGrid::takeOptional(Stamp t, GridStreams& streams, GridInstant& instant) {
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (streams[i].options.required) continue;
+    const Coverage coverage = resamplers_[i].advance(t, streams[i].waiting);
+    if (coverage == Coverage::kComes && streams.mayStillCome(streams[i])) return false;
+    instant.measured[i] = coverage == Coverage::kCovered;
+    if (instant.measured[i]) instant.values[i] = resamplers_[i].at(t).value;
+  }
+  return true;
+}
+
+void ResampledGrid::takeRequired(Stamp t, GridStreams& streams, GridInstant& instant) {
+  instant.stamp = t;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (!streams[i].options.required) continue;
+    const StreamResampler::Value value = resamplers_[i].at(t);
+    instant.values[i] = value.value;
+    instant.measured[i] = true;
+    streams[i].is_still = value.still;
+  }
 }
 
 void ResampledGrid::startNewSeries() {
-  for (StreamResampler& each : streams_) each.clear();
+  for (StreamResampler& each : resamplers_) each.clear();
   origin_.reset();
   next_.reset();
-}
-
-std::uint64_t ResampledGrid::bridged() const {
-  std::uint64_t sum = 0;
-  for (const StreamResampler& each : streams_) sum += each.bridged();
-  return sum;
 }
 
 }  // namespace suspension_health_monitor

@@ -68,7 +68,7 @@ bool StreamResampler::followsAfterGap(const SensorReading& reading) const {
 void StreamResampler::begin(const SensorReading& reading) {
   first_ = reading.stamp;
   last_ = reading;
-  reference_ = reading.acceleration;
+  reference_ = reading.value;
   spline_.clear();
   next_knot_ = static_cast<std::int64_t>(std::ceil(2.0 * toSeconds(reading.stamp - *origin_) / toSeconds(period_)));
 }
@@ -80,7 +80,7 @@ void StreamResampler::take(const SensorReading& reading) {
   const double position =
       2.0 * static_cast<double>((reading.stamp - *origin_).count()) / static_cast<double>(period_.count());
   for (; static_cast<double>(next_knot_) < position; ++next_knot_) stillAt(next_knot_) = last_.still;
-  spline_.add(position, reading.acceleration - reference_);
+  spline_.add(position, reading.value - reference_);
   last_ = reading;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -10,9 +9,9 @@
 
 namespace suspension_health_monitor {
 
-inline constexpr std::size_t kMostStreams = 3;
+inline constexpr std::size_t kMostStreams = 3;  ///< of one strut, see Side
 
-/// How the readings of several sensors come onto one clock, see UniformGrid.
+/// How the readings of several sensors come onto one clock, see StreamGrid.
 enum class Alignment {
   kAuto,      ///< paired as long as that does well, then resampled
   kPaired,    ///< readings whose stamps agree within half a sample, as they are
@@ -29,7 +28,7 @@ inline Alignment alignment(std::string_view name) {
   throw std::invalid_argument("alignment = " + std::string(name) + ", must be one of " + std::string(kAlignmentNames));
 }
 
-/// What a UniformGrid brings together, and how.
+/// How a UniformGrid brings the streams of one strut together.
 struct GridOptions {
   Alignment alignment = Alignment::kPaired;
   bool has_road = false;   ///< there is a third stream, Side::kRoad

@@ -2,49 +2,37 @@
 
 #include <optional>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/alignment_judge.h"
-#include "suspension_health_monitor/internal/signal/reading_queue.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/grid_streams.h"
 
 namespace suspension_health_monitor {
 
-/// Samples of a strut from readings whose stamps agree within half a sample, as they are, stamped by the body's sensor.
+/// Instants at which every required stream has a reading within half a sample of the reference's, as they are, stamped
+/// by the reference. Whether a reading of the reference has a partner in one stream does not depend on the others.
 /// Cost per reading: O(1), no allocation.
 class PairedGrid {
  public:
   /// @param period  T > 0.
-  PairedGrid(Stamp period, const GridOptions& options)
-      : period_(period), options_(options), judge_(period, options.fill_samples) {}
+  /// @param judge  of how well the pairing does; none: it goes on however badly it does.
+  PairedGrid(Stamp period, const std::optional<AlignmentJudge>& judge) : period_(period), judge_(judge) {}
 
-  /// @param waiting  from which readings are taken: those of the sample, and those that will find no partner.
-  /// @return the next sample; nothing as long as its readings are not complete, or if pairing does badly.
-  std::optional<CornerSample> next(WaitingReadings& waiting);
+  /// @param streams  from which readings are taken: those of the instant, and those that will find no partner.
+  /// @return true if the next instant is found; not as long as its readings are incomplete, or if pairing does badly.
+  bool next(GridStreams& streams, GridInstant& instant);
 
-  /// @return the road's acceleration at the sample given last [m/s^2]; none without a reading near it.
-  std::optional<double> roadAcceleration() const { return road_acceleration_; }
-
-  /// @return how well the pairing does, which only Alignment::kAuto asks.
-  AlignmentJudge::Verdict verdict() const { return judge_.verdict(); }
-
-  /// Drops a reading that has no partner.
-  void drop(ReadingQueue& queue);
+  AlignmentJudge::Verdict verdict() const { return judge_ ? judge_->verdict() : AlignmentJudge::Verdict::kDoesWell; }
 
   /// The clock went back.
-  void startNewSeries(WaitingReadings& waiting);
-
-  const RejectCounts& rejected() const { return rejected_; }
+  void startNewSeries(GridStreams& streams);
 
  private:
-  bool findRoad(Stamp stamp, WaitingReadings& waiting);
+  bool dropTooOld(GridStreams& streams);
+  bool dropLoneReference(GridStreams& streams);
+  bool optionalOnesAreReady(GridStreams& streams) const;
+  void take(GridStreams& streams, GridInstant& instant);
 
   Stamp period_;
-  GridOptions options_;
-  AlignmentJudge judge_;
-  bool road_is_silent_ = false;
-  std::optional<double> road_acceleration_;
-  RejectCounts rejected_;
+  std::optional<AlignmentJudge> judge_;
 };
 
 }  // namespace suspension_health_monitor

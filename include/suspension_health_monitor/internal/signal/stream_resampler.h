@@ -48,7 +48,7 @@ class StreamResampler {
   Coverage advance(Stamp t, ReadingQueue& waiting);
 
   struct Value {
-    double acceleration;
+    double value;
     bool still;  ///< of the newest reading up to the instant
   };
 

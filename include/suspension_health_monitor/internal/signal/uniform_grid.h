@@ -1,74 +1,50 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
-#include "suspension_health_monitor/internal/signal/paired_grid.h"
-#include "suspension_health_monitor/internal/signal/reading_queue.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/signal/resampled_grid.h"
-#include "suspension_health_monitor/internal/signal/stream_gate.h"
+#include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 namespace suspension_health_monitor {
 
-/// Brings the readings of the sensors onto one clock: pairs those whose stamps agree within half a sample (PairedGrid),
-/// or resamples all streams (ResampledGrid). With Alignment::kAuto it pairs until the stamps show that this does badly
-/// (AlignmentJudge), and resamples from then on. The result does not depend on the order in which the streams
-/// interleave, as long as none runs more than kMostWaiting readings ahead, so that a replay gives what the live run
-/// gave. Cost per reading: O(1) amortised, no allocation.
+/// A StreamGrid of the two or three sensors of one strut, whose streams are numbered by Side.
 class UniformGrid {
  public:
-  static constexpr std::size_t kMostWaiting = ReadingQueue::kCapacity;
+  static constexpr std::size_t kMostWaiting = StreamGrid::kMostWaiting;
 
   /// @param period  sampling time T > 0 [s].
   explicit UniformGrid(double period, const GridOptions& options = {});
 
-  /// Takes in one reading of one sensor; each stream comes in the order in which it was measured.
+  /// As StreamGrid::push().
+  /// @param side  the road's readings are left out without GridOptions::has_road.
   /// @param acceleration  along the strut, up positive [m/s^2].
   /// @return the first sample that this reading completes, stamped by the sprung sensor or, resampled, by the grid.
-  /// It may complete several:
-  ///     for (auto sample = grid.push(side, stamp, acceleration); sample; sample = grid.next())
   std::optional<CornerSample> push(Side side, Stamp stamp, double acceleration);
 
   /// @return the next sample that the readings so far complete.
-  std::optional<CornerSample> next();
+  std::optional<CornerSample> next() { return take(streams_.next()); }
 
   /// @return the road's acceleration at the sample given last [m/s^2]; none without a reading near it.
-  std::optional<double> roadAcceleration() const {
-    return resamples_ ? resampled_.roadAcceleration() : paired_.roadAcceleration();
-  }
+  std::optional<double> roadAcceleration() const { return road_acceleration_; }
 
-  /// @return true if the samples are resampled; why() tells the reason in words, if it was found out.
-  bool resamples() const { return resamples_; }
-  std::string why() const;
-
-  /// @return that readings of a strut's sensor come every 3/2 T or more, in words: samples are then missing though
-  /// nothing gets lost, as sample_period is too short for this sensor. Empty if they come often enough.
-  std::string whatIsTooSlow() const;
-
-  /// @return "paired", "resampled", or "resampled because ...".
-  std::string describeAlignment() const;
-
-  /// @return lost readings that were interpolated over, of all sensors.
-  std::uint64_t bridged() const { return resampled_.bridged(); }
-
-  /// @return what was kept out, of all sensors.
-  RejectCounts rejected() const;
-
-  const StreamGate& gate(Side side) const { return gates_[static_cast<std::size_t>(side)]; }
+  /// As those of StreamGrid.
+  bool resamples() const { return streams_.resamples(); }
+  std::string why() const { return streams_.why(); }
+  std::string whatIsTooSlow() const { return streams_.whatIsTooSlow(); }
+  std::string describeAlignment() const { return streams_.describeAlignment(); }
+  std::uint64_t bridged() const { return streams_.bridged(); }
+  RejectCounts rejected() const { return streams_.rejected(); }
+  const StreamGate& gate(Side side) const { return streams_.gate(indexOf(side)); }
 
  private:
-  void startNewSeries(Side first);
+  std::optional<CornerSample> take(const GridInstant* instant);
 
-  Stamp period_;
-  bool resamples_;
-  PairedGrid paired_;
-  ResampledGrid resampled_;
-  WaitingReadings waiting_;
-  std::array<StreamGate, kMostStreams> gates_;
+  bool has_road_;
+  StreamGrid streams_;
+  std::optional<double> road_acceleration_;
 };
 
 }  // namespace suspension_health_monitor

@@ -1,4 +1,4 @@
-#include "setting_groups.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
 
 #include <algorithm>
 #include <array>

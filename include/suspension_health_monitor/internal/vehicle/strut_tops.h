@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/signal/grid_streams.h"
+#include "suspension_health_monitor/internal/signal/motion_filter.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
+
+namespace suspension_health_monitor {
+
+/// Which streams of a StreamGrid are what on a vehicle. All of them must be required ones.
+struct VehicleChannels {
+  struct Strut {
+    std::size_t unsprung = 0;           ///< stream of w''
+    std::optional<std::size_t> sprung;  ///< stream of z''; none: the body's IMU tells it
+    /// Of the strut's top, from the body's IMU, in the body's axes [m]: x forward, y to the left, z up (REP 103).
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  };
+  std::vector<Strut> struts;
+  /// Stream of the body's IMU that reads its acceleration along x; those along y and z, and the angular rates about x,
+  /// y, z, are the next five.
+  std::optional<std::size_t> body_imu;
+  /// Turns what the body's IMU reads into the body's axes: column i is that of the IMU's axis i.
+  Eigen::Matrix3d body_mount = Eigen::Matrix3d::Identity();
+  std::vector<std::size_t> known_forces;  ///< streams
+};
+
+/// From the streams of a vehicle to what all its struts do, some measured at the strut's top, others from one six-axis
+/// IMU anywhere on the body: with the body turning at omega, alpha = omega',
+///     z_i'' = [a + alpha x r_i + omega x (omega x r_i)]_z
+///           = a_z + alpha_x y_i - alpha_y x_i + omega_z (omega_x x_i + omega_y y_i) - (omega_x^2 + omega_y^2) z_i.
+/// Gravity in a belongs to z_i'' as it would in the reading of an IMU there.
+///
+/// alpha comes from a MotionFilter, and everything else passes the same low-pass filter, the products of the angular
+/// rates after they have been formed: then all of them are still those of one motion. Where no strut needs the body's
+/// IMU nothing is filtered or late. Cost per instant: O(struts), no allocation.
+class StrutTops {
+ public:
+  /// @param period  T > 0.
+  /// @throws std::invalid_argument  if a strut has neither a sprung stream nor a body IMU, or if there are more struts
+  /// or forces than a VehicleSample holds.
+  StrutTops(Stamp period, const VehicleChannels& channels);
+
+  /// @return the sample delay() instants ago, valid until the next call; nullptr while the filter fills, at the start
+  /// and after a gap.
+  const VehicleSample* push(const GridInstant& instant);
+
+  /// @return samples by which a sample is late.
+  int delay() const { return filter_ ? MotionFilter::kDelay : 0; }
+
+  /// @param accelerometer, gyro  standard deviations of the white noise of the body's IMU [m/s^2], [rad/s].
+  /// @return that of z'' of a strut whose top the body's IMU tells [m/s^2].
+  double noise(std::size_t strut, double accelerometer, double gyro) const;
+
+  /// @return by what factor the noise of all other streams is less than it was.
+  double noiseGain() const { return filter_ ? MotionFilter::valueNoise() : 1.0; }
+
+  void reset();
+
+ private:
+  void collect(const GridInstant& instant);
+  void spread(const std::vector<double>& values, const std::vector<double>& rates);
+
+  VehicleChannels channels_;
+  std::optional<MotionFilter> filter_;
+  std::vector<double> signals_;  // of one instant, in the order that collect() gives them
+  VehicleSample sample_;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/internal/option_table.h"
+
+namespace suspension_health_monitor {
+
+/// Which sensors a vehicle has, and where, as a vehicle file says it.
+struct VehicleLayout {
+  struct Strut {
+    std::string name;  ///< a name that a topic may begin with
+    std::string unsprung_imu;
+    std::optional<std::string> sprung_imu;  ///< none: the body's IMU tells what the strut's top does
+    /// Of the strut's top, from the body's IMU, in the body's axes [m]: x forward, y to the left, z up (REP 103). Where
+    /// every strut has its own IMU it may count from any point of the body.
+    std::optional<std::array<double, 3>> position;
+    std::optional<std::string> frame;  ///< at the strut's top, whose static transform tells the position
+  };
+  struct KnownForce {
+    std::string name;
+    std::string topic;
+    std::string field;  ///< of its messages, such as "force.z"
+  };
+
+  std::optional<std::string> body_imu;  ///< topic, as are the others
+  std::vector<Strut> struts;            ///< by the alphabet
+  std::vector<KnownForce> known_forces;
+};
+
+/// Takes the settings of a vehicle file out of `values`: `body_imu`, `struts/NAME/...` and `known_forces/NAME/...`.
+/// @throws std::invalid_argument  naming what is missing, unknown, wrong, or said of two sensors.
+VehicleLayout takeVehicle(OptionMap& values);
+
+}  // namespace suspension_health_monitor

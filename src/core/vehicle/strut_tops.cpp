@@ -1,0 +1,105 @@
+#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace suspension_health_monitor {
+namespace {
+
+using Strut = VehicleChannels::Strut;
+
+// Of the body: its acceleration upward and the products of angular rates, then the rates to differentiate.
+constexpr std::size_t kBodySignals = 4, kBodyRates = 2;
+
+Eigen::Vector3d threeFrom(const std::vector<double>& values, std::size_t first) {
+  return {values[first], values[first + 1], values[first + 2]};
+}
+
+}  // namespace
+
+StrutTops::StrutTops(Stamp period, const VehicleChannels& channels) : channels_(channels) {
+  const std::size_t struts = channels_.struts.size();
+  const auto own = std::count_if(channels_.struts.begin(), channels_.struts.end(),
+                                 [](const Strut& strut) { return strut.sprung.has_value(); });
+  const bool needs_body = static_cast<std::size_t>(own) < struts;
+  if (needs_body && !channels_.body_imu)
+    throw std::invalid_argument("a strut without a sprung stream of its own needs the body's IMU");
+  if (struts > static_cast<std::size_t>(kMostStruts) ||
+      channels_.known_forces.size() > static_cast<std::size_t>(kMostKnownForces))
+    throw std::invalid_argument("a vehicle has at most " + std::to_string(kMostStruts) + " struts and " +
+                                std::to_string(kMostKnownForces) + " known forces");
+  const std::size_t measured = struts + static_cast<std::size_t>(own) + channels_.known_forces.size();
+  signals_.reserve(measured + kBodySignals + kBodyRates);
+  if (needs_body) filter_.emplace(period, measured + kBodySignals, kBodyRates);
+  const auto number = static_cast<Eigen::Index>(struts);
+  sample_ = {{},
+             StrutVector::Zero(number),
+             StrutVector::Zero(number),
+             ForceVector::Zero(static_cast<Eigen::Index>(channels_.known_forces.size()))};
+}
+
+const VehicleSample* StrutTops::push(const GridInstant& instant) {
+  collect(instant);
+  if (!filter_) {
+    sample_.stamp = instant.stamp;
+    spread(signals_, {});
+    return &sample_;
+  }
+  const MotionFilter::Instant* filtered = filter_->push(instant.stamp, signals_);
+  if (filtered == nullptr) return nullptr;
+  sample_.stamp = filtered->stamp;
+  spread(filtered->values, filtered->rates);
+  return &sample_;
+}
+
+void StrutTops::collect(const GridInstant& instant) {
+  signals_.clear();
+  for (const Strut& strut : channels_.struts) {
+    signals_.push_back(instant.values[strut.unsprung]);
+    if (strut.sprung) signals_.push_back(instant.values[*strut.sprung]);
+  }
+  for (const std::size_t force : channels_.known_forces) signals_.push_back(instant.values[force]);
+  if (!filter_) return;
+  const Eigen::Vector3d acceleration = channels_.body_mount * threeFrom(instant.values, *channels_.body_imu);
+  const Eigen::Vector3d rate = channels_.body_mount * threeFrom(instant.values, *channels_.body_imu + 3);
+  signals_.push_back(acceleration.z());
+  signals_.push_back(rate.z() * rate.x());
+  signals_.push_back(rate.z() * rate.y());
+  signals_.push_back(-rate.x() * rate.x() - rate.y() * rate.y());
+  signals_.push_back(rate.x());
+  signals_.push_back(rate.y());
+}
+
+void StrutTops::spread(const std::vector<double>& values, const std::vector<double>& rates) {
+  auto next = values.begin();
+  Eigen::Index i = 0;
+  for (const Strut& strut : channels_.struts) {
+    sample_.unsprung[i] = *next++;
+    if (strut.sprung) sample_.sprung[i] = *next++;
+    ++i;
+  }
+  for (i = 0; i < sample_.forces.size(); ++i) sample_.forces[i] = *next++;
+  if (!filter_) return;
+  const double upward = *next++;
+  const Eigen::Vector3d products(next[0], next[1], next[2]);
+  i = 0;
+  for (const Strut& strut : channels_.struts) {
+    const Eigen::Vector3d& r = strut.position;
+    if (!strut.sprung) sample_.sprung[i] = upward + rates[0] * r.y() - rates[1] * r.x() + products.dot(r);
+    ++i;
+  }
+}
+
+double StrutTops::noise(std::size_t strut, double accelerometer, double gyro) const {
+  if (!filter_) return accelerometer;
+  const double lever = channels_.struts[strut].position.head<2>().norm();
+  return std::hypot(accelerometer * MotionFilter::valueNoise(), gyro * filter_->rateNoise() * lever);
+}
+
+void StrutTops::reset() {
+  if (filter_) filter_->reset();
+}
+
+}  // namespace suspension_health_monitor

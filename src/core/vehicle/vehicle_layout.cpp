@@ -1,0 +1,199 @@
+#include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
+
+#include <boost/algorithm/string/split.hpp>
+#include <boost/algorithm/string/trim.hpp>
+#include <cctype>
+#include <map>
+#include <stdexcept>
+
+#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kFarthest = 100.0;  // [m]: of any vehicle's struts from its IMU
+constexpr std::size_t kLongestName = 64;
+
+struct StrutSettings {
+  std::string sprung_imu, unsprung_imu, frame;
+};
+using StrutField = OptionField<StrutSettings>;
+constexpr std::array kStrutFields{
+    StrutField{"sprung_imu", "-", "topic of the IMU at the strut's top", &StrutSettings::sprung_imu},
+    StrutField{"unsprung_imu", "-", "topic of the IMU at the wheel", &StrutSettings::unsprung_imu},
+    StrutField{"frame", "-", "frame at the strut's top", &StrutSettings::frame},
+};
+constexpr const char* kPosition = "position";
+
+struct ForceSettings {
+  std::string topic, field;
+};
+using ForceField = OptionField<ForceSettings>;
+constexpr std::array kForceFields{
+    ForceField{"topic", "-", "topic of the force", &ForceSettings::topic},
+    ForceField{"field", "-", "field of its messages that is the force", &ForceSettings::field},
+};
+
+struct BodySettings {
+  std::string body_imu;
+};
+using BodyField = OptionField<BodySettings>;
+constexpr std::array kBodyFields{
+    BodyField{"body_imu", "-", "topic of one six-axis IMU of the body", &BodySettings::body_imu},
+};
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+std::string quoted(const std::string& text) { return " = \"" + shortened(text) + '"'; }
+
+bool isLetter(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0 && static_cast<unsigned char>(c) < 128;
+}
+bool isNameCharacter(char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; }
+
+/// @param more  characters that may stand in the text besides those of a name.
+/// @param first  those that it may begin with besides letters.
+bool isMadeOf(const std::string& text, const std::string& more, const std::string& first) {
+  if (text.empty() || !(isLetter(text[0]) || first.find(text[0]) != std::string::npos)) return false;
+  for (const char c : text)
+    if (!isNameCharacter(c) && more.find(c) == std::string::npos) return false;
+  return true;
+}
+
+void checkName(const std::string& where, const std::string& name) {
+  if (!isMadeOf(name, "", ""))
+    refuse(where + shortened(name) + ": the name must be letters, digits and _, a letter first");
+  if (name.size() > kLongestName)
+    refuse(where + shortened(name) + ": the name must be at most " + std::to_string(kLongestName) + " characters");
+}
+
+void checkTopic(const std::string& where, const std::string& topic) {
+  if (!isMadeOf(topic, "/", "/~") && !(topic.size() > 1 && topic[0] == '~' && isMadeOf(topic.substr(1), "/", "/")))
+    refuse(where + quoted(topic) + ", must be a topic: letters, digits, _ and /, such as /imu/data");
+}
+
+void checkNumber(const std::string& what, std::size_t number, int most) {
+  if (number > static_cast<std::size_t>(most))
+    refuse(what + ": " + std::to_string(number) + " of them, must be at most " + std::to_string(most));
+}
+
+/// Settings by a table. @param also  a name that the table does not have and that the caller takes.
+template <class Settings, std::size_t N>
+Settings take(const std::string& where, OptionMap values, const std::array<OptionField<Settings>, N>& fields,
+              const char* also = nullptr) {
+  Settings settings;
+  std::vector<OptionDescription> known = describeOptions(fields);
+  if (also != nullptr) {
+    values.erase(also);
+    known.push_back({"", also, "", "", "", ""});
+  }
+  try {
+    takeOptions(values, fields, settings);
+    refuseUnknown(values, known);
+  } catch (const std::invalid_argument& error) {
+    refuse(where + ": " + error.what());
+  }
+  return settings;
+}
+
+std::array<double, 3> toPosition(const std::string& where, const OptionValue& value) {
+  const auto* list = std::get_if<UnusableList>(&value);
+  const auto* words = std::get_if<std::string>(&value);
+  const std::string text = list != nullptr ? list->text : words != nullptr ? '[' + *words + ']' : "";
+  const std::string allowed =
+      where + (text.empty() ? "" : " = " + shortened(text)) + ", must be three numbers [x, y, z] in [-100, 100] [m]";
+  if (text.size() < 2) refuse(allowed);
+  std::vector<std::string> parts;
+  const std::string inside = text.substr(1, text.size() - 2);
+  boost::algorithm::split(parts, inside, [](char c) { return c == ','; });
+  std::array<double, 3> position{};
+  if (parts.size() != position.size()) refuse(allowed);
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    try {
+      position[i] = toNumber(where, boost::algorithm::trim_copy(parts[i]), -kFarthest, kFarthest);
+    } catch (const std::invalid_argument&) {
+      refuse(allowed);
+    }
+  }
+  return position;
+}
+
+VehicleLayout::Strut toStrut(const std::string& name, const OptionMap& values, bool has_body_imu) {
+  checkName("struts/", name);
+  const std::string where = "struts/" + name;
+  const StrutSettings settings = take(where, values, kStrutFields, kPosition);
+  VehicleLayout::Strut strut;
+  strut.name = name;
+  if (settings.unsprung_imu.empty()) refuse(where + "/unsprung_imu is missing: every strut needs the IMU at its wheel");
+  strut.unsprung_imu = settings.unsprung_imu;
+  if (!settings.sprung_imu.empty()) strut.sprung_imu = settings.sprung_imu;
+  if (!settings.frame.empty()) strut.frame = settings.frame;
+  if (const auto found = values.find(kPosition); found != values.end())
+    strut.position = toPosition(where + "/position", found->second);
+  if (strut.position && strut.frame) refuse(where + " has a position and a frame, must have one of them");
+  if (strut.frame && !isMadeOf(*strut.frame, "/", "/"))
+    refuse(where + "/frame" + quoted(*strut.frame) + ", must be letters, digits, _ and /");
+  if (strut.sprung_imu) return strut;
+  if (!has_body_imu) refuse(where + "/sprung_imu is missing; without it the vehicle needs a body_imu");
+  if (!strut.position && !strut.frame)
+    refuse(where +
+           " has no sprung_imu, so it needs its position in the frame of body_imu: position: [x, y, z] [m], or "
+           "frame: NAME");
+  return strut;
+}
+
+VehicleLayout::KnownForce toForce(const std::string& name, const OptionMap& values) {
+  checkName("known_forces/", name);
+  const std::string where = "known_forces/" + name;
+  const ForceSettings settings = take(where, values, kForceFields);
+  for (const auto& [wanted, text] : {std::pair("topic", &settings.topic), std::pair("field", &settings.field)})
+    if (text->empty()) refuse(where + '/' + wanted + " is missing; a known force has topic, field");
+  checkTopic(where + "/topic", settings.topic);
+  const bool is_joined = settings.field.find("..") == std::string::npos && settings.field.back() != '.';
+  if (!isMadeOf(settings.field, ".[]", "") || !is_joined)
+    refuse(where + "/field" + quoted(settings.field) + ", must be names joined by dots, such as force.z");
+  return {name, settings.topic, settings.field};
+}
+
+/// One IMU for two places would be two struts, or a wheel and a body, that always move alike.
+void checkTopics(const VehicleLayout& layout) {
+  std::map<std::string, std::string> users;
+  const auto use = [&](const std::string& topic, const std::string& user) {
+    checkTopic(user, topic);
+    const auto [other, is_first] = users.emplace(topic, user);
+    if (!is_first)
+      refuse(user + quoted(topic) + " is the topic of " + other->second +
+             " too, must be another; one IMU for several struts is a body_imu, and each has a position");
+  };
+  if (layout.body_imu) use(*layout.body_imu, "body_imu");
+  for (const VehicleLayout::Strut& strut : layout.struts) {
+    if (strut.sprung_imu) use(*strut.sprung_imu, "struts/" + strut.name + "/sprung_imu");
+    use(strut.unsprung_imu, "struts/" + strut.name + "/unsprung_imu");
+  }
+}
+
+}  // namespace
+
+VehicleLayout takeVehicle(OptionMap& values) {
+  VehicleLayout layout;
+  BodySettings body;
+  takeOptions(values, kBodyFields, body);
+  if (!body.body_imu.empty()) layout.body_imu = body.body_imu;
+  const std::map<std::string, OptionMap> struts = takeGroups(values, "struts");
+  for (const auto& [name, settings] : struts)
+    layout.struts.push_back(toStrut(name, settings, layout.body_imu.has_value()));
+  for (const auto& [name, settings] : takeGroups(values, "known_forces"))
+    layout.known_forces.push_back(toForce(name, settings));
+  std::vector<OptionDescription> known = describeOptions(kBodyFields);
+  for (const char* group : {"struts", "known_forces"}) known.push_back({"", group, "", "", "", ""});
+  refuseUnknown(values, known);
+  if (struts.empty()) refuse("struts are missing: a vehicle has struts, each with NAME: {unsprung_imu: TOPIC, ...}");
+  checkNumber("struts", layout.struts.size(), kMostStruts);
+  checkNumber("known_forces", layout.known_forces.size(), kMostKnownForces);
+  checkTopics(layout);
+  return layout;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,150 @@
+#include "suspension_health_monitor/internal/signal/motion_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "suspension_health_monitor/internal/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr Stamp kPeriod = std::chrono::milliseconds(10);
+constexpr double kT = 0.01;
+
+struct Output {
+  double value, rate;
+};
+
+/// @return the filtered signal and its filtered derivative, at kDelay .. signal.size() - 1 - kDelay.
+std::vector<Output> filtered(const std::vector<double>& signal) {
+  MotionFilter filter(kPeriod, 1, 1);
+  std::vector<Output> outputs;
+  for (std::size_t k = 0; k < signal.size(); ++k) {
+    const MotionFilter::Instant* instant = filter.push(static_cast<int>(k) * kPeriod, {signal[k], signal[k]});
+    if (instant == nullptr) continue;
+    EXPECT_EQ(instant->stamp, static_cast<int>(k - MotionFilter::kDelay) * kPeriod);
+    outputs.push_back({instant->values[0], instant->rates[0]});
+  }
+  return outputs;
+}
+
+/// Of the filters, from their answer to a pulse at kDelay.
+struct Response {
+  double low_pass, derivative;  // H, and what j 2 pi f H is to be divided by j [1/s]; of even and odd parts
+  double low_pass_odd, derivative_even;
+};
+Response responseAt(double frequency) {
+  std::vector<double> pulse(6 * MotionFilter::kDelay + 1, 0.0);
+  pulse[3 * MotionFilter::kDelay] = 1.0;
+  const std::vector<Output> answer = filtered(pulse);
+  Response response{};
+  for (std::size_t k = 0; k < answer.size(); ++k) {
+    const double late = static_cast<double>(k) - 2.0 * MotionFilter::kDelay;  // by how much, in samples
+    const double angle = 2.0 * kPi * frequency * late;
+    response.low_pass += answer[k].value * std::cos(angle);
+    response.low_pass_odd += answer[k].value * std::sin(angle);
+    response.derivative -= answer[k].rate * std::sin(angle);
+    response.derivative_even += answer[k].rate * std::cos(angle);
+  }
+  return response;
+}
+
+TEST(MotionFilter, IsFlatThenStopsAndDelaysByWholeSamples) {
+  for (int i = 0; i <= 500; ++i) {
+    const double frequency = 0.001 * i;
+    const Response response = responseAt(frequency);
+    const bool passes = frequency <= MotionFilter::kFlat, stops = frequency >= MotionFilter::kStop;
+    if (passes || stops) {
+      EXPECT_NEAR(response.low_pass, passes ? 1.0 : 0.0, 1e-3) << frequency;
+    }
+    EXPECT_NEAR(response.low_pass_odd, 0.0, 1e-14) << frequency;
+    EXPECT_NEAR(response.derivative_even, 0.0, 1e-12) << frequency;
+  }
+}
+
+TEST(MotionFilter, DifferentiatesWhatTheLowPassFilterLeavesAtAllFrequencies) {
+  for (int i = 0; i <= 500; ++i) {
+    const double frequency = 0.001 * i;
+    const Response response = responseAt(frequency);
+    EXPECT_NEAR(kT * response.derivative, 2.0 * kPi * frequency * response.low_pass, 1e-4) << frequency;
+  }
+}
+
+TEST(MotionFilter, PassesGravityAndTheRateOfARamp) {
+  std::vector<double> signal;
+  for (int k = 0; k < 60; ++k) signal.push_back(9.81 + 3.0 * kT * k);
+  std::size_t k = 0;
+  for (const Output& output : filtered(signal)) {
+    EXPECT_NEAR(output.value, signal[k + MotionFilter::kDelay], 1e-12);
+    EXPECT_NEAR(output.rate, 3.0, 1e-11);
+    ++k;
+  }
+}
+
+// A motion and its derivative, both in closed form: the sign, the unit and the instant.
+TEST(MotionFilter, GivesASineAndItsDerivativeAtTheInstantOfTheStamp) {
+  const double frequency = 2.0 * kPi * 12.0;
+  MotionFilter filter(kPeriod, 1, 1);
+  int instants = 0;
+  for (int k = 0; k < 200; ++k) {
+    const double sine = std::sin(frequency * kT * k);
+    const MotionFilter::Instant* instant = filter.push(k * kPeriod, {sine, sine});
+    if (instant == nullptr) continue;
+    const double t = toSeconds(instant->stamp);
+    EXPECT_NEAR(instant->values[0], std::sin(frequency * t), 1e-3);
+    EXPECT_NEAR(instant->rates[0], frequency * std::cos(frequency * t), 1e-3 * frequency);
+    ++instants;
+  }
+  EXPECT_EQ(instants, 200 - 2 * MotionFilter::kDelay);
+}
+
+// Parseval: the variance that white noise of 1 leaves is the mean square of the response, which is |2 pi f H|^2 / T^2.
+TEST(MotionFilter, TellsTheNoiseThatItLeaves) {
+  double value = 0.0, rate = 0.0;
+  constexpr int kSteps = 1000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double frequency = 0.5 * (i + 0.5) / kSteps, low_pass = responseAt(frequency).low_pass;
+    value += low_pass * low_pass / kSteps;
+    rate += std::pow(2.0 * kPi * frequency * low_pass / kT, 2) / kSteps;
+  }
+  const MotionFilter filter(kPeriod, 1, 1);
+  EXPECT_NEAR(MotionFilter::valueNoise(), std::sqrt(value), 1e-6);
+  EXPECT_NEAR(filter.rateNoise() * kT, std::sqrt(rate) * kT, 1e-4);
+
+  std::mt19937_64 engine(3);
+  std::normal_distribution<double> noise;
+  std::vector<double> signal(100000);
+  std::generate(signal.begin(), signal.end(), [&] { return noise(engine); });
+  double square = 0.0, count = 0.0;
+  for (const Output& output : filtered(signal)) {
+    square += output.rate * output.rate;
+    count += 1.0;
+  }
+  EXPECT_NEAR(std::sqrt(square / count) / filter.rateNoise(), 1.0,
+              0.01);  // 3 of its standard deviations, 1 / sqrt(count)
+}
+
+TEST(MotionFilter, FillsAnewAfterAGapAndLeavesOutWhatComesTooSoon) {
+  MotionFilter filter(kPeriod, 1, 0);
+  const auto push = [&](int milliseconds, double value) {
+    const MotionFilter::Instant* instant = filter.push(std::chrono::milliseconds(milliseconds), {value});
+    return instant == nullptr ? std::nullopt : std::optional<double>(instant->values[0]);
+  };
+  const int fill = 2 * MotionFilter::kDelay;
+  for (int k = 0; k < fill; ++k) EXPECT_FALSE(push(10 * k, 1.0));
+  EXPECT_TRUE(push(10 * fill, 1.0));
+  EXPECT_FALSE(push(10 * fill + 4, 100.0));
+  EXPECT_NEAR(push(10 * fill + 10, 1.0).value(), 1.0, 1e-12);
+  const int later = 10 * fill + 30;
+  for (int k = 0; k < fill; ++k) EXPECT_FALSE(push(later + 10 * k, 2.0));
+  EXPECT_NEAR(push(later + 10 * fill, 2.0).value(), 2.0, 1e-12);
+  EXPECT_FALSE(push(5, 3.0));  // the clock went back
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
