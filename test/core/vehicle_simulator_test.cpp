@@ -250,10 +250,10 @@ TEST(Vehicle, IsRefusedByNameAndValue) {
   expectWords(complaint([](Vehicle& v) { v.struts.clear(); }), "no strut");
   expectWords(complaint([](Vehicle& v) { v.struts.resize(2); }), "do not hold the body");
   expectWords(complaint([](Vehicle& v) { v.struts = {v.struts[0], v.struts[3]}; }), "do not hold the body");
-  expectWords(complaint([](Vehicle& v) { v.struts[2].stiffness = -1.0; }), "struts/rear_left/stiffness = -1");
-  expectWords(complaint([](Vehicle& v) { v.struts[1].ramp_start = 5.0; }), "struts/front_right/ramp_end = 0");
+  expectWords(complaint([](Vehicle& v) { v.struts[2].stiffness = -1.0; }), "struts/rear_left: stiffness = -1");
+  expectWords(complaint([](Vehicle& v) { v.struts[1].ramp_start = 5.0; }), "struts/front_right: ramp_end = 0");
   expectWords(complaint([](Vehicle& v) { v.anti_roll_bars = {{1, 1, 100.0}}; }), "anti_roll_bars/front_right");
-  expectWords(complaint([](Vehicle& v) { v.known_forces = {{"bar", 0, 0, 1.0, 5.0, 4.0}}; }), "bar/highest_frequency");
+  expectWords(complaint([](Vehicle& v) { v.known_forces = {{"bar", 0, 0, 1.0, 5.0, 4.0}}; }), "bar: highest_frequency");
   Vehicle half = namedVehicle("half_sedan");
   half.known_forces = {{"bar", 1.0, 0.5, 1.0}};
   EXPECT_THROW(validate(half), std::invalid_argument);

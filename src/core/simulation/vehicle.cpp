@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -13,16 +14,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& name, double value, const char* unit, const std::string& wanted) {
   throw std::invalid_argument(name + formatted(" = %g [%s], must be ", value, unit) + wanted);
-}
-
-/// Calls check(); what it complains of gets `prefix` in front.
-template <class Check>
-void within(const std::string& prefix, const Check& check) {
-  try {
-    check();
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(prefix + error.what());
-  }
 }
 
 /// Heave, pitch, roll: as many as the vehicle has.
@@ -98,14 +89,14 @@ void validate(const Vehicle& vehicle) {
     refuse("pitch_inertia", vehicle.pitch_inertia, "kg m^2", "above 0");
   if (vehicle.rolls() && vehicle.roll_inertia <= 0.0) refuse("roll_inertia", vehicle.roll_inertia, "kg m^2", "above 0");
   requireHeld(vehicle);
-  for (const VehicleStrut& strut : vehicle.struts) within("struts/" + strut.name + "/", [&] { validate(strut); });
+  for (const VehicleStrut& strut : vehicle.struts) prefixed("struts/" + strut.name + ": ", [&] { validate(strut); });
   for (const KnownForce& force : vehicle.known_forces)
-    within("known_forces/" + force.name + "/", [&] { validate(force, vehicle); });
+    prefixed("known_forces/" + force.name + ": ", [&] { validate(force, vehicle); });
   for (const AntiRollBar& bar : vehicle.anti_roll_bars)
     if (bar.first == bar.second)
       throw std::invalid_argument("anti_roll_bars/" + vehicle.struts.at(bar.first).name +
                                   " leads to the same strut, must be two struts");
-  within("body_imu/", [&] { validate(vehicle.body_imu, kVehicleImuFields); });
+  prefixed("body_imu: ", [&] { validate(vehicle.body_imu, kVehicleImuFields); });
 }
 
 }  // namespace suspension_health_monitor

@@ -59,7 +59,7 @@ const std::vector<NamedVehicle>& namedVehicles() {
         {1.4, 0.3, 0.4}}},
       {"half_sedan",
        {675.0,
-        1050.0,
+        800.0,
         0.0,
         "C",
         15.0,
