@@ -5,13 +5,8 @@
 #include "conversions.h"
 
 namespace suspension_health_monitor {
-namespace {
 
-// ROS means by stamp 0 that there is none, so a drive that starts there is stamped a nanosecond later. Nothing can be
-// stamped before; only a clock that is set wrong on purpose gets there.
 ros::Time stampAt(Stamp stamp) { return std::max(toRosTime(std::max(stamp, Stamp::zero())), ros::TIME_MIN); }
-
-}  // namespace
 
 DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp start)
     : simulator_(options.drive),

@@ -19,6 +19,11 @@ struct DriveMessages {
   std::optional<sensor_msgs::Imu> road;  ///< with road_imu
 };
 
+/// @return the stamp that a message of a simulated drive carries. ROS means by 0 that there is none, so a drive that
+/// starts there is stamped a nanosecond later. Nothing can be stamped before; only a clock that is set wrong on purpose
+/// gets there.
+ros::Time stampAt(Stamp stamp);
+
 /// The simulated drive as messages, the same for the simulator nodelet and for `suspension_bag simulate`.
 class DriveMessageSource {
  public:

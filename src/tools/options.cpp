@@ -9,6 +9,7 @@
 #include "../ros/corners_options.h"
 #include "../ros/shell_options.h"
 #include "../ros/simulator_options.h"
+#include "../ros/vehicle_simulation_options.h"
 #include "command.h"
 
 namespace suspension_health_monitor {
@@ -18,7 +19,8 @@ std::vector<OptionDescription> optionsOf(const std::string& of) {
   if (of == "monitor") return PipelineOptions::describe();
   if (of == "simulator") return SimulatorOptions::describe();
   if (of == "corners") return describeOptions(kCornersFields);
-  throw std::invalid_argument("options of " + of + ", must be monitor, simulator or corners");
+  if (of == "vehicle") return VehicleSimulationOptions::describe();
+  throw std::invalid_argument("options of " + of + ", must be monitor, simulator, vehicle or corners");
 }
 
 using Cells = std::array<std::string, 5>;
@@ -46,8 +48,8 @@ void print(const std::vector<Cells>& rows) {
 void options(const Arguments& arguments) {
   namespace po = boost::program_options;
   po::options_description description("options");
-  description.add_options()("of", po::value<std::string>()->default_value("monitor"), "monitor, simulator or corners");
-  const auto values = parse(arguments, "options [monitor|simulator|corners]", description, "of");
+  description.add_options()("of", po::value<std::string>()->default_value("monitor"), "monitor, simulator, vehicle or corners");
+  const auto values = parse(arguments, "options [monitor|simulator|vehicle|corners]", description, "of");
   if (!values) return;
   const std::vector<OptionDescription> all = optionsOf((*values)["of"].as<std::string>());
   for (auto option = all.begin(); option != all.end();) {

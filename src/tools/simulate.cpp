@@ -4,6 +4,8 @@
 #include "../ros/whole_bag.h"
 #include "command.h"
 #include "long_work.h"
+#include "simulate_vehicle.h"
+#include "suspension_health_monitor/internal/simulation/vehicle.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -13,6 +15,7 @@ namespace po = boost::program_options;
 
 /// Options that have a flag of their own, besides --set NAME=VALUE.
 constexpr std::array kFlags{"scenario", "vehicle", "seed", "duration", "rate"};
+constexpr std::array kFlagsOfOneStrut{"scenario", "vehicle"};
 
 void writeBag(const SimulatorOptions& options, const std::string& path) {
   const Interruption interruption;
@@ -35,6 +38,17 @@ std::string describeRates(const SimulationOptions& drive) {
                             : formatted("%g Hz (sprung) and %g Hz (unsprung)", sprung, unsprung);
 }
 
+/// Those of one strut and those of a whole vehicle do not mix.
+void requireFlagsOfOneKind(const po::variables_map& values) {
+  if (values.count("vehicle-model") == 0 && values.count("vehicle-file") != 0)
+    throw std::invalid_argument("--vehicle-file, must come with --vehicle-model");
+  for (const char* flag : kFlagsOfOneStrut)
+    if (values.count("vehicle-model") != 0 && values.count(flag) != 0)
+      throw std::invalid_argument(
+          "--" + std::string(flag) +
+          " is of one strut, must not come with --vehicle-model: `options vehicle` has its own");
+}
+
 }  // namespace
 
 void simulate(const Arguments& arguments) {
@@ -43,24 +57,32 @@ void simulate(const Arguments& arguments) {
   add("output,o", po::value<std::string>()->required(), "the bag to write");
   add("config", po::value<std::string>()->default_value(""), "YAML file like config/simulator.yaml");
   add("set", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
-      "NAME=VALUE: any option of `suspension_bag options simulator`");
+      "NAME=VALUE: any option of `suspension_bag options simulator`, or `options vehicle`");
+  add("vehicle-model", po::value<std::string>(),
+      ("a whole vehicle, at 100 Hz unless told: " + vehicleNames() + ", or a YAML file").c_str());
+  add("vehicle-file", po::value<std::string>(), "write the vehicle's topics and positions as YAML");
   add("effect", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
-      "NAME=COEFFICIENT[,SHAPE=VALUE]...: hide this effect in strut or sensor (`suspension_bag effects`)");
+      "NAME=COEFFICIENT[,SHAPE=VALUE]...: hide this effect in strut or sensor (`suspension_bag effects`); in a vehicle "
+      "STRUT/NAME=...");
   add("effects-file", po::value<std::string>(), "YAML file with laws of your own, for --effect");
   for (const OptionDescription& option : SimulatorOptions::describe())
     if (std::find(kFlags.begin(), kFlags.end(), option.name) != kFlags.end())
       add(option.name.c_str(), po::value<std::string>(),
           (option.help + " (" + option.default_value + ") [" + option.unit + "]").c_str());
-  const auto values = parse(arguments, "simulate [--scenario S] [OPTION]... -o OUT.bag", description);
+  const auto values =
+      parse(arguments, "simulate [--scenario S | --vehicle-model M] [OPTION]... -o OUT.bag", description);
   if (!values) return;
 
-  requireSeparateFiles(*values, {"config", "effects-file"}, {"output"});
+  requireSeparateFiles(*values, {"config", "effects-file", "vehicle-model"}, {"output", "vehicle-file"});
+  requireFlagsOfOneKind(*values);
   OptionMap settings = gatherOptions(*values);
-  for (const std::string& effect : (*values)["effect"].as<std::vector<std::string>>())
-    setEffect(settings, effect, measurementEffects());
   for (const char* flag : kFlags)
     if (values->count(flag) != 0) settings[flag] = (*values)[flag].as<std::string>();
   if (values->count("effects-file") != 0) settings["effects_file"] = (*values)["effects-file"].as<std::string>();
+  if (values->count("vehicle-model") != 0) return simulateVehicle(*values, std::move(settings));
+
+  for (const std::string& effect : (*values)["effect"].as<std::vector<std::string>>())
+    setEffect(settings, effect, measurementEffects());
   const SimulatorOptions options = SimulatorOptions::fromValues(settings);
 
   const auto path = (*values)["output"].as<std::string>();

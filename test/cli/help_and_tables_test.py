@@ -12,7 +12,8 @@ import conftest
 import imu_bag
 
 OPTIONS = {
-    "simulate": ["-o [ --output ]", "--config", "--set", "--scenario", "--vehicle", "--seed", "--duration", "--rate"],
+    "simulate": ["-o [ --output ]", "--config", "--set", "--scenario", "--vehicle", "--seed", "--duration", "--rate",
+                 "--vehicle-model", "--vehicle-file"],
     "identify": ["--config", "--set", "--sprung-topic", "/sprung/imu", "--unsprung-topic", "/unsprung/imu", "--start",
                  "--end", "--csv", "--json"],
     "health": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--baseline", "--csv", "--json",
@@ -20,7 +21,7 @@ OPTIONS = {
     "compare": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--json", "--model",
                 "--effects-file"],
     "horizon": ["--damping-to-mass", "--stiffness-to-mass", "--json"],
-    "options": ["monitor", "simulator", "corners"],
+    "options": ["monitor", "simulator", "vehicle", "corners"],
 }
 README = imu_bag.REPOSITORY / "README.md"
 
@@ -46,7 +47,7 @@ def test_help_comes_before_complaints(program):
     assert "usage" in program.succeed("identify", "--start", "-1", "-h")
 
 
-@pytest.mark.parametrize("of", ["monitor", "simulator", "corners"])
+@pytest.mark.parametrize("of", ["monitor", "simulator", "vehicle", "corners"])
 def test_readme_has_the_table_of_settings(program, of):
     found = re.search(rf"<!-- options {of} -->\n(.*?)<!-- end -->", README.read_text(), re.DOTALL)
     if found is None:

@@ -167,5 +167,10 @@ TEST(IsoRoad, DoesNotRepeat) {
   EXPECT_LT(closest, 5.5 * 0.08);
 }
 
+TEST(IsoRoad, IsTheSumOfItsWavesBeforeTheStartOfTheDriveToo) {
+  IsoRoad road('C', 15.0, 1, {0.7, 0});
+  for (double t = -1.0; t < 1.0; t += 0.0137) ASSERT_NEAR(road(t).height, road.exact(t).height, 1e-8) << t;
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor

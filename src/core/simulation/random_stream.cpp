@@ -1,20 +1,23 @@
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 #include <cmath>
+#include <vector>
 
 #include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-std::mt19937_64 seeded(int seed, RandomPurpose purpose) {
-  std::seed_seq sequence{static_cast<unsigned>(seed), static_cast<unsigned>(purpose)};
+std::mt19937_64 seeded(int seed, RandomPurpose purpose, unsigned index) {
+  std::vector<unsigned> numbers{static_cast<unsigned>(seed), static_cast<unsigned>(purpose)};
+  if (index != 0) numbers.push_back(index);
+  std::seed_seq sequence(numbers.begin(), numbers.end());
   return std::mt19937_64(sequence);
 }
 
 }  // namespace
 
-RandomStream::RandomStream(int seed, RandomPurpose purpose) : engine_(seeded(seed, purpose)) {}
+RandomStream::RandomStream(int seed, RandomPurpose purpose, unsigned index) : engine_(seeded(seed, purpose, index)) {}
 
 double RandomStream::uniform() {
   // The upper 53 bits fill a double's mantissa exactly.

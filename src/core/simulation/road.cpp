@@ -75,12 +75,13 @@ double isoDisplacementDensity(char road_class, double spatial_frequency) {
   return at_reference / (ratio * ratio);
 }
 
-IsoRoad::IsoRoad(char road_class, double speed, int seed)
+IsoRoad::IsoRoad(char road_class, double speed, int seed, RoadLine line)
     : amplitude_(kComponents), omega_(kComponents), phase_(kComponents), table_(kBlockIntervals + 1) {
   if (!(speed > 0.0 && std::isfinite(speed))) {
     throw std::invalid_argument("speed = " + numberText(speed) + " [m/s], must be positive");
   }
-  RandomStream random(seed, RandomPurpose::kRoad);
+  RandomStream random(seed, RandomPurpose::kRoad, line.surface);
+  RandomStream across(seed, RandomPurpose::kRoadLateral, line.surface);
   const double width = std::log(kHighest / kLowest) / kComponents;
   for (int i = 0; i < kComponents; ++i) {
     const double low = kLowest * std::exp(i * width);
@@ -90,7 +91,8 @@ IsoRoad::IsoRoad(char road_class, double speed, int seed)
     const double variance = low * isoDisplacementDensity(road_class, low) * (1.0 - low / high);
     amplitude_[i] = std::sqrt(2.0 * variance);
     omega_[i] = 2.0 * kPi * n * speed;
-    phase_[i] = 2.0 * kPi * random.uniform();
+    const double s = 2.0 * across.uniform() - 1.0;
+    phase_[i] = 2.0 * kPi * (random.uniform() + n * s / std::sqrt(1.0 - s * s) * line.lateral);
   }
   grid_step_ = 1.0 / (kPointsPerWave * kHighest * speed);
   cosine_step_ = (omega_ * grid_step_).array().cos();

@@ -31,9 +31,9 @@ void SensorSchedule::advance() {
   if (next_ && jitter_ > 0.0) *next_ += jitter_ * random_.uniform();
 }
 
-Accelerometer::Accelerometer(const SimulationOptions& options, Place place)
-    : noise_random_(options.seed, kNoise[static_cast<std::size_t>(place)]),
-      delivery_random_(options.seed, kDelivery[static_cast<std::size_t>(place)]),
+Accelerometer::Accelerometer(const SimulationOptions& options, Place place, unsigned index)
+    : noise_random_(options.seed, kNoise[static_cast<std::size_t>(place)], index),
+      delivery_random_(options.seed, kDelivery[static_cast<std::size_t>(place)], index),
       noise_(options.noise),
       gaussian_(options.gaussian_noise),
       dropout_(options.dropout),

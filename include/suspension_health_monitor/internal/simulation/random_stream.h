@@ -18,13 +18,18 @@ enum class RandomPurpose : unsigned {
   kUnsprungTiming,
   kRoadNoise,
   kRoadDelivery,
+  kRoadLateral,
+  kGyroNoise,
+  kKnownForce,
+  kKnownForceNoise,
 };
 
 /// Reproducible random numbers, the same with every standard library: engine and seeding are fixed by the C++ standard,
 /// and the distributions, which it leaves open, are written out here.
 class RandomStream {
  public:
-  RandomStream(int seed, RandomPurpose purpose);
+  /// @param index  which one of several that serve the same purpose.
+  RandomStream(int seed, RandomPurpose purpose, unsigned index = 0);
 
   /// @return uniform in [0, 1).
   double uniform();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -35,6 +36,12 @@ RoadPoint paperBumps(double t);
 /// @throws std::invalid_argument  on another letter.
 double isoDisplacementDensity(char road_class, double spatial_frequency);
 
+/// The line that a wheel follows: where it lies on which random surface.
+struct RoadLine {
+  double lateral = 0.0;  ///< [m]
+  unsigned surface = 0;  ///< another number, another surface with the same statistics
+};
+
 /// A random road of one ISO 8608 class, driven over at constant speed.
 ///
 /// Height is a sum of kComponents sinusoids with random phases. The band [kLowest, kHighest] is cut into as many
@@ -42,7 +49,16 @@ double isoDisplacementDensity(char road_class, double spatial_frequency);
 /// variance, integral Gd(n) dn. The frequencies have no common multiple, so the profile does not repeat.
 /// Between the points of a grid (kPointsPerWave to the shortest wave, exact values there) height is a quintic that
 /// meets height, rate and acceleration at both ends; rate and acceleration are its derivatives, so the three always
-/// agree. Error of the acceleration: at most (2 pi / kPointsPerWave)^4 / 1920 = 5.1e-6 of the shortest sinusoid's, and
+/// agree.
+///
+/// Lines of the same surface belong together as on an isotropic one (Dodds and Robson, "The description of road surface
+/// roughness", J. Sound Vib. 31, 1973): its two-sided density over both wave numbers depends on their length alone, and
+/// Gd ~ n^-2 along a line comes from S(n, m) ~ (n^2 + m^2)^(-3/2). So a wave that goes as n along the line goes across
+/// it as m, of density n^2 / (2 (n^2 + m^2)^(3/2)), which m = n s / sqrt(1 - s^2) has, s uniform in (-1, 1). Lines at
+/// the distance b then have the same spectrum, and of the cross spectrum the share
+///   E cos(2 pi m b) = x K_1(x),  x = 2 pi n b.
+///
+/// Error of the acceleration: at most (2 pi / kPointsPerWave)^4 / 1920 = 5.1e-6 of the shortest sinusoid's, and
 /// as n^4 less for longer ones. Cost: kPointsPerWave * kComponents phasor steps to the shortest wave, in blocks as time
 /// goes on; memory is constant.
 class IsoRoad {
@@ -56,7 +72,7 @@ class IsoRoad {
   /// @param speed  > 0 [m/s].
   /// @param seed  same seed, same profile over distance, whatever class (up to scale) and speed.
   /// @throws std::invalid_argument  on another letter or speed.
-  IsoRoad(char road_class, double speed, int seed);
+  IsoRoad(char road_class, double speed, int seed, RoadLine line = {});
 
   /// @param t  [s], any time; quick when times are near the last one.
   RoadPoint operator()(double t);
@@ -71,8 +87,8 @@ class IsoRoad {
   Eigen::VectorXd omega_;      // [rad/s]
   Eigen::VectorXd phase_;      // [rad]
   Eigen::VectorXd cosine_step_, sine_step_;
-  double grid_step_;  // [s]
-  long block_ = -1;   // number of the block in the table
+  double grid_step_;           // [s]
+  std::optional<long> block_;  // number of the one in the table
   std::vector<RoadPoint> table_;
 };
 

@@ -44,7 +44,8 @@ class Accelerometer {
   /// The clocks of wheel and road show true time; clock_offset and clock_skew are the sprung sensor's.
   enum class Place { kSprung, kUnsprung, kRoad };
 
-  Accelerometer(const SimulationOptions& options, Place place);
+  /// @param index  which one of several at such a place, each with noise of its own.
+  Accelerometer(const SimulationOptions& options, Place place, unsigned index = 0);
 
   /// @param t  true time of the measurement since the start of the drive [s].
   /// @param acceleration  what an ideal sensor would read [m/s^2].

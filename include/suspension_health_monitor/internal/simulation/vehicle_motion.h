@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
+#include "suspension_health_monitor/internal/simulation/integration_guard.h"
+#include "suspension_health_monitor/internal/simulation/road.h"
+#include "suspension_health_monitor/internal/simulation/vehicle.h"
+
+namespace suspension_health_monitor {
+
+/// What the simulator knows of a vehicle at one instant.
+struct VehicleTruth {
+  /// Heave of the centre of gravity [m], pitch about y (nose down positive) and roll about x (left side up positive)
+  /// [rad]; their rates and accelerations.
+  Eigen::Vector3d body = Eigen::Vector3d::Zero(), body_rate = body, body_acceleration = body;
+
+  std::vector<DriveTruth> struts;    ///< b1 and b0 are the strut's own, a_ii c_i and a_ii k_i
+  std::vector<double> forces;        ///< of the struts on the body, anti-roll bars included, up positive [N]
+  std::vector<double> known_forces;  ///< up positive [N]
+};
+
+/// The equations of motion of a vehicle, and their integration in time.
+///
+///   M z'' = sum F_i + sum G_k,  Iyy pitch'' = -sum x F,  Ixx roll'' = sum y F
+///   m_i w_i'' = -F_i + k_ti (mu_i - w_i) + c_ti (mu_i' - w_i')
+///   F_i = c_i(t) v_i + k_i(t) d_i + 1/a_ii sum_j c_j f_j(d_i, v_i, t, s_j) + anti-roll bars
+///
+/// with the strut's top at z_i = z - x_i pitch + y_i roll. The wheels start at rest relative to the road, and the body
+/// in the plane that is nearest to them.
+/// Integration: Dormand-Prince 5(4) with error control, 1e-10 absolute (m, m/s) and relative per step, steps of at most
+/// kLongestStep. It shares nothing with estimation but the signs.
+class VehicleMotion {
+ public:
+  static constexpr double kLongestStep = 0.5e-3;  ///< [s]
+
+  using State = std::vector<double>;
+  using Signal = std::function<double(double t)>;
+
+  /// @param roads  under every wheel.  @param known_forces  one per vehicle.known_forces [N].
+  /// @throws std::invalid_argument  as validate().
+  VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, std::vector<Signal> known_forces = {});
+
+  /// Integrates up to t [s], which is not before the last one.
+  /// @throws std::invalid_argument  naming the hidden effects, if a strut runs away or is too stiff to be integrated.
+  void advance(double t);
+
+  /// @return what is so at the time that advance() has reached.
+  const VehicleTruth& truth();
+
+  /// Heave, pitch, roll; their rates; the wheels' heights; their rates; the memories of hidden effects. For tests.
+  State& state() { return state_; }
+
+ private:
+  void evaluate(const State& state, double t, State& derivative);
+  void findForces(const State& state, double t);
+  void accelerateBody(double t);
+  void accelerateWheels(const State& state, double t, State& derivative);
+
+  Vehicle vehicle_;
+  std::vector<Road> roads_;
+  std::vector<Signal> known_forces_;
+  std::vector<double> own_mobility_;  // a_ii [1/kg]
+  Eigen::Vector3d inverse_inertia_;   // 1/M, 1/Iyy, 1/Ixx; 0 where the body does not turn
+  State state_, derivative_;
+  VehicleTruth truth_;
+  IntegrationGuard guard_;
+  double time_ = 0.0;
+};
+
+}  // namespace suspension_health_monitor

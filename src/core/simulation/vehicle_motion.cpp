@@ -1,0 +1,162 @@
+#include "suspension_health_monitor/internal/simulation/vehicle_motion.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kTolerance = 1e-10;   // per step, absolute [m, m/s] and relative
+constexpr std::size_t kBodyRates = 3;  // places in the state
+constexpr std::size_t kWheels = 6;
+
+std::vector<ActiveEffect> hiddenIn(const Vehicle& vehicle) {
+  std::vector<ActiveEffect> all;
+  for (const VehicleStrut& strut : vehicle.struts) all.insert(all.end(), strut.hidden.begin(), strut.hidden.end());
+  return all;
+}
+
+/// How high the top of a strut is, or how fast it rises, per unit of heave, pitch and roll.
+Eigen::RowVector3d liftAt(double x, double y) { return {1.0, -x, y}; }
+Eigen::RowVector3d liftAt(const VehicleStrut& strut) { return liftAt(strut.x, strut.y); }
+
+VehicleMotion::State restOn(const Vehicle& vehicle, std::vector<Road>& roads) {
+  const std::size_t n = vehicle.struts.size();
+  VehicleMotion::State state(kWheels + 2 * n + hiddenIn(vehicle).size(), 0.0);
+  Eigen::MatrixXd lift(n, 3);
+  Eigen::MatrixX2d wheels(n, 2);
+  for (std::size_t i = 0; i < n; ++i) {
+    const RoadPoint road = roads.at(i)(0.0);
+    const auto row = static_cast<Eigen::Index>(i);
+    lift.row(row) = liftAt(vehicle.struts[i]);
+    wheels.row(row) << road.height, road.rate;
+    state[kWheels + i] = road.height;
+    state[kWheels + n + i] = road.rate;
+  }
+  const Eigen::Matrix<double, 3, 2> plane = lift.completeOrthogonalDecomposition().solve(wheels);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    state[static_cast<std::size_t>(i)] = plane(i, 0);
+    state[kBodyRates + static_cast<std::size_t>(i)] = plane(i, 1);
+  }
+  return state;
+}
+
+}  // namespace
+
+VehicleMotion::VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, std::vector<Signal> known_forces)
+    : vehicle_(vehicle),
+      roads_(std::move(roads)),
+      known_forces_(std::move(known_forces)),
+      inverse_inertia_(1.0 / vehicle.mass, vehicle.pitches() ? 1.0 / vehicle.pitch_inertia : 0.0,
+                       vehicle.rolls() ? 1.0 / vehicle.roll_inertia : 0.0),
+      guard_(hiddenIn(vehicle), kLongestStep) {
+  validate(vehicle_);
+  for (const VehicleStrut& strut : vehicle_.struts) own_mobility_.push_back(vehicle_.mobility(strut, strut));
+  truth_.struts.resize(vehicle_.struts.size());
+  truth_.forces.resize(vehicle_.struts.size());
+  truth_.known_forces.resize(vehicle_.known_forces.size());
+  state_ = restOn(vehicle_, roads_);
+  derivative_.resize(state_.size());
+}
+
+void VehicleMotion::advance(double t) {
+  namespace odeint = boost::numeric::odeint;
+  if (!(t > time_)) return;
+  const auto stepper =
+      odeint::make_controlled(kTolerance, kTolerance, kLongestStep, odeint::runge_kutta_dopri5<State>());
+  const auto system = [this](const State& state, State& derivative, double now) {
+    guard_.countEvaluation(now);
+    evaluate(state, now, derivative);
+  };
+  const auto check = [this](const State& state, double now) {
+    const std::size_t n = vehicle_.struts.size();
+    for (std::size_t i = 0; i < kBodyRates; ++i) guard_.checkMotion(state[i], state[kBodyRates + i], now);
+    for (std::size_t i = kWheels; i < kWheels + n; ++i) guard_.checkMotion(state[i], state[i + n], now);
+  };
+  odeint::integrate_adaptive(stepper, system, state_, time_, t, std::min(kLongestStep, t - time_), check);
+  time_ = t;
+}
+
+const VehicleTruth& VehicleMotion::truth() {
+  evaluate(state_, time_, derivative_);
+  return truth_;
+}
+
+void VehicleMotion::evaluate(const State& state, double t, State& derivative) {
+  for (std::size_t i = 0; i < kBodyRates; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    truth_.body[axis] = state[i];
+    truth_.body_rate[axis] = state[kBodyRates + i];
+  }
+  findForces(state, t);
+  accelerateBody(t);
+  for (std::size_t i = 0; i < kBodyRates; ++i) {
+    derivative[i] = state[kBodyRates + i];
+    derivative[kBodyRates + i] = truth_.body_acceleration[static_cast<Eigen::Index>(i)];
+  }
+  accelerateWheels(state, t, derivative);
+}
+
+void VehicleMotion::findForces(const State& state, double t) {
+  const std::size_t n = vehicle_.struts.size();
+  const double* memory = state.data() + kWheels + 2 * n;
+  for (std::size_t i = 0; i < n; ++i) {
+    const VehicleStrut& strut = vehicle_.struts[i];
+    DriveTruth& truth = truth_.struts[i];
+    truth.travel = state[kWheels + i] - liftAt(strut) * truth_.body;
+    truth.travel_rate = state[kWheels + n + i] - liftAt(strut) * truth_.body_rate;
+    truth.damping_to_mass = own_mobility_[i] * strut.damping * strut.shareAt(t, strut.damping_end_fraction);
+    truth.stiffness_to_mass = own_mobility_[i] * strut.stiffness * strut.shareAt(t, strut.stiffness_end_fraction);
+    double per_mass = truth.damping_to_mass * truth.travel_rate + truth.stiffness_to_mass * truth.travel;
+    for (const ActiveEffect& active : strut.hidden)
+      per_mass += active.coefficient *
+                  active.effect.force({truth.travel, truth.travel_rate, t, *memory++}, active.shapes.data());
+    truth_.forces[i] = per_mass / own_mobility_[i];
+  }
+  for (const AntiRollBar& bar : vehicle_.anti_roll_bars) {
+    const double force = bar.stiffness * (truth_.struts[bar.first].travel - truth_.struts[bar.second].travel);
+    truth_.forces[bar.first] += force;
+    truth_.forces[bar.second] -= force;
+  }
+}
+
+// Heave takes the sum of the forces, pitch -sum x F, roll sum y F: the same three numbers as of the lift.
+void VehicleMotion::accelerateBody(double t) {
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < vehicle_.struts.size(); ++i)
+    load += truth_.forces[i] * liftAt(vehicle_.struts[i]).transpose();
+  for (std::size_t k = 0; k < known_forces_.size(); ++k) {
+    truth_.known_forces[k] = known_forces_[k](t);
+    load += truth_.known_forces[k] * liftAt(vehicle_.known_forces[k].x, vehicle_.known_forces[k].y).transpose();
+  }
+  truth_.body_acceleration = inverse_inertia_.cwiseProduct(load);
+}
+
+void VehicleMotion::accelerateWheels(const State& state, double t, State& derivative) {
+  const std::size_t n = vehicle_.struts.size();
+  std::size_t memory = kWheels + 2 * n;
+  for (std::size_t i = 0; i < n; ++i) {
+    const VehicleStrut& strut = vehicle_.struts[i];
+    DriveTruth& truth = truth_.struts[i];
+    const RoadPoint road = roads_[i](t);
+    const double height = state[kWheels + i], rate = state[kWheels + n + i];
+    const double tyre = strut.tyre_stiffness * (road.height - height) + strut.tyre_damping * (road.rate - rate);
+    truth.road_height = road.height;
+    truth.road_acceleration = road.acceleration;
+    truth.sprung_acceleration = liftAt(strut) * truth_.body_acceleration;
+    truth.unsprung_acceleration = (tyre - truth_.forces[i]) / strut.wheel_mass;
+    derivative[kWheels + i] = rate;
+    derivative[kWheels + n + i] = truth.unsprung_acceleration;
+    for (const ActiveEffect& active : strut.hidden) {
+      const StrutMotion motion{truth.travel, truth.travel_rate, t, state[memory], truth.sprung_acceleration};
+      const ForceEffect::Law& law = active.effect.memory_rate;
+      derivative[memory++] = law ? law(motion, active.shapes.data()) : 0.0;
+    }
+  }
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,155 @@
+#include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr int kNumSines = 48;
+
+/// A sum of sines of even density over the band, each with an equal share of the variance.
+VehicleMotion::Signal signalOf(const KnownForce& force, int seed, unsigned index) {
+  struct Sine {
+    double frequency, phase;  // [rad/s], [rad]
+  };
+  RandomStream random(seed, RandomPurpose::kKnownForce, index);
+  std::vector<Sine> sines;
+  const double width = (force.highest_frequency - force.lowest_frequency) / kNumSines;
+  for (int i = 0; i < kNumSines; ++i) {
+    const double frequency = force.lowest_frequency + (i + random.uniform()) * width;
+    sines.push_back({2.0 * kPi * frequency, 2.0 * kPi * random.uniform()});
+  }
+  const double amplitude = force.rms * std::sqrt(2.0 / kNumSines);
+  return [sines, amplitude](double t) {
+    double sum = 0.0;
+    for (const Sine& sine : sines) sum += std::sin(sine.frequency * t + sine.phase);
+    return amplitude * sum;
+  };
+}
+
+std::vector<VehicleMotion::Signal> signalsOf(const Vehicle& vehicle, int seed) {
+  std::vector<VehicleMotion::Signal> signals;
+  for (const KnownForce& force : vehicle.known_forces)
+    signals.push_back(signalOf(force, seed, static_cast<unsigned>(signals.size())));
+  return signals;
+}
+
+RoadLine lineUnder(const VehicleStrut& strut, const std::string& tracks) {
+  if (tracks == "coherent") return {strut.y, 0};
+  if (tracks == "identical") return {};
+  return {0.0, strut.y > 0.0 ? 0U : strut.y < 0.0 ? 1U : 2U};
+}
+
+template <class Settings>
+const Settings& checked(const Settings& settings) {
+  validate(settings);
+  return settings;
+}
+
+}  // namespace
+
+void validate(const VehicleDriveOptions& options) {
+  validate(options, kVehicleDriveFields);
+  if (options.stamp_jitter >= 1.0 / options.rate)
+    throw std::invalid_argument(formatted("stamp_jitter = %g [s], must be less than one sample period, 1 / rate = %g",
+                                          options.stamp_jitter, 1.0 / options.rate));
+}
+
+std::vector<Road> tracksOf(const Vehicle& vehicle, const std::string& tracks, int seed) {
+  double front = vehicle.struts.front().x;
+  for (const VehicleStrut& strut : vehicle.struts) front = std::max(front, strut.x);
+  std::vector<Road> roads;
+  for (const VehicleStrut& strut : vehicle.struts) {
+    const double delay = (front - strut.x) / vehicle.speed;
+    IsoRoad road(vehicle.iso_class.front(), vehicle.speed, seed, lineUnder(strut, tracks));
+    roads.emplace_back([road, delay](double t) mutable { return road(t - delay); });
+  }
+  return roads;
+}
+
+SixAxisReading readIdeally(const VehicleTruth& truth, const VehicleImu& imu, double gravity) {
+  const auto turning = [](const Eigen::Vector3d& body) { return Eigen::Vector3d(body[2], body[1], 0.0); };
+  const Eigen::Vector3d tilt = turning(truth.body), rate = turning(truth.body_rate);
+  const Eigen::Vector3d angular_acceleration = turning(truth.body_acceleration), place = imu.position();
+  // The world's vertical in the axes of a body that has pitched and rolled.
+  const Eigen::Vector3d vertical(-std::sin(tilt[1]), std::sin(tilt[0]) * std::cos(tilt[1]),
+                                 std::cos(tilt[0]) * std::cos(tilt[1]));
+  const Eigen::Matrix3d to_imu = imu.orientation().transpose();
+  SixAxisReading reading;
+  reading.acceleration = to_imu * ((truth.body_acceleration[0] + gravity) * vertical +
+                                   angular_acceleration.cross(place) + rate.cross(rate.cross(place)));
+  reading.angular_rate = to_imu * rate;
+  return reading;
+}
+
+VehicleSimulator::VehicleSimulator(const Vehicle& vehicle, const VehicleDriveOptions& options)
+    : vehicle_(checked(vehicle)),
+      options_(checked(options)),
+      motion_(vehicle_, tracksOf(vehicle_, options.tracks, options.seed), signalsOf(vehicle_, options.seed)),
+      body_(sensorAt(Accelerometer::Place::kSprung, 0)),
+      body_noise_(options.seed, RandomPurpose::kSwayNoise),
+      gyro_noise_(options.seed, RandomPurpose::kGyroNoise),
+      force_noise_(options.seed, RandomPurpose::kKnownForceNoise) {
+  for (std::size_t i = 0; i < vehicle_.struts.size(); ++i) {
+    sprung_.push_back(sensorAt(Accelerometer::Place::kSprung, i + 1));
+    unsprung_.push_back(sensorAt(Accelerometer::Place::kUnsprung, i + 1));
+  }
+}
+
+Accelerometer VehicleSimulator::sensorAt(Accelerometer::Place place, std::size_t index) const {
+  SimulationOptions sensor;
+  sensor.seed = options_.seed;
+  sensor.noise = options_.noise;
+  sensor.gaussian_noise = true;
+  sensor.dropout = options_.dropout;
+  sensor.stamp_jitter = options_.stamp_jitter;
+  return {sensor, place, static_cast<unsigned>(index)};
+}
+
+std::optional<VehicleSample> VehicleSimulator::next() {
+  const auto k = static_cast<double>(index_);
+  // A duration that is a whole number of periods must not lose its last sample to rounding.
+  if (k > options_.duration * options_.rate + 1e-6) return std::nullopt;
+  ++index_;
+  const double t = k / options_.rate;
+  motion_.advance(t);
+
+  VehicleSample sample;
+  sample.stamp = fromSeconds(t);
+  sample.truth = motion_.truth();
+  for (std::size_t i = 0; i < vehicle_.struts.size(); ++i) {
+    const DriveTruth& truth = sample.truth.struts[i];
+    const VehicleStrut& strut = vehicle_.struts[i];
+    sample.struts.push_back({sprung_[i].read(t, truth.sprung_acceleration + strut.sprung_offset),
+                             unsprung_[i].read(t, truth.unsprung_acceleration + strut.unsprung_offset)});
+  }
+  sample.body = readBody(t);
+  for (std::size_t i = 0; i < vehicle_.known_forces.size(); ++i)
+    sample.known_forces.push_back(sample.truth.known_forces[i] +
+                                  vehicle_.known_forces[i].noise * force_noise_.gaussian());
+  return sample;
+}
+
+std::optional<SixAxisReading> VehicleSimulator::readBody(double t) {
+  const VehicleImu& imu = vehicle_.body_imu;
+  SixAxisReading reading = readIdeally(motion_.truth(), imu, options_.gravity);
+  for (Eigen::Index axis = 0; axis < 2; ++axis) reading.acceleration[axis] += options_.noise * body_noise_.gaussian();
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    reading.angular_rate[axis] += options_.gyro_noise * gyro_noise_.gaussian();
+  reading.acceleration += Eigen::Vector3d(imu.offset_x, imu.offset_y, imu.offset_z);
+  reading.angular_rate += Eigen::Vector3d(imu.gyro_offset_x, imu.gyro_offset_y, imu.gyro_offset_z);
+  // The accelerometer on z tells whether and when the message of all axes arrives.
+  const std::optional<AccelerometerReading> vertical = body_.read(t, reading.acceleration.z());
+  if (!vertical) return std::nullopt;
+  reading.stamp = vertical->stamp;
+  reading.acceleration.z() = vertical->acceleration;
+  return reading;
+}
+
+}  // namespace suspension_health_monitor

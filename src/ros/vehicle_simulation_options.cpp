@@ -1,0 +1,83 @@
+#include "vehicle_simulation_options.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "model_file.h"
+#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/simulation/vehicle_settings.h"
+#include "yaml_settings.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr const char* kOfTheModel = "the model's";
+
+Vehicle vehicleOf(const std::string& model, const EffectLibrary& library) {
+  const bool is_file = model.find_first_of("./") != std::string::npos || std::filesystem::exists(model);
+  if (!is_file) {
+    try {
+      return namedVehicle(model);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(std::string(error.what()) + ", or a YAML file");
+    }
+  }
+  OptionMap values = readYaml(model);
+  return prefixed(model + ": ", [&] {
+    Vehicle vehicle = takeVehicle(values, library);
+    refuseUnknown(values, describeOptions(kVehicleFields));
+    return vehicle;
+  });
+}
+
+std::vector<bool> havingSprungImu(const std::string& names, const Vehicle& vehicle) {
+  if (names == "all" || names == "none") return std::vector<bool>(vehicle.struts.size(), names == "all");
+  std::vector<bool> has(vehicle.struts.size(), false);
+  constexpr const char* kBetween = ", ";
+  prefixed("sprung_imus: ", [&] {
+    for (std::size_t start = names.find_first_not_of(kBetween); start != std::string::npos;) {
+      const std::size_t end = std::min(names.find_first_of(kBetween, start), names.size());
+      has[vehicle.strutNamed(names.substr(start, end - start))] = true;
+      start = names.find_first_not_of(kBetween, end);
+    }
+  });
+  return has;
+}
+
+}  // namespace
+
+VehicleSimulationOptions VehicleSimulationOptions::fromValues(const std::string& model, OptionMap values) {
+  VehicleSimulationOptions options;
+  options.model = model;
+  takeOptions(values, kVehiclePublishingFields, options.publishing);
+  takeOptions(values, kVehicleDriveFields, options.drive);
+  const EffectLibrary library = readEffectsFile(options.publishing.effects_file);
+  options.vehicle = vehicleOf(model, library);
+  changeVehicle(values, library, options.vehicle);
+  refuseUnknown(values, describe());
+  validate(options.vehicle);
+  validate(options.drive);
+  options.has_sprung_imu = havingSprungImu(options.publishing.sprung_imus, options.vehicle);
+  return options;
+}
+
+std::vector<OptionDescription> VehicleSimulationOptions::describe() {
+  std::vector<OptionDescription> vehicle = describeOptions(kVehicleFields);
+  std::vector<OptionDescription> struts = describeOptions(kVehicleStrutFields);
+  for (OptionDescription& option : vehicle) option.default_value = kOfTheModel;
+  for (std::size_t i = 0; i < kRequiredStrutFields; ++i) struts[i].default_value = kOfTheModel;
+  std::vector<OptionDescription> all =
+      inGroups({"drive", "vehicle", "sensors", "playing"}, std::move(vehicle),
+               inGroups({"drive", "sensors", "playing"}, describeOptions(kVehicleDriveFields),
+                        describeOptions(kVehiclePublishingFields)));
+  for (const auto& more : {struts, describeOptions(kKnownForceFields), describeOptions(kVehicleImuFields)})
+    all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::string sprungTopic(const VehicleStrut& strut) { return strut.name + "/sprung/imu"; }
+std::string unsprungTopic(const VehicleStrut& strut) { return strut.name + "/unsprung/imu"; }
+std::string wrenchTopic(const KnownForce& force) { return force.name + "/wrench"; }
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
+
+namespace suspension_health_monitor {
+
+/// How the simulated drive of a vehicle is published.
+struct VehiclePublishingOptions {
+  std::string sprung_imus = "all";
+  double start_time = 0.0;
+  std::string effects_file;
+};
+
+using VehiclePublishingField = OptionField<VehiclePublishingOptions>;
+inline constexpr std::array kVehiclePublishingFields{
+    VehiclePublishingField{"sensors", "sprung_imus", "-",
+                           "struts with an IMU of their own on the body: all, none (the body's IMU alone), or names",
+                           &VehiclePublishingOptions::sprung_imus},
+    VehiclePublishingField{"playing", "start_time", "s", "stamp at the start of the drive",
+                           &VehiclePublishingOptions::start_time, 0.0, 4e9},
+    VehiclePublishingField{"playing", "effects_file", "-", "YAML file with laws of your own, for struts/NAME/effects",
+                           &VehiclePublishingOptions::effects_file},
+};
+
+/// A vehicle to simulate, its drive, and what is published of it.
+struct VehicleSimulationOptions {
+  std::string model;  ///< as it was given
+  Vehicle vehicle;
+  VehicleDriveOptions drive;
+  VehiclePublishingOptions publishing;
+  std::vector<bool> has_sprung_imu;  ///< by vehicle.struts
+
+  /// @param model  a name that namedVehicle() knows, or a YAML file with settings of a vehicle (takeVehicle()).
+  /// @param values  change it.
+  /// @throws std::invalid_argument  naming an unknown name, or a value that is wrong and what is allowed.
+  static VehicleSimulationOptions fromValues(const std::string& model, OptionMap values);
+
+  /// @return every option, by group.
+  static std::vector<OptionDescription> describe();
+};
+
+/// Names of the topics, without a slash in front.
+std::string sprungTopic(const VehicleStrut& strut);
+std::string unsprungTopic(const VehicleStrut& strut);
+std::string wrenchTopic(const KnownForce& force);
+inline constexpr const char* kBodyImuTopic = "imu/data";
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,96 @@
+#include "simulate_vehicle.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+
+#include "../ros/vehicle_messages.h"
+#include "../ros/whole_bag.h"
+#include "long_work.h"
+#include "suspension_health_monitor/internal/model/effect_settings.h"
+#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+/// STRUT/NAME=COEFFICIENT[,SHAPE=VALUE]... as settings of that strut.
+void hide(const std::string& effect, OptionMap& settings) {
+  const std::size_t slash = effect.find('/');
+  if (slash == std::string::npos || slash == 0 || slash > effect.find('='))
+    throw std::invalid_argument("--effect " + shortened(effect) +
+                                ", must be STRUT/NAME=COEFFICIENT[,SHAPE=VALUE]... in a vehicle");
+  OptionMap one;
+  setEffect(one, effect.substr(slash + 1), {});
+  for (const auto& [name, value] : one) settings["struts/" + effect.substr(0, slash) + '/' + name] = value;
+}
+
+void writeBag(const VehicleSimulationOptions& options, const std::string& path) {
+  const Interruption interruption;
+  WholeBag bag(path);
+  VehicleMessageSource drive(options, fromSeconds(options.publishing.start_time));
+  Progress progress("simulating", options.drive.duration);
+  while (const std::optional<VehicleMessages> messages = drive.next()) {
+    messages->forEach(
+        [&](const std::string& topic, const auto& message) { bag.write('/' + topic, messages->time, message); });
+    progress.update(messages->time.toSec() - options.publishing.start_time);
+  }
+  bag.commit();
+}
+
+/// The file that the other commands take as --vehicle.
+std::string vehicleFile(const VehicleSimulationOptions& options) {
+  const Vehicle& vehicle = options.vehicle;
+  const VehicleImu& imu = vehicle.body_imu;
+  std::string text =
+      formatted("# %s as suspension_bag simulate has driven it. Positions: in the body IMU's frame [m].\n",
+                shortened(options.model).c_str());
+  text += formatted("body_imu: /%s\nstruts:\n", kBodyImuTopic);
+  for (std::size_t i = 0; i < vehicle.struts.size(); ++i) {
+    const VehicleStrut& strut = vehicle.struts[i];
+    const Eigen::Vector3d top =
+        imu.orientation().transpose() * (Eigen::Vector3d(strut.x, strut.y, strut.z) - imu.position());
+    text += "  " + strut.name + ": {";
+    if (options.has_sprung_imu[i]) text += "sprung_imu: /" + sprungTopic(strut) + ", ";
+    text += "unsprung_imu: /" + unsprungTopic(strut) +
+            formatted(", position: [%.6g, %.6g, %.6g]}\n", top.x(), top.y(), top.z());
+  }
+  if (!vehicle.known_forces.empty()) text += "known_forces:\n";
+  for (const KnownForce& force : vehicle.known_forces)
+    text += "  " + force.name + ": {topic: /" + wrenchTopic(force) + ", field: force.z}\n";
+  return text;
+}
+
+void printTruth(const Vehicle& vehicle) {
+  std::size_t widest = 12;
+  for (const VehicleStrut& strut : vehicle.struts) widest = std::max(widest, strut.name.size());
+  const int width = static_cast<int>(widest);
+  std::printf("%-*s  b1 [1/s]  b0 [1/s^2]  moved by force of", width, "strut");
+  for (const VehicleStrut& of : vehicle.struts) std::printf("  %*s", width, of.name.c_str());
+  std::printf("\n");
+  for (const VehicleStrut& at : vehicle.struts) {
+    const double own = vehicle.mobility(at, at);
+    std::printf("%-*s  %8.4g  %10.4g  %17s", width, at.name.c_str(), own * at.damping, own * at.stiffness, "");
+    for (const VehicleStrut& of : vehicle.struts)
+      std::printf("  %*.3f", width, vehicle.mobility(at, of) / vehicle.mobility(of, of));
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+
+void simulateVehicle(const boost::program_options::variables_map& values, OptionMap settings) {
+  for (const std::string& effect : values["effect"].as<std::vector<std::string>>()) hide(effect, settings);
+  const auto options = VehicleSimulationOptions::fromValues(values["vehicle-model"].as<std::string>(), settings);
+  const auto path = values["output"].as<std::string>();
+  writeBag(options, path);
+  if (values.count("vehicle-file") != 0)
+    TextFile(values["vehicle-file"].as<std::string>()).commit(vehicleFile(options));
+  std::printf("%s: %s, %g s at %g Hz, class %s at %g m/s, %s tracks, seed %d\n", path.c_str(),
+              shortened(options.model).c_str(), options.drive.duration, options.drive.rate,
+              options.vehicle.iso_class.c_str(), options.vehicle.speed, options.drive.tracks.c_str(),
+              options.drive.seed);
+  printTruth(options.vehicle);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
+
+namespace suspension_health_monitor {
+
+inline std::vector<VehicleSample> driveVehicle(const Vehicle& vehicle, const VehicleDriveOptions& options) {
+  VehicleSimulator simulator(vehicle, options);
+  std::vector<VehicleSample> samples;
+  while (std::optional<VehicleSample> sample = simulator.next()) samples.push_back(*sample);
+  return samples;
+}
+
+inline VehicleDriveOptions vehicleDrive(double duration, double rate = 100.0) {
+  VehicleDriveOptions options;
+  options.duration = duration;
+  options.rate = rate;
+  return options;
+}
+
+}  // namespace suspension_health_monitor
