@@ -6,6 +6,7 @@
 
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/identify.h"
 
 namespace suspension_health_monitor {
 
@@ -30,6 +31,7 @@ struct SeparatedVehicle {
   std::vector<std::vector<Drive>> struts;  ///< by strut the drives of a quarter car with its b1 and b0; empty without
                                            ///< a coupling
   std::vector<StrutModel> models;          ///< b1, b0 of each by least squares over all drives
+  std::vector<LinearStrut> model_stddevs;  ///< what the ratios' errors alone make of b1, b0
 };
 
 /// @param drives  of one vehicle, each with all of its struts.
@@ -39,6 +41,17 @@ struct SeparatedVehicle {
 /// or for a period that is not above 0.
 SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
                                  const std::optional<double>& sample_period = {});
+
+struct VehicleIdentification {
+  VehicleCoupling coupling;
+  std::vector<IdentifyResult> struts;  ///< by strut; empty without a coupling
+
+  explicit operator bool() const { return static_cast<bool>(coupling); }
+};
+
+/// identify() for every strut of a vehicle; what the coupling does not know is in the standard deviations.
+VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+                                      const IdentifyOptions& options = {});
 
 /// What a search found in a vehicle.
 struct VehicleDiagnosis {

@@ -37,33 +37,34 @@ void requireSameStamps(const StrutDrives& drive) {
   }
 }
 
-void fill(const StrutDrives& drive, std::size_t k, VehicleSample& sample) {
+}  // namespace
+
+VehicleSample sampleOf(const StrutDrives& drive, std::size_t k) {
   const auto n = static_cast<Eigen::Index>(drive.size());
-  sample.stamp = drive.front().samples[k].stamp;
-  sample.sprung.resize(n);
-  sample.unsprung.resize(n);
-  sample.forces.resize(0);
+  VehicleSample sample{drive.front().samples[k].stamp, StrutVector(n), StrutVector(n), ForceVector(0)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const CornerSample& strut = drive[static_cast<std::size_t>(i)].samples[k];
     sample.sprung[i] = strut.sprung_acceleration;
     sample.unsprung[i] = strut.unsprung_acceleration;
   }
+  return sample;
 }
 
-}  // namespace
+std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
+  std::vector<std::vector<double>> rows(static_cast<std::size_t>(matrix.rows()));
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows[static_cast<std::size_t>(i)].push_back(matrix(i, j));
+  return rows;
+}
 
 CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double period) {
   const int n = static_cast<int>(drives.front().size());
   CouplingSurvey survey(n, 0, period, std::numeric_limits<double>::infinity());
-  VehicleSample sample;
   for (const StrutDrives& drive : drives) {
     requireSameStamps(drive);
     for (const Stretch& stretch : stretchesOf(drive.front(), period)) {
       survey.startNewSeries();
-      for (std::size_t k = stretch.from; k < stretch.to; ++k) {
-        fill(drive, k, sample);
-        survey.add(sample);
-      }
+      for (std::size_t k = stretch.from; k < stretch.to; ++k) survey.add(sampleOf(drive, k));
     }
   }
   return survey.solve();
@@ -73,12 +74,10 @@ StrutDrives separateStruts(const StrutDrives& drive, double period, const Coupli
                            const std::vector<StrutModel>& models) {
   Decoupler decoupler(period, coupling, models);
   StrutDrives separated(drive.size());
-  VehicleSample sample;
   for (const Stretch& stretch : stretchesOf(drive.front(), period)) {
     decoupler.startNewSeries();
     for (std::size_t k = stretch.from; k < stretch.to; ++k) {
-      fill(drive, k, sample);
-      const VehicleSample* own = decoupler.push(sample);
+      const VehicleSample* own = decoupler.push(sampleOf(drive, k));
       if (own == nullptr) continue;
       for (std::size_t i = 0; i < drive.size(); ++i) {
         const auto place = static_cast<Eigen::Index>(i);

@@ -1,8 +1,10 @@
 #include "suspension_health_monitor/vehicle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
@@ -25,11 +27,9 @@ void check(const std::vector<StrutDrives>& drives, const std::vector<std::string
                                   std::to_string(names.size()));
 }
 
-std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
-  std::vector<std::vector<double>> rows(static_cast<std::size_t>(matrix.rows()));
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows[static_cast<std::size_t>(i)].push_back(matrix(i, j));
-  return rows;
+int horizonFor(const StrutModel& model, double period) {
+  const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass).horizon;
+  return horizonSamples(horizon, period, IntegrationRule::kBandLimited);
 }
 
 /// Struts with what is known of them, to be separated again as more is known.
@@ -51,6 +51,14 @@ class Separator {
   const VehicleCoupling& coupling() const { return coupling_; }
   const std::vector<StrutModel>& models() const { return models_; }
   double period() const { return period_; }
+
+  std::vector<LinearStrut> modelStddevs() const {
+    std::vector<LinearStrut> stddevs;
+    for (Eigen::Index i = 0; i < estimate_.own_stddevs.rows(); ++i)
+      stddevs.push_back({estimate_.own_stddevs(i, 0), estimate_.own_stddevs(i, 1)});
+    return stddevs;
+  }
+
   void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
 
   std::vector<std::vector<Drive>> separate() const {
@@ -93,9 +101,27 @@ Verdict worstOf(const std::vector<Diagnosis>& struts) {
 SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
                                  const std::optional<double>& sample_period) {
   const Separator separator(drives, names, sample_period);
-  SeparatedVehicle separated{separator.coupling(), {}, separator.models()};
+  SeparatedVehicle separated{separator.coupling(), {}, separator.models(), separator.modelStddevs()};
   if (separated.coupling) separated.struts = separator.separate();
   return separated;
+}
+
+VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+                                      const IdentifyOptions& options) {
+  const SeparatedVehicle separated = separateVehicle(drives, names, options.sample_period);
+  VehicleIdentification result{separated.coupling, {}};
+  for (std::size_t i = 0; i < separated.struts.size(); ++i) {
+    IdentifyOptions strut = options;
+    if (!options.sample_period) strut.sample_period = medianPeriod(flattened(drives));
+    if (!options.horizon_samples) strut.horizon_samples = horizonFor(separated.models[i], *strut.sample_period);
+    IdentifyResult& identified = result.struts.emplace_back(identify(separated.struts[i], strut));
+    const auto [damping, stiffness] = separated.model_stddevs[i];
+    for (IdentifiedStrut* estimate : {&identified.ls, &identified.la, &identified.iv}) {
+      estimate->damping_to_mass_stddev = std::hypot(estimate->damping_to_mass_stddev, damping);
+      estimate->stiffness_to_mass_stddev = std::hypot(estimate->stiffness_to_mass_stddev, stiffness);
+    }
+  }
+  return result;
 }
 
 VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& strut_names,

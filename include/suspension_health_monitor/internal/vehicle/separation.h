@@ -7,6 +7,12 @@
 
 namespace suspension_health_monitor {
 
+/// @return what all accelerometers of a recorded drive read at its k-th instant.
+VehicleSample sampleOf(const StrutDrives& drive, std::size_t k);
+
+/// @return a matrix of the struts row by row.
+std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix);
+
 /// @param drives  of one vehicle.
 /// @return the coupling of its struts over all of them.
 /// @throws std::invalid_argument  if the struts of a drive have not the same stamps, or as CouplingSurvey.

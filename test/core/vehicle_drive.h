@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulated_vehicle.h"
+#include "suspension_health_monitor/vehicle.h"
+
+namespace suspension_health_monitor {
+
+/// A simulated drive as recorded ones are: what the IMUs at every strut's top and wheel read.
+inline StrutDrives strutDrives(const Vehicle& vehicle, const VehicleDriveOptions& options) {
+  StrutDrives drive(vehicle.struts.size());
+  for (const VehicleInstant& instant : driveVehicle(vehicle, options))
+    for (std::size_t i = 0; i < drive.size(); ++i)
+      drive[i].samples.push_back({instant.stamp, instant.struts[i].sprung->acceleration + options.gravity,
+                                  instant.struts[i].unsprung->acceleration + options.gravity});
+  return drive;
+}
+
+inline std::vector<std::string> strutNames(const Vehicle& vehicle) {
+  std::vector<std::string> names;
+  for (const VehicleStrut& strut : vehicle.struts) names.push_back(strut.name);
+  return names;
+}
+
+/// rho_ij of a vehicle, by Newton's law of its body.
+inline double ratioOf(const Vehicle& vehicle, std::size_t i, std::size_t j) {
+  return vehicle.mobility(vehicle.struts[i], vehicle.struts[j]) /
+         vehicle.mobility(vehicle.struts[j], vehicle.struts[j]);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,91 @@
+#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "vehicle_drive.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+MonitorSettings settingsAt(double period) {
+  MonitorSettings settings;
+  settings.sample_period = period;
+  return settings;
+}
+
+TEST(VehicleMonitor, AccusesTheCornerThatLosesItsDampingAndNoOther) {
+  Vehicle vehicle = namedVehicle("sedan");
+  constexpr double kLoss = 200.0;
+  vehicle.struts[1].damping_end_fraction = 0.6;
+  vehicle.struts[1].ramp_start = vehicle.struts[1].ramp_end = kLoss;
+  const StrutDrives drive = strutDrives(vehicle, vehicleDrive(260.0));
+  std::array<double, 4> ok{}, reports{};
+  std::array<std::set<HealthLevel>, 4> levels;
+  double error_at = 0.0;
+  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)),
+                         [&](std::size_t strut, const MonitorReport& report) {
+                           levels[strut].insert(report.health.level);
+                           reports[strut] += 1.0;
+                           ok[strut] += report.health.level == HealthLevel::kOk ? 1.0 : 0.0;
+                           if (report.health.level == HealthLevel::kError && error_at == 0.0)
+                             error_at = toSeconds(report.stamp);
+                         });
+  for (std::size_t k = 0; k < drive.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
+  ASSERT_TRUE(monitor.isCoupled());
+  for (const std::size_t healthy : {0, 2, 3}) {
+    EXPECT_EQ(levels[healthy].count(HealthLevel::kWarn) + levels[healthy].count(HealthLevel::kError), 0U) << healthy;
+    EXPECT_GT(ok[healthy], 0.95 * reports[healthy]) << healthy;
+  }
+  EXPECT_GT(error_at, kLoss);
+  EXPECT_LT(error_at, kLoss + 30.0);
+}
+
+TEST(VehicleMonitor, OfOneStrutIsASuspensionMonitor) {
+  const Vehicle vehicle = namedVehicle("half_sedan");
+  const StrutDrives drive = strutDrives(vehicle, vehicleDrive(30.0));
+  SuspensionMonitor alone(settingsAt(0.01));
+  std::vector<double> of_vehicle, of_strut;
+  VehicleMonitor monitor({settingsAt(0.01)}, [&](std::size_t, const MonitorReport& report) {
+    of_vehicle.push_back(report.la.stiffness_to_mass);
+  });
+  for (const CornerSample& sample : drive.front().samples) {
+    VehicleSample one{sample.stamp, StrutVector(1), StrutVector(1), ForceVector(0)};
+    one.sprung[0] = sample.sprung_acceleration;
+    one.unsprung[0] = sample.unsprung_acceleration;
+    monitor.addSample(one);
+    if (const MonitorReport* report = alone.addSample(sample)) of_strut.push_back(report->la.stiffness_to_mass);
+  }
+  ASSERT_EQ(of_vehicle.size(), of_strut.size());
+  for (std::size_t k = 0; k < of_strut.size(); ++k)
+    EXPECT_TRUE(of_vehicle[k] == of_strut[k] || std::isnan(of_strut[k])) << k;
+}
+
+TEST(VehicleMonitor, SaysNothingOfStrutsThatTheRoadCannotTellApart) {
+  const Vehicle vehicle = namedVehicle("sedan");
+  VehicleDriveOptions options = vehicleDrive(120.0);
+  options.tracks = "identical";
+  const StrutDrives drive = strutDrives(vehicle, options);
+  int reports = 0;
+  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)),
+                         [&](std::size_t, const MonitorReport&) { ++reports; });
+  for (std::size_t k = 0; k < drive.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
+  EXPECT_FALSE(monitor.isCoupled());
+  EXPECT_EQ(reports, 0);
+  EXPECT_EQ(monitor.strut(0), nullptr);
+}
+
+TEST(VehicleMonitor, RefusesNoStrutAndPeriodsThatDiffer) {
+  EXPECT_THROW(VehicleMonitor({}, {}), std::invalid_argument);
+  EXPECT_THROW(VehicleMonitor({settingsAt(0.01), settingsAt(0.02)}, {}), std::invalid_argument);
+  EXPECT_THROW(VehicleMonitor({MonitorSettings()}, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,0 +1,106 @@
+#include "suspension_health_monitor/vehicle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "suspension_health_monitor/effects.h"
+#include "vehicle_drive.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+Vehicle quiet(const char* name) {
+  Vehicle vehicle = namedVehicle(name);
+  vehicle.iso_class = "B";
+  return vehicle;
+}
+
+TEST(SeparatedVehicle, KnowsTheRatiosOfTheBodyAndTheOwnStrutOfEveryCorner) {
+  for (const char* name : {"half_sedan", "sedan", "ugv", "truck"}) {
+    const Vehicle vehicle = namedVehicle(name);
+    const StrutDrives drive = strutDrives(vehicle, vehicleDrive(120.0));
+    const SeparatedVehicle separated = separateVehicle({drive}, strutNames(vehicle));
+    ASSERT_TRUE(separated.coupling) << name << ": " << separated.coupling.reason;
+    for (std::size_t i = 0; i < drive.size(); ++i) {
+      const VehicleStrut& strut = vehicle.struts[i];
+      const double own = vehicle.mobility(strut, strut);
+      EXPECT_NEAR(separated.models[i].damping_to_mass, own * strut.damping, 0.02 * own * strut.damping) << name << i;
+      EXPECT_NEAR(separated.models[i].stiffness_to_mass, own * strut.stiffness, 0.02 * own * strut.stiffness)
+          << name << i;
+      for (std::size_t j = 0; j < drive.size(); ++j) {
+        // Twelve ratios of each of four vehicles: one in 1e6 of them is five standard deviations off.
+        const double spread = std::fmax(separated.coupling.stddevs[i][j], 1e-9);
+        EXPECT_NEAR(separated.coupling.ratios[i][j], ratioOf(vehicle, i, j), 5.0 * spread) << name << i << j;
+      }
+    }
+  }
+}
+
+TEST(SeparatedVehicle, SaysWhichStrutsARoadThatIsTheSameOnBothSidesCannotTellApart) {
+  const Vehicle vehicle = namedVehicle("sedan");
+  VehicleDriveOptions options = vehicleDrive(60.0);
+  options.tracks = "identical";
+  const SeparatedVehicle separated = separateVehicle({strutDrives(vehicle, options)}, strutNames(vehicle));
+  EXPECT_FALSE(separated.coupling);
+  EXPECT_TRUE(separated.struts.empty());
+  const std::string& reason = separated.coupling.reason;
+  const bool names_an_axle =
+      (reason.find("front_left") != std::string::npos && reason.find("front_right") != std::string::npos) ||
+      (reason.find("rear_left") != std::string::npos && reason.find("rear_right") != std::string::npos);
+  EXPECT_TRUE(names_an_axle) << reason;
+}
+
+TEST(SeparatedVehicle, RefusesStrutsWithoutTheSameStamps) {
+  const Vehicle vehicle = namedVehicle("half_sedan");
+  StrutDrives drive = strutDrives(vehicle, vehicleDrive(5.0));
+  drive[1].samples[7].stamp += Stamp(1);
+  EXPECT_THROW(separateVehicle({drive}, strutNames(vehicle)), std::invalid_argument);
+  EXPECT_THROW(separateVehicle({}, strutNames(vehicle)), std::invalid_argument);
+  EXPECT_THROW(separateVehicle({drive}, {"front"}), std::invalid_argument);
+}
+
+TEST(DiagnosedVehicle, LacksNothingWhereNothingIsHidden) {
+  const Vehicle vehicle = quiet("sedan");
+  const VehicleDiagnosis found = diagnoseVehicle({strutDrives(vehicle, vehicleDrive(120.0))}, strutNames(vehicle));
+  ASSERT_TRUE(found) << found.coupling.reason;
+  EXPECT_EQ(found.verdict, Verdict::kNothingMissing) << found.summary;
+  for (const Diagnosis& strut : found.struts) {
+    EXPECT_TRUE(strut.selected.empty());
+    EXPECT_LT(strut.base.held_out_rmse, 1.1 * strut.noise_floor);
+  }
+}
+
+TEST(DiagnosedVehicle, NamesAnEffectInTheStrutThatHasItAndInNoOther) {
+  Vehicle vehicle = namedVehicle("sedan");
+  const EffectLibrary library = builtInEffects();
+  vehicle.struts[2].hidden = {{findEffect(library.forces, "quadratic_damping"), 12.0, {}}};
+  const VehicleDiagnosis found = diagnoseVehicle({strutDrives(vehicle, vehicleDrive(120.0))}, strutNames(vehicle));
+  ASSERT_TRUE(found) << found.coupling.reason;
+  EXPECT_EQ(found.verdict, Verdict::kEffectFound) << found.summary;
+  for (std::size_t i = 0; i < found.struts.size(); ++i) {
+    const std::vector<std::string> expected =
+        i == 2 ? std::vector<std::string>{"quadratic_damping"} : std::vector<std::string>{};
+    EXPECT_EQ(found.struts[i].selected, expected) << found.summary;
+  }
+  EXPECT_NE(found.summary.find("quadratic_damping in " + vehicle.struts[2].name), std::string::npos) << found.summary;
+}
+
+TEST(IdentifiedVehicle, IsEveryStrutsOwn) {
+  const Vehicle vehicle = namedVehicle("ugv");
+  const VehicleIdentification found = identifyVehicle({strutDrives(vehicle, vehicleDrive(120.0))}, strutNames(vehicle));
+  ASSERT_TRUE(found) << found.coupling.reason;
+  for (std::size_t i = 0; i < found.struts.size(); ++i) {
+    const VehicleStrut& strut = vehicle.struts[i];
+    const double own = vehicle.mobility(strut, strut);
+    const IdentifiedStrut& la = found.struts[i].la;
+    EXPECT_TRUE(la.valid) << la.reason;
+    EXPECT_NEAR(la.damping_to_mass, own * strut.damping, 4.0 * la.damping_to_mass_stddev) << i;
+    EXPECT_NEAR(la.stiffness_to_mass, own * strut.stiffness, 4.0 * la.stiffness_to_mass_stddev) << i;
+  }
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
