@@ -25,10 +25,10 @@ struct Hidden {
 
 const std::vector<Hidden> kHidden{
     {"cubic_stiffness", [](double d, double) { return d * d * d; }},
-    {"coulomb_friction", [](double, double v) { return std::tanh(v / 0.02); }},
+    {"coulomb_friction", [](double, double v) { return std::tanh(v / 0.005); }},
     {"quadratic_damping", [](double, double v) { return v * std::abs(v); }},
     {"asymmetric_damping", [](double, double v) { return std::max(v, 0.0); }},
-    {"quadratic_stiffness", [](double d, double) { return d * d; }},
+    {"asymmetric_spring", [](double d, double) { return std::max(d, 0.0); }},
 };
 
 const char* wordOf(Verdict verdict) {
@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
       vehicle_drive::Drive options;
       options.seed = seed;
       options.tracks = seed % 2 ? Tracks::kCoherent : Tracks::kIndependent;
+      if (what == "bar") options.anti_roll = 0.4 * vehicle.struts[0].stiffness;
       Record record = vehicle_drive::drive(vehicle, options);
       std::string hidden = "nothing";
       if (what == "effect") {
@@ -70,7 +71,7 @@ int main(int argc, char** argv) {
         for (int i = 0; i < 20000; ++i) {
           const double x = normal(random);
           square +=
-              std::pow(std::string(law.name) == "coulomb_friction" ? std::tanh(x * v / 0.02) : law.shape(x, x), 2) /
+              std::pow(std::string(law.name) == "coulomb_friction" ? std::tanh(x * v / 0.005) : law.shape(x, x), 2) /
               20000;
         }
         const double size = 0.15 * record.force[at] / std::sqrt(square);
@@ -94,6 +95,10 @@ int main(int argc, char** argv) {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       std::printf("%s %u, hidden: %s. %s (%.1f s)\n", kind.c_str(), seed, hidden.c_str(), diagnosis.summary.c_str(),
                   seconds);
+      for (const AntiRollBarFound& bar : diagnosis.coupling.bars)
+        std::printf("   bar %zu-%zu: %+.1f %%, %+.1f %%\n", bar.first, bar.second,
+                    100 * (bar.first_stiffness_to_mass / (vehicle.mobility(bar.first, bar.first) * options.anti_roll) - 1),
+                    100 * (bar.second_stiffness_to_mass / (vehicle.mobility(bar.second, bar.second) * options.anti_roll) - 1));
       for (std::size_t i = 0; i < diagnosis.struts.size(); ++i) {
         const Diagnosis& found = diagnosis.struts[i];
         std::string selected;

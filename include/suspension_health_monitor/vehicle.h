@@ -13,12 +13,22 @@ namespace suspension_health_monitor {
 /// A recorded drive of a vehicle: one Drive per strut, in the same order always, all with the same stamps.
 using StrutDrives = std::vector<Drive>;
 
+inline constexpr const char* kAntiRollBar = "anti_roll_bar";  ///< the name of the effect
+
+/// A spring that resists the difference of two struts' travels, found in the drives: named `anti_roll_bar`.
+struct AntiRollBarFound {
+  std::size_t first, second;        ///< struts
+  double first_stiffness_to_mass;   ///< of the bar, over the mass that the first strut has of the body [1/s^2]
+  double second_stiffness_to_mass;  ///< the same over that of the second
+};
+
 /// How the struts of a vehicle move one another through its body: at the top of strut i
 ///   z_i'' = sum_j rho_ij p_j,   rho_ij = a_ij / a_jj,   a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx,
 /// where p_j is what strut j does to its own top. doc/vehicle.md derives it.
 struct VehicleCoupling {
   std::vector<std::vector<double>> ratios;   ///< rho_ij in row i [-]; 1 for j = i
   std::vector<std::vector<double>> stddevs;  ///< of these
+  std::vector<AntiRollBarFound> bars;        ///< that are part of it
   double condition = 0.0;                    ///< of the rows of all struts: 1 is best, above 20 tracks are much alike
   std::string reason;  ///< why the ratios are not known, to be read after "the drives"; empty if they are
 
@@ -59,6 +69,12 @@ struct VehicleDiagnosis {
   std::vector<Diagnosis> struts;  ///< by strut; empty without a coupling
   Verdict verdict = Verdict::kNothingMissing;
   std::string summary;  ///< in a sentence: which effect is missing in which strut
+
+  /// @return the effects of a strut that its linear model lacks, anti-roll bars included.
+  std::vector<std::string> selected(std::size_t strut) const;
+
+  /// @return the verdict on a strut: kEffectFound also where a bar was found and what is left beside it is noise.
+  Verdict verdictOn(std::size_t strut) const;
 
   explicit operator bool() const { return static_cast<bool>(coupling); }
 };

@@ -13,6 +13,7 @@ Coupling couplingOf(const StrutMatrix& ratios) {
   Coupling coupling;
   coupling.ratios = ratios;
   coupling.forces.setZero(ratios.rows(), 0);
+  coupling.bars = StrutMatrix::Zero(ratios.rows(), ratios.rows());
   coupling.own_power = StrutVector::Ones(ratios.rows());
   coupling.rest_power = 1e-8;
   return coupling;

@@ -14,12 +14,15 @@ constexpr int kRowsPerHorizon = 8;
 // psi's noise is white within a horizon, but what the regressors make of theirs is not: the ratios scatter as if every
 // other row counted (vehicle_table coupling: their mean square over the one expected).
 constexpr double kRowsPerIndependent = 2.0;
-constexpr int kFirstSteps = 30, kSteps = 3;  // of the alternation: from nothing, and from the solution before
+constexpr int kFirstSteps = 30, kBarSteps = 10, kSteps = 3;  // of the alternation: from nothing, with one bar more, on
 // A share of 3 % of a strut's own acceleration makes its b1 and b0 wrong by as much at most: a fifth of what warns.
 constexpr double kMostDoubt = 0.03;
 // The share that noise has in the rows is known to a half: it is that of the residual, which is not all noise.
 constexpr double kNoiseKnown = 0.5;
-constexpr double kFarRest = 3.0;  // usual ones: a row that is farther off is limited to it
+// A law in one strut shows in the columns of another by chance only; a bar that is worth having takes a tenth.
+constexpr double kLeastOfBar = 0.1;
+constexpr double kCertainOfBar = 50.0;  // chi^2 of two more unknowns: chance gives as much once in 7e10
+constexpr double kFarRest = 3.0;        // usual ones: a row that is farther off is limited to it
 
 }  // namespace
 
@@ -48,6 +51,7 @@ CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const Integ
   moments_ = Moments::Zero(columns, columns);
   estimate_.coupling.ratios = StrutMatrix::Identity(num_struts, num_struts);
   estimate_.coupling.forces.setZero(num_struts, num_forces);
+  estimate_.coupling.bars = StrutMatrix::Zero(num_struts, num_struts);
   estimate_.coupling.own_power = StrutVector::Zero(num_struts);
   estimate_.stddevs = StrutMatrix::Constant(num_struts, num_struts, HUGE_VAL);
   estimate_.damping_to_mass = estimate_.stiffness_to_mass = StrutVector::Zero(num_struts);
@@ -90,7 +94,7 @@ double CouplingEstimator::weightOfRow() {
   for (int i = 0; i < num_struts_; ++i) {
     rest[i] = row_[2 * num_struts_ + num_forces_ + i];
     for (int j = 0; j < num_struts_; ++j)
-      rest[i] -= coupling.ratios(i, j) * strut(j).dot(Eigen::Vector2d(row_[j], row_[num_struts_ + j]));
+      rest[i] -= coupling.ratios(i, j) * ownColumns(j).dot(row_.head(2 * num_struts_));
     for (int k = 0; k < num_forces_; ++k) rest[i] -= coupling.forces(i, k) * row_[2 * num_struts_ + k];
   }
   const double size = rest.norm();
@@ -110,17 +114,80 @@ const CouplingEstimate& CouplingEstimator::solve() {
   const Moments plain = moments_.topLeftCorner(columns, columns) - mean * mean.transpose();
   const bool is_first = !has_start_;
   if (is_first && !start(plain)) return estimate_;
-  double variance = sensorVariance(plain);
-  for (int i = 0; i < (is_first ? kFirstSteps : kSteps); ++i) {
-    Moments moments = plain;
-    takeOffNoise(moments, variance);
-    alternate(moments);
-    variance = sensorVariance(plain);
-  }
+  refine(plain, is_first ? kFirstSteps : kSteps);
+  lookForBars(plain);
   Moments moments = plain;
+  const double variance = sensorVariance(plain);
   takeOffNoise(moments, variance);
   describe(plain, moments, variance);
   return estimate_;
+}
+
+// @param plain  moments with the noise's.
+void CouplingEstimator::refine(const Moments& plain, int steps) {
+  for (int i = 0; i < steps; ++i) {
+    Moments moments = plain;
+    takeOffNoise(moments, sensorVariance(plain));
+    solveRatios(moments);
+    solveStruts(moments);
+  }
+}
+
+// Greedily: the bar that takes most, then the next.
+void CouplingEstimator::lookForBars(const Moments& plain) {
+  for (bool goes_on = num_struts_ > 1; goes_on;) {
+    goes_on = false;
+    const double before = shareLeft(plain);
+    const CouplingEstimate known = estimate_;
+    CouplingEstimate best = known;
+    std::pair<int, int> pair;
+    double least = before;
+    for (int i = 0; i < num_struts_; ++i)
+      for (int j = i + 1; j < num_struts_; ++j) {
+        if (std::find(bars_.begin(), bars_.end(), std::pair(i, j)) != bars_.end()) continue;
+        estimate_ = known;
+        bars_.emplace_back(i, j);
+        refine(plain, kBarSteps);
+        const Coupling& coupling = estimate_.coupling;
+        const double left = shareLeft(plain);
+        if (left < least && coupling.bars(i, j) > 0.0 && coupling.bars(j, i) > 0.0) {
+          least = left;
+          best = estimate_;
+          pair = bars_.back();
+        }
+        bars_.pop_back();
+      }
+    estimate_ = known;
+    if (before - least < kLeastOfBar * before ||
+        weight_ * (before - least) < kCertainOfBar * kRowsPerIndependent * least)
+      break;
+    estimate_ = best;
+    bars_.push_back(pair);
+    goes_on = true;
+  }
+}
+
+// @return what is left of all outputs, each over its own size.
+double CouplingEstimator::shareLeft(const Moments& plain) const {
+  const StrutVector rest = restOf(plain);
+  double share = 0.0;
+  for (int i = 0; i < num_struts_; ++i) {
+    const int output = 2 * num_struts_ + num_forces_ + i;
+    share += rest[i] / plain(output, output);
+  }
+  return share;
+}
+
+// @return p_j as a combination of the columns I_1^2 u, I_0^2 u of all struts.
+CouplingEstimator::Row CouplingEstimator::ownColumns(int j) const {
+  Row own = Row::Zero(2 * num_struts_);
+  own[j] = estimate_.damping_to_mass[j];
+  own[num_struts_ + j] = estimate_.stiffness_to_mass[j];
+  for (int m = 0; m < num_struts_; ++m) {
+    own[num_struts_ + j] += estimate_.coupling.bars(j, m);
+    own[num_struts_ + m] -= estimate_.coupling.bars(j, m);
+  }
+  return own;
 }
 
 // Every strut by the columns of all, without the knowledge that the ratios are the same for damper and spring.
@@ -137,8 +204,8 @@ bool CouplingEstimator::start(const Moments& moments) {
   return has_start_;
 }
 
-// Of all b1, b0 as they are the ratios; of the ratios b1 and b0.
-void CouplingEstimator::alternate(const Moments& moments) {
+// Of all struts as they are the ratios, and what each strut is of the ratios.
+void CouplingEstimator::solveRatios(const Moments& moments) {
   Coupling& coupling = estimate_.coupling;
   const int n = num_struts_, known = n + num_forces_;
   const Moments of_struts = combined(moments);
@@ -146,33 +213,57 @@ void CouplingEstimator::alternate(const Moments& moments) {
   for (int j = 0; j < n; ++j) {
     const double own = solution(j, j);
     coupling.ratios.col(j) = solution.row(j).transpose() / own;
+    coupling.bars.row(j) *= own;
     estimate_.damping_to_mass[j] *= own;
     estimate_.stiffness_to_mass[j] *= own;
   }
   coupling.forces = solution.middleRows(n, num_forces_).transpose();
+}
 
-  const StrutMatrix products = coupling.ratios.transpose() * coupling.ratios;
-  Moments normal(2 * n, 2 * n);
-  Row right(2 * n);
+void CouplingEstimator::solveStruts(const Moments& moments) {
+  Coupling& coupling = estimate_.coupling;
+  const int n = num_struts_;
+  const auto unknowns = static_cast<int>(2 * static_cast<std::size_t>(n) + 2 * bars_.size());
+  // What one of each unknown is as a combination of the columns, and in which strut.
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(unknowns, 2 * n);
+  std::vector<int> place;
   for (int a = 0; a < 2 * n; ++a) {
-    for (int b = 0; b < 2 * n; ++b) normal(a, b) = products(a % n, b % n) * moments(a, b);
-    const auto outputs = moments.row(a).segment(2 * n + num_forces_, n);
-    const auto forces = moments.row(a).segment(2 * n, num_forces_);
-    right[a] = (outputs - forces * coupling.forces.transpose()).dot(coupling.ratios.col(a % n));
+    columns(a, a) = 1.0;
+    place.push_back(a % n);
   }
-  const Row own = normal.ldlt().solve(right);
+  for (const auto& [i, j] : bars_)
+    for (const auto& [at, other] : {std::pair(i, j), std::pair(j, i)}) {
+      const auto row = static_cast<Eigen::Index>(place.size());
+      columns(row, n + at) = 1.0;
+      columns(row, n + other) = -1.0;
+      place.push_back(at);
+    }
+  const StrutMatrix products = coupling.ratios.transpose() * coupling.ratios;
+  const Eigen::MatrixXd inputs = columns * moments.topLeftCorner(2 * n, 2 * n) * columns.transpose();
+  const Eigen::MatrixXd outputs = columns * (moments.block(0, 2 * n + num_forces_, 2 * n, n) -
+                                             moments.block(0, 2 * n, 2 * n, num_forces_) * coupling.forces.transpose());
+  Eigen::MatrixXd normal(unknowns, unknowns);
+  Eigen::VectorXd right(unknowns);
+  for (int a = 0; a < unknowns; ++a) {
+    const int at = place[static_cast<std::size_t>(a)];
+    for (int b = 0; b < unknowns; ++b) normal(a, b) = products(at, place[static_cast<std::size_t>(b)]) * inputs(a, b);
+    right[a] = outputs.row(a).dot(coupling.ratios.col(at));
+  }
+  const Eigen::VectorXd own = normal.ldlt().solve(right);
   estimate_.damping_to_mass = own.head(n);
-  estimate_.stiffness_to_mass = own.tail(n);
+  estimate_.stiffness_to_mass = own.segment(n, n);
+  Eigen::Index next = 2 * n;
+  for (const auto& [i, j] : bars_) {
+    coupling.bars(i, j) = own[next++];
+    coupling.bars(j, i) = own[next++];
+  }
 }
 
 // @return the moments of p_j, x_k and I_2^2 z_i'', in this order.
 CouplingEstimator::Moments CouplingEstimator::combined(const Moments& moments) const {
   const int n = num_struts_, rest = n + num_forces_;
   Moments to = Moments::Zero(n + rest, 2 * n + rest);
-  for (int j = 0; j < n; ++j) {
-    to(j, j) = estimate_.damping_to_mass[j];
-    to(j, n + j) = estimate_.stiffness_to_mass[j];
-  }
+  for (int j = 0; j < n; ++j) to.row(j).head(2 * n) = ownColumns(j).transpose();
   for (int k = 0; k < rest; ++k) to(n + k, 2 * n + k) = 1.0;
   const Moments half = to * moments;
   return half * to.transpose();

@@ -23,7 +23,7 @@ int naturalPeriod(const std::vector<StrutModel>& models, double period) {
 }  // namespace
 
 Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models)
-    : weights_(coupling), gravity_(models.size(), LimitedMean(std::exp(-period / kMeanMemory))) {
+    : weights_(coupling), bars_(coupling.bars), gravity_(models.size(), LimitedMean(std::exp(-period / kMeanMemory))) {
   const int natural_period = naturalPeriod(models, period);
   for (const StrutModel& model : models) {
     models_.push_back(withoutMemories(model));
@@ -41,13 +41,17 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   }
   if (!travels_.front().full()) return nullptr;
   out_ = recent_.front();
-  StrutVector moving = out_.sprung, modelled(out_.sprung.size());
+  StrutVector moving = out_.sprung, modelled(out_.sprung.size()), by_bars(out_.sprung.size());
   for (std::size_t j = 0; j < models_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
     moving[place] -= gravity_[j].mean();
+    by_bars[place] = 0.0;
+    for (std::size_t m = 0; m < models_.size(); ++m)
+      by_bars[place] += bars_(place, static_cast<Eigen::Index>(m)) * (travels_[j].travel() - travels_[m].travel());
     modelled[place] = models_[j].force(travels_[j].travel(), travels_[j].travelRate(), 0.0, kNoMemories.data());
   }
-  const StrutVector neighbours = weights_.neighbours(moving, out_.forces, modelled);
+  // At its own strut, too, what a bar does is not the strut's.
+  const StrutVector neighbours = weights_.neighbours(moving, out_.forces, modelled + by_bars) + by_bars;
   out_.sprung -= neighbours;
   out_.unsprung -= neighbours;
   return &out_;

@@ -45,6 +45,12 @@ class Separator {
     coupling_.ratios = rowsOf(estimate_.coupling.ratios);
     coupling_.stddevs = rowsOf(estimate_.stddevs);
     coupling_.condition = estimate_.condition;
+    const StrutMatrix& bars = estimate_.coupling.bars;
+    for (Eigen::Index i = 0; i < bars.rows(); ++i)
+      for (Eigen::Index j = i + 1; j < bars.rows(); ++j)
+        if (bars(i, j) != 0.0)
+          coupling_.bars.push_back(
+              {static_cast<std::size_t>(i), static_cast<std::size_t>(j), bars(i, j), bars(j, i)});
     coupling_.reason = reasonOf(estimate_, names);
   }
 
@@ -89,10 +95,12 @@ double explainedPower(const Diagnosis& strut) {
              : 0.0;
 }
 
-Verdict worstOf(const std::vector<Diagnosis>& struts) {
+bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == strut || bar.second == strut; }
+
+Verdict worstOf(const VehicleDiagnosis& found) {
   for (const Verdict verdict : {Verdict::kEffectFound, Verdict::kSuspect, Verdict::kUnexplained})
-    if (std::any_of(struts.begin(), struts.end(), [&](const Diagnosis& strut) { return strut.verdict == verdict; }))
-      return verdict;
+    for (std::size_t i = 0; i < found.struts.size(); ++i)
+      if (found.verdictOn(i) == verdict) return verdict;
   return Verdict::kNothingMissing;
 }
 
@@ -104,6 +112,21 @@ SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const s
   SeparatedVehicle separated{separator.coupling(), {}, separator.models(), separator.modelStddevs()};
   if (separated.coupling) separated.struts = separator.separate();
   return separated;
+}
+
+std::vector<std::string> VehicleDiagnosis::selected(std::size_t strut) const {
+  std::vector<std::string> names;
+  for (const AntiRollBarFound& bar : coupling.bars)
+    if (isAt(bar, strut)) names.emplace_back(kAntiRollBar);
+  names.insert(names.end(), struts[strut].selected.begin(), struts[strut].selected.end());
+  return names;
+}
+
+Verdict VehicleDiagnosis::verdictOn(std::size_t strut) const {
+  const bool has_bar = std::any_of(coupling.bars.begin(), coupling.bars.end(),
+                                   [&](const AntiRollBarFound& bar) { return isAt(bar, strut); });
+  const Verdict own = struts[strut].verdict;
+  return has_bar && own == Verdict::kNothingMissing ? Verdict::kEffectFound : own;
 }
 
 VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
@@ -164,7 +187,7 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const s
     for (std::size_t i = 0; i < n; ++i)
       if (!settled[i] && result.struts[i]) separator.setModel(i, result.struts[i].base.model);
   }
-  result.verdict = worstOf(result.struts);
+  result.verdict = worstOf(result);
   result.summary = summaryOf(result, strut_names);
   if (options.progress) options.progress(1.0);
   return result;

@@ -33,6 +33,8 @@ std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::
     else if (strut.verdict == Verdict::kUnexplained)
       unexplained.push_back(struts[i]);
   }
+  for (const AntiRollBarFound& bar : diagnosis.coupling.bars)
+    missing.push_back(std::string(kAntiRollBar) + " between " + struts[bar.first] + " and " + struts[bar.second]);
   std::vector<std::string> sentences;
   if (!missing.empty()) sentences.push_back("Missing from the model: " + join(missing) + ".");
   if (!suspects.empty()) sentences.push_back("Main suspect: " + join(suspects) + ".");

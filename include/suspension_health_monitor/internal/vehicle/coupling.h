@@ -7,12 +7,16 @@
 namespace suspension_health_monitor {
 
 /// How the struts of a rigid body move one another. At the top of strut i
-///   z_i'' = sum_j rho_ij p_j + sum_k kappa_ik x_k,   p_j = b1_j v_j + b0_j d_j + effects of strut j,   rho_ii = 1,
+///   z_i'' = sum_j rho_ij p_j + sum_k kappa_ik x_k,   p_j = b1_j v_j + b0_j d_j + bars + effects of strut j,   rho_ii =
+///   1,
 /// with rho_ij = a_ij / a_jj, a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx: ratios that belong to the body and to where
 /// the struts stand, not to what they are worth.
 struct Coupling {
   StrutMatrix ratios;                                                                              ///< rho [-]
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStruts, kMostKnownForces> forces;  ///< kappa
+  /// Anti-roll bars: b_ij (d_i - d_j) [1/s^2] is in p_i beside strut i's own, b_ij = a_ii times the bar's stiffness;
+  /// the bar's force at j is the opposite. 0: there is none.
+  StrutMatrix bars;
   StrutVector own_power;    ///< mean square of I_2^2 p_j, of the drive that it was learned from [(m/s^2)^2]
   double rest_power = 0.0;  ///< that of what it leaves of I_2^2 z'', the least of all struts
 

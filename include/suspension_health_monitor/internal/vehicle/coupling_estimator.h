@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/every_n.h"
@@ -37,6 +38,9 @@ struct CouplingEstimate {
 /// other way round; solve() alternates between the two, each step of which lowers the sum of squares. The moments that
 /// the sensors' noise has of itself are taken off (regressor_noise.h).
 ///
+/// An anti-roll bar is looked for between every two struts: it stays if it takes more of what is left than chance, and
+/// more than any law in one strut would (lookForBars()).
+///
 /// Tracks that are alike move struts alike: then the rows' information of some combination of struts is not clear of
 /// that of noise, and nothing is known.
 /// Cost per sample: O(N) and, every eighth of a horizon, O(N^2); no allocation.
@@ -65,7 +69,12 @@ class CouplingEstimator {
   double weightOfRow();
   bool start(const Moments& moments);
   void takeOffNoise(Moments& moments, double sensor_variance) const;
-  void alternate(const Moments& moments);
+  void solveRatios(const Moments& moments);
+  void solveStruts(const Moments& moments);
+  void refine(const Moments& plain, int steps);
+  void lookForBars(const Moments& plain);
+  double shareLeft(const Moments& plain) const;
+  Row ownColumns(int j) const;
   Moments combined(const Moments& moments) const;
   double sensorVariance(const Moments& moments) const;
   void describe(const Moments& plain, const Moments& moments, double sensor_variance);
@@ -83,6 +92,7 @@ class CouplingEstimator {
   double weight_ = 0.0;
   LimitedMean usual_rest_;
   bool has_start_ = false;
+  std::vector<std::pair<int, int>> bars_;  // between which struts
   CouplingEstimate estimate_;
 };
 

@@ -12,7 +12,8 @@
 namespace suspension_health_monitor {
 
 /// Takes what the other struts do to the body out of both signals of every strut,
-///   S_i = z_i'' - n_i,   W_i = w_i'' - n_i,   n_i = sum_{j != i} rho_ij p_j + sum_k kappa_ik x_k (NeighbourWeights),
+///   S_i = z_i'' - n_i,   W_i = w_i'' - n_i,   n_i = sum_{j != i} rho_ij p_j + sum_k kappa_ik x_k + anti-roll bars
+/// (NeighbourWeights),
 /// so that S_i = p_i and W_i - S_i = w_i'' - z_i'': what is left is a quarter car, with the strut's own b1 and b0.
 /// The models of the neighbours see their travel by a TravelObserver, and with it everything is late by delay().
 /// Cost per sample: O(N^2), no allocation.
@@ -22,7 +23,10 @@ class Decoupler {
   Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models);
 
   /// From the next sample on.
-  void setCoupling(const Coupling& coupling) { weights_ = NeighbourWeights(coupling); }
+  void setCoupling(const Coupling& coupling) {
+    weights_ = NeighbourWeights(coupling);
+    bars_ = coupling.bars;
+  }
   void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = withoutMemories(model); }
 
   /// Takes in the next sample of an uninterrupted uniform series.
@@ -37,6 +41,7 @@ class Decoupler {
 
  private:
   NeighbourWeights weights_;
+  StrutMatrix bars_;
   std::vector<StrutModel> models_;
   std::vector<TravelObserver> travels_;
   std::vector<LimitedMean> gravity_;  // of each z''
