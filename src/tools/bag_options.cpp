@@ -32,10 +32,21 @@ void addBagOptions(po::options_description& description) {
   add("json", po::value<std::string>(), "write the result as JSON");
 }
 
+ImuBags readBags(const po::variables_map& values) {
+  ImuBags bags;
+  bags.paths = values["bag"].as<std::vector<std::string>>();
+  bags.start = values["start"].as<double>();
+  if (values.count("end") != 0) bags.end = values["end"].as<double>();
+  if (!(bags.start >= 0.0 && bags.end > bags.start))
+    throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
+                                " [s], must be 0 <= start < end");
+  return bags;
+}
+
 BagOptions readLiveOptions(const po::variables_map& values) {
   BagOptions options;
   ImuBags& bags = options.bags;
-  bags.paths = values["bag"].as<std::vector<std::string>>();
+  bags = readBags(values);
   bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
   if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
   for (std::size_t i = 0; i < bags.topics.size(); ++i)
@@ -45,11 +56,6 @@ BagOptions readLiveOptions(const po::variables_map& values) {
     throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + bags.topics[0] + ", must differ");
   if (bags.topics.size() > 2 && (bags.topics[2] == bags.topics[0] || bags.topics[2] == bags.topics[1]))
     throw std::invalid_argument("--road-topic " + bags.topics[2] + " is one of the other two, must differ");
-  bags.start = values["start"].as<double>();
-  if (values.count("end") != 0) bags.end = values["end"].as<double>();
-  if (!(bags.start >= 0.0 && bags.end > bags.start))
-    throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
-                                " [s], must be 0 <= start < end");
   const OptionMap settings = gatherOptions(values);
   options.pipeline = PipelineOptions::fromValues(settings);
   options.pipeline.monitor.tyre = bags.topics.size() > 2;

@@ -24,6 +24,10 @@ struct BagOptions {
 /// Adds the common options to a subcommand's own.
 void addBagOptions(boost::program_options::options_description& description);
 
+/// @return the bags and the part of each that is to be read; no topics.
+/// @throws std::invalid_argument  as command.h.
+ImuBags readBags(const boost::program_options::variables_map& values);
+
 /// Collects the common options. What they leave open, sample_period and integration_horizon, stays open: a monitor
 /// finds it out as it does live.
 /// @throws std::invalid_argument, InputError, TooLittleError  as command.h.

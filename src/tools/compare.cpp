@@ -5,16 +5,19 @@
 #include "command.h"
 #include "long_work.h"
 #include "results.h"
+#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 
 void compare(const Arguments& arguments) {
   boost::program_options::options_description description("options");
   addBagOptions(description);
+  addVehicleOptions(description);
   addModelOptions(description);
   const auto values = parse(arguments, "compare BAG... [--model MODEL.yaml] [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "config", kEffectsFile, kModel}, {"json"});
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json"});
+  if (isOfVehicle(*values)) return compareStruts(*values);
   const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;

@@ -9,6 +9,7 @@
 #include "report_page.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
+#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -43,6 +44,7 @@ void report(ReportPage& page, const Diagnosis& found, const std::vector<Drive>& 
 void diagnose(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
+  addVehicleOptions(description);
   addModelOptions(description);
   auto add = description.add_options();
   add("output,o", po::value<std::string>(), "write the model that was found as YAML");
@@ -51,7 +53,8 @@ void diagnose(const Arguments& arguments) {
       "processor cores to use");
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "config", kEffectsFile, kModel}, {"json", "output"});
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json", "output"});
+  if (isOfVehicle(*values)) return diagnoseStruts(*values);
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");

@@ -18,6 +18,7 @@
 #include "html_page.h"
 #include "identify_tables.h"
 #include "long_work.h"
+#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -96,13 +97,15 @@ class RecordedMonitor {
 void health(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
+  addVehicleOptions(description);
   auto add = description.add_options();
   add(kBaseline, po::value<std::string>(), "YAML file with the healthy strut, as the monitor writes it");
   add("csv", po::value<std::string>(), "write a line per second and change of level, full precision");
   add("report", po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
   const auto values = parse(arguments, "health BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "config", kBaseline}, {"csv", "json"});
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, {"csv", "json"});
+  if (isOfVehicle(*values)) return watchStruts(*values);
   const BagOptions options = readOptions(*values);
 
   const Interruption interruption;

@@ -16,6 +16,7 @@
 #include "long_work.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -146,10 +147,12 @@ std::string suspicions(const DriveIdentification& identification) {
 void identify(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
+  addVehicleOptions(description);
   description.add_options()("csv", po::value<std::string>(), "write a line per regression row, full precision");
   const auto values = parse(arguments, "identify BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "config"}, {"csv", "json"});
+  requireSeparateFiles(*values, {"bag", "vehicle", "config"}, {"csv", "json"});
+  if (isOfVehicle(*values)) return identifyStruts(*values);
   const BagOptions options = readBagOptions(*values);
 
   const LiveModel model(options.pipeline.shell);

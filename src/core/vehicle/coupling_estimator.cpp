@@ -135,36 +135,38 @@ void CouplingEstimator::refine(const Moments& plain, int steps) {
 
 // Greedily: the bar that takes most, then the next.
 void CouplingEstimator::lookForBars(const Moments& plain) {
-  for (bool goes_on = num_struts_ > 1; goes_on;) {
-    goes_on = false;
-    const double before = shareLeft(plain);
-    const CouplingEstimate known = estimate_;
-    CouplingEstimate best = known;
-    std::pair<int, int> pair;
-    double least = before;
-    for (int i = 0; i < num_struts_; ++i)
-      for (int j = i + 1; j < num_struts_; ++j) {
-        if (std::find(bars_.begin(), bars_.end(), std::pair(i, j)) != bars_.end()) continue;
-        estimate_ = known;
-        bars_.emplace_back(i, j);
-        refine(plain, kBarSteps);
-        const Coupling& coupling = estimate_.coupling;
-        const double left = shareLeft(plain);
-        if (left < least && coupling.bars(i, j) > 0.0 && coupling.bars(j, i) > 0.0) {
-          least = left;
-          best = estimate_;
-          pair = bars_.back();
-        }
-        bars_.pop_back();
-      }
-    estimate_ = known;
-    if (before - least < kLeastOfBar * before ||
-        weight_ * (before - least) < kCertainOfBar * kRowsPerIndependent * least)
-      break;
-    estimate_ = best;
-    bars_.push_back(pair);
-    goes_on = true;
+  while (addBar(plain)) {
   }
+}
+
+// @return true if there is one more.
+bool CouplingEstimator::addBar(const Moments& plain) {
+  const double before = shareLeft(plain);
+  const CouplingEstimate known = estimate_;
+  CouplingEstimate best = known;
+  std::pair<int, int> pair;
+  double least = before;
+  for (int i = 0; i < num_struts_; ++i)
+    for (int j = i + 1; j < num_struts_; ++j) {
+      if (std::find(bars_.begin(), bars_.end(), std::pair(i, j)) != bars_.end()) continue;
+      estimate_ = known;
+      bars_.emplace_back(i, j);
+      refine(plain, kBarSteps);
+      bars_.pop_back();
+      const StrutMatrix& bars = estimate_.coupling.bars;
+      const double left = shareLeft(plain);
+      if (!(left < least && bars(i, j) > 0.0 && bars(j, i) > 0.0)) continue;
+      least = left;
+      best = estimate_;
+      pair = {i, j};
+    }
+  // Of moments that are no numbers, before there are rows enough, nothing is certain.
+  const double gain = before - least;
+  const bool stays = gain >= kLeastOfBar * before && weight_ * gain >= kCertainOfBar * kRowsPerIndependent * least;
+  estimate_ = stays && gain > 0.0 ? best : known;
+  if (!stays || !(gain > 0.0)) return false;
+  bars_.push_back(pair);
+  return true;
 }
 
 // @return what is left of all outputs, each over its own size.

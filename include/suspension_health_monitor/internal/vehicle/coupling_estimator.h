@@ -73,6 +73,7 @@ class CouplingEstimator {
   void solveStruts(const Moments& moments);
   void refine(const Moments& plain, int steps);
   void lookForBars(const Moments& plain);
+  bool addBar(const Moments& plain);
   double shareLeft(const Moments& plain) const;
   Row ownColumns(int j) const;
   Moments combined(const Moments& moments) const;
