@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "../model/setting_groups.h"
 #include "suspension_health_monitor/internal/model/effect_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/prefixed.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
