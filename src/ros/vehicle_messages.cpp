@@ -41,7 +41,7 @@ VehicleMessageSource::VehicleMessageSource(const VehicleSimulationOptions& optio
     : options_(options), simulator_(options.vehicle, options.drive), start_(start) {}
 
 std::optional<VehicleMessages> VehicleMessageSource::next() {
-  const std::optional<VehicleSample> sample = simulator_.next();
+  const std::optional<VehicleInstant> sample = simulator_.next();
   if (!sample) return std::nullopt;
   VehicleMessages messages;
   messages.time = stampAt(start_ + sample->stamp);
@@ -56,7 +56,7 @@ std::optional<VehicleMessages> VehicleMessageSource::next() {
   return messages;
 }
 
-void VehicleMessageSource::addImus(const VehicleSample& sample, VehicleMessages& messages) const {
+void VehicleMessageSource::addImus(const VehicleInstant& sample, VehicleMessages& messages) const {
   const auto add = [&](const std::string& topic, const std::string& frame,
                        const std::optional<AccelerometerReading>& reading) {
     if (reading)
@@ -76,7 +76,7 @@ void VehicleMessageSource::addImus(const VehicleSample& sample, VehicleMessages&
   messages.imus.emplace_back(kBodyImuTopic, imu);
 }
 
-void VehicleMessageSource::addTruth(const VehicleSample& sample, VehicleMessages& messages) const {
+void VehicleMessageSource::addTruth(const VehicleInstant& sample, VehicleMessages& messages) const {
   const std::vector<VehicleStrut>& struts = options_.vehicle.struts;
   for (std::size_t i = 0; i < struts.size(); ++i) {
     SimulationTruth truth = toMsg(sample.truth.struts[i], headerOf(sample.stamp, struts[i].name));

@@ -46,8 +46,8 @@ class VehicleMessageSource {
   std::optional<VehicleMessages> next();
 
  private:
-  void addImus(const VehicleSample& sample, VehicleMessages& messages) const;
-  void addTruth(const VehicleSample& sample, VehicleMessages& messages) const;
+  void addImus(const VehicleInstant& sample, VehicleMessages& messages) const;
+  void addTruth(const VehicleInstant& sample, VehicleMessages& messages) const;
   std_msgs::Header headerOf(Stamp stamp, const std::string& frame) const;
 
   VehicleSimulationOptions options_;

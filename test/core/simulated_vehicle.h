@@ -6,10 +6,10 @@
 
 namespace suspension_health_monitor {
 
-inline std::vector<VehicleSample> driveVehicle(const Vehicle& vehicle, const VehicleDriveOptions& options) {
+inline std::vector<VehicleInstant> driveVehicle(const Vehicle& vehicle, const VehicleDriveOptions& options) {
   VehicleSimulator simulator(vehicle, options);
-  std::vector<VehicleSample> samples;
-  while (std::optional<VehicleSample> sample = simulator.next()) samples.push_back(*sample);
+  std::vector<VehicleInstant> samples;
+  while (std::optional<VehicleInstant> sample = simulator.next()) samples.push_back(*sample);
   return samples;
 }
 

@@ -75,7 +75,7 @@ TEST(VehicleMotion, HalfCarOfTwoPointMassesIsTwoQuarterCars) {
   vehicle.struts = {goldenStrut(mass * b / (a + b) / 250.0), goldenStrut(mass * a / (a + b) / 250.0)};
   vehicle.struts[0].x = a;
   vehicle.struts[1].x = -b;
-  const std::vector<VehicleSample> samples = driveVehicle(vehicle, vehicleDrive(10.0));
+  const std::vector<VehicleInstant> samples = driveVehicle(vehicle, vehicleDrive(10.0));
   SimulationOptions quarter = scenario("iso_road", 10.0);
   quarter.rate = 100.0;
   const std::vector<DriveSample> alone = drive(quarter);
@@ -104,7 +104,7 @@ TEST(VehicleMotion, OneStrutIsTheQuarterCarWithItsHiddenEffects) {
   vehicle.speed = 15.0;
   vehicle.struts = {goldenStrut(1.0)};
   vehicle.struts[0].hidden = quarter.hidden;
-  const std::vector<VehicleSample> samples = driveVehicle(vehicle, vehicleDrive(5.0));
+  const std::vector<VehicleInstant> samples = driveVehicle(vehicle, vehicleDrive(5.0));
   const std::vector<DriveSample> expected = drive(quarter);
   for (std::size_t k = 0; k < expected.size(); ++k)
     ASSERT_NEAR(samples[k].truth.struts[0].sprung_acceleration, expected[k].truth.sprung_acceleration, 1e-6) << k;
@@ -122,7 +122,7 @@ Vehicle loadedSedan() {
 
 TEST(VehicleMotion, EveryStrutTopIsMovedByAllForces) {
   const Vehicle vehicle = loadedSedan();
-  for (const VehicleSample& sample : driveVehicle(vehicle, vehicleDrive(3.0))) {
+  for (const VehicleInstant& sample : driveVehicle(vehicle, vehicleDrive(3.0))) {
     const VehicleTruth& truth = sample.truth;
     for (std::size_t i = 0; i < 4; ++i) {
       const VehicleStrut& at = vehicle.struts[i];
@@ -139,7 +139,7 @@ TEST(VehicleMotion, EveryStrutTopIsMovedByAllForces) {
 TEST(VehicleMotion, ForcesAreTheStrutsOwnTheEffectsPerCornerMassAndTheBar) {
   const Vehicle vehicle = loadedSedan();
   double largest = 0.0;
-  for (const VehicleSample& sample : driveVehicle(vehicle, vehicleDrive(3.0))) {
+  for (const VehicleInstant& sample : driveVehicle(vehicle, vehicleDrive(3.0))) {
     const VehicleTruth& truth = sample.truth;
     const auto linear = [&](std::size_t i) {
       const VehicleStrut& strut = vehicle.struts[i];
@@ -159,7 +159,7 @@ TEST(VehicleMotion, ForcesAreTheStrutsOwnTheEffectsPerCornerMassAndTheBar) {
 
 TEST(VehicleMotion, WheelsCarryTheirStrutAndTheirTyre) {
   const Vehicle vehicle = loadedSedan();
-  const std::vector<VehicleSample> samples = driveVehicle(vehicle, vehicleDrive(1.0, 2000.0));
+  const std::vector<VehicleInstant> samples = driveVehicle(vehicle, vehicleDrive(1.0, 2000.0));
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 1; k + 1 < samples.size(); ++k) {
       const auto heightAt = [&](std::size_t sample) {
@@ -182,7 +182,7 @@ TEST(VehicleMotion, WheelsCarryTheirStrutAndTheirTyre) {
 }
 
 TEST(VehicleMotion, TurnsOnlyAboutAxesThatItsStrutsLieAside) {
-  for (const VehicleSample& sample : driveVehicle(namedVehicle("half_sedan"), vehicleDrive(2.0))) {
+  for (const VehicleInstant& sample : driveVehicle(namedVehicle("half_sedan"), vehicleDrive(2.0))) {
     ASSERT_EQ(sample.truth.body[2], 0.0);
     ASSERT_EQ(sample.truth.body_acceleration[2], 0.0);
   }
@@ -190,7 +190,7 @@ TEST(VehicleMotion, TurnsOnlyAboutAxesThatItsStrutsLieAside) {
   std::swap(axle.roll_inertia, axle.pitch_inertia);
   for (VehicleStrut& strut : axle.struts) std::swap(strut.x, strut.y);
   double largest = 0.0;
-  for (const VehicleSample& sample : driveVehicle(axle, vehicleDrive(2.0))) {
+  for (const VehicleInstant& sample : driveVehicle(axle, vehicleDrive(2.0))) {
     ASSERT_EQ(sample.truth.body_acceleration[1], 0.0);
     largest = std::max(largest, std::abs(sample.truth.body_acceleration[2]));
   }
@@ -204,7 +204,7 @@ TEST(VehicleMotion, DampingAndStiffnessOfOneStrutChangeWhenTheyShould) {
   vehicle.struts[2].stiffness_end_fraction = 0.5;
   vehicle.struts[2].ramp_start = 1.0;
   vehicle.struts[2].ramp_end = 3.0;
-  const std::vector<VehicleSample> samples = driveVehicle(vehicle, vehicleDrive(4.0, 10.0));
+  const std::vector<VehicleInstant> samples = driveVehicle(vehicle, vehicleDrive(4.0, 10.0));
   const auto& first = samples.front().truth.struts;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const auto& struts = samples[k].truth.struts;

@@ -122,7 +122,7 @@ TEST(BodyImu, ReadsTheAccelerationOfItsPlaceAndGravityInItsOwnAxes) {
                             .toRotationMatrix();
   VehicleDriveOptions options = vehicleDrive(5.0, 1000.0);
   options.noise = options.gyro_noise = 0.0;
-  const std::vector<VehicleSample> samples = driveVehicle(vehicle, options);
+  const std::vector<VehicleInstant> samples = driveVehicle(vehicle, options);
   double largest = 0.0, largest_rate = 0.0;
   for (std::size_t k = 1; k + 1 < samples.size(); ++k) {
     const Vector3d before = placeOf(samples[k - 1].truth, vehicle.body_imu);
@@ -147,7 +147,7 @@ TEST(BodyImu, ReadsTheAccelerationOfItsPlaceAndGravityInItsOwnAxes) {
 TEST(BodyImu, TellsTheAccelerationOfEveryStrutTop) {
   Vehicle vehicle = namedVehicle("sedan");
   vehicle.iso_class = "A";
-  for (const VehicleSample& sample : driveVehicle(vehicle, vehicleDrive(5.0))) {
+  for (const VehicleInstant& sample : driveVehicle(vehicle, vehicleDrive(5.0))) {
     const SixAxisReading reading = readIdeally(sample.truth, vehicle.body_imu, 0.0);
     const Vector3d alpha(sample.truth.body_acceleration[2], sample.truth.body_acceleration[1], 0.0);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -171,7 +171,7 @@ TEST(VehicleSimulator, SensorsHaveTheirNoiseOffsetsAndLosses) {
   options.dropout = 0.1;
   std::vector<double> sprung[4], unsprung[4], force, known, x, y, z, gyro;
   std::size_t lost = 0, samples = 0;
-  for (const VehicleSample& sample : driveVehicle(vehicle, options)) {
+  for (const VehicleInstant& sample : driveVehicle(vehicle, options)) {
     ++samples;
     for (std::size_t i = 0; i < 4; ++i) {
       const DriveTruth& truth = sample.truth.struts[i];
@@ -208,7 +208,7 @@ TEST(VehicleSimulator, SensorsHaveTheirNoiseOffsetsAndLosses) {
 
 TEST(VehicleSimulator, NoTwoSensorsShareTheirNoise) {
   std::vector<std::vector<double>> noises(10);
-  for (const VehicleSample& sample : driveVehicle(namedVehicle("sedan"), vehicleDrive(60.0))) {
+  for (const VehicleInstant& sample : driveVehicle(namedVehicle("sedan"), vehicleDrive(60.0))) {
     const SixAxisReading ideal = readIdeally(sample.truth, namedVehicle("sedan").body_imu, 9.81);
     for (std::size_t i = 0; i < 4; ++i) {
       noises[i].push_back(sample.struts[i].sprung->acceleration - sample.truth.struts[i].sprung_acceleration);

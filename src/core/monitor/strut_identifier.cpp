@@ -190,7 +190,8 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   if (removes) removeShift(moment);
   const Eigen::Vector2d unknown = removes ? noise.momentSpread(strut, variance) : moment;
   const auto with_shift = [&](double random, int i) {
-    return std::hypot(std::sqrt(random), least_squares_.parameterShift(i, unknown));
+    const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
+    return std::hypot(std::sqrt(random), least_squares_.parameterShift(i, unknown), by_input);
   };
   const auto of_ls = [&](int i) {
     return withDifference(with_shift(least_squares_.parameterVariance(i), i), least_squares_.parameters()[i],

@@ -61,6 +61,10 @@ void SuspensionMonitor::reconfigure(const MonitorSettings& options) {
   changeModels([&](ModelTracker& model, ModelReport&) { model.setForgetting(options); });
 }
 
+void SuspensionMonitor::setInputStddevs(const Eigen::Vector2d& stddevs) {
+  changeModels([&](ModelTracker& model, ModelReport&) { model.setInputStddevs(stddevs); });
+}
+
 const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
   const std::optional<Continuity> how = series_.add(sample);
   if (!how) return nullptr;

@@ -112,7 +112,7 @@ Accelerometer VehicleSimulator::sensorAt(Accelerometer::Place place, std::size_t
   return {sensor, place, static_cast<unsigned>(index)};
 }
 
-std::optional<VehicleSample> VehicleSimulator::next() {
+std::optional<VehicleInstant> VehicleSimulator::next() {
   const auto k = static_cast<double>(index_);
   // A duration that is a whole number of periods must not lose its last sample to rounding.
   if (k > options_.duration * options_.rate + 1e-6) return std::nullopt;
@@ -120,7 +120,7 @@ std::optional<VehicleSample> VehicleSimulator::next() {
   const double t = k / options_.rate;
   motion_.advance(t);
 
-  VehicleSample sample;
+  VehicleInstant sample;
   sample.stamp = fromSeconds(t);
   sample.truth = motion_.truth();
   for (std::size_t i = 0; i < vehicle_.struts.size(); ++i) {

@@ -2,13 +2,18 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr int kRowsPerHorizon = 8;
+// psi's noise is white within a horizon, but what the regressors make of theirs is not: the ratios scatter as if every
+// other row counted (vehicle_table coupling: their mean square over the one expected).
+constexpr double kRowsPerIndependent = 2.0;
 constexpr int kFirstSteps = 30, kSteps = 3;  // of the alternation: from nothing, and from the solution before
 // A share of 3 % of a strut's own acceleration makes its b1 and b0 wrong by as much at most: a fifth of what warns.
 constexpr double kMostDoubt = 0.03;
@@ -46,6 +51,7 @@ CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const Integ
   estimate_.coupling.own_power = StrutVector::Zero(num_struts);
   estimate_.stddevs = StrutMatrix::Constant(num_struts, num_struts, HUGE_VAL);
   estimate_.damping_to_mass = estimate_.stiffness_to_mass = StrutVector::Zero(num_struts);
+  estimate_.own_stddevs.setZero(num_struts, 2);
 }
 
 void CouplingEstimator::add(const VehicleSample& sample) {
@@ -233,17 +239,28 @@ void CouplingEstimator::describe(const Moments& plain, const Moments& moments, d
   sizes[estimate_.first_alike] = -1.0;
   estimate_.second_alike = largest();
 
-  // One row of a horizon is taken as independent of the others.
   const Moments inverse = of_struts.ldlt().solve(Moments::Identity(known, known));
   double most = 0.0;
   for (int i = 0; i < n; ++i) {
-    double share = 0.0;
-    for (int j = 0; j < n; ++j) {
-      const double variance = i == j ? 0.0 : rest[i] * inverse(j, j) * kRowsPerHorizon / weight_;
-      estimate_.stddevs(i, j) = std::sqrt(variance);
-      share += variance * coupling.own_power[j] / coupling.own_power[i];
+    Moments variances = rest[i] * kRowsPerIndependent / weight_ * inverse.topLeftCorner(n, n);
+    variances.row(i).setZero();
+    variances.col(i).setZero();
+    estimate_.stddevs.row(i) = variances.diagonal().cwiseSqrt().transpose();
+    most = std::max(most, (variances.diagonal().dot(coupling.own_power)) / coupling.own_power[i]);
+    // An error of rho_ij is taken for the strut's own, as far as strut j moves like it.
+    const std::array<int, 2> own{i, n + i};
+    Eigen::Matrix2d of_own;
+    Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStruts> with_others(2, n);
+    for (int a = 0; a < 2; ++a) {
+      for (int b = 0; b < 2; ++b)
+        of_own(a, b) = moments(own[static_cast<std::size_t>(a)], own[static_cast<std::size_t>(b)]);
+      for (int j = 0; j < n; ++j)
+        with_others(a, j) = strut(j).dot(Eigen::Vector2d(moments(own[static_cast<std::size_t>(a)], j),
+                                                         moments(own[static_cast<std::size_t>(a)], n + j)));
     }
-    most = std::max(most, share);
+    const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStruts> taken = of_own.inverse() * with_others;
+    const Eigen::Matrix2d shared = taken * variances * taken.transpose();
+    estimate_.own_stddevs.row(i) = shared.diagonal().cwiseSqrt().transpose();
   }
   estimate_.doubt = std::sqrt(most) + kNoiseKnown / estimate_.told_apart;
   const bool are_struts = estimate_.damping_to_mass.minCoeff() > 0.0 && estimate_.stiffness_to_mass.minCoeff() > 0.0;

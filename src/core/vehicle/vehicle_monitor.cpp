@@ -41,10 +41,10 @@ VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sin
       survey_(static_cast<int>(settings.size()), num_forces, toSeconds(period_), kCouplingMemory),
       coupling_due_(samplesOf(kCouplingEvery, toSeconds(period_))),
       models_due_(samplesOf(kModelsEvery, toSeconds(period_))) {
-  if (settings_.size() == 1) begin();
+  if (settings_.size() == 1) beginStruts();
 }
 
-void VehicleMonitor::begin() {
+void VehicleMonitor::beginStruts() {
   for (std::size_t i = 0; i < settings_.size(); ++i) {
     struts_.emplace_back(settings_[i]);
     if (!starts_[i].effects.empty()) struts_[i].setEffects(starts_[i].effects, starts_[i].strut);
@@ -89,13 +89,19 @@ void VehicleMonitor::addSample(const VehicleSample& sample) {
 void VehicleMonitor::learnCoupling() {
   const CouplingEstimate& estimate = survey_.solve();
   if (!estimate.isKnown()) return;
-  if (decoupler_) return decoupler_->setCoupling(estimate.coupling);
+  if (!decoupler_) begin(estimate);
+  decoupler_->setCoupling(estimate.coupling);
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    struts_[i].setInputStddevs(estimate.own_stddevs.row(static_cast<Eigen::Index>(i)).transpose());
+}
+
+void VehicleMonitor::begin(const CouplingEstimate& estimate) {
   const std::vector<StrutModel> models = estimate.models();
   decoupler_.emplace(toSeconds(period_), estimate.coupling, models);
   for (std::size_t i = 0; i < settings_.size(); ++i)
     if (!settings_[i].integration_horizon)
       settings_[i].integration_horizon = proposeHorizon(models[i].damping_to_mass, models[i].stiffness_to_mass).horizon;
-  begin();
+  beginStruts();
 }
 
 // As long as a strut has no valid estimate it shows in others as the coupling was learned with it.

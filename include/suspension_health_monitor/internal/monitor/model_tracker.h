@@ -57,6 +57,9 @@ class ModelTracker {
   /// As StrutIdentifier::setForgetting().
   void setForgetting(const MonitorSettings& options) { identifier_.setForgetting(options); }
 
+  /// As StrutIdentifier::setInputStddevs().
+  void setInputStddevs(const Eigen::Vector2d& stddevs) { identifier_.setInputStddevs(stddevs); }
+
   /// @return true while what is measured tells nothing of the strut, and the estimates stay as they are.
   bool holds() const { return identifier_.holdsAll(); }
 

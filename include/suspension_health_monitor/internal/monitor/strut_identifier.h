@@ -66,6 +66,9 @@ class StrutIdentifier {
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
   void setForgetting(const MonitorSettings& options);
 
+  /// @param stddevs  of (b1 [1/s], b0 [1/s^2]) by what the samples went through before: no row shows that.
+  void setInputStddevs(const Eigen::Vector2d& stddevs) { input_stddevs_ = stddevs; }
+
   /// @return the factor that rows are forgotten by now.
   double forgettingFactor() const { return least_absolute_.forgettingFactor(); }
 
@@ -113,6 +116,7 @@ class StrutIdentifier {
   RecursiveLeastAbsolute least_absolute_;
   Forgetting forgetting_;
   std::array<Past, 2> past_;  // at the ends of the newest two blocks that may have told something, the older one first
+  Eigen::Vector2d input_stddevs_ = Eigen::Vector2d::Zero();
   Eigen::VectorXd noise_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
   EveryN stddevs_due_;
   bool has_row_ = false;

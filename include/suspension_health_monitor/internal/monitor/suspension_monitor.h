@@ -40,6 +40,9 @@ class SuspensionMonitor {
   /// @throws std::invalid_argument  naming the option, its value and what is allowed; all then stays as it was.
   void reconfigure(const MonitorSettings& options);
 
+  /// As StrutIdentifier::setInputStddevs(), from the next sample on.
+  void setInputStddevs(const Eigen::Vector2d& stddevs);
+
   /// Takes in the next sample. A gap or a clock that goes back empties the filter (2 L samples without rows follow);
   /// estimates hold meanwhile, marked as not valid.
   /// @return the report, owned by this object and valid until the next call; nullptr if the sample was rejected, and,

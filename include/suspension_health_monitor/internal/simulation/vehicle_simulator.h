@@ -72,7 +72,7 @@ struct SixAxisReading {
 SixAxisReading readIdeally(const VehicleTruth& truth, const VehicleImu& imu, double gravity);
 
 /// One instant of a simulated drive of a vehicle. A message that was lost is missing.
-struct VehicleSample {
+struct VehicleInstant {
   struct Strut {
     std::optional<AccelerometerReading> sprung, unsprung;  ///< vertical, without gravity
   };
@@ -92,7 +92,7 @@ class VehicleSimulator {
 
   /// @return the next instant, k / rate, k = 0 .. duration * rate; none after the end of the drive.
   /// @throws std::invalid_argument  as VehicleMotion::advance().
-  std::optional<VehicleSample> next();
+  std::optional<VehicleInstant> next();
 
   const Vehicle& vehicle() const { return vehicle_; }
 

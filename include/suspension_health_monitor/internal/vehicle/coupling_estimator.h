@@ -17,7 +17,9 @@ struct CouplingEstimate {
   Coupling coupling;
   StrutMatrix stddevs;                             ///< of the ratios
   StrutVector damping_to_mass, stiffness_to_mass;  ///< b1_i [1/s], b0_i [1/s^2] over the same rows
-  double condition = HUGE_VAL;                     ///< of the columns of all struts, each scaled to 1
+  /// What the ratios' errors alone make of a strut's own (b1_i [1/s], b0_i [1/s^2]): their standard deviations.
+  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kMostStruts, 2> own_stddevs;
+  double condition = HUGE_VAL;  ///< of the columns of all struts, each scaled to 1
   double told_apart = 0.0;  ///< information of the combination of struts that these rows tell least of, over noise's
   int first_alike = 0, second_alike = 0;  ///< the two struts that it is about
   double doubt = HUGE_VAL;  ///< largest rms that the ratios' errors give a strut's own acceleration, as a share of it

@@ -57,7 +57,8 @@ class VehicleMonitor {
 
   void startNewSeries();
   void learnCoupling();
-  void begin();
+  void begin(const CouplingEstimate& estimate);
+  void beginStruts();
   void takeModels();
 
   std::vector<MonitorSettings> settings_;
