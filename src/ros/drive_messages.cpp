@@ -8,6 +8,13 @@ namespace suspension_health_monitor {
 
 ros::Time stampAt(Stamp stamp) { return std::max(toRosTime(std::max(stamp, Stamp::zero())), ros::TIME_MIN); }
 
+MessagesOnTopics topicsOf(const SimulatorOptions& options) {
+  MessagesOnTopics topics{{kSprungTopic, sensor_msgs::Imu()}, {kUnsprungTopic, sensor_msgs::Imu()}};
+  if (options.publishing.road_imu) topics.emplace_back(kRoadTopic, sensor_msgs::Imu());
+  topics.emplace_back(kTruthTopic, SimulationTruth());
+  return topics;
+}
+
 DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp start)
     : simulator_(options.drive),
       hidden_(options.drive.hidden),
@@ -17,17 +24,23 @@ DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp st
       has_road_(options.publishing.road_imu),
       start_(start) {}
 
-std::optional<DriveMessages> DriveMessageSource::next() {
+std::optional<SimulatedInstant> DriveMessageSource::next() {
   const std::optional<DriveSample> sample = simulator_.next();
   if (!sample) return std::nullopt;
   std_msgs::Header header;
   header.stamp = stampAt(start_ + sample->stamp);
   header.frame_id = "sprung_imu";
-  DriveMessages messages{header.stamp, toMessage(sample->sprung, "sprung_imu"),
-                         toMessage(sample->unsprung, "unsprung_imu"), toMessage(sample->truth, header), std::nullopt};
-  if (has_road_) messages.road = toMessage(sample->road, "road_imu");
-  if (messages.sprung) addSway(sample->body, *messages.sprung);
-  return messages;
+  SimulatedInstant instant{header.stamp, {}};
+  const auto add = [&](const char* topic, const std::optional<sensor_msgs::Imu>& imu) {
+    if (imu) instant.messages.emplace_back(topic, *imu);
+  };
+  std::optional<sensor_msgs::Imu> sprung = toMessage(sample->sprung, "sprung_imu");
+  if (sprung) addSway(sample->body, *sprung);
+  add(kSprungTopic, sprung);
+  add(kUnsprungTopic, toMessage(sample->unsprung, "unsprung_imu"));
+  if (has_road_) add(kRoadTopic, toMessage(sample->road, "road_imu"));
+  instant.messages.emplace_back(kTruthTopic, toMessage(sample->truth, header));
+  return instant;
 }
 
 void DriveMessageSource::addSway(const Sway& sway, sensor_msgs::Imu& imu) const {

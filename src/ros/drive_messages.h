@@ -1,37 +1,34 @@
 #pragma once
 
-#include <sensor_msgs/Imu.h>
-#include <suspension_health_monitor/SimulationTruth.h>
-
 #include <optional>
 #include <vector>
 
+#include "simulated_messages.h"
 #include "simulator_options.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
-
-/// One instant of a simulated drive as messages; an IMU message that was lost is missing.
-struct DriveMessages {
-  ros::Time time;
-  std::optional<sensor_msgs::Imu> sprung, unsprung;
-  SimulationTruth truth;
-  std::optional<sensor_msgs::Imu> road;  ///< with road_imu
-};
 
 /// @return the stamp that a message of a simulated drive carries. ROS means by 0 that there is none, so a drive that
 /// starts there is stamped a nanosecond later. Nothing can be stamped before; only a clock that is set wrong on purpose
 /// gets there.
 ros::Time stampAt(Stamp stamp);
 
-/// The simulated drive as messages, the same for the simulator nodelet and for `suspension_bag simulate`.
-class DriveMessageSource {
+inline constexpr const char* kSprungTopic = "sprung/imu";
+inline constexpr const char* kUnsprungTopic = "unsprung/imu";
+inline constexpr const char* kRoadTopic = "road/imu";
+inline constexpr const char* kTruthTopic = "~truth";
+
+/// @return all topics of such a drive, each with an empty message.
+MessagesOnTopics topicsOf(const SimulatorOptions& options);
+
+/// The simulated drive of one strut as messages, the same for the simulator nodelet and for `suspension_bag simulate`.
+class DriveMessageSource : public DriveSource {
  public:
   /// @param start  stamp at the start of the drive.
   DriveMessageSource(const SimulatorOptions& options, Stamp start);
 
-  /// @return the next instant; nothing after the end of the drive.
-  std::optional<DriveMessages> next();
+  std::optional<SimulatedInstant> next() override;
 
  private:
   SimulationTruth toMessage(const DriveTruth& truth, const std_msgs::Header& header) const;

@@ -2,8 +2,10 @@
 
 #include <rosgraph_msgs/Clock.h>
 
+#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
+#include <type_traits>
 
 #include "conversions.h"
 #include "parameters.h"
@@ -31,49 +33,55 @@ SimulatorNodelet::~SimulatorNodelet() {
 void SimulatorNodelet::onInit() {
   ros::NodeHandle& node = getMTNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
-  SimulatorOptions options;
+  SimulatedDrive simulated;
   startOrRefuse(private_node, [&] {
-    options = SimulatorOptions::fromValues(readParameters(private_node));
-    if (!options.publishing.record.empty())
-      recorder_.emplace(node, options.publishing.record, options.publishing.record_topics);
+    simulated = makeSimulatedDrive(readParameters(private_node));
+    if (!simulated.playing.record.empty())
+      recorder_.emplace(node, simulated.playing.record, simulated.playing.record_topics);
   });
   if (node.resolveName("pace") != node.resolveName("pace", false))  // remapped to somebody's estimates
     pace_ = node.subscribe<ParameterEstimate>("pace", kQueueSize, [this](const ParameterEstimateConstPtr& estimate) {
       paced_until_ = estimate->header.stamp.toSec();
     });
-  sprung_ = node.advertise<sensor_msgs::Imu>("sprung/imu", kQueueSize);
-  unsprung_ = node.advertise<sensor_msgs::Imu>("unsprung/imu", kQueueSize);
-  if (options.publishing.road_imu) road_ = node.advertise<sensor_msgs::Imu>("road/imu", kQueueSize);
-  truth_ = private_node.advertise<SimulationTruth>("truth", kQueueSize);
-  if (options.publishing.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize);
-  thread_ = std::thread([this, options] { drive(options); });
+  for (const auto& [topic, message] : simulated.topics) publishers_.emplace(topic, advertise(topic, message));
+  if (simulated.playing.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize);
+  thread_ = std::thread([this, simulated] { drive(simulated); });
 }
 
-void SimulatorNodelet::drive(const SimulatorOptions& options) {
+ros::Publisher SimulatorNodelet::advertise(const std::string& topic, const SimulatedMessage& message) {
+  const bool own = topic.front() == '~';
+  ros::NodeHandle& node = own ? getPrivateNodeHandle() : getMTNodeHandle();
+  const auto asItsType = [&](const auto& typed) {
+    return node.advertise<std::decay_t<decltype(typed)>>(topic.substr(own ? 1 : 0), kQueueSize);
+  };
+  return std::visit(asItsType, message);
+}
+
+void SimulatorNodelet::drive(const SimulatedDrive& drive) {
   try {
-    waitForStart();
-    publishDrive(options);
-    if (goesOn()) NODELET_INFO("drive of %g s finished", options.drive.duration);
+    waitForStart(drive.awaited);
+    publishDrive(drive);
+    if (goesOn()) NODELET_INFO("drive of %g s finished", drive.duration);
   } catch (const std::invalid_argument& error) {  // a strut that cannot be simulated, a topic that cannot be recorded
     NODELET_ERROR("%s", error.what());
   }
   closeRecording();
-  if (!goesOn() || !options.publishing.shutdown_at_end) return;
+  if (!goesOn() || !drive.playing.shutdown_at_end) return;
   std::this_thread::sleep_for(kSendingTime);  // the last messages are on their way to other processes
   ros::requestShutdown();
 }
 
-void SimulatorNodelet::publishDrive(const SimulatorOptions& options) {
-  const bool from_now = !options.publishing.publish_clock && options.publishing.start_time == 0.0;
-  const Stamp start = from_now ? toStamp(ros::Time::now()) : fromSeconds(options.publishing.start_time);
+void SimulatorNodelet::publishDrive(const SimulatedDrive& drive) {
+  const bool from_now = !drive.playing.publish_clock && drive.playing.start_time == 0.0;
+  const Stamp start = from_now ? toStamp(ros::Time::now()) : fromSeconds(drive.playing.start_time);
   const Clock::time_point wall_start = Clock::now();
   paced_until_ = toSeconds(start);
-  DriveMessageSource source(options, start);
+  const std::unique_ptr<DriveSource> source = drive.begin(start);
   for (int published = 1; goesOn(); ++published) {
-    const std::optional<DriveMessages> messages = source.next();
-    if (!messages) break;
-    waitForTurn(options, toRosTime(start), messages->time, wall_start);
-    publish(*messages, options.publishing.publish_clock);
+    const std::optional<SimulatedInstant> instant = source->next();
+    if (!instant) break;
+    waitForTurn(drive, toRosTime(start), instant->time, wall_start);
+    publish(*instant);
     if (published % kLeadSamples == 0) waitForMonitors();
   }
 }
@@ -90,8 +98,9 @@ void SimulatorNodelet::closeRecording() {
   recorder_.reset();
 }
 
-void SimulatorNodelet::waitForStart() {
-  const auto has_subscribers = [this] { return sprung_.getNumSubscribers() > 0 && unsprung_.getNumSubscribers() > 0; };
+void SimulatorNodelet::waitForStart(const std::vector<std::string>& awaited) {
+  const auto is_heard = [this](const std::string& topic) { return publishers_.at(topic).getNumSubscribers() > 0; };
+  const auto has_subscribers = [&] { return std::all_of(awaited.begin(), awaited.end(), is_heard); };
   while (goesOn() && !has_subscribers()) std::this_thread::sleep_for(kPoll);
   const auto paces = [this] { return pace_.getNumPublishers() > 0 || publishedTopics().count(pace_.getTopic()) == 0; };
   while (goesOn() && !paces()) std::this_thread::sleep_for(kPollMaster);
@@ -101,10 +110,11 @@ void SimulatorNodelet::waitForStart() {
 // A monitor advertises its estimates before it subscribes to the IMUs, both in one go of the thread that serves it:
 // once that is idle, both are done.
 void SimulatorNodelet::waitForRecording() {
+  std::vector<std::string> own;
+  for (const auto& [topic, publisher] : publishers_) own.push_back(publisher.getTopic());
   Clock::time_point asked = Clock::now();
   while (goesOn()) {
-    const std::vector<std::string> missing =
-        recorder_->connect({sprung_.getTopic(), unsprung_.getTopic(), road_.getTopic(), truth_.getTopic()});
+    const std::vector<std::string> missing = recorder_->connect(own);
     if (missing.empty()) break;
     if (Clock::now() - asked > kPatience) {
       NODELET_WARN("the drive waits for what is to be recorded: nobody publishes %s", join(missing, ", ").c_str());
@@ -120,16 +130,16 @@ void SimulatorNodelet::waitForMonitors() const {
   while (goesOn() && !monitors_->isIdle()) std::this_thread::sleep_for(kPoll);
 }
 
-void SimulatorNodelet::waitForTurn(const SimulatorOptions& options, ros::Time start, ros::Time now,
+void SimulatorNodelet::waitForTurn(const SimulatedDrive& drive, ros::Time start, ros::Time now,
                                    Clock::time_point wall_start) {
-  const double factor = options.publishing.real_time_factor;
+  const double factor = drive.playing.real_time_factor;
   if (factor > 0.0) {
     const double due = (now - start).toSec() / factor;  // wall seconds since the start
     const auto left = [&] { return due - std::chrono::duration<double>(Clock::now() - wall_start).count(); };
     while (goesOn() && left() > 0.0)
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left(), kLongestSleep)));
   }
-  if (pace_.getNumPublishers() > 0) waitForPace(now, kLeadSamples / fasterRate(options.drive));
+  if (pace_.getNumPublishers() > 0) waitForPace(now, kLeadSamples / drive.rate);
 }
 
 void SimulatorNodelet::waitForPace(ros::Time now, double lead) {
@@ -149,16 +159,16 @@ void SimulatorNodelet::publish(const ros::Publisher& publisher, const ros::Time&
   if (recorder_) recorder_->record(publisher.getTopic(), time, message);
 }
 
-void SimulatorNodelet::publish(const DriveMessages& messages, bool publish_clock) {
-  if (publish_clock) {
+void SimulatorNodelet::publish(const SimulatedInstant& instant) {
+  if (clock_) {
     rosgraph_msgs::Clock clock;
-    clock.clock = std::max(messages.time, ros::TIME_MIN);  // 0 means that there is no clock yet
-    clock_.publish(clock);
+    clock.clock = std::max(instant.time, ros::TIME_MIN);  // 0 means that there is no clock yet
+    clock_->publish(clock);
   }
-  if (messages.sprung) publish(sprung_, messages.time, *messages.sprung);
-  if (messages.unsprung) publish(unsprung_, messages.time, *messages.unsprung);
-  if (messages.road) publish(road_, messages.time, *messages.road);
-  publish(truth_, messages.time, messages.truth);
+  for (const auto& [topic, any] : instant.messages) {
+    const ros::Publisher& publisher = publishers_.at(topic);
+    std::visit([&](const auto& message) { publish(publisher, instant.time, message); }, any);
+  }
 }
 
 }  // namespace suspension_health_monitor

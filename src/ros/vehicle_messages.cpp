@@ -6,6 +6,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+std::string truthTopic(const VehicleStrut& strut) { return '~' + strut.name + "/truth"; }
+
 geometry_msgs::Vector3 toMessage(const Eigen::Vector3d& vector) {
   geometry_msgs::Vector3 message;
   message.x = vector.x();
@@ -37,31 +39,45 @@ VehicleSimulationTruth toMsg(const VehicleTruth& truth, const Vehicle& vehicle, 
 
 }  // namespace
 
+MessagesOnTopics topicsOf(const VehicleSimulationOptions& options) {
+  MessagesOnTopics topics;
+  for (std::size_t i = 0; i < options.vehicle.struts.size(); ++i) {
+    const VehicleStrut& strut = options.vehicle.struts[i];
+    if (options.has_sprung_imu[i]) topics.emplace_back(sprungTopic(strut), sensor_msgs::Imu());
+    topics.emplace_back(unsprungTopic(strut), sensor_msgs::Imu());
+    topics.emplace_back(truthTopic(strut), SimulationTruth());
+  }
+  topics.emplace_back(kBodyImuTopic, sensor_msgs::Imu());
+  for (const KnownForce& force : options.vehicle.known_forces)
+    topics.emplace_back(wrenchTopic(force), geometry_msgs::WrenchStamped());
+  topics.emplace_back(kTruthTopic, VehicleSimulationTruth());
+  return topics;
+}
+
 VehicleMessageSource::VehicleMessageSource(const VehicleSimulationOptions& options, Stamp start)
     : options_(options), simulator_(options.vehicle, options.drive), start_(start) {}
 
-std::optional<VehicleMessages> VehicleMessageSource::next() {
+std::optional<SimulatedInstant> VehicleMessageSource::next() {
   const std::optional<VehicleInstant> sample = simulator_.next();
   if (!sample) return std::nullopt;
-  VehicleMessages messages;
-  messages.time = stampAt(start_ + sample->stamp);
-  addImus(*sample, messages);
+  SimulatedInstant instant{stampAt(start_ + sample->stamp), {}};
+  addImus(*sample, instant.messages);
   for (std::size_t k = 0; k < sample->known_forces.size(); ++k) {
     geometry_msgs::WrenchStamped wrench;
     wrench.header = headerOf(sample->stamp, options_.vehicle.known_forces[k].name);
     wrench.wrench.force.z = sample->known_forces[k];
-    messages.wrenches.emplace_back(wrenchTopic(options_.vehicle.known_forces[k]), wrench);
+    instant.messages.emplace_back(wrenchTopic(options_.vehicle.known_forces[k]), wrench);
   }
-  addTruth(*sample, messages);
-  return messages;
+  addTruth(*sample, instant.messages);
+  return instant;
 }
 
-void VehicleMessageSource::addImus(const VehicleInstant& sample, VehicleMessages& messages) const {
+void VehicleMessageSource::addImus(const VehicleInstant& sample, MessagesOnTopics& messages) const {
   const auto add = [&](const std::string& topic, const std::string& frame,
                        const std::optional<AccelerometerReading>& reading) {
     if (reading)
-      messages.imus.emplace_back(topic,
-                                 toImu(reading->acceleration, options_.drive.gravity, headerOf(reading->stamp, frame)));
+      messages.emplace_back(topic,
+                            toImu(reading->acceleration, options_.drive.gravity, headerOf(reading->stamp, frame)));
   };
   for (std::size_t i = 0; i < sample.struts.size(); ++i) {
     const VehicleStrut& strut = options_.vehicle.struts[i];
@@ -73,10 +89,10 @@ void VehicleMessageSource::addImus(const VehicleInstant& sample, VehicleMessages
   imu.linear_acceleration = toMessage(sample.body->acceleration);
   imu.angular_velocity = toMessage(sample.body->angular_rate);
   imu.angular_velocity_covariance[0] = 0.0;
-  messages.imus.emplace_back(kBodyImuTopic, imu);
+  messages.emplace_back(kBodyImuTopic, imu);
 }
 
-void VehicleMessageSource::addTruth(const VehicleInstant& sample, VehicleMessages& messages) const {
+void VehicleMessageSource::addTruth(const VehicleInstant& sample, MessagesOnTopics& messages) const {
   const std::vector<VehicleStrut>& struts = options_.vehicle.struts;
   for (std::size_t i = 0; i < struts.size(); ++i) {
     SimulationTruth truth = toMsg(sample.truth.struts[i], headerOf(sample.stamp, struts[i].name));
@@ -84,10 +100,10 @@ void VehicleMessageSource::addTruth(const VehicleInstant& sample, VehicleMessage
       truth.effect_names.push_back(active.effect.name);
       truth.effect_coefficients.push_back(active.coefficient);
     }
-    messages.strut_truths.emplace_back("simulator/" + struts[i].name + "/truth", truth);
+    messages.emplace_back(truthTopic(struts[i]), truth);
   }
-  messages.truth.emplace_back("simulator/truth",
-                              toMsg(sample.truth, options_.vehicle, headerOf(sample.stamp, "centre_of_gravity")));
+  messages.emplace_back(kTruthTopic,
+                        toMsg(sample.truth, options_.vehicle, headerOf(sample.stamp, "centre_of_gravity")));
 }
 
 std_msgs::Header VehicleMessageSource::headerOf(Stamp stamp, const std::string& frame) const {

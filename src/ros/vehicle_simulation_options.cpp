@@ -52,6 +52,7 @@ VehicleSimulationOptions VehicleSimulationOptions::fromValues(const std::string&
   options.model = model;
   takeOptions(values, kVehiclePublishingFields, options.publishing);
   takeOptions(values, kVehicleDriveFields, options.drive);
+  takeOptions(values, kPlayingFields, options.playing);
   const EffectLibrary library = readEffectsFile(options.publishing.effects_file);
   options.vehicle = vehicleOf(model, library);
   changeVehicle(values, library, options.vehicle);
@@ -67,10 +68,10 @@ std::vector<OptionDescription> VehicleSimulationOptions::describe() {
   std::vector<OptionDescription> struts = describeOptions(kVehicleStrutFields);
   for (OptionDescription& option : vehicle) option.default_value = kOfTheModel;
   for (std::size_t i = 0; i < kRequiredStrutFields; ++i) struts[i].default_value = kOfTheModel;
+  const std::vector<std::string> groups{"drive", "vehicle", "sensors", "hidden", "playing"};
   std::vector<OptionDescription> all =
-      inGroups({"drive", "vehicle", "sensors", "playing"}, std::move(vehicle),
-               inGroups({"drive", "sensors", "playing"}, describeOptions(kVehicleDriveFields),
-                        describeOptions(kVehiclePublishingFields)));
+      inGroups(groups, describeOptions(kVehicleDriveFields), describeOptions(kVehiclePublishingFields));
+  all = inGroups(groups, inGroups(groups, std::move(all), vehicle), describeOptions(kPlayingFields));
   for (const auto& more : {struts, describeOptions(kKnownForceFields), describeOptions(kVehicleImuFields)})
     all.insert(all.end(), more.begin(), more.end());
   return all;

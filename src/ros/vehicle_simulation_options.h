@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "playing_options.h"
 #include "suspension_health_monitor/internal/option_table.h"
 #include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
 
 namespace suspension_health_monitor {
 
-/// How the simulated drive of a vehicle is published.
+/// What is published of a vehicle's simulated drive, and what it may hide.
 struct VehiclePublishingOptions {
   std::string sprung_imus = "all";
-  double start_time = 0.0;
   std::string effects_file;
 };
 
@@ -21,9 +21,7 @@ inline constexpr std::array kVehiclePublishingFields{
     VehiclePublishingField{"sensors", "sprung_imus", "-",
                            "struts with an IMU of their own on the body: all, none (the body's IMU alone), or names",
                            &VehiclePublishingOptions::sprung_imus},
-    VehiclePublishingField{"playing", "start_time", "s", "stamp at the start of the drive",
-                           &VehiclePublishingOptions::start_time, 0.0, 4e9},
-    VehiclePublishingField{"playing", "effects_file", "-", "YAML file with laws of your own, for struts/NAME/effects",
+    VehiclePublishingField{"hidden", "effects_file", "-", "YAML file with laws of your own, for struts/NAME/effects",
                            &VehiclePublishingOptions::effects_file},
 };
 
@@ -33,6 +31,7 @@ struct VehicleSimulationOptions {
   Vehicle vehicle;
   VehicleDriveOptions drive;
   VehiclePublishingOptions publishing;
+  PlayingOptions playing;
   std::vector<bool> has_sprung_imu;  ///< by vehicle.struts
 
   /// @param model  a name that namedVehicle() knows, or a YAML file with settings of a vehicle (takeVehicle()).

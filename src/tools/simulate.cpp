@@ -1,9 +1,8 @@
 #include <array>
 
 #include "../ros/drive_messages.h"
-#include "../ros/whole_bag.h"
+#include "../ros/simulated_drive.h"
 #include "command.h"
-#include "long_work.h"
 #include "simulate_vehicle.h"
 #include "suspension_health_monitor/internal/simulation/vehicle.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -17,21 +16,6 @@ namespace po = boost::program_options;
 constexpr std::array kFlags{"scenario", "vehicle", "seed", "duration", "rate"};
 constexpr std::array kFlagsOfOneStrut{"scenario", "vehicle"};
 
-void writeBag(const SimulatorOptions& options, const std::string& path) {
-  const Interruption interruption;
-  WholeBag bag(path);
-  DriveMessageSource drive(options, fromSeconds(options.publishing.start_time));
-  Progress progress("simulating", options.drive.duration);
-  while (const std::optional<DriveMessages> messages = drive.next()) {
-    if (messages->sprung) bag.write("/sprung/imu", messages->time, *messages->sprung);
-    if (messages->unsprung) bag.write("/unsprung/imu", messages->time, *messages->unsprung);
-    if (messages->road) bag.write("/road/imu", messages->time, *messages->road);
-    bag.write("/simulator/truth", messages->time, messages->truth);
-    progress.update(messages->time.toSec() - options.publishing.start_time);
-  }
-  bag.commit();
-}
-
 std::string describeRates(const SimulationOptions& drive) {
   const double sprung = drive.rate, unsprung = drive.unsprung_rate.value_or(drive.rate);
   return sprung == unsprung ? formatted("%g Hz", sprung)
@@ -39,11 +23,11 @@ std::string describeRates(const SimulationOptions& drive) {
 }
 
 /// Those of one strut and those of a whole vehicle do not mix.
-void requireFlagsOfOneKind(const po::variables_map& values) {
-  if (values.count("vehicle-model") == 0 && values.count("vehicle-file") != 0)
+void requireFlagsOfOneKind(const po::variables_map& values, const std::string& vehicle_model) {
+  if (vehicle_model.empty() && values.count("vehicle-file") != 0)
     throw std::invalid_argument("--vehicle-file, must come with --vehicle-model");
   for (const char* flag : kFlagsOfOneStrut)
-    if (values.count("vehicle-model") != 0 && values.count(flag) != 0)
+    if (!vehicle_model.empty() && values.count(flag) != 0)
       throw std::invalid_argument(
           "--" + std::string(flag) +
           " is of one strut, must not come with --vehicle-model: `options vehicle` has its own");
@@ -74,19 +58,22 @@ void simulate(const Arguments& arguments) {
   if (!values) return;
 
   requireSeparateFiles(*values, {"config", "effects-file", "vehicle-model"}, {"output", "vehicle-file"});
-  requireFlagsOfOneKind(*values);
   OptionMap settings = gatherOptions(*values);
   for (const char* flag : kFlags)
     if (values->count(flag) != 0) settings[flag] = (*values)[flag].as<std::string>();
   if (values->count("effects-file") != 0) settings["effects_file"] = (*values)["effects-file"].as<std::string>();
-  if (values->count("vehicle-model") != 0) return simulateVehicle(*values, std::move(settings));
+  if (values->count("vehicle-model") != 0) settings["vehicle_model"] = (*values)["vehicle-model"].as<std::string>();
+  const std::string vehicle_model = takeVehicleModel(settings);
+  requireFlagsOfOneKind(*values, vehicle_model);
+  if (!vehicle_model.empty()) return simulateVehicle(*values, vehicle_model, std::move(settings));
 
   for (const std::string& effect : (*values)["effect"].as<std::vector<std::string>>())
     setEffect(settings, effect, measurementEffects());
   const SimulatorOptions options = SimulatorOptions::fromValues(settings);
 
   const auto path = (*values)["output"].as<std::string>();
-  writeBag(options, path);
+  DriveMessageSource drive(options, fromSeconds(options.playing.start_time));
+  writeBag(drive, options.drive.duration, options.playing.start_time, path);
   std::printf("%s: %s, %g s at %s, seed %d\n", path.c_str(), options.drive.scenario.c_str(), options.drive.duration,
               describeRates(options.drive).c_str(), options.drive.seed);
 }

@@ -25,19 +25,6 @@ void hide(const std::string& effect, OptionMap& settings) {
   for (const auto& [name, value] : one) settings["struts/" + effect.substr(0, slash) + '/' + name] = value;
 }
 
-void writeBag(const VehicleSimulationOptions& options, const std::string& path) {
-  const Interruption interruption;
-  WholeBag bag(path);
-  VehicleMessageSource drive(options, fromSeconds(options.publishing.start_time));
-  Progress progress("simulating", options.drive.duration);
-  while (const std::optional<VehicleMessages> messages = drive.next()) {
-    messages->forEach(
-        [&](const std::string& topic, const auto& message) { bag.write('/' + topic, messages->time, message); });
-    progress.update(messages->time.toSec() - options.publishing.start_time);
-  }
-  bag.commit();
-}
-
 /// The file that the other commands take as --vehicle.
 std::string vehicleFile(const VehicleSimulationOptions& options) {
   const Vehicle& vehicle = options.vehicle;
@@ -77,13 +64,32 @@ void printTruth(const Vehicle& vehicle) {
   }
 }
 
+/// A topic as a simulator named /simulator has it.
+std::string inBag(const std::string& topic) {
+  return topic.front() == '~' ? "/simulator/" + topic.substr(1) : '/' + topic;
+}
+
 }  // namespace
 
-void simulateVehicle(const boost::program_options::variables_map& values, OptionMap settings) {
+void writeBag(DriveSource& drive, double duration, double start, const std::string& path) {
+  const Interruption interruption;
+  WholeBag bag(path);
+  Progress progress("simulating", duration);
+  while (const std::optional<SimulatedInstant> instant = drive.next()) {
+    for (const auto& [topic, any] : instant->messages)
+      std::visit([&, &name = topic](const auto& message) { bag.write(inBag(name), instant->time, message); }, any);
+    progress.update(instant->time.toSec() - start);
+  }
+  bag.commit();
+}
+
+void simulateVehicle(const boost::program_options::variables_map& values, const std::string& model,
+                     OptionMap settings) {
   for (const std::string& effect : values["effect"].as<std::vector<std::string>>()) hide(effect, settings);
-  const auto options = VehicleSimulationOptions::fromValues(values["vehicle-model"].as<std::string>(), settings);
+  const auto options = VehicleSimulationOptions::fromValues(model, std::move(settings));
   const auto path = values["output"].as<std::string>();
-  writeBag(options, path);
+  VehicleMessageSource drive(options, fromSeconds(options.playing.start_time));
+  writeBag(drive, options.drive.duration, options.playing.start_time, path);
   if (values.count("vehicle-file") != 0)
     TextFile(values["vehicle-file"].as<std::string>()).commit(vehicleFile(options));
   std::printf("%s: %s, %g s at %g Hz, class %s at %g m/s, %s tracks, seed %d\n", path.c_str(),
