@@ -56,8 +56,7 @@ struct Drive {
 };
 
 struct Record {
-  std::vector<std::vector<double>> body, wheel;  // by strut [m/s^2]
-  std::vector<std::vector<double>> own, ownTravel;
+  std::vector<std::vector<double>> body, wheel;    // by strut [m/s^2]
   std::vector<double> travel, travel_rate, force;  // rms by strut [m], [m/s], [N]
 };
 
@@ -164,8 +163,6 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
   std::vector<std::vector<double>> raw(2 * n, std::vector<double>(steps - 1));
   Record record;
   record.travel.assign(n, 0.0), record.travel_rate = record.force = record.travel;
-  record.own.resize(n);
-  record.ownTravel.resize(n);
   const auto moved = [](const std::vector<double>& s, double by, const std::vector<double>& d) {
     std::vector<double> to = s;
     for (std::size_t i = 0; i < s.size(); ++i) to[i] += by * d[i];
@@ -179,11 +176,6 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
       const Strut& strut = vehicle.struts[i];
       const double d = state[3 + i] - (state[0] + strut.x * state[1] + strut.y * state[2]);
       const double v = state[dof + 3 + i] - (state[dof] + strut.x * state[dof + 1] + strut.y * state[dof + 2]);
-      if (k % kSub == 0 && static_cast<double>(k) * dt >= kLead - 1e-9 &&
-          record.own[i].size() < static_cast<std::size_t>(options.seconds * options.rate)) {
-        record.own[i].push_back(force[i] * vehicle.mobility(i, i));
-        record.ownTravel[i].push_back(d);
-      }
       record.travel[i] += d * d / static_cast<double>(steps);
       record.travel_rate[i] += v * v / static_cast<double>(steps);
       record.force[i] += force[i] * force[i] / static_cast<double>(steps);

@@ -1,127 +1,216 @@
-// Whole vehicles through the coupling: what doc/vehicle.md tells.
-#include <chrono>
+// Whole vehicles, simulated by vehicle_drive.h, which shares nothing with the package: the tables of doc/vehicle.md.
+//   vehicle_table linear|effect|bar|alone|health [SEEDS [FIRST]]
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <iostream>
+#include <functional>
 #include <string>
+#include <vector>
 
-#include "suspension_health_monitor/compare.h"
-#include "suspension_health_monitor/identify.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "vehicle_drive.h"
 
 namespace {
 
 using namespace suspension_health_monitor;
-using vehicle_drive::Record;
-using vehicle_drive::Tracks;
 
-/// Laws that are hidden, each as strong as `share` of the rms of the strut's force.
+constexpr double kPeriod = 0.01;
+constexpr std::array kKinds{"half", "sedan", "robot", "truck"};
+
+/// A law that is hidden in a strut, as strong as 15 % of the rms of the strut's force.
 struct Hidden {
   const char* name;
-  std::function<double(double, double)> shape;  // of travel and travel rate over their rms
+  double (*shape)(double travel, double rate, double friction);  ///< of travel and rate over their rms
 };
 
-const std::vector<Hidden> kHidden{
-    {"cubic_stiffness", [](double d, double) { return d * d * d; }},
-    {"coulomb_friction", [](double, double v) { return std::tanh(v / 0.005); }},
-    {"quadratic_damping", [](double, double v) { return v * std::abs(v); }},
-    {"asymmetric_damping", [](double, double v) { return std::max(v, 0.0); }},
-    {"asymmetric_spring", [](double d, double) { return std::max(d, 0.0); }},
-};
+constexpr std::array<Hidden, 5> kHidden{
+    Hidden{"progressive_spring", [](double d, double, double) { return d * d * d; }},
+    Hidden{"friction", [](double, double v, double steep) { return std::tanh(steep * v); }},
+    Hidden{"quadratic_damping", [](double, double v, double) { return v * std::abs(v); }},
+    Hidden{"asymmetric_damping", [](double, double v, double) { return std::max(v, 0.0); }},
+    Hidden{"asymmetric_spring", [](double d, double, double) { return std::max(d, 0.0); }}};
+constexpr double kShare = 0.15, kSlip = 0.005;  // of the force; rate at which friction turns round [m/s]
 
-const char* wordOf(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kEffectFound: return "found";
-    case Verdict::kSuspect: return "suspect";
-    case Verdict::kNothingMissing: return "nothing";
-    case Verdict::kUnexplained: return "unexplained";
+/// One simulated drive and who drove it.
+struct Driven {
+  vehicle_drive::Vehicle vehicle;
+  vehicle_drive::Drive options;
+  vehicle_drive::Record record;
+  std::vector<std::string> names;
+
+  std::size_t size() const { return vehicle.struts.size(); }
+  StrutDrives struts() const {
+    StrutDrives drive;
+    for (std::size_t i = 0; i < size(); ++i) drive.push_back(makeDrive(kPeriod, record.body[i], record.wheel[i]));
+    return drive;
   }
-  return "";
+};
+
+Driven prepared(const char* kind, unsigned seed) {
+  Driven driven{vehicle_drive::made(kind, seed), {}, {}, {}};
+  driven.options.seed = seed;
+  driven.options.tracks = seed % 2 == 1 ? vehicle_drive::Tracks::kCoherent : vehicle_drive::Tracks::kIndependent;
+  for (std::size_t i = 0; i < driven.size(); ++i) driven.names.push_back("strut" + std::to_string(i));
+  return driven;
 }
+
+void drive(Driven& driven) { driven.record = vehicle_drive::drive(driven.vehicle, driven.options); }
+
+double percent(double value, double truth) { return 100.0 * (value / truth - 1.0); }
+
+void printLinear(const char* kind, unsigned seed) {
+  Driven driven = prepared(kind, seed);
+  drive(driven);
+  const std::vector<StrutDrives> drives{driven.struts()};
+  const VehicleIdentification found = identifyVehicle(drives, driven.names);
+  const VehicleDiagnosis diagnosis = diagnoseVehicle(drives, driven.names);
+  if (!found) {
+    std::printf("%-6s %3u   the drives %s\n", kind, seed, found.coupling.reason.c_str());
+    return;
+  }
+  double damping = 0.0, stiffness = 0.0, inside = 0.0, floor = 0.0;
+  for (std::size_t i = 0; i < driven.size(); ++i) {
+    const IdentifiedStrut& la = found.struts[i].la;
+    const double b1 = driven.vehicle.b1(i), b0 = driven.vehicle.b0(i);
+    damping = std::max(damping, std::abs(percent(la.damping_to_mass, b1)));
+    stiffness = std::max(stiffness, std::abs(percent(la.stiffness_to_mass, b0)));
+    inside += std::abs(la.damping_to_mass - b1) < 1.96 * la.damping_to_mass_stddev ? 0.5 : 0.0;
+    inside += std::abs(la.stiffness_to_mass - b0) < 1.96 * la.stiffness_to_mass_stddev ? 0.5 : 0.0;
+    floor = std::max(floor, diagnosis.struts[i].base.held_out_rmse / diagnosis.struts[i].noise_floor);
+  }
+  std::printf("%-6s %3u  %8.2f  %8.2f  %6.0f  %8.3f   %s\n", kind, seed, damping, stiffness,
+              100.0 * inside / static_cast<double>(driven.size()), floor, diagnosis.summary.c_str());
+}
+
+void printEffect(const char* kind, unsigned seed) {
+  Driven driven = prepared(kind, seed);
+  drive(driven);
+  const Hidden& law = kHidden[seed % kHidden.size()];
+  const std::size_t at = seed / kHidden.size() % driven.size();
+  const double travel = driven.record.travel[at], rate = driven.record.travel_rate[at], steep = rate / kSlip;
+  double square = 0.0;
+  constexpr int kDraws = 20000;
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < kDraws; ++i) square += std::pow(law.shape(normal(random), normal(random), steep), 2) / kDraws;
+  const double size = kShare * driven.record.force[at] / std::sqrt(square);
+  driven.options.hidden.resize(driven.size());
+  driven.options.hidden[at] = [=](double d, double v, double) { return size * law.shape(d / travel, v / rate, steep); };
+  drive(driven);
+  const VehicleDiagnosis found = diagnoseVehicle({driven.struts()}, driven.names);
+  std::printf("%-6s %3u  %-18s in %-7s  %s\n", kind, seed, law.name, driven.names[at].c_str(), found.summary.c_str());
+}
+
+void printBar(const char* kind, unsigned seed) {
+  Driven driven = prepared(kind, seed);
+  if (driven.size() < 4) return;
+  driven.options.anti_roll = 0.4 * driven.vehicle.struts[0].stiffness;
+  drive(driven);
+  const VehicleDiagnosis found = diagnoseVehicle({driven.struts()}, driven.names);
+  std::printf("%-6s %3u  ", kind, seed);
+  for (const AntiRollBarFound& bar : found.coupling.bars) {
+    const auto truth = [&](std::size_t i) { return driven.vehicle.mobility(i, i) * driven.options.anti_roll; };
+    std::printf("%+6.1f %+6.1f  ", percent(bar.first_stiffness_to_mass, truth(bar.first)),
+                percent(bar.second_stiffness_to_mass, truth(bar.second)));
+  }
+  std::printf("%s\n", found.summary.c_str());
+}
+
+// Every strut judged by its own two IMUs: nothing is hidden in any.
+void printAlone(const char* kind, unsigned seed) {
+  Driven driven = prepared(kind, seed);
+  drive(driven);
+  const StrutDrives struts = driven.struts();
+  for (std::size_t i = 0; i < driven.size(); ++i) {
+    const Diagnosis found = diagnose({struts[i]});
+    std::printf("%-6s %3u  %zu  structured %.2f explained %.2f rmse/floor %.1f  %s\n", kind, seed, i,
+                found.structured_share, found.explained_share, found.base.held_out_rmse / found.noise_floor,
+                found ? found.summary.c_str() : found.reason.c_str());
+  }
+}
+
+/// What a monitor said of one strut.
+struct Said {
+  double reports = 0.0, ok = 0.0, valid = 0.0, inside = 0.0;
+  double warn = -1.0, error = -1.0;  // first [s]; below 0: never
+};
+
+void printHealth(const char* kind, unsigned seed) {
+  constexpr double kLoss = 300.0;
+  Driven driven = prepared(kind, seed);
+  const std::size_t at = seed % driven.size(), n = driven.size();
+  driven.options.seconds = 2.0 * kLoss;
+  driven.options.hidden.resize(n);
+  driven.options.hidden[at] = [c = driven.vehicle.struts[at].damping](double, double v, double t) {
+    return t > kLoss ? -0.4 * c * v : 0.0;
+  };
+  drive(driven);
+  MonitorSettings settings;
+  settings.sample_period = kPeriod;
+  std::vector<Said> said(n);
+  VehicleMonitor monitor(std::vector<MonitorSettings>(n, settings), [&](std::size_t i, const MonitorReport& report) {
+    Said& its = said[i];
+    const double now = toSeconds(report.stamp);
+    its.reports += 1.0;
+    if (report.health.level == HealthLevel::kOk) its.ok += 1.0;
+    if (report.health.level == HealthLevel::kWarn && its.warn < 0.0) its.warn = now;
+    if (report.health.level == HealthLevel::kError && its.error < 0.0) its.error = now;
+    if (!report.la.valid() || (i == at && now > kLoss)) return;
+    its.valid += 1.0;
+    const double off = report.la.damping_to_mass - driven.vehicle.b1(i);
+    its.inside += std::abs(off) < 1.96 * report.la.damping_to_mass_stddev ? 1.0 : 0.0;
+  });
+  const StrutDrives drive = driven.struts();
+  double known = -1.0;
+  for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
+    monitor.addSample(sampleOf(drive, k));
+    if (known < 0.0 && monitor.isCoupled()) known = static_cast<double>(k) * kPeriod;
+  }
+  double least_ok = 1.0, inside = 0.0;
+  int alarms = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    inside += said[i].inside / said[i].valid / static_cast<double>(n);
+    if (i == at) continue;
+    least_ok = std::min(least_ok, said[i].ok / said[i].reports);
+    alarms += (said[i].warn >= 0.0 ? 1 : 0) + (said[i].error >= 0.0 ? 1 : 0);
+  }
+  std::printf("%-6s %3u  %6.0f  %8.1f  %8.1f  %9.1f  %7d  %6.0f\n", kind, seed, known,
+              said[at].error < 0.0 ? said[at].error : said[at].error - kLoss,
+              said[at].warn < 0.0 ? said[at].warn : said[at].warn - kLoss, 100.0 * least_ok, alarms, 100.0 * inside);
+}
+
+/// A mode of the table.
+struct Table {
+  const char* name;
+  const char* heading;
+  void (*print)(const char* kind, unsigned seed);
+};
+
+constexpr std::array kTables{
+    Table{"linear", "kind  seed  b1 off %  b0 off %  inside  rmse/floor  verdict", printLinear},
+    Table{"effect", "kind  seed  hidden                           verdict", printEffect},
+    Table{"bar", "kind  seed  stiffness off %  verdict", printBar}, Table{"alone", "kind  seed  strut", printAlone},
+    Table{"health", "kind  seed  known s   ERROR s    WARN s  others OK  alarms  inside", printHealth}};
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string what = argc > 1 ? argv[1] : "linear";
-  const unsigned seeds = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
-  const std::vector<std::string> kinds =
-      argc > 3 ? std::vector<std::string>{argv[3]} : std::vector<std::string>{"half", "sedan", "robot", "truck"};
-  const unsigned first = argc > 4 ? static_cast<unsigned>(std::atoi(argv[4])) : 1;
-  const double period = 0.01;
-  for (const std::string& kind : kinds)
+  const auto table = std::find_if(kTables.begin(), kTables.end(),
+                                  [&](const Table& each) { return argc > 1 && std::string(argv[1]) == each.name; });
+  if (table == kTables.end()) {
+    std::fprintf(stderr, "vehicle_table linear|effect|bar|alone|health [SEEDS [FIRST]]\n");
+    return 2;
+  }
+  const auto seeds = static_cast<unsigned>(argc > 2 ? std::atoi(argv[2]) : 2);
+  const auto first = static_cast<unsigned>(argc > 3 ? std::atoi(argv[3]) : 1);
+  std::printf("%s\n", table->heading);
+  for (const char* kind : kKinds)
     for (unsigned seed = first; seed < first + seeds; ++seed) {
-      const vehicle_drive::Vehicle vehicle = vehicle_drive::made(kind, seed);
-      const std::size_t n = vehicle.struts.size();
-      vehicle_drive::Drive options;
-      options.seed = seed;
-      options.tracks = seed % 2 ? Tracks::kCoherent : Tracks::kIndependent;
-      if (what == "bar") options.anti_roll = 0.4 * vehicle.struts[0].stiffness;
-      Record record = vehicle_drive::drive(vehicle, options);
-      std::string hidden = "nothing";
-      if (what == "effect") {
-        const Hidden& law = kHidden[seed % kHidden.size()];
-        const std::size_t at = seed % n;
-        const double d = record.travel[at], v = record.travel_rate[at];
-        // rms of the law's shape over a normal variable, by which it is scaled
-        double square = 0.0;
-        std::mt19937 random(7);
-        std::normal_distribution<double> normal;
-        for (int i = 0; i < 20000; ++i) {
-          const double x = normal(random);
-          square +=
-              std::pow(std::string(law.name) == "coulomb_friction" ? std::tanh(x * v / 0.005) : law.shape(x, x), 2) /
-              20000;
-        }
-        const double size = 0.15 * record.force[at] / std::sqrt(square);
-        const bool friction = std::string(law.name) == "coulomb_friction";
-        options.hidden.resize(n);
-        options.hidden[at] = [=](double travel, double rate, double) {
-          return size * (friction ? law.shape(travel, rate) : law.shape(travel / d, rate / v));
-        };
-        record = vehicle_drive::drive(vehicle, options);
-        hidden = std::string(law.name) + " in strut " + std::to_string(at);
-      }
-      StrutDrives drive;
-      std::vector<std::string> names;
-      for (std::size_t i = 0; i < n; ++i) {
-        drive.push_back(makeDrive(period, record.body[i], record.wheel[i]));
-        names.push_back(std::to_string(i));
-      }
-      const SeparatedVehicle separated = separateVehicle({drive}, names);
-      const auto begin = std::chrono::steady_clock::now();
-      const VehicleDiagnosis diagnosis = diagnoseVehicle({drive}, names);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      std::printf("%s %u, hidden: %s. %s (%.1f s)\n", kind.c_str(), seed, hidden.c_str(), diagnosis.summary.c_str(),
-                  seconds);
-      for (const AntiRollBarFound& bar : diagnosis.coupling.bars)
-        std::printf("   bar %zu-%zu: %+.1f %%, %+.1f %%\n", bar.first, bar.second,
-                    100 * (bar.first_stiffness_to_mass / (vehicle.mobility(bar.first, bar.first) * options.anti_roll) - 1),
-                    100 * (bar.second_stiffness_to_mass / (vehicle.mobility(bar.second, bar.second) * options.anti_roll) - 1));
-      for (std::size_t i = 0; i < diagnosis.struts.size(); ++i) {
-        const Diagnosis& found = diagnosis.struts[i];
-        std::string selected;
-        for (const std::string& name : found.selected) selected += " " + name;
-        for (const auto& group : found.indistinguishable) {
-          selected += " (or";
-          for (const std::string& name : group) selected += " " + name;
-          selected += ")";
-        }
-        IdentifyOptions how;
-        const IdentifyResult result = identify(separated.struts[i], how);
-        const auto percent = [](double value, double truth) { return 100 * (value / truth - 1); };
-        std::printf(
-            "   strut %zu: b1 %+.1f b0 %+.1f %%, iv %+.1f %+.1f, la %+.1f (%.1f) %+.1f (%.1f) %s%s, structured %.2f "
-            "explained %.2f, rmse %.4f floor %.4f\n",
-            i, percent(separated.models[i].damping_to_mass, vehicle.b1(i)),
-            percent(separated.models[i].stiffness_to_mass, vehicle.b0(i)),
-            percent(result.iv.damping_to_mass, vehicle.b1(i)), percent(result.iv.stiffness_to_mass, vehicle.b0(i)),
-            percent(result.la.damping_to_mass, vehicle.b1(i)), 100 * result.la.damping_to_mass_stddev / vehicle.b1(i),
-            percent(result.la.stiffness_to_mass, vehicle.b0(i)),
-            100 * result.la.stiffness_to_mass_stddev / vehicle.b0(i), wordOf(found.verdict), selected.c_str(),
-            found.structured_share, found.explained_share, found.base.held_out_rmse, found.noise_floor);
-      }
+      table->print(kind, seed);
       std::fflush(stdout);
     }
 }

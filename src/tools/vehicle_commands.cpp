@@ -20,6 +20,7 @@
 #include "long_work.h"
 #include "results.h"
 #include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"

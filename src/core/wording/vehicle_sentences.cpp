@@ -1,5 +1,7 @@
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
+#include <algorithm>
+
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -20,6 +22,22 @@ std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::st
   return "are too short or too calm to tell how the struts move one another";
 }
 
+namespace {
+
+// "friction (or digressive_damping)": what the drives cannot tell from it, too.
+std::string namesOf(const Diagnosis& strut) {
+  std::string text = join(strut.selected, " and ");
+  for (const std::vector<std::string>& group : strut.indistinguishable) {
+    std::vector<std::string> rivals;
+    for (const std::string& name : group)
+      if (std::find(strut.selected.begin(), strut.selected.end(), name) == strut.selected.end()) rivals.push_back(name);
+    if (!rivals.empty()) text += " (or " + join(rivals, " or ") + ")";
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::string>& struts) {
   std::vector<std::string> missing, suspects, unexplained, silent;
   for (std::size_t i = 0; i < struts.size(); ++i) {
@@ -27,9 +45,9 @@ std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::
     if (!strut)
       silent.push_back(struts[i]);
     else if (strut.verdict == Verdict::kEffectFound)
-      missing.push_back(join(strut.selected, " and ") + " in " + struts[i]);
+      missing.push_back(namesOf(strut) + " in " + struts[i]);
     else if (strut.verdict == Verdict::kSuspect)
-      suspects.push_back(join(strut.selected) + " in " + struts[i]);
+      suspects.push_back(namesOf(strut) + " in " + struts[i]);
     else if (strut.verdict == Verdict::kUnexplained)
       unexplained.push_back(struts[i]);
   }
