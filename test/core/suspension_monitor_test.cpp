@@ -43,7 +43,7 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
     drive.scenario = scenario;
     drive.duration = 60.0;
     SuspensionMonitor monitor(options);
-    const bool offset = options.estimators.with_offset;
+    const bool offset = options.estimators.sensors != SensorColumns::kNone;
     SuspensionRegression regression(options.filter(0.02), 0, offset);
     RecursiveLeastSquares ls(kNumStrutParameters + (offset ? 1 : 0), options.recursive(0));
     RecursiveLeastAbsolute la(kNumStrutParameters + (offset ? 1 : 0), options.recursive(0), options.leastAbsolute());

@@ -1,17 +1,19 @@
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace suspension_health_monitor {
 
 SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects,
-                                           bool with_offset)
-    : sprung_(2, options, 2),
+                                           SensorColumns sensors)
+    : sprung_(2, options, sensors == SensorColumns::kSkewAndOffsets ? 1 : 2),
       relative_(2, options),
-      effects_(num_effects, sprung_),
-      offset_gain_(with_offset ? std::pow(options.horizon_samples * options.period, 2) : 0.0),
-      row_{Eigen::VectorXd::Zero(kNumStrutParameters + static_cast<Eigen::Index>(num_effects + (with_offset ? 1 : 0))),
-           0.0} {}
+      effects_(num_effects, LinearIntegralFilter(2, options, 2)),
+      sensors_(sensors),
+      offset_gain_(std::pow(options.horizon_samples * options.period, 2)),
+      drift_rows_(options.horizon_samples),
+      row_{Eigen::VectorXd::Zero(kNumStrutParameters + static_cast<Eigen::Index>(num_effects) + count(sensors)), 0.0} {}
 
 const RegressionRow* SuspensionRegression::push(const CornerSample& sample, const double* effect_forces) {
   sprung_.push(sample.sprung_acceleration);
@@ -23,11 +25,19 @@ const RegressionRow* SuspensionRegression::push(const CornerSample& sample, cons
   row_.regressor[kDampingToMass] = relative_.output(1);
   row_.regressor[kStiffnessToMass] = relative_.output(0);
   for (const LinearIntegralFilter& effect : effects_) *column++ = effect.output(2);
-  if (offset_gain_ > 0.0) {
-    *column = 0.0;
-    if (row_.output != 0.0 || !row_.saysNothing()) *column = offset_gain_;  // readings that are lost have no offset
-  }
+  if (sensors_ != SensorColumns::kNone) fillSensors(column);
   return &row_;
+}
+
+void SuspensionRegression::fillSensors(double* column) {
+  std::fill(column, column + count(sensors_), 0.0);
+  if (row_.output == 0.0 && row_.saysNothing()) return;  // readings that are lost have no offset
+  if (sensors_ == SensorColumns::kSkewAndOffsets) {
+    *column++ = strut_[kDampingToMass] * wheelOutput() +
+                strut_[kStiffnessToMass] * (relative_.output(1) + sprung_.output(1));
+    column[1] = -drift_rows_ * offset_gain_;
+  }
+  *column = offset_gain_;
 }
 
 void SuspensionRegression::reset() {

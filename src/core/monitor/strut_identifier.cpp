@@ -19,19 +19,28 @@ constexpr double kLost = 2.0;
 constexpr double kMostLost = 10.0;         // memories
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
-// @param offset  number of the offset's column; none: there is no such column.
+RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
+  RecursiveOptions recursive = options.recursive(2 * horizon_samples);
+  recursive.drifts = options.estimators.sensors == SensorColumns::kSkewAndOffsets;
+  return recursive;
+}
+
+// @param num_model  columns of the strut and of its effects, before those of the sensors.
 // @param shift  by the sensors' noise, of each parameter.
-void describeParameters(const RecursiveEstimator& estimator, const Eigen::VectorXd& shift, std::optional<int> offset,
+void describeParameters(const RecursiveEstimator& estimator, const Eigen::VectorXd& shift, int num_model,
                         StrutEstimate& estimate) {
   const Eigen::VectorXd& theta = estimator.parameters();
   estimate.damping_to_mass = theta[kDampingToMass] - shift[kDampingToMass];
   estimate.stiffness_to_mass = theta[kStiffnessToMass] - shift[kStiffnessToMass];
-  estimate.num_effects = static_cast<std::size_t>(offset.value_or(estimator.numParameters()) - kNumStrutParameters);
+  estimate.num_effects = static_cast<std::size_t>(num_model - kNumStrutParameters);
   for (std::size_t j = 0; j < estimate.num_effects; ++j) {
     const auto i = kNumStrutParameters + static_cast<Eigen::Index>(j);
     estimate.coefficients[j] = theta[i] - shift[i];
   }
-  if (offset) estimate.offset = -theta[*offset] / theta[kStiffnessToMass];
+  if (num_model < estimator.numParameters()) {
+    estimate.clock_skew = theta[num_model];
+    estimate.offset = -theta[num_model + 1] / theta[kStiffnessToMass];
+  }
   estimate.effective_rows = estimator.effectiveRows();
   estimate.explained = estimator.explained();
 }
@@ -46,11 +55,11 @@ double withDifference(double stddev, double ls, double la) {
 
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
-      with_offset_(options.estimators.with_offset),
-      regression_(filter_, 0, with_offset_),
+      sensors_(options.estimators.sensors),
+      regression_(filter_, 0, sensors_),
       excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), RegressorNoise(filter_)),
-      least_squares_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples)),
-      least_absolute_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples),
+      least_squares_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples)),
+      least_absolute_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples),
                       options.leastAbsolute()),
       forgetting_{!options.estimators.forgets_unexcited, {}},
       past_{present(), present()},
@@ -68,11 +77,11 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
     if (effect.before) *effect.before += kNumStrutParameters;
     columns.push_back(effect);
   }
-  if (with_offset_) columns.push_back({offsetColumn(), 0.0});
+  for (int j = 0; j < count(sensors_); ++j) columns.push_back({numModelColumns() + j, 0.0});
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
   past_.fill(present());
-  regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
+  regression_ = SuspensionRegression(filter_, effects.size(), sensors_);
   const Eigen::VectorXd before = noise_shift_;
   noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
   for (std::size_t j = 0; j < columns.size(); ++j)
@@ -85,6 +94,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
 }
 
 void StrutIdentifier::add(const CornerSample& sample, const double* effect_forces) {
+  regression_.setStrut(least_absolute_.parameters().head<kNumStrutParameters>());
   const RegressionRow* row = regression_.push(sample, effect_forces);
   has_row_ = row != nullptr;
   if (!has_row_) return;
@@ -151,7 +161,7 @@ void StrutIdentifier::takeExcitation() {
   for (RecursiveEstimator* estimator :
        {static_cast<RecursiveEstimator*>(&least_squares_), static_cast<RecursiveEstimator*>(&least_absolute_)}) {
     for (const StrutParameter i : {kDampingToMass, kStiffnessToMass}) estimator->hold(i, isHeld(i));
-    if (with_offset_) estimator->hold(*offsetColumn(), any);  // a constant beside a spring that hardly moves
+    for (int j = numModelColumns(); j < estimator->numParameters(); ++j) estimator->hold(j, any);
   }
 }
 
@@ -164,8 +174,8 @@ void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate&
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
-  describeParameters(least_squares_, noise_shift_, offsetColumn(), ls);
-  describeParameters(least_absolute_, noise_shift_, offsetColumn(), la);
+  describeParameters(least_squares_, noise_shift_, numModelColumns(), ls);
+  describeParameters(least_absolute_, noise_shift_, numModelColumns(), la);
   for (StrutEstimate* estimate : {&ls, &la}) {
     estimate->damping_excitation = excitation_.excitation(kDampingToMass);
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);

@@ -21,6 +21,7 @@ struct RecursiveOptions {
   double forgetting_factor = 0.98;  ///< lambda in (0, 1]; memory 1 / (1 - lambda) rows
   double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
   InitialVariance initial_variance_rule = InitialVariance::kRelative;
+  bool drifts = false;      ///< the last two parameters are one that moves steadily, and its step from row to row
   int correlated_rows = 0;  ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
 
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
@@ -113,6 +114,15 @@ class RecursiveEstimator {
   double usualResidual() const { return means_.mean(kUsualResidual); }
 
  protected:
+  /// To be called before each row that is not only observed: what drifts has moved since the one before. While it is
+  /// held nobody knows.
+  void drift() {
+    const int rate = numParameters() - 1;
+    if (!options_.drifts || held_[static_cast<std::size_t>(rate)]) return;
+    theta_[rate - 1] += theta_[rate];
+    covariance_.addTo(rate - 1, rate);
+  }
+
   /// epsilon = psi - phi' theta, Eq. (15) and (24); also takes the row into the running means.
   double innovate(const RegressionRow& row);
 
@@ -139,6 +149,8 @@ class RecursiveEstimator {
  private:
   void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
   const Eigen::VectorXd& correctPartly(const RegressionRow& row, double weight);
+  bool learn(const RegressionRow& row, double innovation, const RowWeight& weight);
+  int numScores() const { return numParameters() - int{options_.drifts}; }
 
   enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kUsualResidual, kNumMeans };
 
@@ -148,6 +160,8 @@ class RecursiveEstimator {
   Eigen::VectorXd excited_;  // the regressor without what is held
   double valid_rows_ = 0.0;  // in a row
   Eigen::VectorXd best_;     // estimate of the parameters
+  RegressionRow drifted_;    // a row without what drifts
+  Eigen::VectorXd course_;   // the best estimate, likewise
   RunningMeans<kNumMeans> means_;
 };
 

@@ -12,6 +12,18 @@ namespace suspension_health_monitor {
 /// Position of the strut's own parameters in theta, Eq. (30).
 enum StrutParameter : int { kDampingToMass = 0, kStiffnessToMass = 1, kNumStrutParameters = 2 };
 
+/// What of the two sensors is estimated beside the strut.
+enum class SensorColumns {
+  kNone,           ///< nothing, as in the paper
+  kOffset,         ///< c_o
+  kSkewAndOffsets  ///< tau, c_o of the newest reading and its step from row to row, in this order
+};
+
+/// @return how many columns these are.
+constexpr int count(SensorColumns columns) {
+  return columns == SensorColumns::kNone ? 0 : columns == SensorColumns::kOffset ? 1 : 3;
+}
+
 /// Rows of the strut regression from the two accelerations, Eq. (28)-(30), with a column more for every effect:
 ///   I_2^2 y = b1 I_1^2 u + b0 I_0^2 u + sum_j c_j I_2^2 f_j + c_o h^2 + e,   y = z'' [m/s^2], u = w'' - z'' [m/s^2],
 /// with b1 = beta/M [1/s] and b0 = K/M [1/s^2]. It is the model (27) differentiated twice, so that only accelerations
@@ -19,12 +31,18 @@ enum StrutParameter : int { kDampingToMass = 0, kStiffnessToMass = 1, kNumStrutP
 /// The effects' f_j, per unit of c_j, come from an observer of the travel (free_run.h).
 /// A constant in y vanishes from psi; a constant common to both sensors vanishes from u. A constant o in u, the offset
 /// between the sensors, adds h^2 o to the column of b0 and vanishes from that of b1; the last column, if it is wanted,
-/// takes it out again: c_o = -b0 o.
+/// takes it out again: c_o = -b0 o. One that drifts by r in a row is that of L rows ago in the middle of the window, so
+/// that c_r = -b0 r has the column -L h^2.
+/// Readings of the wheel that are stamped tau too late are w''(t - tau): what their change adds to u is
+/// tau (b1 I_2^2 w'' + b0 I_1^2 w''), of first order in tau, the column of the skew.
 /// Cost per sample: O(1), no allocation.
 class SuspensionRegression {
  public:
   explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0,
-                                bool with_offset = false);
+                                SensorColumns sensors = SensorColumns::kNone);
+
+  /// @param strut  (b1 [1/s], b0 [1/s^2]) that the column of the skew is made of from the next row on; 0 so far.
+  void setStrut(const Eigen::Vector2d& strut) { strut_ = strut; }
 
   /// Takes in the next sample of a uninterrupted uniform series (only the accelerations are used).
   /// @param effect_forces  f_j at this sample, one per effect.
@@ -38,10 +56,15 @@ class SuspensionRegression {
   void reset();
 
  private:
+  void fillSensors(double* column);
+
   LinearIntegralFilter sprung_;
   LinearIntegralFilter relative_;
   std::vector<LinearIntegralFilter> effects_;
-  double offset_gain_;  // h^2 [s^2]; 0: no such column
+  SensorColumns sensors_;
+  double offset_gain_;  // h^2 [s^2]
+  double drift_rows_;   // L
+  Eigen::Vector2d strut_ = Eigen::Vector2d::Zero();
   RegressionRow row_;
 };
 

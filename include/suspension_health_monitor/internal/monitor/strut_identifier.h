@@ -97,16 +97,11 @@ class StrutIdentifier {
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
   void removeShift(const Eigen::Vector2d& moment);
 
-  /// @return the number of the offset's column, the last; none without one.
-  std::optional<int> offsetColumn() const {
-    return with_offset_ ? std::optional(least_absolute_.numParameters() - 1) : std::nullopt;
-  }
-
-  /// @return how many columns are those of the strut and of its effects: all but the offset's.
-  int numModelColumns() const { return offsetColumn().value_or(least_absolute_.numParameters()); }
+  /// @return how many columns are those of the strut and of its effects: all but the sensors', which are the last.
+  int numModelColumns() const { return least_absolute_.numParameters() - count(sensors_); }
 
   IntegralFilterOptions filter_;
-  bool with_offset_;
+  SensorColumns sensors_;
   SuspensionRegression regression_;
   Excitation excitation_;
   RecursiveLeastSquares least_squares_;
