@@ -1,5 +1,6 @@
 // Prints the tables of doc/health.md, "In the field": what is said of a strut as it is met there.
-//   field_table healthy|steps|accuracy|skew [MEMORY [HOURS]]     memory in seconds, default 2; hours of a drive, default 10
+//   field_table healthy|steps|accuracy|skew [MEMORY [HOURS]]     memory in seconds, default 2; hours of a drive,
+//   default 10
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -29,11 +29,12 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
     : options_(options),
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
-      scores_(num_parameters - int{options.drifts}, std::max(0, options.correlated_rows), options.forgetting_factor),
+      scores_(num_parameters - int{options.drifting.has_value()}, std::max(0, options.correlated_rows),
+              options.forgetting_factor),
       held_(static_cast<std::size_t>(num_parameters), false),
       excited_(theta_),
       best_(theta_),
-      drifted_{theta_.head(num_parameters - int{options.drifts}), 0.0},
+      drifted_{theta_.head(num_parameters - int{options.drifting.has_value()}), 0.0},
       course_(drifted_.regressor),
       means_(options.forgetting_factor) {
   options.validate();
@@ -70,12 +71,13 @@ void RecursiveEstimator::correct(const RegressionRow& row, double innovation, co
   theta_ += gain * innovation;
 }
 
-// What drifts is followed from row to row; a slow course of it would lag.
+// An offset that drifts is followed from row to row; a slow course of it would lag.
 bool RecursiveEstimator::learn(const RegressionRow& row, double innovation, const RowWeight& weight) {
-  if (!options_.drifts) return scores_.add(row, best_, weight, innovation);
+  if (!options_.drifting) return scores_.add(row, best_, weight, innovation);
   const int level = numScores() - 1;
   drifted_.regressor = row.regressor.head(numScores());
-  drifted_.output = row.output - row.regressor.tail(2).dot(best_.tail(2));
+  drifted_.output = row.output;
+  drifted_.regressor[*options_.drifting] += row.regressor.tail(2).dot(best_.tail(2)) / best_[*options_.drifting];
   course_ = best_.head(numScores());
   course_[level] = 0.0;
   return scores_.add(drifted_, course_, weight, innovation);
@@ -118,7 +120,7 @@ void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns)
   num_held_ = 0;
   excited_ = best_ = theta_;
   drifted_.regressor = course_ = theta_.head(numScores());
-  if (options_.drifts) sources.pop_back();
+  if (options_.drifting) sources.pop_back();
   scores_ = ScoreCovariance(scores_, sources);
   num_released_ = 0;
   for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;

@@ -13,6 +13,7 @@ SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options,
       sensors_(sensors),
       offset_gain_(std::pow(options.horizon_samples * options.period, 2)),
       drift_rows_(options.horizon_samples),
+      period_(options.period),
       row_{Eigen::VectorXd::Zero(kNumStrutParameters + static_cast<Eigen::Index>(num_effects) + count(sensors)), 0.0} {}
 
 const RegressionRow* SuspensionRegression::push(const CornerSample& sample, const double* effect_forces) {
@@ -25,16 +26,25 @@ const RegressionRow* SuspensionRegression::push(const CornerSample& sample, cons
   row_.regressor[kDampingToMass] = relative_.output(1);
   row_.regressor[kStiffnessToMass] = relative_.output(0);
   for (const LinearIntegralFilter& effect : effects_) *column++ = effect.output(2);
+  if (sensors_ == SensorColumns::kSkewAndOffsets) keepWheel();
   if (sensors_ != SensorColumns::kNone) fillSensors(column);
   return &row_;
+}
+
+void SuspensionRegression::keepWheel() {
+  const Eigen::Vector2d wheel(wheelOutput(), relative_.output(1) + sprung_.output(1));
+  if (!has_wheel_) wheel_.fill(wheel);
+  has_wheel_ = true;
+  wheel_ = {wheel, wheel_[0], wheel_[1]};
 }
 
 void SuspensionRegression::fillSensors(double* column) {
   std::fill(column, column + count(sensors_), 0.0);
   if (row_.output == 0.0 && row_.saysNothing()) return;  // readings that are lost have no offset
   if (sensors_ == SensorColumns::kSkewAndOffsets) {
-    *column++ = strut_[kDampingToMass] * wheelOutput() +
-                strut_[kStiffnessToMass] * (relative_.output(1) + sprung_.output(1));
+    // The derivative at the newest of three rows, exact on parabolas.
+    const Eigen::Vector2d change = (3.0 * wheel_[0] - 4.0 * wheel_[1] + wheel_[2]) / (2.0 * period_);
+    *column++ = strut_.dot(wheel_[0] + 0.5 * skew_ * change);
     column[1] = -drift_rows_ * offset_gain_;
   }
   *column = offset_gain_;
@@ -44,6 +54,7 @@ void SuspensionRegression::reset() {
   sprung_.reset();
   relative_.reset();
   for (LinearIntegralFilter& effect : effects_) effect.reset();
+  has_wheel_ = false;
 }
 
 }  // namespace suspension_health_monitor

@@ -21,7 +21,7 @@ constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count fo
 
 RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
   RecursiveOptions recursive = options.recursive(2 * horizon_samples);
-  recursive.drifts = options.estimators.sensors == SensorColumns::kSkewAndOffsets;
+  if (options.estimators.sensors == SensorColumns::kSkewAndOffsets) recursive.drifting = kStiffnessToMass;
   return recursive;
 }
 
@@ -94,7 +94,9 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
 }
 
 void StrutIdentifier::add(const CornerSample& sample, const double* effect_forces) {
-  regression_.setStrut(least_absolute_.parameters().head<kNumStrutParameters>());
+  const Eigen::VectorXd& theta = least_absolute_.parameters();
+  if (sensors_ != SensorColumns::kNone)
+    regression_.setStrut(theta.head<kNumStrutParameters>(), theta[numModelColumns()]);
   const RegressionRow* row = regression_.push(sample, effect_forces);
   has_row_ = row != nullptr;
   if (!has_row_) return;

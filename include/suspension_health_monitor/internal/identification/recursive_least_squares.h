@@ -21,8 +21,9 @@ struct RecursiveOptions {
   double forgetting_factor = 0.98;  ///< lambda in (0, 1]; memory 1 / (1 - lambda) rows
   double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
   InitialVariance initial_variance_rule = InitialVariance::kRelative;
-  bool drifts = false;      ///< the last two parameters are one that moves steadily, and its step from row to row
-  int correlated_rows = 0;  ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
+  std::optional<int> drifting;  ///< parameter whose column has an offset that drifts: the last two parameters take that
+                                ///< out, its product with the parameter by now and the step from row to row
+  int correlated_rows = 0;      ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
 
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   void validate() const;
@@ -118,7 +119,7 @@ class RecursiveEstimator {
   /// held nobody knows.
   void drift() {
     const int rate = numParameters() - 1;
-    if (!options_.drifts || held_[static_cast<std::size_t>(rate)]) return;
+    if (!options_.drifting || held_[static_cast<std::size_t>(rate)]) return;
     theta_[rate - 1] += theta_[rate];
     covariance_.addTo(rate - 1, rate);
   }
@@ -150,7 +151,7 @@ class RecursiveEstimator {
   void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
   const Eigen::VectorXd& correctPartly(const RegressionRow& row, double weight);
   bool learn(const RegressionRow& row, double innovation, const RowWeight& weight);
-  int numScores() const { return numParameters() - int{options_.drifts}; }
+  int numScores() const { return numParameters() - int{options_.drifting.has_value()}; }
 
   enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kUsualResidual, kNumMeans };
 
@@ -160,7 +161,7 @@ class RecursiveEstimator {
   Eigen::VectorXd excited_;  // the regressor without what is held
   double valid_rows_ = 0.0;  // in a row
   Eigen::VectorXd best_;     // estimate of the parameters
-  RegressionRow drifted_;    // a row without what drifts
+  RegressionRow drifted_;    // a row without the offset
   Eigen::VectorXd course_;   // the best estimate, likewise
   RunningMeans<kNumMeans> means_;
 };

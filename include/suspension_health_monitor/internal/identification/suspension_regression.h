@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -34,15 +35,19 @@ constexpr int count(SensorColumns columns) {
 /// takes it out again: c_o = -b0 o. One that drifts by r in a row is that of L rows ago in the middle of the window, so
 /// that c_r = -b0 r has the column -L h^2.
 /// Readings of the wheel that are stamped tau too late are w''(t - tau): what their change adds to u is
-/// tau (b1 I_2^2 w'' + b0 I_1^2 w''), of first order in tau, the column of the skew.
-/// Cost per sample: O(1), no allocation.
+/// tau x + tau^2 / 2 x' + ..., x = b1 I_2^2 w'' + b0 I_1^2 w''. The column of the skew is x + tau / 2 x', by the tau
+/// and the strut that are known. Cost per sample: O(1), no allocation.
 class SuspensionRegression {
  public:
   explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0,
                                 SensorColumns sensors = SensorColumns::kNone);
 
-  /// @param strut  (b1 [1/s], b0 [1/s^2]) that the column of the skew is made of from the next row on; 0 so far.
-  void setStrut(const Eigen::Vector2d& strut) { strut_ = strut; }
+  /// @param strut  (b1 [1/s], b0 [1/s^2]) and tau [s] that the column of the skew is made of from the next row on; 0 so
+  /// far.
+  void setStrut(const Eigen::Vector2d& strut, double skew) {
+    strut_ = strut;
+    skew_ = skew;
+  }
 
   /// Takes in the next sample of a uninterrupted uniform series (only the accelerations are used).
   /// @param effect_forces  f_j at this sample, one per effect.
@@ -56,6 +61,7 @@ class SuspensionRegression {
   void reset();
 
  private:
+  void keepWheel();
   void fillSensors(double* column);
 
   LinearIntegralFilter sprung_;
@@ -64,7 +70,11 @@ class SuspensionRegression {
   SensorColumns sensors_;
   double offset_gain_;  // h^2 [s^2]
   double drift_rows_;   // L
+  double period_;       // [s]
   Eigen::Vector2d strut_ = Eigen::Vector2d::Zero();
+  double skew_ = 0.0;
+  std::array<Eigen::Vector2d, 3> wheel_;  // I_2^2 w'', I_1^2 w'' of the newest rows, the newest first
+  bool has_wheel_ = false;
   RegressionRow row_;
 };
 
