@@ -35,7 +35,7 @@ struct FieldDrive {
   double noise = 0.03;                               ///< of both IMUs [m/s^2]
   double offset = 0.0;                               ///< of the wheel's IMU [m/s^2]
   double offset_swing = 0.0, offset_period = 600.0;  ///< it drifts besides by +-swing [m/s^2]
-  double skew = 0.0;                                 ///< the wheel's readings are stamped so much late, up to 5 ms [s]
+  double skew = 0.0;                                 ///< the wheel's readings are stamped so much late, up to 30 ms [s]
   double mass = 1.0;                                 ///< of the body, to that of the healthy vehicle
   bool potholes = false, washboard = false, stops = false;
   double engine = 0.0;  ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
@@ -176,7 +176,7 @@ class FieldSimulator {
   std::array<std::array<double, 3>, 2> sections_{};
   std::array<std::array<std::array<double, 2>, 2>, 2> memory_{};
   std::array<double, 2> enveloped_{};
-  std::array<double, 16> wheels_{};  // of the newest steps
+  std::array<double, 64> wheels_{};  // of the newest steps
   long steps_ = 0;
   double time_ = 0.0, profile_ = 0.0, place_ = 0.0, pothole_ = 30.0, depth_ = 0.05, phase_ = 0.0;
   double height_ = 0.0, body_ = 0.0, wheel_ = 0.0;

@@ -46,8 +46,8 @@ struct StrutEstimate {
   double offset = std::nan("");      ///< of the wheel carrier's reading against the body's [m/s^2]; NaN: not estimated
   double clock_skew = std::nan("");  ///< by which the wheel carrier's readings are stamped late, or the body's early
                                      ///< [s]; NaN: not estimated
-  double effective_rows = 0.0;  ///< rows in the estimator's memory
-  double explained = 0.0;       ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
+  double effective_rows = 0.0;       ///< rows in the estimator's memory
+  double explained = 0.0;            ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
   double damping_excitation = std::nan("");      ///< information of phi_1 of late over that of noise (Excitation) [-]
   double stiffness_excitation = std::nan("");    ///< that of phi_0 likewise
