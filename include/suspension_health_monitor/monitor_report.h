@@ -26,6 +26,7 @@ enum class EstimateDoubt {
   kOutsideForce,         ///< something else than the wheel moves the body
   kNotExplained,         ///< the model explains less than half of what was measured
   kNotAStrut,            ///< a parameter that has to be above 0 is not
+  kClockSkew,            ///< the clocks of the two IMUs differ by more than can be taken off
   kNoSpread,             ///< no standard deviation can be told
   kFreeRunFails,         ///< the model, driven by the wheel, fits worse than a constant
 };

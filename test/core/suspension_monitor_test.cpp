@@ -43,12 +43,16 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
     drive.scenario = scenario;
     drive.duration = 60.0;
     SuspensionMonitor monitor(options);
-    const bool offset = options.estimators.sensors != SensorColumns::kNone;
-    SuspensionRegression regression(options.filter(0.02), 0, offset);
-    RecursiveLeastSquares ls(kNumStrutParameters + (offset ? 1 : 0), options.recursive(0));
-    RecursiveLeastAbsolute la(kNumStrutParameters + (offset ? 1 : 0), options.recursive(0), options.leastAbsolute());
+    const SensorColumns sensors = options.estimators.sensors;
+    SuspensionRegression regression(options.filter(0.02), 0, sensors);
+    RecursiveOptions recursive = options.recursive(0);
+    if (sensors != SensorColumns::kNone) recursive.drifting = kStiffnessToMass;
+    RecursiveLeastSquares ls(kNumStrutParameters + count(sensors), recursive);
+    RecursiveLeastAbsolute la(kNumStrutParameters + count(sensors), recursive, options.leastAbsolute());
     for (const CornerSample& sample : simulate(drive)) {
       const MonitorReport& report = *monitor.addSample(sample);
+      if (sensors != SensorColumns::kNone)
+        regression.setStrut(la.parameters().head<kNumStrutParameters>(), la.parameters()[kNumStrutParameters]);
       const RegressionRow* row = regression.push(sample);
       ASSERT_EQ(report.has_row, row != nullptr);
       if (row == nullptr) continue;

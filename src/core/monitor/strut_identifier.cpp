@@ -17,6 +17,7 @@ constexpr int kStddevsEvery = 8;  // rows
 // come back from.
 constexpr double kLost = 2.0;
 constexpr double kMostLost = 10.0;         // memories
+constexpr double kCertain = 4.0;           // standard deviations
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
 RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
@@ -64,6 +65,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       forgetting_{!options.estimators.forgets_unexcited, {}},
       past_{present(), present()},
       stddevs_due_(kStddevsEvery),
+      skew_sizes_(options.forgettingFactor(filter_.period)),
       silent_rows_(filter_.horizon_samples) {
   if (options.estimators.removes_noise_shift) noise_level_.emplace(filter_);
   noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
@@ -128,6 +130,8 @@ void StrutIdentifier::update(const RegressionRow& row) {
     return;
   }
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
+  const SuspensionRegression::Skew& skew = regression_.skew();
+  skew_sizes_.add({skew.column * skew.column, skew.change * skew.change});
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
   if (la_is_valid_ && noise_level_) noise_level_->add(innovation);
@@ -202,7 +206,7 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   if (removes) removeShift(moment);
   const Eigen::Vector2d unknown = removes ? noise.momentSpread(strut, variance) : moment;
   const auto with_shift = [&](double random, int i) {
-    return std::hypot(std::sqrt(random), least_squares_.parameterShift(i, unknown));
+    return std::hypot(std::sqrt(random), least_squares_.parameterShift(i, unknown), skewShift(i));
   };
   const auto of_ls = [&](int i) {
     return withDifference(with_shift(least_squares_.parameterVariance(i), i), least_squares_.parameters()[i],
@@ -217,6 +221,23 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
     ls.coefficient_stddevs[j] = of_ls(kNumStrutParameters + static_cast<int>(j));
     la.coefficient_stddevs[j] = of_la(kNumStrutParameters + static_cast<int>(j));
   }
+}
+
+// Of the series in the skew tau two terms are estimated, x tau + x' tau^2 / 2. Where the wheel shakes with omega, the
+// next one is (omega tau)^2 / 6 of the first.
+double StrutIdentifier::skewLeftOut() const {
+  if (sensors_ == SensorColumns::kNone || !(skew_sizes_.mean(0) > 0.0)) return 0.0;
+  const double skew = least_absolute_.parameters()[numModelColumns()];
+  return skew * skew * skew_sizes_.mean(1) / skew_sizes_.mean(0) / 6.0;
+}
+
+// What the whole skew would shift parameter i by if it were not estimated, times the share that is left out.
+double StrutIdentifier::skewShift(int i) const {
+  if (sensors_ == SensorColumns::kNone) return 0.0;
+  const int column = numModelColumns();
+  const double variance = least_squares_.covariance().variance(column);
+  if (!(variance > 0.0)) return 0.0;
+  return skewLeftOut() * least_absolute_.parameters()[column] * least_squares_.covariance().entry(i, column) / variance;
 }
 
 // Noise does no more to a parameter that is excited than kLeastExcitation says.
@@ -238,6 +259,11 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
   facts.outside_force = rows_to_forget_ > 0.0;
   facts.explained = estimate.explained;
   facts.is_physical = estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
+  if (sensors_ != SensorColumns::kNone) {
+    const double skew = least_absolute_.parameters()[numModelColumns()];
+    const double variance = least_absolute_.parameterVariance(numModelColumns());
+    if (skew * skew > kCertain * kCertain * variance) facts.skew_left_out = skewLeftOut();
+  }
   facts.has_stddev = std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev);
   return facts;
 }

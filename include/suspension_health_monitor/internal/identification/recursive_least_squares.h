@@ -21,9 +21,10 @@ struct RecursiveOptions {
   double forgetting_factor = 0.98;  ///< lambda in (0, 1]; memory 1 / (1 - lambda) rows
   double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
   InitialVariance initial_variance_rule = InitialVariance::kRelative;
-  std::optional<int> drifting;  ///< parameter whose column has an offset that drifts: the last two parameters take that
-                                ///< out, its product with the parameter by now and the step from row to row
-  int correlated_rows = 0;      ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
+  int correlated_rows = 0;  ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
+  /// Parameter whose column has an offset that drifts: the last two parameters take that out, its product with the
+  /// parameter by now and the step from row to row. None: there are no such two.
+  std::optional<int> drifting = std::nullopt;
 
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   void validate() const;

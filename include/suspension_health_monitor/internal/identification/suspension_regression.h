@@ -46,7 +46,7 @@ class SuspensionRegression {
   /// far.
   void setStrut(const Eigen::Vector2d& strut, double skew) {
     strut_ = strut;
-    skew_ = skew;
+    known_skew_ = skew;
   }
 
   /// Takes in the next sample of a uninterrupted uniform series (only the accelerations are used).
@@ -56,6 +56,14 @@ class SuspensionRegression {
 
   /// @return what psi of the newest row would be of the wheel's own acceleration: I_2^2 w'' [m/s^2].
   double wheelOutput() const { return row_.output + relative_.output(2); }
+
+  /// What a reading of the wheel that is stamped tau late makes of psi: x tau + x' tau^2 / 2 + ...
+  struct Skew {
+    double column = 0.0, change = 0.0;  ///< x [m/s^3], x' [m/s^4]
+  };
+
+  /// @return that of the newest row.
+  const Skew& skew() const { return skew_; }
 
   /// Starts anew after a gap.
   void reset();
@@ -72,7 +80,8 @@ class SuspensionRegression {
   double drift_rows_;   // L
   double period_;       // [s]
   Eigen::Vector2d strut_ = Eigen::Vector2d::Zero();
-  double skew_ = 0.0;
+  double known_skew_ = 0.0;
+  Skew skew_;
   std::array<Eigen::Vector2d, 3> wheel_;  // I_2^2 w'', I_1^2 w'' of the newest rows, the newest first
   bool has_wheel_ = false;
   RegressionRow row_;
