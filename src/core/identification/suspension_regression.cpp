@@ -44,8 +44,8 @@ void SuspensionRegression::fillSensors(double* column) {
   if (sensors_ == SensorColumns::kSkewAndOffsets) {
     // The derivative at the newest of three rows, exact on parabolas.
     const Eigen::Vector2d change = (3.0 * wheel_[0] - 4.0 * wheel_[1] + wheel_[2]) / (2.0 * period_);
-    skew_ = {strut_.dot(wheel_[0]), strut_.dot(change)};
-    *column++ = skew_.column + 0.5 * known_skew_ * skew_.change;
+    skew_ = {strut_.dot(wheel_[0]), strut_.dot(wheel_[0] - wheel_[1])};
+    *column++ = skew_.column + 0.5 * known_skew_ * strut_.dot(change);
     column[1] = -drift_rows_ * offset_gain_;
   }
   *column = offset_gain_;

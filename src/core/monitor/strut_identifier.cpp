@@ -65,6 +65,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       forgetting_{!options.estimators.forgets_unexcited, {}},
       past_{present(), present()},
       stddevs_due_(kStddevsEvery),
+      rule_error_(filter_),
       skew_sizes_(options.forgettingFactor(filter_.period)),
       silent_rows_(filter_.horizon_samples) {
   if (options.estimators.removes_noise_shift) noise_level_.emplace(filter_);
@@ -131,7 +132,7 @@ void StrutIdentifier::update(const RegressionRow& row) {
   }
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
   const SuspensionRegression::Skew& skew = regression_.skew();
-  skew_sizes_.add({skew.column * skew.column, skew.change * skew.change});
+  skew_sizes_.add({skew.column * skew.column, skew.step * skew.step});
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
   if (la_is_valid_ && noise_level_) noise_level_->add(innovation);
@@ -205,8 +206,10 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   const bool removes = lasting && !isHeld(kDampingToMass) && !isHeld(kStiffnessToMass);
   if (removes) removeShift(moment);
   const Eigen::Vector2d unknown = removes ? noise.momentSpread(strut, variance) : moment;
+  const double of_rule = wheelFrequency() > 0.0 ? strut[kDampingToMass] * rule_error_.at(wheelFrequency()) : 0.0;
   const auto with_shift = [&](double random, int i) {
-    return std::hypot(std::sqrt(random), least_squares_.parameterShift(i, unknown), skewShift(i));
+    const double shift = std::hypot(least_squares_.parameterShift(i, unknown), skewShift(i));
+    return std::hypot(std::sqrt(random), shift, i == kDampingToMass ? of_rule : 0.0);
   };
   const auto of_ls = [&](int i) {
     return withDifference(with_shift(least_squares_.parameterVariance(i), i), least_squares_.parameters()[i],
@@ -223,12 +226,16 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   }
 }
 
+// @return of the oscillation that has the same steps from row to row [rad/sample]; 0: not known.
+double StrutIdentifier::wheelFrequency() const {
+  if (sensors_ == SensorColumns::kNone || !(skew_sizes_.mean(0) > 0.0)) return 0.0;
+  return 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(skew_sizes_.mean(1) / skew_sizes_.mean(0))));
+}
+
 // Of the series in the skew tau two terms are estimated, x tau + x' tau^2 / 2. Where the wheel shakes with omega, the
 // next one is (omega tau)^2 / 6 of the first.
 double StrutIdentifier::skewLeftOut() const {
-  if (sensors_ == SensorColumns::kNone || !(skew_sizes_.mean(0) > 0.0)) return 0.0;
-  const double skew = least_absolute_.parameters()[numModelColumns()];
-  return skew * skew * skew_sizes_.mean(1) / skew_sizes_.mean(0) / 6.0;
+  return std::pow(wheelFrequency() / filter_.period * least_absolute_.parameters()[numModelColumns()], 2) / 6.0;
 }
 
 // What the whole skew would shift parameter i by if it were not estimated, times the share that is left out.

@@ -59,7 +59,7 @@ class SuspensionRegression {
 
   /// What a reading of the wheel that is stamped tau late makes of psi: x tau + x' tau^2 / 2 + ...
   struct Skew {
-    double column = 0.0, change = 0.0;  ///< x [m/s^3], x' [m/s^4]
+    double column = 0.0, step = 0.0;  ///< x, and what it has changed by since the row before [m/s^3]
   };
 
   /// @return that of the newest row.

@@ -10,6 +10,7 @@
 #include "suspension_health_monitor/internal/identification/noise_level.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/rule_error.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 #include "suspension_health_monitor/internal/identification/variable_forgetting.h"
@@ -97,6 +98,7 @@ class StrutIdentifier {
   void forgetBy(double factor);
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
   void removeShift(const Eigen::Vector2d& moment);
+  double wheelFrequency() const;
   double skewLeftOut() const;
   double skewShift(int i) const;
 
@@ -114,7 +116,8 @@ class StrutIdentifier {
   Eigen::VectorXd noise_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
   EveryN stddevs_due_;
   bool has_row_ = false;
-  RunningMeans<2> skew_sizes_;             // squares of what a skew does to psi, and of its change [1/s]
+  RuleError rule_error_;
+  RunningMeans<2> skew_sizes_;             // squares of what a skew does to psi, and of its steps
   double rows_ = 0.0;                      // of the model's present columns
   double rows_to_forget_ = 0.0;            // until what a force from outside did is forgotten
   double lost_memories_ = 0.0;             // that LS has explained far more than LA for
