@@ -17,6 +17,7 @@ constexpr int kStddevsEvery = 8;  // rows
 // come back from.
 constexpr double kLost = 2.0;
 constexpr double kMostLost = 10.0;         // memories
+constexpr double kSkewMemories = 10.0;     // that the clocks' skew is learned over
 constexpr double kCertain = 4.0;           // standard deviations
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
@@ -131,6 +132,7 @@ void StrutIdentifier::update(const RegressionRow& row) {
     return;
   }
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
+  left_ *= forgettingFactor();
   const SuspensionRegression::Skew& skew = regression_.skew();
   skew_sizes_.add({skew.column * skew.column, skew.step * skew.step});
   least_squares_.update(row);
@@ -157,9 +159,20 @@ void StrutIdentifier::closeBlock() {
     past_[1] = past_[0];
     return;
   }
+  rememberSkew();
   std::swap(past_[0], past_[1]);
   least_squares_.copyTo(past_[1].ls);
   least_absolute_.copyTo(past_[1].la);
+}
+
+// Clocks differ by as much for long. That is learned with a memory of its own, so that it costs the strut's parameters
+// next to nothing; only of estimates that are valid, since the column is made of them.
+void StrutIdentifier::rememberSkew() {
+  const double share = std::pow(left_, 1.0 - 1.0 / kSkewMemories);
+  left_ = 1.0;
+  if (sensors_ == SensorColumns::kNone || !la_is_valid_) return;
+  least_squares_.remember(numModelColumns(), share);
+  least_absolute_.remember(numModelColumns(), share);
 }
 
 void StrutIdentifier::takeExcitation() {

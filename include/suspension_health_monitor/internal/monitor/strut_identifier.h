@@ -94,6 +94,7 @@ class StrutIdentifier {
   void update(const RegressionRow& row);
   void closeBlock();
   void takeExcitation();
+  void rememberSkew();
   bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }
   void forgetBy(double factor);
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
@@ -119,6 +120,7 @@ class StrutIdentifier {
   RuleError rule_error_;
   RunningMeans<2> skew_sizes_;             // squares of what a skew does to psi, and of its steps
   double rows_ = 0.0;                      // of the model's present columns
+  double left_ = 1.0;                      // of what was known at the end of the newest block
   double rows_to_forget_ = 0.0;            // until what a force from outside did is forgotten
   double lost_memories_ = 0.0;             // that LS has explained far more than LA for
   std::optional<NoiseLevel> noise_level_;  // none: what the noise shifts is left in the estimates
