@@ -36,6 +36,7 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
   exponential.estimators.forgets_unexcited = true;
   MonitorSettings live = liveOptions();
   live.estimators.removes_noise_shift = exponential.estimators.removes_noise_shift = false;
+  live.estimators.sensors = exponential.estimators.sensors = SensorColumns::kNone;
   const std::vector<std::pair<MonitorSettings, const char*>> cases{
       {exponential, "paper_outliers"}, {paperOptions(), "paper_outliers"}, {live, "paper_clean"}};
   for (const auto& [options, scenario] : cases) {
@@ -43,16 +44,11 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
     drive.scenario = scenario;
     drive.duration = 60.0;
     SuspensionMonitor monitor(options);
-    const SensorColumns sensors = options.estimators.sensors;
-    SuspensionRegression regression(options.filter(0.02), 0, sensors);
-    RecursiveOptions recursive = options.recursive(0);
-    if (sensors != SensorColumns::kNone) recursive.drifting = kStiffnessToMass;
-    RecursiveLeastSquares ls(kNumStrutParameters + count(sensors), recursive);
-    RecursiveLeastAbsolute la(kNumStrutParameters + count(sensors), recursive, options.leastAbsolute());
+    SuspensionRegression regression(options.filter(0.02));
+    RecursiveLeastSquares ls(kNumStrutParameters, options.recursive(0));
+    RecursiveLeastAbsolute la(kNumStrutParameters, options.recursive(0), options.leastAbsolute());
     for (const CornerSample& sample : simulate(drive)) {
       const MonitorReport& report = *monitor.addSample(sample);
-      if (sensors != SensorColumns::kNone)
-        regression.setStrut(la.parameters().head<kNumStrutParameters>(), la.parameters()[kNumStrutParameters]);
       const RegressionRow* row = regression.push(sample);
       ASSERT_EQ(report.has_row, row != nullptr);
       if (row == nullptr) continue;
@@ -78,6 +74,7 @@ TEST(SuspensionMonitor, AnEstimateWhoseFreeRunFailsIsNotValidAtAnySample) {
   MonitorSettings options;
   options.sample_period = 0.01;
   options.integration_horizon = 0.1;
+  options.estimators.sensors = SensorColumns::kNone;  // else it is the clocks' skew
   SuspensionMonitor monitor(options);
   int failed = 0;
   for (std::size_t k = 0; k + 2 < samples.size(); ++k) {

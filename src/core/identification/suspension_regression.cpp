@@ -32,7 +32,12 @@ const RegressionRow* SuspensionRegression::push(const CornerSample& sample, cons
 }
 
 void SuspensionRegression::keepWheel() {
-  const Eigen::Vector2d wheel(wheelOutput(), relative_.output(1) + sprung_.output(1));
+  // Of a wheel that stands rounding is left, by which no skew is told.
+  const auto sum = [](double a, double b) {
+    constexpr double kRounding = 1e-9;
+    return std::abs(a + b) > kRounding * std::abs(a) ? a + b : 0.0;
+  };
+  const Eigen::Vector2d wheel(sum(row_.output, relative_.output(2)), sum(sprung_.output(1), relative_.output(1)));
   if (!has_wheel_) wheel_.fill(wheel);
   has_wheel_ = true;
   wheel_ = {wheel, wheel_[0], wheel_[1]};

@@ -17,6 +17,7 @@ constexpr int kStddevsEvery = 8;  // rows
 // come back from.
 constexpr double kLost = 2.0;
 constexpr double kMostLost = 10.0;         // memories
+constexpr double kMemoriesToSettle = 3.0;  // so slow is LA
 constexpr double kSkewMemories = 10.0;     // that the clocks' skew is learned over
 constexpr double kCertain = 4.0;           // standard deviations
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
@@ -98,9 +99,6 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
 }
 
 void StrutIdentifier::add(const CornerSample& sample, const double* effect_forces) {
-  const Eigen::VectorXd& theta = least_absolute_.parameters();
-  if (sensors_ != SensorColumns::kNone)
-    regression_.setStrut(theta.head<kNumStrutParameters>(), theta[numModelColumns()]);
   const RegressionRow* row = regression_.push(sample, effect_forces);
   has_row_ = row != nullptr;
   if (!has_row_) return;
@@ -170,7 +168,7 @@ void StrutIdentifier::closeBlock() {
 void StrutIdentifier::rememberSkew() {
   const double share = std::pow(left_, 1.0 - 1.0 / kSkewMemories);
   left_ = 1.0;
-  if (sensors_ == SensorColumns::kNone || !la_is_valid_) return;
+  if (sensors_ == SensorColumns::kNone || valid_memories_ <= kMemoriesToSettle) return;
   least_squares_.remember(numModelColumns(), share);
   least_absolute_.remember(numModelColumns(), share);
 }
@@ -188,7 +186,14 @@ void StrutIdentifier::takeExcitation() {
 void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate& la) {
   least_squares_.learnScatter(ls.valid() && la.valid(), least_absolute_.parameters());
   least_absolute_.learnScatter(la.valid(), least_absolute_.parameters());
+  // A doubt that comes of the skew would end by leaving it out.
+  const bool goes_on = la.valid() || la.doubt == EstimateDoubt::kClockSkew;
+  valid_memories_ = goes_on ? valid_memories_ + 1.0 - forgettingFactor() : 0.0;
   if (la.valid()) excitation_.know({la.damping_to_mass, la.stiffness_to_mass});
+  if (valid_memories_ > kMemoriesToSettle)
+    regression_.setStrut({la.damping_to_mass, la.stiffness_to_mass}, knownSkew());
+  else
+    regression_.setStrut(Eigen::Vector2d::Zero(), 0.0);
   if (forgetting_.variable && la_is_valid_ && !la.valid()) forgetBy(forgetting_.variable->slow());
   la_is_valid_ = la.valid();
 }
@@ -249,6 +254,14 @@ double StrutIdentifier::wheelFrequency() const {
 // next one is (omega tau)^2 / 6 of the first.
 double StrutIdentifier::skewLeftOut() const {
   return std::pow(wheelFrequency() / filter_.period * least_absolute_.parameters()[numModelColumns()], 2) / 6.0;
+}
+
+// As far as the series goes.
+double StrutIdentifier::knownSkew() const {
+  const double frequency = wheelFrequency() / filter_.period;
+  if (!(frequency > 0.0)) return 0.0;
+  const double most = std::sqrt(6.0 * kMostSkewLeftOut) / frequency;
+  return std::clamp(least_absolute_.parameters()[numModelColumns()], -most, most);
 }
 
 // What the whole skew would shift parameter i by if it were not estimated, times the share that is left out.

@@ -101,6 +101,7 @@ class StrutIdentifier {
   void removeShift(const Eigen::Vector2d& moment);
   double wheelFrequency() const;
   double skewLeftOut() const;
+  double knownSkew() const;
   double skewShift(int i) const;
 
   /// @return how many columns are those of the strut and of its effects: all but the sensors', which are the last.
@@ -126,6 +127,7 @@ class StrutIdentifier {
   std::optional<NoiseLevel> noise_level_;  // none: what the noise shifts is left in the estimates
   SilentRows silent_rows_;
   bool la_is_valid_ = false;
+  double valid_memories_ = 0.0;  // that LA has been valid for
 };
 
 }  // namespace suspension_health_monitor
