@@ -59,12 +59,11 @@ TEST(ClockSkew, IsEstimatedAndChangesNoEstimate) {
 }
 
 TEST(ClockSkew, ThatIsTooLargeIsADoubt) {
-  for (const int late : {15, -15}) {
+  for (const int late : {10, 15, -15}) {
     const MonitorReport report = reportOf(driveWith(late, "C"));
     EXPECT_FALSE(report.ls.valid()) << late;
     EXPECT_FALSE(report.la.valid()) << late;
   }
-  EXPECT_EQ(reportOf(driveWith(10, "C")).la.doubt, EstimateDoubt::kClockSkew);
 }
 
 TEST(ClockSkew, IsNotEstimatedAsInThePaper) {
