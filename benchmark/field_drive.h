@@ -35,6 +35,7 @@ struct FieldDrive {
   double noise = 0.03;                               ///< of both IMUs [m/s^2]
   double offset = 0.0;                               ///< of the wheel's IMU [m/s^2]
   double offset_swing = 0.0, offset_period = 600.0;  ///< it drifts besides by +-swing [m/s^2]
+  double skew = 0.0;                                 ///< the wheel's readings are stamped so much late, up to 30 ms [s]
   double mass = 1.0;                                 ///< of the body, to that of the healthy vehicle
   bool potholes = false, washboard = false, stops = false;
   double engine = 0.0;  ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
@@ -61,9 +62,9 @@ class FieldSimulator {
     double body = 0.0, wheel = 0.0;
     for (int i = 0; i < steps; ++i) {
       step();
-      body = filtered(0, body_), wheel = filtered(1, wheel_);
+      body = filtered(0, body_), wheel = filtered(1, lateWheel());
     }
-    if (!drive_.anti_aliased) body = body_, wheel = wheel_;
+    if (!drive_.anti_aliased) body = body_, wheel = lateWheel();
     const double offset = drive_.offset + drive_.offset_swing * std::sin(2 * M_PI * time_ / drive_.offset_period);
     return {fromSeconds(time_), body + drive_.noise * gauss_(random_), wheel + offset + drive_.noise * gauss_(random_)};
   }
@@ -135,6 +136,14 @@ class FieldSimulator {
     wheel_ = accelerations[1];
   }
 
+  // What the wheel did `skew` ago, by a straight line between steps.
+  double lateWheel() {
+    wheels_[static_cast<std::size_t>(steps_) % wheels_.size()] = wheel_;
+    const double late = drive_.skew * kFieldRate, share = late - std::floor(late);
+    const auto place = static_cast<std::size_t>(steps_) + wheels_.size() - static_cast<std::size_t>(late);
+    return (1.0 - share) * wheels_[place % wheels_.size()] + share * wheels_[(place - 1) % wheels_.size()];
+  }
+
   // Butterworth of fourth order at 0.35 of the rate, as two sections by the bilinear transform.
   void designFilter() {
     const double k = std::tan(M_PI * 0.35 * drive_.rate / kFieldRate);
@@ -167,6 +176,7 @@ class FieldSimulator {
   std::array<std::array<double, 3>, 2> sections_{};
   std::array<std::array<std::array<double, 2>, 2>, 2> memory_{};
   std::array<double, 2> enveloped_{};
+  std::array<double, 64> wheels_{};  // of the newest steps
   long steps_ = 0;
   double time_ = 0.0, profile_ = 0.0, place_ = 0.0, pothole_ = 30.0, depth_ = 0.05, phase_ = 0.0;
   double height_ = 0.0, body_ = 0.0, wheel_ = 0.0;

@@ -1,5 +1,6 @@
 // Prints the tables of doc/health.md, "In the field": what is said of a strut as it is met there.
-//   field_table healthy|steps|accuracy [MEMORY [HOURS]]     memory in seconds, default 2; hours of a drive, default 10
+//   field_table healthy|steps|accuracy|skew [MEMORY [HOURS]]     memory in seconds, default 2; hours of a drive,
+//   default 10
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -219,13 +220,42 @@ std::string medianAndShare(Errors errors) {
   return text;
 }
 
-void printAccuracy(double memory) {
-  struct Offset {
-    double constant, swing;
-  };
+struct Offset {
+  double constant, swing;
+};
+
+/// Four estimates' errors over 600 s, as cells of a table.
+std::string accuracyOf(const FieldDrive& drive, double memory) {
+  std::array<Errors, 4> errors;
+  double next = 20.0, valid = 0.0, samples = 0.0;
+  follow(drive, memory, 600.0, [&](double time, const MonitorReport& report) {
+    const bool both = report.ls.valid() && report.la.valid();
+    samples += 1.0;
+    valid += both ? 1.0 : 0.0;
+    if (time < next || !both) return;
+    next = time + 2.0;
+    for (std::size_t e = 0; e < 2; ++e) {
+      const StrutEstimate& estimate = e == 0 ? report.ls : report.la;
+      errors[2 * e].add(estimate.damping_to_mass, estimate.damping_to_mass_stddev, drive.vehicle.b1);
+      errors[2 * e + 1].add(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev, drive.vehicle.b0);
+    }
+  });
+  std::string cells;
+  for (const Errors& of_one : errors) cells += medianAndShare(of_one) + " | ";
+  return cells + std::to_string(std::lround(100.0 * valid / samples)) + " %";
+}
+
+const char* roadName(double road) { return road < 2e-5 ? "A" : "C"; }
+
+void printHeader(const char* what) {
   std::printf(
-      "| road, rate | vehicle | offset [m/s^2] | b1 of LS: median error, inside 95 %% | b0 of LS | b1 of LA | b0 "
-      "of LA |\n|---|---|---|---|---|---|---|\n");
+      "| road, rate | vehicle | %s | b1 of LS: median error, inside 95 %% | b0 of LS | b1 of LA | b0 of LA | valid |\n"
+      "|---|---|---|---|---|---|---|---|\n",
+      what);
+}
+
+void printAccuracy(double memory) {
+  printHeader("offset [m/s^2]");
   unsigned seed = 1;
   for (const double road : {16e-6, 256e-6})
     for (const int rate : {50, 100, 200, 500})
@@ -239,21 +269,27 @@ void printAccuracy(double memory) {
           drive.offset_swing = offset.swing;
           drive.offset_period = 3770.0;  // 0.3 m/s^2 in ten minutes
           drive.seed = seed++;
-          std::array<Errors, 4> errors;
-          double next = 20.0;
-          follow(drive, memory, 600.0, [&](double time, const MonitorReport& report) {
-            if (time < next || !report.ls.valid() || !report.la.valid()) return;
-            next = time + 2.0;
-            for (std::size_t e = 0; e < 2; ++e) {
-              const StrutEstimate& estimate = e == 0 ? report.ls : report.la;
-              errors[2 * e].add(estimate.damping_to_mass, estimate.damping_to_mass_stddev, vehicle.b1);
-              errors[2 * e + 1].add(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev, vehicle.b0);
-            }
-          });
-          std::printf("| %s, %d Hz | %s | %.1f%s | %s | %s | %s | %s |\n", road < 2e-5 ? "A" : "C", rate, vehicle.name,
-                      offset.constant, offset.swing > 0.0 ? ", drifts" : "", medianAndShare(errors[0]).c_str(),
-                      medianAndShare(errors[1]).c_str(), medianAndShare(errors[2]).c_str(),
-                      medianAndShare(errors[3]).c_str());
+          std::printf("| %s, %d Hz | %s | %.1f%s | %s |\n", roadName(road), rate, vehicle.name, offset.constant,
+                      offset.swing > 0.0 ? ", drifts" : "", accuracyOf(drive, memory).c_str());
+          std::fflush(stdout);
+        }
+}
+
+void printSkew(double memory) {
+  printHeader("late [ms]");
+  unsigned seed = 1;
+  for (const double road : {16e-6, 256e-6})
+    for (const int rate : {100, 200})
+      for (const FieldVehicle& vehicle : kFieldVehicles)
+        for (const double skew : {0.0, 0.25e-3, 1e-3, 2e-3}) {
+          FieldDrive drive;
+          drive.vehicle = vehicle;
+          drive.road = road;
+          drive.rate = rate;
+          drive.skew = skew;
+          drive.seed = seed++;
+          std::printf("| %s, %d Hz | %s | %.2f | %s |\n", roadName(road), rate, vehicle.name, 1e3 * skew,
+                      accuracyOf(drive, memory).c_str());
           std::fflush(stdout);
         }
 }
@@ -271,7 +307,9 @@ int main(int argc, char** argv) {
     printSteps(memory);
   else if (what == "accuracy")
     printAccuracy(memory);
+  else if (what == "skew")
+    printSkew(memory);
   else
-    return std::fprintf(stderr, "usage: field_table healthy|steps|accuracy [MEMORY [HOURS]]\n"), 2;
+    return std::fprintf(stderr, "usage: field_table healthy|steps|accuracy|skew [MEMORY [HOURS]]\n"), 2;
   return 0;
 }

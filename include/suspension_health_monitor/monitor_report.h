@@ -26,6 +26,7 @@ enum class EstimateDoubt {
   kOutsideForce,         ///< something else than the wheel moves the body
   kNotExplained,         ///< the model explains less than half of what was measured
   kNotAStrut,            ///< a parameter that has to be above 0 is not
+  kClockSkew,            ///< the clocks of the two IMUs differ by more than can be taken off
   kNoSpread,             ///< no standard deviation can be told
   kFreeRunFails,         ///< the model, driven by the wheel, fits worse than a constant
 };
@@ -43,9 +44,11 @@ struct StrutEstimate {
   std::size_t num_effects = 0;                     ///< in the model
   std::array<double, kMostEffects> coefficients{};         ///< c_j [unit of the effect's coefficient]
   std::array<double, kMostEffects> coefficient_stddevs{};  ///< likewise
-  double offset = std::nan("");  ///< of the wheel carrier's reading against the body's [m/s^2]; NaN: not estimated
-  double effective_rows = 0.0;   ///< rows in the estimator's memory
-  double explained = 0.0;        ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
+  double offset = std::nan("");      ///< of the wheel carrier's reading against the body's [m/s^2]; NaN: not estimated
+  double clock_skew = std::nan("");  ///< by which the wheel carrier's readings are stamped late, or the body's early
+                                     ///< [s]; NaN: not estimated
+  double effective_rows = 0.0;       ///< rows in the estimator's memory
+  double explained = 0.0;            ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
   double damping_excitation = std::nan("");      ///< information of phi_1 of late over that of noise (Excitation) [-]
   double stiffness_excitation = std::nan("");    ///< that of phi_0 likewise

@@ -39,7 +39,7 @@ MonitorOptions takeMonitorOptions(OptionMap& values) {
 MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions(options) {
   if (preset != "paper") return;
   estimators.rule = IntegrationRule::kTrapezoid;  // Eq. (9)
-  estimators.with_offset = false;
+  estimators.sensors = SensorColumns::kNone;
   estimators.removes_noise_shift = false;
   estimators.forgets_unexcited = true;
   estimators.recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)

@@ -33,6 +33,7 @@ ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, co
     msg.effect_stddevs.push_back(estimate.coefficient_stddevs[j]);
   }
   msg.offset = estimate.offset;
+  msg.clock_skew = estimate.clock_skew;
   msg.effective_rows = estimate.effective_rows;
   msg.valid = estimate.valid();
   return msg;

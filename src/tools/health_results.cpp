@@ -31,7 +31,8 @@ std::string healthyValue(const char* name, const std::optional<double>& value, d
 void printEstimate(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
   printResult(name, atTheEnd(estimate), mass);
   if (!std::isnan(estimate.offset))
-    std::printf("    offset of the wheel carrier's IMU against the body's %.3g m/s^2\n", estimate.offset);
+    std::printf("    offset of the wheel carrier's IMU against the body's %.3g m/s^2, stamped %.3g ms late\n",
+                estimate.offset, 1e3 * estimate.clock_skew);
 }
 
 }  // namespace
@@ -96,6 +97,7 @@ json estimatesJson(const SuspensionMonitor& monitor) {
   const auto add = [&](const char* name, const StrutEstimate& estimate) {
     estimates[name] = toJson(atTheEnd(estimate));
     estimates[name]["offset"] = estimate.offset;
+    estimates[name]["clock_skew"] = estimate.clock_skew;
   };
   add("la", monitor.report().la);
   add("ls", monitor.report().ls);

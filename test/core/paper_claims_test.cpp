@@ -47,7 +47,7 @@ TEST(PaperClaims, WithoutFaultBothEstimatorsFollowTheDampingRamp) {
   const Medians medians = mediansIn("paper_clean");
   expectAtMost(medians.paper.ls, 0.055, 0.19);
   expectAtMost(medians.paper.la, 0.08, 0.12);
-  expectAtMost(medians.live.la, 0.08, 0.11);
+  expectAtMost(medians.live.la, 0.08, 0.13);
   // Rows that are hit exactly freeze a direction of P under the absolute rule, and the estimate lags on the ramp.
   EXPECT_LT(medians.live.la.damping_to_mass, 0.7 * medians.live_with_papers_divisor.la.damping_to_mass);
 }
@@ -56,15 +56,15 @@ TEST(PaperClaims, LossOfDataThrowsLeastSquaresOffAndLeavesLeastAbsoluteAlone) {
   const Medians medians = mediansIn("paper_outliers");
   expectAtLeast(medians.paper.ls, 0.45, 0.70);
   expectAtMost(medians.paper.la, 0.09, 0.16);
-  expectAtMost(medians.live.la, 0.08, 0.11);
-  EXPECT_NEAR(medians.live_with_papers_divisor.la.damping_to_mass, 0.12, 0.01);
+  expectAtMost(medians.live.la, 0.08, 0.13);
+  EXPECT_NEAR(medians.live_with_papers_divisor.la.damping_to_mass, 0.11, 0.01);
 }
 
 TEST(PaperClaims, EndStopsThrowLeastSquaresOffAndLeaveLeastAbsoluteAlone) {
   const Medians medians = mediansIn("paper_saturation");
   expectAtLeast(medians.paper.ls, 0.30, 6.0);
   expectAtMost(medians.paper.la, 0.085, 0.13);
-  expectAtMost(medians.live.la, 0.08, 0.11);
+  expectAtMost(medians.live.la, 0.08, 0.13);
 }
 
 TEST(PaperClaims, LiveDefaultsAreThoseOfTheTable) {

@@ -87,6 +87,17 @@ TEST(UdCovariance, GivesTheVarianceOfEveryParameter) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(covariance.variance(i), covariance.matrix()(i, i), 1e-14);
 }
 
+TEST(UdCovariance, OfASumOfParametersIsThatOfItsParts) {
+  UdCovariance covariance = released(4, 3.0);
+  std::mt19937_64 engine(11);
+  for (int k = 0; k < 10; ++k) covariance.update(randomRegressor(4, engine), 0.95, 0.95);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Identity(4, 4);
+  sum(1, 3) = 1.0;
+  const Eigen::MatrixXd expected = sum * covariance.matrix() * sum.transpose();
+  covariance.addTo(1, 3);
+  EXPECT_LT((covariance.matrix() - expected).norm(), 1e-14);
+}
+
 double smallestEigenvalue(const Eigen::MatrixXd& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
 }

@@ -7,6 +7,7 @@
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
 #include "suspension_health_monitor/internal/option_table.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/monitor_options.h"
@@ -16,7 +17,7 @@ namespace suspension_health_monitor {
 /// What presets differ in beside options: how rows are made, and how the estimators begin, weigh and forget.
 struct EstimatorOptions {
   IntegrationRule rule = IntegrationRule::kBandLimited;
-  bool with_offset = true;  ///< the offset between the sensors is estimated with the strut
+  SensorColumns sensors = SensorColumns::kSkewAndOffsets;  ///< what of the sensors is estimated with the strut
   bool removes_noise_shift =
       true;                        ///< what the sensors' noise shifts the estimates by is taken off (regressor_noise.h)
   bool forgets_unexcited = false;  ///< true: exponential forgetting, the paper's; false: directional (excitation.h)

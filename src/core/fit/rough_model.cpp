@@ -11,7 +11,7 @@ StrutModel roughModel(const std::vector<Drive>& drives, const IntegralFilterOpti
   recursive.forgetting_factor = 1.0;
   RecursiveLeastSquares least_squares(kNumStrutParameters + 1, recursive);  // and the sensors' offset
   for (const Drive& drive : drives) {
-    SuspensionRegression regression(filter, 0, true);
+    SuspensionRegression regression(filter, 0, SensorColumns::kOffset);
     const CornerSample* last = nullptr;
     for (const CornerSample& sample : drive.samples) {
       if (last != nullptr &&

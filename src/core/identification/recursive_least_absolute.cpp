@@ -35,6 +35,7 @@ RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const Recursi
 
 double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
+  drift();
   const double innovation = innovate(row);
   const RowWeight weight = weigh(innovation);
   if (!leads()) {

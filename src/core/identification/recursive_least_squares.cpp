@@ -29,10 +29,13 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
     : options_(options),
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
-      scores_(num_parameters, std::max(0, options.correlated_rows), options.forgetting_factor),
+      scores_(num_parameters - int{options.drifting.has_value()}, std::max(0, options.correlated_rows),
+              options.forgetting_factor),
       held_(static_cast<std::size_t>(num_parameters), false),
       excited_(theta_),
       best_(theta_),
+      drifted_{theta_.head(num_parameters - int{options.drifting.has_value()}), 0.0},
+      course_(drifted_.regressor),
       means_(options.forgetting_factor) {
   options.validate();
 }
@@ -62,10 +65,22 @@ void RecursiveEstimator::correct(const RegressionRow& row, double innovation, co
   const double lambda = options_.forgetting_factor;
   // Rows that are held in part say nothing of how residuals of whole ones are correlated.
   const bool has_settled = valid_rows_ > std::min(kStartMemories / (1.0 - lambda), kMostStartRows);
-  if (num_held_ == 0 && has_settled && !scores_.add(row, best_, weight, innovation)) valid_rows_ = 0.0;
+  if (num_held_ == 0 && has_settled && !learn(row, innovation, weight)) valid_rows_ = 0.0;
   const Eigen::VectorXd& gain = num_held_ == 0 ? covariance_.update(row.regressor, lambda / weight.weight, lambda)
                                                : correctPartly(row, weight.weight);
   theta_ += gain * innovation;
+}
+
+// An offset that drifts is followed from row to row; a slow course of it would lag.
+bool RecursiveEstimator::learn(const RegressionRow& row, double innovation, const RowWeight& weight) {
+  if (!options_.drifting) return scores_.add(row, best_, weight, innovation);
+  const int level = numScores() - 1;
+  drifted_.regressor = row.regressor.head(numScores());
+  drifted_.output = row.output;
+  drifted_.regressor[*options_.drifting] += row.regressor.tail(2).dot(best_.tail(2)) / best_[*options_.drifting];
+  course_ = best_.head(numScores());
+  course_[level] = 0.0;
+  return scores_.add(drifted_, course_, weight, innovation);
 }
 
 // @return the gain for a row of which only the part that is not held counts.
@@ -78,6 +93,15 @@ const Eigen::VectorXd& RecursiveEstimator::correctPartly(const RegressionRow& ro
 void RecursiveEstimator::hold(int i, bool held) {
   held_[static_cast<std::size_t>(i)] = held;
   num_held_ = static_cast<int>(std::count(held_.begin(), held_.end(), true));
+}
+
+// A row that tells of parameter i alone, and finds it where it is.
+void RecursiveEstimator::remember(int i, double share) {
+  const double variance = covariance_.variance(i);
+  if (!(variance > 0.0 && share < 1.0)) return;
+  excited_.setZero();
+  excited_[i] = 1.0;
+  covariance_.update(excited_, variance * share / (1.0 - share), 1.0);
 }
 
 void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residual_variance, double unit) {
@@ -104,6 +128,8 @@ void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns)
   held_.assign(columns.size(), false);  // the plain strut's own are held anew when its excitation is judged
   num_held_ = 0;
   excited_ = best_ = theta_;
+  drifted_.regressor = course_ = theta_.head(numScores());
+  if (options_.drifting) sources.pop_back();
   scores_ = ScoreCovariance(scores_, sources);
   num_released_ = 0;
   for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;
@@ -111,6 +137,7 @@ void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns)
 
 double RecursiveLeastSquares::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
+  drift();
   const double innovation = innovate(row);
   releaseExcited(row, meanSquareResidual(), 1.0);
   correct(row, innovation, {});

@@ -17,21 +17,33 @@ constexpr int kStddevsEvery = 8;  // rows
 // come back from.
 constexpr double kLost = 2.0;
 constexpr double kMostLost = 10.0;         // memories
+constexpr double kMemoriesToSettle = 3.0;  // so slow is LA
+constexpr double kSkewMemories = 10.0;     // that the clocks' skew is learned over
+constexpr double kCertain = 4.0;           // standard deviations
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
-// @param offset  number of the offset's column; none: there is no such column.
+RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
+  RecursiveOptions recursive = options.recursive(2 * horizon_samples);
+  if (options.estimators.sensors == SensorColumns::kSkewAndOffsets) recursive.drifting = kStiffnessToMass;
+  return recursive;
+}
+
+// @param num_model  columns of the strut and of its effects, before those of the sensors.
 // @param shift  by the sensors' noise, of each parameter.
-void describeParameters(const RecursiveEstimator& estimator, const Eigen::VectorXd& shift, std::optional<int> offset,
+void describeParameters(const RecursiveEstimator& estimator, const Eigen::VectorXd& shift, int num_model,
                         StrutEstimate& estimate) {
   const Eigen::VectorXd& theta = estimator.parameters();
   estimate.damping_to_mass = theta[kDampingToMass] - shift[kDampingToMass];
   estimate.stiffness_to_mass = theta[kStiffnessToMass] - shift[kStiffnessToMass];
-  estimate.num_effects = static_cast<std::size_t>(offset.value_or(estimator.numParameters()) - kNumStrutParameters);
+  estimate.num_effects = static_cast<std::size_t>(num_model - kNumStrutParameters);
   for (std::size_t j = 0; j < estimate.num_effects; ++j) {
     const auto i = kNumStrutParameters + static_cast<Eigen::Index>(j);
     estimate.coefficients[j] = theta[i] - shift[i];
   }
-  if (offset) estimate.offset = -theta[*offset] / theta[kStiffnessToMass];
+  if (num_model < estimator.numParameters()) {
+    estimate.clock_skew = theta[num_model];
+    estimate.offset = -theta[num_model + 1] / theta[kStiffnessToMass];
+  }
   estimate.effective_rows = estimator.effectiveRows();
   estimate.explained = estimator.explained();
 }
@@ -46,15 +58,17 @@ double withDifference(double stddev, double ls, double la) {
 
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
-      with_offset_(options.estimators.with_offset),
-      regression_(filter_, 0, with_offset_),
+      sensors_(options.estimators.sensors),
+      regression_(filter_, 0, sensors_),
       excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), RegressorNoise(filter_)),
-      least_squares_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples)),
-      least_absolute_(kNumStrutParameters + int{with_offset_}, options.recursive(2 * filter_.horizon_samples),
+      least_squares_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples)),
+      least_absolute_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples),
                       options.leastAbsolute()),
       forgetting_{!options.estimators.forgets_unexcited, {}},
       past_{present(), present()},
       stddevs_due_(kStddevsEvery),
+      rule_error_(filter_),
+      skew_sizes_(options.forgettingFactor(filter_.period)),
       silent_rows_(filter_.horizon_samples) {
   if (options.estimators.removes_noise_shift) noise_level_.emplace(filter_);
   noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
@@ -68,11 +82,11 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
     if (effect.before) *effect.before += kNumStrutParameters;
     columns.push_back(effect);
   }
-  if (with_offset_) columns.push_back({offsetColumn(), 0.0});
+  for (int j = 0; j < count(sensors_); ++j) columns.push_back({numModelColumns() + j, 0.0});
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
   past_.fill(present());
-  regression_ = SuspensionRegression(filter_, effects.size(), with_offset_);
+  regression_ = SuspensionRegression(filter_, effects.size(), sensors_);
   const Eigen::VectorXd before = noise_shift_;
   noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
   for (std::size_t j = 0; j < columns.size(); ++j)
@@ -116,6 +130,9 @@ void StrutIdentifier::update(const RegressionRow& row) {
     return;
   }
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
+  left_ *= forgettingFactor();
+  const SuspensionRegression::Skew& skew = regression_.skew();
+  skew_sizes_.add({skew.column * skew.column, skew.step * skew.step});
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
   if (la_is_valid_ && noise_level_) noise_level_->add(innovation);
@@ -140,9 +157,20 @@ void StrutIdentifier::closeBlock() {
     past_[1] = past_[0];
     return;
   }
+  rememberSkew();
   std::swap(past_[0], past_[1]);
   least_squares_.copyTo(past_[1].ls);
   least_absolute_.copyTo(past_[1].la);
+}
+
+// Clocks differ by as much for long. That is learned with a memory of its own, so that it costs the strut's parameters
+// next to nothing; only of estimates that are valid, since the column is made of them.
+void StrutIdentifier::rememberSkew() {
+  const double share = std::pow(left_, 1.0 - 1.0 / kSkewMemories);
+  left_ = 1.0;
+  if (sensors_ == SensorColumns::kNone || valid_memories_ <= kMemoriesToSettle) return;
+  least_squares_.remember(numModelColumns(), share);
+  least_absolute_.remember(numModelColumns(), share);
 }
 
 void StrutIdentifier::takeExcitation() {
@@ -151,21 +179,28 @@ void StrutIdentifier::takeExcitation() {
   for (RecursiveEstimator* estimator :
        {static_cast<RecursiveEstimator*>(&least_squares_), static_cast<RecursiveEstimator*>(&least_absolute_)}) {
     for (const StrutParameter i : {kDampingToMass, kStiffnessToMass}) estimator->hold(i, isHeld(i));
-    if (with_offset_) estimator->hold(*offsetColumn(), any);  // a constant beside a spring that hardly moves
+    for (int j = numModelColumns(); j < estimator->numParameters(); ++j) estimator->hold(j, any);
   }
 }
 
 void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate& la) {
   least_squares_.learnScatter(ls.valid() && la.valid(), least_absolute_.parameters());
   least_absolute_.learnScatter(la.valid(), least_absolute_.parameters());
+  // A doubt that comes of the skew would end by leaving it out.
+  const bool goes_on = la.valid() || la.doubt == EstimateDoubt::kClockSkew;
+  valid_memories_ = goes_on ? valid_memories_ + 1.0 - forgettingFactor() : 0.0;
   if (la.valid()) excitation_.know({la.damping_to_mass, la.stiffness_to_mass});
+  if (valid_memories_ > kMemoriesToSettle)
+    regression_.setStrut({la.damping_to_mass, la.stiffness_to_mass}, knownSkew());
+  else
+    regression_.setStrut(Eigen::Vector2d::Zero(), 0.0);
   if (forgetting_.variable && la_is_valid_ && !la.valid()) forgetBy(forgetting_.variable->slow());
   la_is_valid_ = la.valid();
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
-  describeParameters(least_squares_, noise_shift_, offsetColumn(), ls);
-  describeParameters(least_absolute_, noise_shift_, offsetColumn(), la);
+  describeParameters(least_squares_, noise_shift_, numModelColumns(), ls);
+  describeParameters(least_absolute_, noise_shift_, numModelColumns(), la);
   for (StrutEstimate* estimate : {&ls, &la}) {
     estimate->damping_excitation = excitation_.excitation(kDampingToMass);
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
@@ -189,9 +224,11 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   const bool removes = lasting && !isHeld(kDampingToMass) && !isHeld(kStiffnessToMass);
   if (removes) removeShift(moment);
   const Eigen::Vector2d unknown = removes ? noise.momentSpread(strut, variance) : moment;
+  const double of_rule = wheelFrequency() > 0.0 ? strut[kDampingToMass] * rule_error_.at(wheelFrequency()) : 0.0;
   const auto with_shift = [&](double random, int i) {
+    const double shift = std::hypot(least_squares_.parameterShift(i, unknown), skewShift(i));
     const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
-    return std::hypot(std::sqrt(random), least_squares_.parameterShift(i, unknown), by_input);
+    return std::hypot(std::hypot(std::sqrt(random), shift), i == kDampingToMass ? of_rule : 0.0, by_input);
   };
   const auto of_ls = [&](int i) {
     return withDifference(with_shift(least_squares_.parameterVariance(i), i), least_squares_.parameters()[i],
@@ -206,6 +243,35 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
     ls.coefficient_stddevs[j] = of_ls(kNumStrutParameters + static_cast<int>(j));
     la.coefficient_stddevs[j] = of_la(kNumStrutParameters + static_cast<int>(j));
   }
+}
+
+// @return of the oscillation that has the same steps from row to row [rad/sample]; 0: not known.
+double StrutIdentifier::wheelFrequency() const {
+  if (sensors_ == SensorColumns::kNone || !(skew_sizes_.mean(0) > 0.0)) return 0.0;
+  return 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(skew_sizes_.mean(1) / skew_sizes_.mean(0))));
+}
+
+// Of the series in the skew tau two terms are estimated, x tau + x' tau^2 / 2. Where the wheel shakes with omega, the
+// next one is (omega tau)^2 / 6 of the first.
+double StrutIdentifier::skewLeftOut() const {
+  return std::pow(wheelFrequency() / filter_.period * least_absolute_.parameters()[numModelColumns()], 2) / 6.0;
+}
+
+// As far as the series goes.
+double StrutIdentifier::knownSkew() const {
+  const double frequency = wheelFrequency() / filter_.period;
+  if (!(frequency > 0.0)) return 0.0;
+  const double most = std::sqrt(6.0 * kMostSkewLeftOut) / frequency;
+  return std::clamp(least_absolute_.parameters()[numModelColumns()], -most, most);
+}
+
+// What the whole skew would shift parameter i by if it were not estimated, times the share that is left out.
+double StrutIdentifier::skewShift(int i) const {
+  if (sensors_ == SensorColumns::kNone) return 0.0;
+  const int column = numModelColumns();
+  const double variance = least_squares_.covariance().variance(column);
+  if (!(variance > 0.0)) return 0.0;
+  return skewLeftOut() * least_absolute_.parameters()[column] * least_squares_.covariance().entry(i, column) / variance;
 }
 
 // Noise does no more to a parameter that is excited than kLeastExcitation says.
@@ -227,6 +293,11 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
   facts.outside_force = rows_to_forget_ > 0.0;
   facts.explained = estimate.explained;
   facts.is_physical = estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
+  if (sensors_ != SensorColumns::kNone) {
+    const double skew = least_absolute_.parameters()[numModelColumns()];
+    const double variance = least_absolute_.parameterVariance(numModelColumns());
+    if (skew * skew > kCertain * kCertain * variance) facts.skew_left_out = skewLeftOut();
+  }
   facts.has_stddev = std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev);
   return facts;
 }

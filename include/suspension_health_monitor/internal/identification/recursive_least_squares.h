@@ -22,6 +22,9 @@ struct RecursiveOptions {
   double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
   InitialVariance initial_variance_rule = InitialVariance::kRelative;
   int correlated_rows = 0;  ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
+  /// Parameter whose column has an offset that drifts: the last two parameters take that out, its product with the
+  /// parameter by now and the step from row to row. None: there are no such two.
+  std::optional<int> drifting = std::nullopt;
 
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   void validate() const;
@@ -74,6 +77,10 @@ class RecursiveEstimator {
   /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
   void hold(int i, bool held);
 
+  /// What is known of parameter i is not forgotten as fast as the rest: its variance, that the rows since the last such
+  /// call have left it with, is multiplied by `share` in (0, 1).
+  void remember(int i, double share);
+
   /// An estimate as it was after some row.
   struct Past {
     Eigen::VectorXd theta;
@@ -113,6 +120,15 @@ class RecursiveEstimator {
   double usualResidual() const { return means_.mean(kUsualResidual); }
 
  protected:
+  /// To be called before each row that is not only observed: what drifts has moved since the one before. While it is
+  /// held nobody knows.
+  void drift() {
+    const int rate = numParameters() - 1;
+    if (!options_.drifting || held_[static_cast<std::size_t>(rate)]) return;
+    theta_[rate - 1] += theta_[rate];
+    covariance_.addTo(rate - 1, rate);
+  }
+
   /// epsilon = psi - phi' theta, Eq. (15) and (24); also takes the row into the running means.
   double innovate(const RegressionRow& row);
 
@@ -139,6 +155,8 @@ class RecursiveEstimator {
  private:
   void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
   const Eigen::VectorXd& correctPartly(const RegressionRow& row, double weight);
+  bool learn(const RegressionRow& row, double innovation, const RowWeight& weight);
+  int numScores() const { return numParameters() - int{options_.drifting.has_value()}; }
 
   enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kUsualResidual, kNumMeans };
 
@@ -148,6 +166,8 @@ class RecursiveEstimator {
   Eigen::VectorXd excited_;  // the regressor without what is held
   double valid_rows_ = 0.0;  // in a row
   Eigen::VectorXd best_;     // estimate of the parameters
+  RegressionRow drifted_;    // a row without the offset
+  Eigen::VectorXd course_;   // the best estimate, likewise
   RunningMeans<kNumMeans> means_;
 };
 

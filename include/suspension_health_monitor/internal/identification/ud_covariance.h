@@ -47,6 +47,10 @@ class UdCovariance {
   /// (Bierman, ch. III.3).
   void forgetAlong(const Eigen::VectorXd& regressor, double forgetting_factor);
 
+  /// What P is once parameter i is the sum of itself and parameter j: P <- F P F', F = I + e_i e_j'. Parameter i counts
+  /// before j.
+  void addTo(int i, int j) { upper_.row(i) += upper_.row(j); }
+
   /// P <- factor P, the ceilings with it; factor > 0.
   void scale(double factor);
 

@@ -10,6 +10,8 @@
 #include "suspension_health_monitor/internal/identification/noise_level.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/rule_error.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 #include "suspension_health_monitor/internal/identification/variable_forgetting.h"
 #include "suspension_health_monitor/internal/monitor/silent_rows.h"
@@ -95,21 +97,21 @@ class StrutIdentifier {
   void update(const RegressionRow& row);
   void closeBlock();
   void takeExcitation();
+  void rememberSkew();
   bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }
   void forgetBy(double factor);
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
   void removeShift(const Eigen::Vector2d& moment);
+  double wheelFrequency() const;
+  double skewLeftOut() const;
+  double knownSkew() const;
+  double skewShift(int i) const;
 
-  /// @return the number of the offset's column, the last; none without one.
-  std::optional<int> offsetColumn() const {
-    return with_offset_ ? std::optional(least_absolute_.numParameters() - 1) : std::nullopt;
-  }
-
-  /// @return how many columns are those of the strut and of its effects: all but the offset's.
-  int numModelColumns() const { return offsetColumn().value_or(least_absolute_.numParameters()); }
+  /// @return how many columns are those of the strut and of its effects: all but the sensors', which are the last.
+  int numModelColumns() const { return least_absolute_.numParameters() - count(sensors_); }
 
   IntegralFilterOptions filter_;
-  bool with_offset_;
+  SensorColumns sensors_;
   SuspensionRegression regression_;
   Excitation excitation_;
   RecursiveLeastSquares least_squares_;
@@ -120,12 +122,16 @@ class StrutIdentifier {
   Eigen::VectorXd noise_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
   EveryN stddevs_due_;
   bool has_row_ = false;
+  RuleError rule_error_;
+  RunningMeans<2> skew_sizes_;             // squares of what a skew does to psi, and of its steps
   double rows_ = 0.0;                      // of the model's present columns
+  double left_ = 1.0;                      // of what was known at the end of the newest block
   double rows_to_forget_ = 0.0;            // until what a force from outside did is forgotten
   double lost_memories_ = 0.0;             // that LS has explained far more than LA for
   std::optional<NoiseLevel> noise_level_;  // none: what the noise shifts is left in the estimates
   SilentRows silent_rows_;
   bool la_is_valid_ = false;
+  double valid_memories_ = 0.0;  // that LA has been valid for
 };
 
 }  // namespace suspension_health_monitor

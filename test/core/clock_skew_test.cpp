@@ -1,0 +1,78 @@
+// Two IMUs whose clocks differ by a part of a sample: estimated with the strut, and taken off; more is a doubt.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "paper_drive.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
+#include "suspension_health_monitor/monitor_report.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kB1 = 6.0, kB0 = 63.3;  // of the golden car
+constexpr int kEvery = 5;                // of 1000 Hz
+
+// The wheel's readings are those of `late` ms before.
+std::vector<CornerSample> driveWith(int late, const char* iso_class) {
+  SimulationOptions options;
+  options.scenario = "iso_road";
+  options.vehicle = "golden_car";
+  options.iso_class = iso_class;
+  options.rate = 1000.0;
+  options.damping_end_fraction = 1.0;
+  options.duration = 60.0;
+  const std::vector<CornerSample> fine = simulate(options);
+  std::vector<CornerSample> drive;
+  const int count = static_cast<int>(fine.size());
+  for (int k = std::abs(late); k + std::abs(late) < count; k += kEvery) {
+    drive.push_back(fine[static_cast<std::size_t>(k)]);
+    drive.back().unsprung_acceleration = fine[static_cast<std::size_t>(k - late)].unsprung_acceleration;
+  }
+  return drive;
+}
+
+MonitorReport reportOf(const std::vector<CornerSample>& drive) {
+  MonitorOptions options;
+  options.sample_period = 1e-3 * kEvery;
+  SuspensionMonitor monitor(options);
+  for (const CornerSample& sample : drive) monitor.addSample(sample);
+  return monitor.report();
+}
+
+TEST(ClockSkew, IsEstimatedAndChangesNoEstimate) {
+  for (const char* road : {"A", "C"})
+    for (const int late : {-3, -1, 0, 1, 3}) {
+      SCOPED_TRACE(std::string(road) + ", " + std::to_string(late) + " ms");
+      const MonitorReport report = reportOf(driveWith(late, road));
+      for (const StrutEstimate* estimate : {&report.ls, &report.la}) {
+        EXPECT_TRUE(estimate->valid()) << describe(estimate->doubt);
+        EXPECT_NEAR(estimate->damping_to_mass, kB1, std::max(0.02 * kB1, 2.6 * estimate->damping_to_mass_stddev));
+        EXPECT_NEAR(estimate->stiffness_to_mass, kB0, std::max(0.02 * kB0, 2.6 * estimate->stiffness_to_mass_stddev));
+        EXPECT_LT(estimate->stiffness_to_mass_stddev, 0.1 * kB0);
+        EXPECT_NEAR(estimate->clock_skew, 1e-3 * late, 0.5e-3);
+      }
+    }
+}
+
+TEST(ClockSkew, ThatIsTooLargeIsADoubt) {
+  for (const int late : {10, 15, -15}) {
+    const MonitorReport report = reportOf(driveWith(late, "C"));
+    EXPECT_FALSE(report.ls.valid()) << late;
+    EXPECT_FALSE(report.la.valid()) << late;
+  }
+}
+
+TEST(ClockSkew, IsNotEstimatedAsInThePaper) {
+  MonitorSettings paper = MonitorOptions::of("paper");
+  paper.sample_period = 1e-3 * kEvery;
+  SuspensionMonitor monitor(paper);
+  for (const CornerSample& sample : driveWith(1, "C")) monitor.addSample(sample);
+  EXPECT_TRUE(std::isnan(monitor.report().la.clock_skew));
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
