@@ -18,7 +18,7 @@ constexpr int kStddevsEvery = 8;  // rows
 constexpr double kLost = 2.0;
 constexpr double kMostLost = 10.0;         // memories
 constexpr double kMemoriesToSettle = 3.0;  // so slow is LA
-constexpr double kSkewMemories = 10.0;     // that the clocks' skew is learned over
+constexpr double kSkewMemories = 4.0;      // that the clocks' skew is learned over
 constexpr double kCertain = 4.0;           // standard deviations
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 

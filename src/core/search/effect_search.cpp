@@ -213,8 +213,11 @@ double Search::floorOf(const EvaluatedModel& after, double floor) const {
 bool Search::isExplained(const EvaluatedModel& after) const {
   const double lowest = floorOf(after, sampling_floor_);
   const double share = explainedShare(after, lowest);
-  // What the name leaves may look like the noise of a filtered sensor; then it was in what there was before, too.
-  if (share < kExplained || explainedShare(after, floorOf(base_, sampling_floor_)) < kExplained) return false;
+  if (share < kExplained) return false;
+  // Where only the reading is to be at fault, what that leaves has been there before, as the noise of a filtered sensor
+  // has: no law hid it.
+  const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
+  if (only_reading && explainedShare(after, floorOf(base_, sampling_floor_)) < kExplained) return false;
   const double left = square(after.ranked.held_out_rmse) - square(lowest);
   return share > 1.0 - kWorthHaving || !isStructured(after.ranked.held_out_rmse, lowest) ||
          evaluator_.surfaceGain(after) * square(after.ranked.held_out_rmse) < kTakenByAnother * left;

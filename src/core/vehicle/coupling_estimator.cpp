@@ -319,10 +319,11 @@ void CouplingEstimator::describe(const Moments& plain, const Moments& moments, d
   coupling.own_power = of_struts.diagonal().head(n);
   coupling.rest_power = rest.minCoeff();
 
-  StrutVector scale(n);
-  for (int j = 0; j < n; ++j) scale[j] = 1.0 / std::sqrt(sensor_variance * noise_.forceGain(strut(j)));
-  const StrutMatrix against_noise = scale.asDiagonal() * combined(plain).topLeftCorner(n, n) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<StrutMatrix> parts(against_noise);
+  Moments noise = Moments::Zero(moments.rows(), moments.cols());
+  takeOffNoise(noise, -sensor_variance);
+  const StrutMatrix of_noise = combined(noise).topLeftCorner(n, n);
+  const StrutMatrix with_noise = combined(plain).topLeftCorner(n, n);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<StrutMatrix> parts(with_noise, of_noise);
   estimate_.told_apart = parts.eigenvalues()[0];
   StrutVector sizes = parts.eigenvectors().col(0).cwiseAbs();
   const auto largest = [&] {
