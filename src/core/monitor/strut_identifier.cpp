@@ -18,7 +18,7 @@ constexpr int kStddevsEvery = 8;  // rows
 constexpr double kLost = 2.0;
 constexpr double kMostLost = 10.0;         // memories
 constexpr double kMemoriesToSettle = 3.0;  // so slow is LA
-constexpr double kSkewMemories = 4.0;      // that the clocks' skew is learned over
+constexpr double kSkewMemories = 10.0;     // that the clocks' skew is learned over
 constexpr double kCertain = 4.0;           // standard deviations
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
@@ -193,9 +193,16 @@ void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate&
   if (valid_memories_ > kMemoriesToSettle)
     regression_.setStrut({la.damping_to_mass, la.stiffness_to_mass}, knownSkew());
   else
-    regression_.setStrut(Eigen::Vector2d::Zero(), 0.0);
+    restSkew();
   if (forgetting_.variable && la_is_valid_ && !la.valid()) forgetBy(forgetting_.variable->slow());
   la_is_valid_ = la.valid();
+}
+
+// What made LA doubtful may have moved LS, which would remember it in the skew for ten memories: LS goes on with LA's.
+void StrutIdentifier::restSkew() {
+  regression_.setStrut(Eigen::Vector2d::Zero(), 0.0);
+  if (sensors_ == SensorColumns::kNone) return;
+  least_squares_.setParameter(numModelColumns(), least_absolute_.parameters()[numModelColumns()]);
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {

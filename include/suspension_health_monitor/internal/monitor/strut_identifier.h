@@ -98,6 +98,7 @@ class StrutIdentifier {
   void closeBlock();
   void takeExcitation();
   void rememberSkew();
+  void restSkew();
   bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }
   void forgetBy(double factor);
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
