@@ -81,9 +81,22 @@ bool ImuMount::isClipped(const geometry_msgs::Vector3& acceleration) const {
          (up[2] != 0.0 && std::abs(acceleration.z) >= end);
 }
 
+std::array<double, 3> ImuMount::turned(const geometry_msgs::Vector3& v) const {
+  return {along(directions_[0], v), along(directions_[1], v), along(directions_[2], v)};
+}
+
+std::variant<std::array<double, 6>, RejectReason> ImuMount::sixAxes(const sensor_msgs::Imu& imu) {
+  const auto up = acceleration(imu);
+  if (const RejectReason* reason = std::get_if<RejectReason>(&up)) return *reason;
+  if (imu.angular_velocity_covariance[0] == -1.0) return RejectReason::kNotMeasured;
+  const std::array<double, 3> a = turned(imu.linear_acceleration), rate = turned(imu.angular_velocity);
+  return std::array<double, 6>{a[0], a[1], a[2], rate[0], rate[1], rate[2]};
+}
+
 BodyMotion ImuMount::across(const sensor_msgs::Imu& imu) const {
   const auto both = [this](const geometry_msgs::Vector3& v) -> std::array<double, 2> {
-    return {along(directions_[0], v), along(directions_[1], v)};
+    const std::array<double, 3> all = turned(v);
+    return {all[0], all[1]};
   };
   BodyMotion motion{toStamp(imu.header.stamp), both(imu.linear_acceleration), both(imu.angular_velocity)};
   if (imu.linear_acceleration_covariance[0] == -1.0) motion.acceleration = {kUnknown, kUnknown};

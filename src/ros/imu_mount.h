@@ -39,6 +39,15 @@ class ImuMount {
   /// @pre acceleration() has found the transform.
   BodyMotion across(const sensor_msgs::Imu& imu) const;
 
+  /// @return what a six-axis IMU measures along the strut's axes, x and y across it, z up: three accelerations [m/s^2],
+  /// then three angular rates [rad/s]; or why there is none, as acceleration(), kNotMeasured for a gyro that says so.
+  std::variant<std::array<double, 6>, RejectReason> sixAxes(const sensor_msgs::Imu& imu);
+
+  /// @param v  in the IMU's frame.
+  /// @return its components along the strut's axes.
+  /// @pre as across().
+  std::array<double, 3> turned(const geometry_msgs::Vector3& v) const;
+
   /// @return the frame of the IMU whose transform is missing; empty if none is.
   const std::string& missingTransform() const { return missing_; }
 

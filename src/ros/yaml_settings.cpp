@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -36,10 +37,14 @@ class Flattening {
  private:
   void flatten(const std::string& name, int depth, const YAML::Node& node) {
     count(name.size());
+    if (node.IsMap() && node.size() == 0 && !name.empty()) return add(node, name, UnusableList{"{}"});
     if (node.IsMap() && depth < kDeepest) {
+      std::set<std::string> keys;
       for (const auto& entry : node) {
         const auto key = entry.first.as<std::string>();
-        flatten(name.empty() ? key : name + '/' + key, depth + 1, entry.second);
+        const std::string full = name.empty() ? key : name + '/' + key;
+        if (!keys.insert(key).second) refuseTwice(entry.first, full);
+        flatten(full, depth + 1, entry.second);
       }
       return;
     }
@@ -49,7 +54,11 @@ class Flattening {
       refuse(node, (name.empty() ? "the file" : shortened(name)) + " must be a name with a plain value");
     const OptionValue value = node.IsScalar() ? OptionValue(node.as<std::string>()) : toValue(node);
     if (node.IsScalar()) count(node.Scalar().size());
-    if (!values_.emplace(name, value).second) refuse(node, shortened(name) + " is given twice, must be given once");
+    add(node, name, value);
+  }
+
+  void add(const YAML::Node& node, const std::string& name, const OptionValue& value) {
+    if (!values_.emplace(name, value).second) refuseTwice(node, name);
   }
 
   /// A list of texts, such as the names of effects, as one text with commas; of other lists their text, one level deep.
@@ -70,6 +79,10 @@ class Flattening {
   void count(std::size_t characters) {
     characters_ += characters;
     if (++values_counted_ > kMostValues || characters_ > kLargestText) refuseSize(text_name_);
+  }
+
+  [[noreturn]] void refuseTwice(const YAML::Node& node, const std::string& name) const {
+    refuse(node, shortened(name) + " is given twice, must be given once");
   }
 
   [[noreturn]] void refuse(const YAML::Node& node, const std::string& why) const {

@@ -15,7 +15,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-using Take = std::function<bool(Side, const sensor_msgs::Imu&, Stamp)>;
+using Take = std::function<bool(std::size_t, const sensor_msgs::Imu&, Stamp)>;
 
 std::string listImuTopics(const std::vector<BagConnection>& connections) {
   std::vector<std::string> list;
@@ -25,25 +25,25 @@ std::string listImuTopics(const std::vector<BagConnection>& connections) {
   return list.empty() ? "none" : join(list);
 }
 
-/// For every connection of a bag the IMU that it carries, if any.
-using Sides = std::map<std::uint32_t, std::optional<Side>>;
+/// For every connection of a bag the topic that it carries, by its place, if that is wanted.
+using Places = std::map<std::uint32_t, std::optional<std::size_t>>;
 
-Sides findSides(const BagFile& file, const std::vector<std::string>& topics) {
-  Sides sides;
-  for (const BagConnection& connection : file.connections()) sides[connection.id] = std::nullopt;
-  for (std::size_t i = 0; i < topics.size(); ++i) {
+Places findPlaces(const BagFile& file, const ImuBags& bags) {
+  Places places;
+  for (const BagConnection& connection : file.connections()) places[connection.id] = std::nullopt;
+  for (std::size_t i = 0; i < bags.topics.size(); ++i) {
     bool found = false;
     for (const BagConnection& connection : file.connections()) {
-      if (connection.topic != topics[i]) continue;
+      if (connection.topic != bags.topics[i]) continue;
       requireType<sensor_msgs::Imu>(file, connection);
-      sides[connection.id] = static_cast<Side>(i);
+      places[connection.id] = i;
       found = true;
     }
     if (!found)
-      throw InputError(file.path() + ": no topic " + topics[i] + " (" + kTopicOptions[i] +
+      throw InputError(file.path() + ": no topic " + bags.topics[i] + " (" + bags.named_by[i] +
                        "); Imu topics in this bag: " + listImuTopics(file.connections()));
   }
-  return sides;
+  return places;
 }
 
 /// Which recording times [ns] are read.
@@ -92,8 +92,8 @@ bool isLater(const OpenChunk& a, const OpenChunk& b) {
 /// kept as long as they have messages that are later than the beginning of the next one.
 class Delivery {
  public:
-  Delivery(BagFile& file, Sides sides, const Range& range, const Take& take)
-      : file_(file), sides_(std::move(sides)), range_(range), take_(take) {}
+  Delivery(BagFile& file, Places places, const Range& range, const Take& take)
+      : file_(file), places_(std::move(places)), range_(range), take_(take) {}
 
   void open(const BagChunk& chunk) {
     file_.read(chunk, spare_);
@@ -121,15 +121,15 @@ class Delivery {
  private:
   bool deliver(const BagMessage& message) {
     Interruption::check();
-    const auto side = sides_.find(message.connection);
-    if (side == sides_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
-    if (!side->second || !range_.contains(message.time)) return true;
+    const auto place = places_.find(message.connection);
+    if (place == places_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
+    if (!place->second || !range_.contains(message.time)) return true;
     decode(file_, message, "", imu_);
-    return take_(*side->second, imu_, Stamp(static_cast<Stamp::rep>(message.time)));
+    return take_(*place->second, imu_, Stamp(static_cast<Stamp::rep>(message.time)));
   }
 
   BagFile& file_;
-  Sides sides_;
+  Places places_;
   Range range_;
   const Take& take_;
   std::vector<OpenChunk> open_;  // a heap
@@ -142,7 +142,7 @@ bool readBag(BagFile& file, const ImuBags& bags, const Take& take) {
   std::stable_sort(chunks.begin(), chunks.end(),
                    [](const BagChunk& a, const BagChunk& b) { return a.start < b.start; });
   const Range range = toRange(bags, chunks.front().start);
-  Delivery delivery(file, findSides(file, bags.topics), range, take);
+  Delivery delivery(file, findPlaces(file, bags), range, take);
   Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
   double done = 0.0;
   for (const BagChunk& chunk : chunks) {
@@ -173,16 +173,23 @@ double duration(const ImuBags& bags) {
   return sum;
 }
 
-void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take) {
-  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu, Stamp) { return take(side, imu); });
-}
-
-void readImuMessages(const ImuBags& bags, const Take& take) {
+void readTopics(const ImuBags& bags, const Take& take) {
   for (const std::string& path : bags.paths) {
     BagFile file(path);
     if (file.chunks().empty()) throw TooLittleError(path + ": the bag holds no messages");
     if (!readBag(file, bags, take)) return;
   }
+}
+
+void readImuMessages(const ImuBags& bags,
+                     const std::function<bool(Side, const sensor_msgs::Imu&, Stamp recorded)>& take) {
+  readTopics(bags, [&](std::size_t topic, const sensor_msgs::Imu& imu, Stamp recorded) {
+    return take(static_cast<Side>(topic), imu, recorded);
+  });
+}
+
+void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take) {
+  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu, Stamp) { return take(side, imu); });
 }
 
 }  // namespace suspension_health_monitor

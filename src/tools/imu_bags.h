@@ -21,8 +21,10 @@ inline constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", 
 /// What to read: one or more bags, the topics of the two IMUs, and a part of each bag.
 struct ImuBags {
   std::vector<std::string> paths;
-  std::vector<std::string> topics;  ///< by Side; the road's may be left out
-  double start = 0.0;               ///< seconds after the beginning of each bag
+  std::vector<std::string> topics;  ///< by Side; the road's may be left out. Or any, for readTopics()
+  /// By topic the option or setting that names it.
+  std::vector<std::string> named_by{kTopicOptions.begin(), kTopicOptions.end()};
+  double start = 0.0;  ///< seconds after the beginning of each bag
   double end = std::numeric_limits<double>::infinity();
   std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted
 
@@ -43,9 +45,14 @@ std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<st
 
 /// Reads the IMU messages of all bags in the order of their recording, with a progress bar.
 /// Memory does not grow with the bags; only chunks that overlap in time are held together.
-/// @param take  called with every message; returns false to stop.
+/// @param take  called with every message, its place among ImuBags::topics and the time of its recording; returns false
+/// to stop.
 /// @throws InputError  naming the bag: unreadable, a topic missing (with those that are there) or of another type.
 /// @throws TooLittleError  if a bag holds no message at all.
+void readTopics(const ImuBags& bags,
+                const std::function<bool(std::size_t, const sensor_msgs::Imu&, Stamp recorded)>& take);
+
+/// The same of the sensors of one strut.
 void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take);
 
 /// The same with the time of each message's recording.

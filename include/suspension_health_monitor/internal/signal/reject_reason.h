@@ -12,7 +12,7 @@ namespace suspension_health_monitor {
 
 /// Why a reading was kept out.
 enum class RejectReason : std::size_t {
-  kNotMeasured,     ///< the message says that it carries no acceleration (covariance -1)
+  kNotMeasured,     ///< the message says that it carries no acceleration, or no angular rate (covariance -1)
   kNotFinite,       ///< NaN, infinite, or too large to be computed with (isUsable())
   kAbsurd,          ///< more than 1000 m/s^2 and a hundred times what this sensor usually reads
   kZeroStamp,       ///< stamp 0 in a series that has stamps

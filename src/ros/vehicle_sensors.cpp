@@ -1,0 +1,66 @@
+#include "vehicle_sensors.h"
+
+#include <array>
+#include <stdexcept>
+#include <variant>
+
+namespace suspension_health_monitor {
+namespace {
+
+using Place = VehicleStreams::Place;
+
+// tf1 put a slash in front of a frame's name; tf2 does not find such a name.
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+}  // namespace
+
+VehicleSensors::VehicleSensors(const VehicleStreams& streams, const ShellOptions& options,
+                               const tf2::BufferCore* transforms) {
+  const std::array<ImuMount, kMostStreams> mounts = ImuMount::of(options, transforms);
+  for (const VehicleStreams::Imu& imu : streams.imus)
+    imus_.push_back({imu.place, mounts[indexOf(imu.place == Place::kUnsprung ? Side::kUnsprung : Side::kSprung)], {}});
+  values_.reserve(6);
+}
+
+const std::vector<double>& VehicleSensors::read(std::size_t imu, const sensor_msgs::Imu& message) {
+  Imu& its = imus_[imu];
+  values_.clear();
+  if (its.place == Place::kBody) {
+    const auto axes = its.mount.sixAxes(message);
+    if (const auto* six = std::get_if<std::array<double, 6>>(&axes))
+      values_.assign(six->begin(), six->end());
+    else
+      its.rejected.add(std::get<RejectReason>(axes));
+  } else {
+    const auto acceleration = its.mount.acceleration(message);
+    if (const double* along = std::get_if<double>(&acceleration))
+      values_.push_back(*along);
+    else
+      its.rejected.add(std::get<RejectReason>(acceleration));
+  }
+  return values_;
+}
+
+void placeFrames(VehicleLayout& layout, const sensor_msgs::Imu& imu, const ShellOptions& options,
+                 const tf2::BufferCore& transforms) {
+  const std::string from = withoutSlash(imu.header.frame_id);
+  ImuMount mount(options.sprung_axis, options.target_frame, std::nullopt, &transforms);
+  mount.acceleration(imu);  // finds the transform, if one is wanted
+  if (!mount.missingTransform().empty())
+    throw std::invalid_argument("target_frame = \"" + options.target_frame +
+                                "\": no static transform to it from the frame of body_imu, " +
+                                mount.missingTransform());
+  for (VehicleLayout::Strut& strut : layout.struts) {
+    if (!strut.frame) continue;
+    const std::string to = withoutSlash(*strut.frame);
+    if (from.empty() || !transforms.canTransform(from, to, ros::Time()))
+      throw std::invalid_argument("struts/" + strut.name + "/frame = \"" + *strut.frame +
+                                  "\": no static transform to it from the frame of body_imu, " +
+                                  (from.empty() ? "which has no frame_id" : from));
+    strut.position = mount.turned(transforms.lookupTransform(from, to, ros::Time()).transform.translation);
+  }
+}
+
+}  // namespace suspension_health_monitor

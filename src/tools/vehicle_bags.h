@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../ros/shell_options.h"
+#include "imu_bags.h"
+#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
+#include "suspension_health_monitor/vehicle.h"
+
+namespace suspension_health_monitor {
+
+/// One bag, read as a drive of a vehicle.
+struct VehicleBag {
+  StrutDrives struts;     ///< by VehicleLayout::struts: z'' at the strut's top and w''; all have the same stamps
+  std::string alignment;  ///< StreamGrid::describeAlignment()
+  /// What became of one IMU's messages.
+  struct Imu {
+    std::string topic;
+    RejectCounts rejected;
+    std::uint64_t missed;  ///< readings of others and instants that were lost for want of its readings
+  };
+  std::vector<Imu> imus;
+};
+
+/// Reads bags as drives of a vehicle, one each: all IMUs on one grid, the strut tops told by their own IMUs or by that
+/// of the body.
+/// @param bags  whose topics are taken from the layout; the static transforms are read if the layout has frames.
+/// @param options  without a sample_period it is measured and set.
+/// @throws InputError, TooLittleError  as readTopics().
+/// @throws std::invalid_argument  if a frame has no static transform, or if there are known forces: only IMUs are read.
+std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout layout);
+
+}  // namespace suspension_health_monitor
