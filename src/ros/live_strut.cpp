@@ -23,8 +23,8 @@ void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& privat
   ros::NodeHandle own(node, name_);
   reports_.emplace(own, options_);
   publishModel();
-  updater_.emplace(node, private_node, name_);
-  updater_->setHardwareID(name_);
+  updater_.emplace(node, private_node, own.getNamespace());
+  updater_->setHardwareID(own.getNamespace().substr(1));
   diagnostics_.addTo(*updater_, [this](std::string& why_none) {
     why_none = vehicle_.why_none();
     return monitor();

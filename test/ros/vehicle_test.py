@@ -20,6 +20,7 @@ from suspension_health_monitor.srv import DiagnoseVehicle, SetEffects
 
 STRUTS = ("front", "rear")
 DURATION = 60.0  # [s]
+SEARCHED = 30.0  # [s]
 BATCH = 100  # instants on their way at once; fewer than any queue holds
 COUPLED = 1500  # instants after which the coupling is known for long; before, no estimates tell what has been taken in
 # Of LA with its memory of 2 s the median over the second half of the drive; both struts of a half car at 100 Hz with
@@ -138,7 +139,7 @@ class VehicleTest(unittest.TestCase):
         self.assertEqual(self.silence.level, DiagnosticStatus.ERROR)
 
     def test_search_answers_by_strut(self):
-        answer = service("/vehicle/diagnose", DiagnoseVehicle)(0.0)
+        answer = service("/vehicle/diagnose", DiagnoseVehicle)(SEARCHED)
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.verdict, "nothing_missing", answer.message)
         self.assertEqual((tuple(answer.strut), list(answer.verdicts), list(answer.selected)),
@@ -184,5 +185,5 @@ class VehicleTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("vehicle_test")
-    rostest.rosrun(PACKAGE, "vehicle", VehicleTest)
+    rospy.init_node("half_car_test")
+    rostest.rosrun(PACKAGE, "half_car", VehicleTest)
