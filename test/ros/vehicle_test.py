@@ -129,7 +129,7 @@ class VehicleTest(unittest.TestCase):
             begin = next(iter(statuses(self.diagnostics.messages, f"{name}: Health")))
             self.assertEqual((begin.level, begin.hardware_id), (DiagnosticStatus.STALE, name))
             judged = statuses(self.diagnostics.messages, f"{name}: Health")
-            self.assertTrue(any(status.level == DiagnosticStatus.OK for status in judged), name)
+            self.assertTrue(any("la valid" in values(status) for status in judged), f"{name} has been judged")
             self.assertTrue(statuses(self.diagnostics.messages, f"{name}: Model"))
         coupled = statuses(self.diagnostics.messages, "vehicle: Coupling")
         self.assertEqual((coupled[0].level, coupled[-1].level), (DiagnosticStatus.STALE, DiagnosticStatus.OK))
@@ -157,7 +157,8 @@ class VehicleTest(unittest.TestCase):
         self.assertIn("quadratic_damping", models["rear"].message)
         self.assertEqual(models["front"].message, "the linear strut")
         self.assertTrue(service("/rear/set_effects", SetEffects)([], [], []).success)
-        self.assertTrue(service("/front/save_baseline", Trigger)().success)
+        saved = service("/front/save_baseline", Trigger)()
+        self.assertTrue(saved.success, saved.message)
         self.assertTrue(os.path.exists(self.baselines["front"]))
 
     def next_status(self, task):
