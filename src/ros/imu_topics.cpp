@@ -6,15 +6,14 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 100000;  // messages of either IMU that may wait: 100 s at 1 kHz, some 50 MB
-constexpr std::array kTopics{"sprung/imu", "unsprung/imu", "road/imu"};
 
 }  // namespace
 
-ImuTopics::ImuTopics(const ros::NodeHandle& node, const PipelineOptions& options, Receive receive)
-    : node_(node),
-      by_transforms_(!options.shell.target_frame.empty()),
-      num_imus_(options.monitor.tyre ? 3 : 2),
-      receive_(std::move(receive)) {}
+ImuTopics::ImuTopics(const ros::NodeHandle& node, const std::vector<std::string>& topics, bool by_transforms,
+                     Receive receive)
+    : node_(node), by_transforms_(by_transforms), receive_(std::move(receive)) {
+  for (const std::string& topic : topics) imus_.push_back({topic, "", {}});
+}
 
 ImuTopics::~ImuTopics() {  // nothing may call back into members that are already gone
   static_transforms_.shutdown();
@@ -22,22 +21,24 @@ ImuTopics::~ImuTopics() {  // nothing may call back into members that are alread
 }
 
 void ImuTopics::listen() {
-  if (imus_.front()) return;
+  if (imus_.front().subscriber) return;
   if (by_transforms_ && !static_transforms_)
     static_transforms_ = node_.subscribe("/tf_static", kQueueSize, &ImuTopics::receiveTransforms, this);
-  for (std::size_t i = 0; i < num_imus_; ++i)
-    imus_[i] = node_.subscribe<sensor_msgs::Imu>(
-        kTopics[i], kQueueSize,
-        [this, side = static_cast<Side>(i)](const sensor_msgs::ImuConstPtr& imu) {
-          if (side == Side::kSprung) body_frame_ = imu->header.frame_id;
-          receive_(side, *imu);
+  for (std::size_t i = 0; i < imus_.size(); ++i)
+    imus_[i].subscriber = node_.subscribe<sensor_msgs::Imu>(
+        imus_[i].topic, kQueueSize,
+        [this, i](const sensor_msgs::ImuConstPtr& message) {
+          imus_[i].frame = message->header.frame_id;
+          receive_(i, *message);
         },
         nullptr, ros::TransportHints().tcpNoDelay());
 }
 
 void ImuTopics::stop() {
-  for (ros::Subscriber& imu : imus_) imu.shutdown();
-  imus_ = {};
+  for (Imu& imu : imus_) {
+    imu.subscriber.shutdown();
+    imu.subscriber = {};
+  }
 }
 
 void ImuTopics::receiveTransforms(const tf2_msgs::TFMessageConstPtr& tree) {

@@ -4,10 +4,10 @@
 #include <ros/ros.h>
 
 #include <array>
-#include <optional>
 #include <string>
 
 #include "imu_pipeline.h"
+#include "input_history.h"
 #include "shell_options.h"
 
 namespace suspension_health_monitor {
@@ -16,10 +16,10 @@ namespace suspension_health_monitor {
 /// Counters run from the start or the last reset; a warning is about what came since the last report.
 class InputDiagnostics {
  public:
-  /// @param imu  the two subscriptions, for their topic names.
-  InputDiagnostics(const ShellOptions& options, const std::array<ros::Subscriber, 2>& imu);
+  /// @param topics  of the sprung and the unsprung IMU.
+  InputDiagnostics(const ShellOptions& options, const std::array<std::string, 2>& topics);
 
-  void noteMessage(Side side, const ros::Time& stamp);
+  void noteMessage(Side side, const ros::Time& stamp) { arrivals_[indexOf(side)].note(stamp); }
 
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
@@ -32,29 +32,16 @@ class InputDiagnostics {
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  /// When the messages of one IMU came.
-  struct Arrivals {
-    ros::Time last;
-    ros::WallTime last_by_wall;
-    RunningMean lag{0.99};  // time of arrival - stamp [s]
-  };
-
   void summarize(const ImuPipeline& pipeline, Status& status) const;
-  bool isSilentByWall() const;
-  void describeSeries(const SuspensionMonitor& monitor, Status& status);
   void describeStream(Side side, const ImuPipeline& pipeline, Status& status) const;
-  void describeRejected(const RejectCounts& rejected, Status& status);
   void describeTransforms(const ImuPipeline& pipeline, Status& status) const;
-  void describeSilence(Status& status) const;
-  void describeClock(Status& status);
 
   ShellOptions options_;
-  std::array<std::string, 2> topics_;
-  std::array<std::optional<Arrivals>, 2> arrivals_;
+  std::array<ImuArrivals, 2> arrivals_;
   std::string refusal_;
-  RejectCounts rejected_before_;
-  std::uint64_t gaps_before_ = 0;
-  std::optional<ros::Time> clock_before_;
+  SeriesHistory series_;
+  RejectHistory rejected_;
+  ClockHistory clock_;
 };
 
 }  // namespace suspension_health_monitor

@@ -1,123 +1,26 @@
 #include "monitor_diagnostics.h"
 
-#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
-#include "suspension_health_monitor/internal/wording/search_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 #include "tyre_output.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-using diagnostic_msgs::DiagnosticStatus;
-
-void addEstimate(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
-                 const StrutEstimate& estimate) {
-  status.addf(name + " damping_to_mass [1/s]", "%.4g", estimate.damping_to_mass);
-  status.addf(name + " stiffness_to_mass [1/s^2]", "%.5g", estimate.stiffness_to_mass);
-  status.addf(name + " explained [%]", "%.1f", 100.0 * estimate.explained);
-  status.add(name + " valid", estimate.valid());
-}
-
-void addJudgement(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
-                  const std::optional<double>& nominal, const std::optional<double>& change) {
-  if (nominal) status.addf("nominal " + name, "%.5g", *nominal);
-  if (change) status.addf(name + " change [%]", "%+.1f", 100.0 * *change);
-}
-
-}  // namespace
 
 MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                        const std::string& name, const PipelineOptions& options,
-                                       const std::array<ros::Subscriber, 2>& imu, const LiveModel& model)
-    : input_timeout_(options.shell.input_timeout),
-      input_(options.shell, imu),
-      model_(model),
-      updater_(node, private_node, name) {
+                                       const std::array<std::string, 2>& topics, const LiveModel& model)
+    : input_(options.shell, topics), strut_(options.shell.input_timeout, model), updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Input", [this](Status& status) { input_.describe(*pipeline_, status); });
-  updater_.add("Health", this, &MonitorDiagnostics::describeHealth);
-  updater_.add("Model", this, &MonitorDiagnostics::describeModel);
+  strut_.addTo(updater_, [this](std::string& why_none) {
+    why_none = kMeasuringPeriod;
+    return pipeline_->monitor();
+  });
   if (options.monitor.tyre) updater_.add("Tyre", [this](Status& status) { describeTyre(*pipeline_, status); });
-}
-
-bool MonitorDiagnostics::noteLevel(HealthLevel level) {
-  const bool changed = level_ != level;
-  level_ = level;
-  return changed;
 }
 
 void MonitorDiagnostics::publish(const ImuPipeline& pipeline) {
   pipeline_ = &pipeline;
   updater_.force_update();
   pipeline_ = nullptr;
-}
-
-void MonitorDiagnostics::describeHealth(Status& status) {
-  const SuspensionMonitor* monitor = pipeline_->monitor();
-  if (monitor == nullptr) {
-    status.summary(DiagnosticStatus::STALE, "measuring the sample period");
-    return;
-  }
-  const MonitorReport& report = monitor->report();
-  status.summary(static_cast<unsigned char>(report.health.level), describe(report.health));
-  describeSilence(*monitor, status);
-  addEstimate(status, "la", report.la);
-  addEstimate(status, "ls", report.ls);
-  if (monitor->options().fastest_memory)
-    status.addf("memory [s]", "%.2f", monitor->period() / (1.0 - monitor->forgettingFactor()));
-  const Baseline& baseline = monitor->baseline();
-  addJudgement(status, "damping_to_mass", baseline.damping_to_mass, report.health.damping_change);
-  addJudgement(status, "stiffness_to_mass", baseline.stiffness_to_mass, report.health.stiffness_change);
-  if (report.health.payload_change) status.addf("body mass change [%]", "%+.1f", 100.0 * *report.health.payload_change);
-  if (report.health.learning) status.addf("baseline learned [%]", "%.0f", 100.0 * *report.health.learning);
-  status.add("early warning", report.health.early_warning);
-  status.add("outliers or saturation", report.health.outliers);
-  status.add("sensor fault", describe(report.health.sensor));
-}
-
-// A level describes the newest readings; once they are old, nobody knows it any more. Age is measured by the clock that
-// stamps the data, so that a simulation that is paused makes nothing old.
-void MonitorDiagnostics::describeSilence(const SuspensionMonitor& monitor, Status& status) {
-  const ros::Time now = ros::Time::now();
-  const std::uint64_t samples = monitor.input().samples;
-  if (samples != accepted_.samples || now < accepted_.at) accepted_ = {samples, now};
-  const double silent = (now - accepted_.at).toSec();
-  if (silent <= input_timeout_) return;
-  status.summary(DiagnosticStatus::STALE, describeNoReading(silent, status.message));
-}
-
-void MonitorDiagnostics::describeModel(Status& status) {
-  const SuspensionMonitor* monitor = pipeline_->monitor();
-  if (monitor == nullptr) {
-    status.summary(DiagnosticStatus::STALE, "measuring the sample period");
-    return;
-  }
-  status.summary(DiagnosticStatus::OK, model_.describe());
-  const ComparisonReport& comparison = monitor->report().comparison;
-  status.addf("rmse [m/s^2]", "%.4g", comparison.rmse);
-  status.addf("fit [%]", "%.2f", comparison.fit_percent);
-  status.addf("base rmse [m/s^2]", "%.4g", comparison.base_rmse);
-  status.addf("base fit [%]", "%.2f", comparison.base_fit_percent);
-  for (const ActiveEffect& active : monitor->effects())
-    status.addf(active.effect.name + " [" + active.effect.unit + "]", "%.5g", active.coefficient);
-  describeDiagnosis(status);
-}
-
-void MonitorDiagnostics::describeDiagnosis(Status& status) const {
-  const std::optional<Diagnosis>& diagnosis = model_.diagnosis();
-  if (!diagnosis) return;
-  if (const std::vector<std::string> missing = model_.missing(); !missing.empty())
-    status.mergeSummary(DiagnosticStatus::WARN, std::string("the last diagnosis ") +
-                                                    (diagnosis->verdict == Verdict::kSuspect ? "suspects" : "found") +
-                                                    ", not in the model: " + join(missing, ", "));
-  if (diagnosis->verdict == Verdict::kUnexplained)
-    status.mergeSummary(DiagnosticStatus::WARN, "the last diagnosis: something is missing that no effect explains");
-  status.add("diagnosed", nameOf(diagnosis->verdict));
-  status.add("diagnosed effects", join(diagnosis->selected, ", "));
-  status.addf("diagnosed structured share [%]", "%.1f", 100.0 * diagnosis->structured_share);
-  status.addf("diagnosed noise floor [m/s^2]", "%.4g", diagnosis->noise_floor);
-  status.addf("diagnosed from stamp [s]", "%.3f", toSeconds(diagnosis->from));
-  status.addf("diagnosed to stamp [s]", "%.3f", toSeconds(diagnosis->to));
 }
 
 }  // namespace suspension_health_monitor

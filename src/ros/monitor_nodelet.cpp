@@ -1,24 +1,10 @@
 #include "monitor_nodelet.h"
 
-#include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "parameters.h"
-#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-LiveModel::Shapes shapesOf(const SetEffectsRequest& request) {
-  if (request.shape_names.size() != request.shape_values.size())
-    throw std::invalid_argument(std::to_string(request.shape_values.size()) + " shape_values, must be as many as " +
-                                "shape_names: " + std::to_string(request.shape_names.size()));
-  LiveModel::Shapes shapes;
-  for (std::size_t i = 0; i < request.shape_names.size(); ++i) shapes[request.shape_names[i]] = request.shape_values[i];
-  return shapes;
-}
-
-}  // namespace
 
 MonitorNodelet::~MonitorNodelet() {
   // Nothing may call back into members that are already gone.
@@ -26,7 +12,8 @@ MonitorNodelet::~MonitorNodelet() {
   reconfigure_.reset();
   tick_.stop();
   imus_.reset();
-  for (ros::ServiceServer& service : services_) service.shutdown();
+  services_.reset();
+  reset_.shutdown();
 }
 
 void MonitorNodelet::onInit() {
@@ -35,7 +22,10 @@ void MonitorNodelet::onInit() {
     options_ = PipelineOptions::fromValues(readParameters(private_node));
     model_.emplace(options_.shell);
     baseline_.emplace(options_);
-    imus_.emplace(node, options_, [this](Side side, const sensor_msgs::Imu& imu) { onImu(side, imu); });
+    std::vector<std::string> topics{"sprung/imu", "unsprung/imu"};  // by Side
+    if (options_.monitor.tyre) topics.emplace_back("road/imu");
+    imus_.emplace(node, topics, !options_.shell.target_frame.empty(),
+                  [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(static_cast<Side>(imu), message); });
     makePipeline();
   });
   for (const std::string& remark : model_->remarks()) NODELET_WARN("%s", remark.c_str());
@@ -46,7 +36,9 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   reports_.emplace(private_node, options_);
   publishModel();
   imus_->listen();
-  diagnostics_.emplace(node, private_node, getName(), options_, imus_->strut(), *model_);
+  diagnostics_.emplace(node, private_node, getName(), options_,
+                       std::array{imus_->topic(indexOf(Side::kSprung)), imus_->topic(indexOf(Side::kUnsprung))},
+                       *model_);
   advertiseServices(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
 }
@@ -59,13 +51,21 @@ void MonitorNodelet::makePipeline() {
 }
 
 void MonitorNodelet::advertiseServices(ros::NodeHandle& private_node) {
-  services_ = {private_node.advertiseService("reset", &MonitorNodelet::onReset, this),
-               private_node.advertiseService("set_effects", &MonitorNodelet::onSetEffects, this),
-               private_node.advertiseService("save_model", &MonitorNodelet::onSaveModel, this),
-               private_node.advertiseService("save_baseline", &MonitorNodelet::onSaveBaseline, this)};
-  diagnose_.emplace(private_node, thread_->queue(),
-                    DiagnoseService::Nodelet{[this](double window) { return giveSamples(window); },
-                                             [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); }});
+  reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
+  services_.emplace(private_node, options_.shell, *model_, *baseline_,
+                    StrutServices::Strut{[this] { return pipeline_->monitor(); },
+                                         [this](const auto& effects, const auto& strut) {
+                                           pipeline_->strut().setEffects(effects, strut);
+                                         },
+                                         [this](const Baseline& baseline) { pipeline_->strut().setBaseline(baseline); },
+                                         [this] { return pipeline_->newestSamples(options_.shell.diagnose_window); },
+                                         [this] {
+                                           publishModel();
+                                           onTick();
+                                         }});
+  diagnose_.emplace(private_node, thread_->queue(), [this](double window) {
+    return searchOf(giveSamples(window), [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); });
+  });
   reconfigure_.emplace(private_node);  // writes down the parameters as they were given, and defaults
   reconfigure_->setCallback([this](LiveSettings& settings, std::uint32_t) { onReconfigure(settings); });
 }
@@ -84,7 +84,8 @@ void MonitorNodelet::onReconfigure(LiveSettings& settings) {
 
 void MonitorNodelet::publishModel() {
   const SuspensionMonitor* monitor = pipeline_->monitor();
-  reports_->model().change(monitor != nullptr ? monitor->effects() : model_->effects(), monitor, imus_->bodyFrame());
+  reports_->model().change(monitor != nullptr ? monitor->effects() : model_->effects(), monitor,
+                           imus_->frame(indexOf(Side::kSprung)));
 }
 
 void MonitorNodelet::stopListening(const std::string& reason) {
@@ -105,7 +106,7 @@ void MonitorNodelet::onImu(Side side, const sensor_msgs::Imu& imu) {
 void MonitorNodelet::publish(const MonitorReport& report) {
   if (diagnostics_->noteLevel(report.health.level)) onTick();
   if (report.health.learned && !baseline_->known()) keepBaseline();
-  reports_->publish(report, pipeline_->strut(), imus_->bodyFrame());
+  reports_->publish(report, *pipeline_->monitor(), pipeline_->strut().tyre(), imus_->frame(indexOf(Side::kSprung)));
 }
 
 void MonitorNodelet::onTick() { diagnostics_->publish(*pipeline_); }
@@ -120,57 +121,6 @@ bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   return true;
 }
 
-bool MonitorNodelet::onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response) {
-  try {
-    std::vector<ActiveEffect> effects =
-        model_->choose(request.names, shapesOf(request), [this] { return motionScaleNow(); });
-    pipeline_->strut().setEffects(effects, model_->strutFor(effects));
-    model_->setEffects(std::move(effects));
-    publishModel();
-    response.success = true;
-    response.message = "the model is now " + model_->describe();
-    onTick();
-  } catch (const std::invalid_argument& error) {
-    response.message = error.what();
-  }
-  return true;
-}
-
-std::optional<MotionScale> MonitorNodelet::motionScaleNow() const {
-  const SuspensionMonitor* monitor = pipeline_->monitor();
-  if (monitor == nullptr) return std::nullopt;
-  const StrutEstimate& la = monitor->report().la;
-  return motionScale(pipeline_->newestSamples(options_.shell.diagnose_window), monitor->period(), la.damping_to_mass,
-                     la.stiffness_to_mass);
-}
-
-bool MonitorNodelet::onSaveModel(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  const SuspensionMonitor* monitor = pipeline_->monitor();
-  try {
-    if (monitor == nullptr || !monitor->report().la.valid())
-      throw std::runtime_error("nothing to save: the monitor has no valid estimate");
-    const StrutEstimate& la = monitor->report().la;
-    model_->save({la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}});
-    response.success = true;
-    response.message = options_.shell.model_file + ": " + model_->describe();
-  } catch (const std::runtime_error& error) {
-    response.message = error.what();
-  }
-  return true;
-}
-
-bool MonitorNodelet::onSaveBaseline(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  try {
-    baseline_->save(pipeline_->monitor());
-    pipeline_->strut().setBaseline(*baseline_->known());
-    response.success = true;
-    response.message = "health is judged by the strut as it is now; written to " + options_.shell.baseline_file;
-  } catch (const std::runtime_error& error) {
-    response.message = error.what();
-  }
-  return true;
-}
-
 void MonitorNodelet::keepBaseline() {
   try {
     NODELET_INFO("%s", baseline_->keepLearned(*pipeline_->monitor()).c_str());
@@ -180,13 +130,9 @@ void MonitorNodelet::keepBaseline() {
 }
 
 SearchTask MonitorNodelet::giveSamples(double window) const {
-  const double kept = options_.shell.diagnose_window;
-  if (!(window >= 0.0 && window <= kept))
-    throw std::invalid_argument("window = " + numberText(window) + " [s], must be in [0, " + numberText(kept) +
-                                "] (diagnose/window)");
+  const double span = searchSpan(window, options_.shell.diagnose_window);
   const SuspensionMonitor* monitor = pipeline_->monitor();
   if (monitor == nullptr) throw std::runtime_error("the sample period is still being measured: drive on");
-  const double span = window > 0.0 ? window : kept;
   SearchTask task;
   task.drive = {pipeline_->newestSamples(span), pipeline_->newestBodyMotion(span)};
   task.options.sample_period = monitor->period();

@@ -5,14 +5,11 @@
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
-#include <suspension_health_monitor/SetEffects.h>
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "diagnose_service.h"
 #include "imu_pipeline.h"
 #include "imu_topics.h"
 #include "live_baseline.h"
@@ -21,6 +18,8 @@
 #include "monitor_diagnostics.h"
 #include "monitor_thread.h"
 #include "report_topics.h"
+#include "strut_search.h"
+#include "strut_services.h"
 
 namespace suspension_health_monitor {
 
@@ -42,13 +41,9 @@ class MonitorNodelet : public nodelet::Nodelet {
   void onTick();
   void onReconfigure(LiveSettings& settings);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
-  bool onSaveModel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool onSaveBaseline(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void keepBaseline();
   SearchTask giveSamples(double window) const;
   void takeDiagnosis(const Diagnosis& diagnosis);
-  std::optional<MotionScale> motionScaleNow() const;
   void publishModel();
   void advertiseServices(ros::NodeHandle& private_node);
   void makePipeline();
@@ -62,9 +57,10 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::optional<ImuPipeline> pipeline_;
   std::optional<ReportTopics> reports_;
   std::optional<MonitorDiagnostics> diagnostics_;
-  std::array<ros::ServiceServer, 4> services_;
+  ros::ServiceServer reset_;
+  std::optional<StrutServices> services_;
   std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
-  std::optional<DiagnoseService> diagnose_;
+  std::optional<DiagnoseService<Diagnose>> diagnose_;
   ros::WallTimer tick_;
 };
 

@@ -28,18 +28,19 @@ ReportTopics::ReportTopics(ros::NodeHandle& private_node, const PipelineOptions&
   if (options.monitor.tyre) tyre_.emplace(private_node, kQueueSize);
 }
 
-void ReportTopics::publish(const MonitorReport& report, const StrutPipeline& strut, const std::string& frame) {
-  model_.note(*strut.monitor(), frame);
+void ReportTopics::publish(const MonitorReport& report, const SuspensionMonitor& monitor, const TyreTracker* tyre,
+                           const std::string& frame) {
+  model_.note(monitor, frame);
   if (reports_++ % stride_ != 0) return;
   std_msgs::Header header;
   header.stamp = toRosTime(report.stamp);
   header.frame_id = frame;
-  const std::vector<ActiveEffect>& effects = strut.monitor()->effects();
+  const std::vector<ActiveEffect>& effects = monitor.effects();
   send(ls_, [&] { return toMsg(report.ls, "ls", header, effects, sprung_mass_); });
   send(la_, [&] { return toMsg(report.la, "la", header, effects, sprung_mass_); });
   if (report.comparison.has_sample) send(comparison_, [&] { return toMsg(report.comparison, frame); });
-  if (tyre_) tyre_->publish(*strut.tyre(), report.la, header);
-  send(health_, [&] { return toMsg(report, strut.monitor()->baseline(), header); });
+  if (tyre_ && tyre != nullptr) tyre_->publish(*tyre, report.la, header);
+  send(health_, [&] { return toMsg(report, monitor.baseline(), header); });
 }
 
 }  // namespace suspension_health_monitor

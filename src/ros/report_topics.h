@@ -20,8 +20,9 @@ class ReportTopics {
   ReportTopics(ros::NodeHandle& private_node, const PipelineOptions& options);
 
   /// Publishes what has subscribers, of every publish_every-th report.
-  /// @param frame  frame_id of the body's IMU.
-  void publish(const MonitorReport& report, const StrutPipeline& strut, const std::string& frame);
+  /// @param tyre  nullptr: no road sensor.  @param frame  frame_id of the body's IMU.
+  void publish(const MonitorReport& report, const SuspensionMonitor& monitor, const TyreTracker* tyre,
+               const std::string& frame);
 
   /// @param every  so many reports make one publication, >= 1.
   void setStride(int every) { stride_ = static_cast<std::uint64_t>(every); }

@@ -41,7 +41,11 @@ VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sin
       survey_(static_cast<int>(settings.size()), num_forces, toSeconds(period_), kCouplingMemory),
       coupling_due_(samplesOf(kCouplingEvery, toSeconds(period_))),
       models_due_(samplesOf(kModelsEvery, toSeconds(period_))) {
-  if (settings_.size() == 1) beginStruts();
+  if (settings_.size() > 1) return;
+  coupling_ = survey_.estimate();  // of one strut: nothing else moves it
+  coupling_->stddevs.setZero();
+  coupling_->condition = 1.0;
+  beginStruts();
 }
 
 void VehicleMonitor::beginStruts() {
@@ -91,6 +95,7 @@ void VehicleMonitor::learnCoupling() {
   if (!estimate.isKnown()) return;
   if (!decoupler_) begin(estimate);
   decoupler_->setCoupling(estimate.coupling);
+  coupling_ = estimate;
   for (std::size_t i = 0; i < struts_.size(); ++i)
     struts_[i].setInputStddevs(estimate.own_stddevs.row(static_cast<Eigen::Index>(i)).transpose());
 }

@@ -44,6 +44,9 @@ class VehicleMonitor {
   /// @return true once the coupling is known.
   bool isCoupled() const { return !struts_.empty(); }
 
+  /// @return the coupling that the struts are taken apart with; nullptr while it is not known.
+  const CouplingEstimate* coupling() const { return coupling_ ? &*coupling_ : nullptr; }
+
   /// @return what the rows of late say of the coupling.
   const CouplingEstimate& estimate() const { return survey_.estimate(); }
 
@@ -66,6 +69,7 @@ class VehicleMonitor {
   Sink sink_;
   std::vector<Start> starts_;
   CouplingSurvey survey_;
+  std::optional<CouplingEstimate> coupling_;
   std::optional<Decoupler> decoupler_;
   std::vector<SuspensionMonitor> struts_;
   EveryN coupling_due_, models_due_;

@@ -1,0 +1,72 @@
+#include "coupling_output.h"
+
+#include "conversions.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+CouplingInUse toMsg(const CouplingEstimate* coupling, const std::string& why_none,
+                    const std::vector<std::string>& struts) {
+  CouplingInUse msg;
+  msg.known = coupling != nullptr;
+  msg.names = struts;
+  msg.condition = kUnknown;
+  const auto n = static_cast<Eigen::Index>(struts.size());
+  if (coupling == nullptr) {
+    msg.reason = why_none;
+    msg.ratios.assign(struts.size() * struts.size(), kUnknown);
+    msg.stddevs = msg.ratios;
+    return msg;
+  }
+  msg.condition = coupling->condition;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      msg.ratios.push_back(coupling->coupling.ratios(i, j));
+      msg.stddevs.push_back(coupling->stddevs(i, j));
+    }
+  return msg;
+}
+
+/// What is not known is NaN in both, and alike.
+bool saysTheSame(const CouplingInUse& a, const CouplingInUse& b) {
+  return a.known == b.known && a.reason == b.reason && (!a.known || (a.ratios == b.ratios && a.stddevs == b.stddevs));
+}
+
+}  // namespace
+
+void CouplingOutput::publish(const VehicleMonitor* monitor, const std::string& why_none, const ros::Time& stamp) {
+  CouplingInUse msg = toMsg(monitor != nullptr ? monitor->coupling() : nullptr, why_none, struts_);
+  if (last_ && saysTheSame(*last_, msg)) return;
+  msg.header.stamp = stamp;
+  publisher_.publish(msg);
+  last_ = msg;
+}
+
+void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& why_none,
+                              diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const CouplingEstimate* coupling = monitor != nullptr ? monitor->coupling() : nullptr;
+  if (coupling == nullptr) {
+    status.summary(DiagnosticStatus::STALE, why_none);
+    return;
+  }
+  status.summary(DiagnosticStatus::OK, "it is known how the struts move one another");
+  status.addf("condition", "%.3g", coupling->condition);
+  if (const std::string late = reasonOf(monitor->estimate(), struts_); !late.empty() && struts_.size() > 1)
+    status.add("not renewed", "the drives of late " + late);
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    for (std::size_t j = 0; j < struts_.size(); ++j) {
+      if (i == j) continue;
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      status.addf(struts_[i] + " moved by " + struts_[j], "%.3f +- %.3f", coupling->coupling.ratios(row, column),
+                  coupling->stddevs(row, column));
+    }
+}
+
+std::string whyNotCoupled(const VehicleMonitor& monitor, const std::vector<std::string>& struts) {
+  return "the drives so far " + reasonOf(monitor.estimate(), struts);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "live_model.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+
+namespace suspension_health_monitor {
+
+/// What /diagnostics says of one strut, as its monitor sees it: a task each for its health and its model.
+class StrutDiagnostics {
+ public:
+  /// @return the strut's monitor; nullptr if there is none yet, and then why.
+  using Find = std::function<const SuspensionMonitor*(std::string& why_none)>;
+
+  /// @param input_timeout  [s] as the option.  @param model  outlives this object.
+  StrutDiagnostics(double input_timeout, const LiveModel& model) : input_timeout_(input_timeout), model_(model) {}
+
+  /// Adds the tasks to an updater that does not outlive this object.
+  void addTo(diagnostic_updater::Updater& updater, const Find& find);
+
+  /// @return true if the level differs from the last one: a change is published at once.
+  bool noteLevel(HealthLevel level);
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  /// When a reading was accepted last, as seen from the reports.
+  struct Accepted {
+    std::uint64_t samples = 0;
+    ros::Time at;
+  };
+
+  void describeHealth(const SuspensionMonitor& monitor, Status& status);
+  void describeSilence(const SuspensionMonitor& monitor, Status& status);
+  void describeModel(const SuspensionMonitor& monitor, Status& status);
+  void describeDiagnosis(Status& status) const;
+
+  double input_timeout_;
+  Accepted accepted_;
+  const LiveModel& model_;
+  std::optional<HealthLevel> level_;
+};
+
+/// What a strut has no monitor for, at first.
+inline constexpr const char* kMeasuringPeriod = "measuring the sample period";
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,98 @@
+#include "vehicle_options.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "suspension_health_monitor/internal/prefixed.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+#include "vehicle_file.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+struct FileSettings {
+  std::string vehicle;
+};
+using FileField = OptionField<FileSettings>;
+constexpr std::array kFileFields{
+    FileField{"vehicle", "-", "YAML file that says which sensors the vehicle has", &FileSettings::vehicle},
+};
+
+VehicleLayout takeLayout(OptionMap& values) {
+  FileSettings file;
+  takeOptions(values, kFileFields, file);
+  if (file.vehicle.empty())
+    throw std::invalid_argument("vehicle is missing, must be the YAML file that says which sensors the vehicle has");
+  return prefixed("vehicle = ", [&] {
+    VehicleLayout layout = readVehicleFile(file.vehicle);
+    if (!layout.known_forces.empty())
+      throw std::invalid_argument(file.vehicle + ": known_forces/" + layout.known_forces.front().name +
+                                  ": forces are not read live, must be left out");
+    return layout;
+  });
+}
+
+/// Sensors are read, aligned and kept for all struts together.
+bool isOfVehicle(const std::string& name) {
+  const std::vector<OptionDescription> all = PipelineOptions::describe();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const OptionDescription& option) { return option.name == name; });
+  return found != all.end() && (found->group == "input" || found->name == "diagnose/window");
+}
+
+PipelineOptions optionsOf(const std::string& strut, OptionMap values, const OptionMap& own) {
+  for (const auto& [name, value] : own) {
+    if (isOfVehicle(name))
+      throw std::invalid_argument("struts/" + strut + '/' + name + ": " + name +
+                                  " is of the whole vehicle, must be given without struts/" + strut);
+    values[name] = value;
+  }
+  return prefixed("struts/" + strut + ": ", [&] {
+    PipelineOptions options = PipelineOptions::fromValues(values);
+    if (options.monitor.tyre)
+      throw std::invalid_argument("tyre/enabled = true: a vehicle's monitor takes no road IMU, must be false");
+    return options;
+  });
+}
+
+void requireOwnFiles(const VehicleOptions& options, const char* name, std::string ShellOptions::*file) {
+  std::map<std::string, std::string> users;
+  for (std::size_t i = 0; i < options.struts.size(); ++i) {
+    const std::string& path = options.struts[i].shell.*file;
+    if (path.empty()) continue;
+    const auto [other, is_first] = users.emplace(path, options.layout.struts[i].name);
+    if (!is_first)
+      throw std::invalid_argument(std::string(name) + " = \"" + path + "\" is the file of " + other->second +
+                                  " and of " + options.layout.struts[i].name + ", must be one for each: struts/NAME/" +
+                                  name);
+  }
+}
+
+}  // namespace
+
+VehicleOptions VehicleOptions::fromValues(OptionMap values) {
+  VehicleOptions options;
+  options.layout = takeLayout(values);
+  std::map<std::string, OptionMap> own = takeGroups(values, "struts");
+  options.common = PipelineOptions::fromValues(values);
+  for (const std::string& strut : options.strutNames()) {
+    options.struts.push_back(optionsOf(strut, values, own[strut]));
+    own.erase(strut);
+  }
+  if (!own.empty())
+    throw std::invalid_argument("struts/" + own.begin()->first + ": the vehicle has no such strut, must be one of " +
+                                join(options.strutNames()));
+  requireOwnFiles(options, "baseline_file", &ShellOptions::baseline_file);
+  requireOwnFiles(options, "model_file", &ShellOptions::model_file);
+  return options;
+}
+
+std::vector<std::string> VehicleOptions::strutNames() const {
+  std::vector<std::string> names;
+  for (const VehicleLayout::Strut& strut : layout.struts) names.push_back(strut.name);
+  return names;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shell_options.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
+
+namespace suspension_health_monitor {
+
+/// What VehicleNodelet is set to: `vehicle`, the file that says which sensors the vehicle has; the settings of
+/// config/monitor.yaml for all struts; and `struts/NAME/SETTING` where a strut differs.
+struct VehicleOptions {
+  VehicleLayout layout;
+  PipelineOptions common;
+  std::vector<PipelineOptions> struts;  ///< by VehicleLayout::struts
+
+  /// @throws std::invalid_argument  naming file, strut, option, value and what is allowed.
+  static VehicleOptions fromValues(OptionMap values);
+
+  std::vector<std::string> strutNames() const;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <sensor_msgs/Imu.h>
+#include <tf2/buffer_core.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/signal/recent_samples.h"
+#include "suspension_health_monitor/internal/signal/stream_grid.h"
+#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
+#include "suspension_health_monitor/vehicle.h"
+#include "vehicle_options.h"
+#include "vehicle_sensors.h"
+
+namespace suspension_health_monitor {
+
+/// From the IMU messages of a vehicle to reports by strut:
+/// message -> VehicleSensors -> StreamGrid -> StrutTops -> VehicleMonitor::addSample -> sinks.
+/// Without a sample_period the first messages wait until their stamps have told it; until then there is no monitor. It
+/// keeps the newest samples of all struts, for a search.
+class VehiclePipeline {
+ public:
+  struct Sinks {
+    std::function<void(VehicleMonitor& monitor)> begin;  ///< before the first sample
+    VehicleMonitor::Sink report;
+  };
+
+  /// @param streams  with the positions of all struts that need one.
+  /// @param transforms  with a target_frame: where those of the IMUs are looked up; outlives this object.
+  /// @throws std::invalid_argument  as VehicleMonitor.
+  VehiclePipeline(const VehicleOptions& options, const VehicleStreams& streams, const tf2::BufferCore* transforms,
+                  Sinks sinks);
+  VehiclePipeline(const VehiclePipeline&) = delete;  // its monitor's sink refers to it
+  VehiclePipeline& operator=(const VehiclePipeline&) = delete;
+
+  /// @param imu  its place in VehicleStreams::imus.
+  /// @throws std::invalid_argument  if the options do not fit what was measured, the sample period or the struts: no
+  /// message is to come any more.
+  void push(std::size_t imu, const sensor_msgs::Imu& message);
+
+  /// @return nullptr while the sample period is being measured; so with the grid.
+  VehicleMonitor* monitor() { return monitor_ ? &*monitor_ : nullptr; }
+  const VehicleMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
+  const StreamGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
+
+  std::optional<double> period() const { return period_; }  ///< T [s]; nothing while it is being measured
+
+  /// @return stamp of the newest sample; 0 before the first.
+  Stamp newest() const { return newest_; }
+
+  /// @return the samples kept, of diagnose_window, that are at most `span` [s] older than the newest one.
+  StrutDrives newestSamples(double span) const;
+
+  /// @return messages of an IMU that were kept out so far, wherever it was noticed.
+  RejectCounts rejected(std::size_t imu) const;
+
+ private:
+  struct Reading {
+    std::size_t imu;
+    Stamp stamp;
+    std::vector<double> values;
+  };
+
+  void measurePeriod(Reading reading);
+  void start(double period);
+  void take(std::size_t imu, Stamp stamp, const std::vector<double>& values);
+  void keep(const VehicleSample& sample);
+
+  VehicleOptions options_;
+  VehicleStreams streams_;
+  Sinks sinks_;
+  VehicleSensors sensors_;
+  PeriodMeasurement measurement_;
+  std::vector<Reading> early_;          // that wait for the sample period
+  std::vector<RejectCounts> rejected_;  // by IMU, while it is being measured
+  std::optional<double> period_;
+  Stamp newest_{};
+  std::optional<StreamGrid> grid_;
+  std::optional<StrutTops> tops_;
+  std::optional<VehicleMonitor> monitor_;
+  std::vector<RecentSamples> recent_;  // by strut
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,48 @@
+#include "vehicle_search.h"
+
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+/// diagnoseVehicle() of one drive.
+/// @throws std::runtime_error  in words for people, if the samples do not tell the struts apart.
+VehicleDiagnosis searchEffects(const VehicleSearchTask& task) {
+  VehicleDiagnosis found = diagnoseVehicle({task.drive}, task.struts, task.options);
+  if (found) return found;
+  const std::vector<CornerSample>& samples = task.drive.front().samples;
+  throw std::runtime_error(formatted("the last %.3g s ", toSeconds(samples.back().stamp - samples.front().stamp)) +
+                           found.coupling.reason);
+}
+
+DiagnoseVehicleResponse toResponse(const VehicleDiagnosis& found, const std::vector<std::string>& struts) {
+  DiagnoseVehicleResponse response;
+  response.success = true;
+  response.message = found.summary;
+  response.verdict = nameOf(found.verdict);
+  response.strut = struts;
+  for (const Diagnosis& strut : found.struts) {
+    response.verdicts.emplace_back(strut ? nameOf(strut.verdict) : "");
+    response.selected.push_back(join(strut.selected, ", "));
+    response.summaries.push_back(strut ? strut.summary : "The drives " + strut.reason + ".");
+  }
+  return response;
+}
+
+}  // namespace
+
+DiagnoseService<DiagnoseVehicle>::Search searchOf(VehicleSearchTask task,
+                                                  std::function<void(const VehicleDiagnosis&)> take) {
+  return [task = std::move(task), take = std::move(take)](const SearchProgress& progress) mutable {
+    task.options.progress = progress;
+    const auto found = std::make_shared<const VehicleDiagnosis>(searchEffects(task));
+    return DiagnoseService<DiagnoseVehicle>::Outcome{toResponse(*found, task.struts), [take, found] { take(*found); }};
+  };
+}
+
+}  // namespace suspension_health_monitor
