@@ -55,6 +55,8 @@ class VehicleTest(unittest.TestCase):
         for collector in cls.la.values():
             collector.wait_for_publisher()
         cls.unknown = cls.coupling.wait_for(lambda message: True, "what is known at first")
+        for task in ("front: Health", "rear: Health", "vehicle: Coupling"):
+            wait_until(lambda name=task: statuses(cls.diagnostics.messages, name), f"a status of {task}")
         cls.drive()
 
     @classmethod
