@@ -39,8 +39,8 @@ class VehicleTest(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         bag, cls.vehicle = (os.path.join(cls.folder.name, name) for name in ("drive.bag", "vehicle.yaml"))
-        run_tool("simulate", "--vehicle-model", "half_sedan", "--duration", str(DURATION), "--rate", "100", "--seed", "7",
-                 "-o", bag, "--vehicle-file", cls.vehicle)
+        run_tool("simulate", "--vehicle-model", "half_sedan", "--duration", str(DURATION), "--rate", "100",
+                 "--seed", "7", "-o", bag, "--vehicle-file", cls.vehicle)
         cls.baselines = {name: os.path.join(cls.folder.name, f"{name}.yaml") for name in STRUTS}
         cls.strut_config = cls.write("struts.yaml", {
             "struts": {name: {"baseline_file": path} for name, path in cls.baselines.items()}})
@@ -55,6 +55,8 @@ class VehicleTest(unittest.TestCase):
         for collector in cls.la.values():
             collector.wait_for_publisher()
         cls.unknown = cls.coupling.wait_for(lambda message: True, "what is known at first")
+        for task in ("front: Health", "rear: Health", "vehicle: Coupling"):
+            wait_until(lambda name=task: statuses(cls.diagnostics.messages, name), f"a status of {task}")
         cls.drive()
 
     @classmethod
@@ -73,8 +75,8 @@ class VehicleTest(unittest.TestCase):
 
     @classmethod
     def drive(cls):
-        """Publishes the drive by batches, each of which the monitor has taken in before the next one; then nothing comes
-        any more, until that is told."""
+        """Publishes the drive by batches, each of which the monitor has taken in before the next one; then nothing
+        comes any more, until that is told."""
         topics = [strut[side] for strut in cls.layout["struts"].values() for side in ("sprung_imu", "unsprung_imu")]
         publishers = {topic: rospy.Publisher(topic, Imu, queue_size=UNLIMITED, tcp_nodelay=True) for topic in topics}
         for publisher in publishers.values():
