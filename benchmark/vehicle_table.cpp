@@ -1,5 +1,5 @@
 // Whole vehicles, simulated by vehicle_drive.h, which shares nothing with the package: the tables of doc/vehicle.md.
-//   vehicle_table linear|effect|bar|alone|health [SEEDS [FIRST]]
+//   vehicle_table linear|coupling|effect|bar|alone|health [SEEDS [FIRST]]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -120,6 +120,25 @@ void printBar(const char* kind, unsigned seed) {
   std::printf("%s\n", found.summary.c_str());
 }
 
+// How far the ratios are off, over their standard deviations.
+void printCoupling(const char* kind, unsigned seed) {
+  Driven driven = prepared(kind, seed);
+  drive(driven);
+  const VehicleCoupling coupling = separateVehicle({driven.struts()}, driven.names).coupling;
+  double squares = 0.0, most = 0.0, count = 0.0;
+  for (std::size_t i = 0; coupling && i < driven.size(); ++i)
+    for (std::size_t j = 0; j < driven.size(); ++j) {
+      if (i == j) continue;
+      const double truth = driven.vehicle.mobility(i, j) / driven.vehicle.mobility(j, j);
+      const double off = coupling.ratios[i][j] - truth;
+      squares += std::pow(off / coupling.stddevs[i][j], 2);
+      most = std::max(most, std::abs(off));
+      count += 1.0;
+    }
+  std::printf("%-6s %3u  %9.4f  %11.2f  %9.1f   %s\n", kind, seed, most, squares / count, coupling.condition,
+              coupling.reason.c_str());
+}
+
 // Every strut judged by its own two IMUs: nothing is hidden in any.
 void printAlone(const char* kind, unsigned seed) {
   Driven driven = prepared(kind, seed);
@@ -192,8 +211,10 @@ struct Table {
 
 constexpr std::array kTables{
     Table{"linear", "kind  seed  b1 off %  b0 off %  inside  rmse/floor  verdict", printLinear},
+    Table{"coupling", "kind  seed  ratio off  mean square  condition", printCoupling},
     Table{"effect", "kind  seed  hidden                           verdict", printEffect},
-    Table{"bar", "kind  seed  stiffness off %  verdict", printBar}, Table{"alone", "kind  seed  strut", printAlone},
+    Table{"bar", "kind  seed  stiffness off %  verdict", printBar},
+    Table{"alone", "kind  seed  strut", printAlone},
     Table{"health", "kind  seed  known s   ERROR s    WARN s  others OK  alarms  inside", printHealth}};
 
 }  // namespace
@@ -202,7 +223,7 @@ int main(int argc, char** argv) {
   const auto table = std::find_if(kTables.begin(), kTables.end(),
                                   [&](const Table& each) { return argc > 1 && std::string(argv[1]) == each.name; });
   if (table == kTables.end()) {
-    std::fprintf(stderr, "vehicle_table linear|effect|bar|alone|health [SEEDS [FIRST]]\n");
+    std::fprintf(stderr, "vehicle_table linear|coupling|effect|bar|alone|health [SEEDS [FIRST]]\n");
     return 2;
   }
   const auto seeds = static_cast<unsigned>(argc > 2 ? std::atoi(argv[2]) : 2);
