@@ -40,8 +40,9 @@ std::string suggestForUnexplained(const SearchResult& result) {
     return "A force that depends on travel and travel rate alone would explain " + percent(result.surface_share) +
            " of what is missing: describe it as a law of your own and diagnose again.";
   return "A force of travel and travel rate would explain only " + percent(result.surface_share) +
-         " of what is missing. Drive the same road again with engine and load at rest, and at another speed: a force "
-         "that does not come through the strut keeps its own time and size.";
+         " of what is missing. If other struts move the same body, give their IMUs, too (--vehicle, vehicle.launch). "
+         "Else drive the same road again with engine and load at rest, and at another speed: a force that does not "
+         "come through the strut keeps its own time and size.";
 }
 
 }  // namespace
