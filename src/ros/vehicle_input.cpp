@@ -17,7 +17,6 @@ VehicleInput::VehicleInput(const ShellOptions& options, const VehicleStreams& st
   for (std::size_t i = 0; i < streams.imus.size(); ++i) {
     const bool is_wheel = streams.imus[i].place == VehicleStreams::Place::kUnsprung;
     imus_.push_back({topics[i],
-                     streams.imus[i].stream,
                      is_wheel ? options.unsprung_rate : options.sprung_rate,
                      ImuArrivals(topics[i], options.input_timeout),
                      {}});
@@ -34,7 +33,7 @@ void VehicleInput::describe(const VehiclePipeline* pipeline, const std::string& 
   summarize(pipeline, missing, status);
   if (pipeline != nullptr && pipeline->monitor() != nullptr) {
     if (const SuspensionMonitor* first = pipeline->monitor()->strut(0)) series_.describe(*first, status);
-    const StreamGrid& grid = *pipeline->grid();
+    const StreamGrid& grid = pipeline->grid()->streams();
     const std::string slow = grid.resamples() ? "" : grid.whatIsTooSlow();
     if (!slow.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow);
     status.add("alignment", grid.describeAlignment());
@@ -65,8 +64,8 @@ void VehicleInput::describeImu(Imu& imu, const VehiclePipeline& pipeline, std::s
                                ImuArrivals::Status& status) {
   imu.arrivals.describeLag(imu.topic, max_lag_, status);
   if (pipeline.grid() != nullptr) {
-    describeTiming(pipeline.grid()->gate(imu.stream).timing(), imu.topic, imu.expected_rate, status);
-    status.add(imu.topic + " waited for in vain", pipeline.grid()->missed(imu.stream));
+    describeTiming(pipeline.grid()->gate(place).timing(), imu.topic, imu.expected_rate, status);
+    status.add(imu.topic + " waited for in vain", pipeline.grid()->missed(place));
   }
   if (const std::string newly = imu.rejected.describe(pipeline.rejected(place), imu.topic, status); !newly.empty())
     status.mergeSummary(DiagnosticStatus::WARN, "readings of " + imu.topic + " rejected: " + newly);

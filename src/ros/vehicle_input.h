@@ -33,7 +33,6 @@ class VehicleInput {
  private:
   struct Imu {
     std::string topic;
-    std::size_t stream;
     std::optional<double> expected_rate;  // [Hz]
     ImuArrivals arrivals;
     RejectHistory rejected;

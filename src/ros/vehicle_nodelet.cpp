@@ -12,11 +12,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-bool hasFrames(const VehicleLayout& layout) {
-  return std::any_of(layout.struts.begin(), layout.struts.end(),
-                     [](const VehicleLayout::Strut& strut) { return strut.frame.has_value(); });
-}
-
 /// The numbers of the streams do not depend on positions, which frames tell only later.
 VehicleStreams unplacedStreams(VehicleLayout layout) {
   for (VehicleLayout::Strut& strut : layout.struts)
@@ -42,7 +37,7 @@ void VehicleNodelet::onInit() {
     streams_ = unplacedStreams(options_.layout);
     std::vector<std::string> topics;
     for (const VehicleStreams::Imu& imu : streams_->imus) topics.push_back(imu.topic);
-    imus_.emplace(node, topics, !options_.common.shell.target_frame.empty() || hasFrames(options_.layout),
+    imus_.emplace(node, topics, !options_.common.shell.target_frame.empty() || options_.layout.hasFrames(),
                   [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(imu, message); });
     addStruts();
     makePipeline();
@@ -93,7 +88,7 @@ void VehicleNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
 
 void VehicleNodelet::makePipeline() {
   pipeline_.reset();
-  if (streams_->channels.body_imu && hasFrames(options_.layout)) {
+  if (streams_->channels.body_imu && options_.layout.hasFrames()) {
     missing_position_ = "waiting for body_imu, whose frame tells the struts' positions";
     return placeStruts();
   }

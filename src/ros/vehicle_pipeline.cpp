@@ -32,10 +32,8 @@ void VehiclePipeline::start(double period) {
     settings.back().sample_period = period;
   }
   period_ = period;
-  tops_.emplace(fromSeconds(period), streams_.channels);
-  GridOptions grid = MonitorSettings(options_.common.monitor).grid(period);
-  grid.fill_samples += 2 * tops_->delay();  // before an instant is of use the filter of the tops fills, too
-  grid_.emplace(period, streams_.options, grid.alignment, grid.fill_samples);
+  grid_.emplace(period, streams_, MonitorSettings(options_.common.monitor).grid(period),
+                [this](const VehicleSample& sample) { take(sample); });
   const double kept = std::ceil(options_.common.shell.diagnose_window / period) + 1.0;
   recent_.assign(settings.size(), RecentSamples(static_cast<std::size_t>(std::min(kept, kMostKept))));
   monitor_.emplace(settings, sinks_.report);
@@ -47,7 +45,7 @@ void VehiclePipeline::push(std::size_t imu, const sensor_msgs::Imu& message) {
   if (values.empty()) return;
   const Stamp stamp = toStamp(message.header.stamp);
   if (monitor_)
-    take(imu, stamp, values);
+    grid_->push(imu, stamp, values);
   else
     measurePeriod({imu, stamp, values});
 }
@@ -67,25 +65,13 @@ void VehiclePipeline::measurePeriod(Reading reading) {
   const std::optional<double> period = measurement_.period();
   if (!period) return;
   start(*period);
-  for (const Reading& each : std::exchange(early_, {})) take(each.imu, each.stamp, each.values);
+  for (const Reading& each : std::exchange(early_, {})) grid_->push(each.imu, each.stamp, each.values);
 }
 
-void VehiclePipeline::take(std::size_t imu, Stamp stamp, const std::vector<double>& values) {
-  std::size_t stream = streams_.imus[imu].stream;
-  for (const double value : values)
-    for (auto instant = grid_->push(stream++, stamp, value); instant != nullptr; instant = grid_->next())
-      if (const VehicleSample* sample = tops_->push(*instant)) {
-        keep(*sample);
-        monitor_->addSample(*sample);
-      }
-}
-
-void VehiclePipeline::keep(const VehicleSample& sample) {
+void VehiclePipeline::take(const VehicleSample& sample) {
   newest_ = sample.stamp;
-  for (std::size_t i = 0; i < recent_.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    recent_[i].push({sample.stamp, sample.sprung[row], sample.unsprung[row]});
-  }
+  for (std::size_t i = 0; i < recent_.size(); ++i) recent_[i].push(sample.ofStrut(i));
+  monitor_->addSample(sample);
 }
 
 StrutDrives VehiclePipeline::newestSamples(double span) const {
@@ -97,11 +83,7 @@ StrutDrives VehiclePipeline::newestSamples(double span) const {
 RejectCounts VehiclePipeline::rejected(std::size_t imu) const {
   RejectCounts all = sensors_.rejected(imu);
   all += rejected_[imu];
-  if (!grid_) return all;
-  const std::size_t first = streams_.imus[imu].stream, sensor = streams_.options[first].sensor;
-  for (std::size_t stream = first; stream < streams_.options.size() && streams_.options[stream].sensor == sensor;
-       ++stream)
-    all += grid_->rejected(stream);
+  if (grid_) all += grid_->rejected(imu);
   return all;
 }
 

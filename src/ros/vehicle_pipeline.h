@@ -10,8 +10,7 @@
 
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/signal/recent_samples.h"
-#include "suspension_health_monitor/internal/signal/stream_grid.h"
-#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
 #include "suspension_health_monitor/vehicle.h"
@@ -21,7 +20,7 @@
 namespace suspension_health_monitor {
 
 /// From the IMU messages of a vehicle to reports by strut:
-/// message -> VehicleSensors -> StreamGrid -> StrutTops -> VehicleMonitor::addSample -> sinks.
+/// message -> VehicleSensors -> VehicleGrid -> VehicleMonitor::addSample -> sinks.
 /// Without a sample_period the first messages wait until their stamps have told it; until then there is no monitor. It
 /// keeps the newest samples of all struts, for a search.
 class VehiclePipeline {
@@ -47,7 +46,7 @@ class VehiclePipeline {
   /// @return nullptr while the sample period is being measured; so with the grid.
   VehicleMonitor* monitor() { return monitor_ ? &*monitor_ : nullptr; }
   const VehicleMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
-  const StreamGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
+  const VehicleGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
 
   std::optional<double> period() const { return period_; }  ///< T [s]; nothing while it is being measured
 
@@ -69,8 +68,7 @@ class VehiclePipeline {
 
   void measurePeriod(Reading reading);
   void start(double period);
-  void take(std::size_t imu, Stamp stamp, const std::vector<double>& values);
-  void keep(const VehicleSample& sample);
+  void take(const VehicleSample& sample);
 
   VehicleOptions options_;
   VehicleStreams streams_;
@@ -81,8 +79,7 @@ class VehiclePipeline {
   std::vector<RejectCounts> rejected_;  // by IMU, while it is being measured
   std::optional<double> period_;
   Stamp newest_{};
-  std::optional<StreamGrid> grid_;
-  std::optional<StrutTops> tops_;
+  std::optional<VehicleGrid> grid_;
   std::optional<VehicleMonitor> monitor_;
   std::vector<RecentSamples> recent_;  // by strut
 };

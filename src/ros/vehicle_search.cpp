@@ -26,9 +26,10 @@ DiagnoseVehicleResponse toResponse(const VehicleDiagnosis& found, const std::vec
   response.message = found.summary;
   response.verdict = nameOf(found.verdict);
   response.strut = struts;
-  for (const Diagnosis& strut : found.struts) {
-    response.verdicts.emplace_back(strut ? nameOf(strut.verdict) : "");
-    response.selected.push_back(join(strut.selected, ", "));
+  for (std::size_t i = 0; i < found.struts.size(); ++i) {
+    const Diagnosis& strut = found.struts[i];
+    response.verdicts.emplace_back(strut ? nameOf(found.verdictOn(i)) : "");
+    response.selected.push_back(join(found.selected(i), ", "));
     response.summaries.push_back(strut ? strut.summary : "The drives " + strut.reason + ".");
   }
   return response;

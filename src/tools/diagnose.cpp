@@ -54,10 +54,10 @@ void diagnose(const Arguments& arguments) {
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
   if (!values) return;
   requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json", "output"});
-  if (isOfVehicle(*values)) return diagnoseStruts(*values);
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
+  if (isOfVehicle(*values)) return diagnoseStruts(*values);
   const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;

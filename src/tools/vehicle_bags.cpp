@@ -1,6 +1,5 @@
 #include "vehicle_bags.h"
 
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -9,7 +8,7 @@
 #include "../ros/vehicle_sensors.h"
 #include "errors.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
-#include "suspension_health_monitor/internal/signal/stream_grid.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -28,9 +27,7 @@ void takeTopics(const VehicleStreams& streams, ImuBags& bags) {
 
 /// Looks up the positions of struts that have a frame.
 void place(VehicleLayout& layout, ImuBags bags, const PipelineOptions& options) {
-  const bool has_frames = std::any_of(layout.struts.begin(), layout.struts.end(),
-                                      [](const VehicleLayout::Strut& strut) { return strut.frame.has_value(); });
-  if (!has_frames || !layout.body_imu) return;
+  if (!layout.hasFrames() || !layout.body_imu) return;
   bags.transforms = readStaticTransforms(bags.paths);
   bags.topics = {*layout.body_imu};
   bags.named_by = {"body_imu"};
@@ -57,49 +54,24 @@ double measurePeriod(const ImuBags& bags) {
   return *period;
 }
 
-void append(const VehicleSample& sample, StrutDrives& struts) {
-  for (std::size_t i = 0; i < struts.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    struts[i].samples.push_back({sample.stamp, sample.sprung[row], sample.unsprung[row]});
-  }
-}
-
-/// @return what became of the messages of every IMU.
-std::vector<VehicleBag::Imu> account(const VehicleStreams& streams, const VehicleSensors& sensors,
-                                     const StreamGrid& grid) {
-  std::vector<VehicleBag::Imu> imus;
-  for (std::size_t i = 0; i < streams.imus.size(); ++i) {
-    const VehicleStreams::Imu& imu = streams.imus[i];
-    VehicleBag::Imu& its = imus.emplace_back(VehicleBag::Imu{imu.topic, sensors.rejected(i), 0});
-    const std::size_t sensor = streams.options[imu.stream].sensor;
-    for (std::size_t stream = imu.stream; stream < streams.options.size(); ++stream) {
-      if (streams.options[stream].sensor != sensor) break;
-      its.rejected += grid.rejected(stream);
-      its.missed = std::max(its.missed, grid.missed(stream));
-    }
-  }
-  return imus;
-}
-
 VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleStreams& streams) {
-  VehicleSensors sensors(streams, options.shell, bag.transforms.get());
   const double period = *options.monitor.sample_period;
-  StrutTops tops(fromSeconds(period), streams.channels);
-  const GridOptions alignment = MonitorSettings(options.monitor).grid(period);
-  // Before an instant is of use the tops' filter fills, too.
-  StreamGrid grid(period, streams.options, alignment.alignment, alignment.fill_samples + 2 * tops.delay());
   VehicleBag read;
   read.struts.resize(streams.channels.struts.size());
+  VehicleSensors sensors(streams, options.shell, bag.transforms.get());
+  VehicleGrid grid(period, streams, MonitorSettings(options.monitor).grid(period), [&](const VehicleSample& sample) {
+    for (std::size_t i = 0; i < read.struts.size(); ++i) read.struts[i].samples.push_back(sample.ofStrut(i));
+  });
   readTopics(bag, [&](std::size_t imu, const sensor_msgs::Imu& message, Stamp) {
-    std::size_t stream = streams.imus[imu].stream;
-    for (const double value : sensors.read(imu, message))
-      for (auto instant = grid.push(stream++, toStamp(message.header.stamp), value); instant != nullptr;
-           instant = grid.next())
-        if (const VehicleSample* sample = tops.push(*instant)) append(*sample, read.struts);
+    grid.push(imu, toStamp(message.header.stamp), sensors.read(imu, message));
     return true;
   });
-  read.alignment = grid.describeAlignment();
-  read.imus = account(streams, sensors, grid);
+  read.alignment = grid.streams().describeAlignment();
+  for (std::size_t i = 0; i < streams.imus.size(); ++i) {
+    RejectCounts rejected = sensors.rejected(i);
+    rejected += grid.rejected(i);
+    read.imus.push_back({streams.imus[i].topic, rejected, grid.missed(i)});
+  }
   return read;
 }
 

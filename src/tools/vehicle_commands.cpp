@@ -1,8 +1,7 @@
 #include "vehicle_commands.h"
 
-#include <cinttypes>
 #include <cstdio>
-#include <functional>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -24,6 +23,7 @@
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "vehicle_bags.h"
 
@@ -44,21 +44,23 @@ struct Recorded {
   PipelineOptions options;  ///< with sample_period
 };
 
+/// Refuses options of one strut that have no meaning for a vehicle, whose file has the topics.
+void refuseBeside(const po::variables_map& values, std::initializer_list<const char*> options) {
+  for (const char* option : options)
+    if (values.count(option) != 0 && !values[option].defaulted())
+      throw std::invalid_argument("--" + std::string(option) + " beside --vehicle, must be left out");
+}
+
 Recorded readRecorded(const po::variables_map& values) {
-  for (const char* topic : {"sprung-topic", "unsprung-topic", "road-topic"})
-    if (values.count(topic) != 0 && !values[topic].defaulted())
-      throw std::invalid_argument("--" + std::string(topic) + " beside --vehicle, must be left out: the file has them");
+  refuseBeside(values, {"sprung-topic", "unsprung-topic", "road-topic"});
   const VehicleLayout layout = readVehicleFile(values[kVehicle].as<std::string>());
   Recorded recorded;
-  std::string known;
-  for (const VehicleLayout::Strut& strut : layout.struts) {
-    recorded.names.push_back(strut.name);
-    known += (known.empty() ? "" : ", ") + strut.name;
-  }
+  for (const VehicleLayout::Strut& strut : layout.struts) recorded.names.push_back(strut.name);
   for (std::size_t i = 0; i < recorded.names.size(); ++i)
     if (values.count(kStrut) == 0 || values[kStrut].as<std::string>() == recorded.names[i]) recorded.asked.push_back(i);
   if (recorded.asked.empty())
-    throw std::invalid_argument("--strut " + values[kStrut].as<std::string>() + ", must be one of " + known);
+    throw std::invalid_argument("--strut " + values[kStrut].as<std::string>() + ", must be one of " +
+                                join(recorded.names));
   recorded.options = PipelineOptions::fromValues(gatherOptions(values));
   ImuBags bags = readBags(values);
   if (!recorded.options.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
@@ -114,10 +116,10 @@ json couplingJson(const std::vector<std::vector<double>>& ratios, const std::vec
 json barsJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
   json bars = json::array();
   for (const AntiRollBarFound& bar : coupling.bars)
-    bars.push_back({{"struts", {names[bar.first], names[bar.second]}},
-                    {"stiffness_to_mass",
-                     {{names[bar.first], bar.first_stiffness_to_mass},
-                      {names[bar.second], bar.second_stiffness_to_mass}}}});
+    bars.push_back(
+        {{"struts", {names[bar.first], names[bar.second]}},
+         {"stiffness_to_mass",
+          {{names[bar.first], bar.first_stiffness_to_mass}, {names[bar.second], bar.second_stiffness_to_mass}}}});
   return bars;
 }
 
@@ -217,18 +219,15 @@ void compareStruts(const po::variables_map& values) {
 }
 
 void diagnoseStruts(const po::variables_map& values) {
-  for (const char* option : {"output", "report"})
-    if (values.count(option) != 0)
-      throw std::invalid_argument("--" + std::string(option) + " beside --vehicle, must be left out");
+  refuseBeside(values, {"output", "report", kModel});
   const Interruption interruption;
   std::optional<TextFile> file = jsonFile(values);
-  const ModelOptions models = readModelOptions(values);
-  if (models.model) throw std::invalid_argument("--model beside --vehicle, must be left out: every strut has its own");
+  const EffectLibrary library = readEffects(values);
   const Recorded recorded = readRecorded(values);
   DiagnoseOptions options;
   options.sample_period = recorded.options.monitor.sample_period;
   options.horizon_samples = givenHorizon(recorded.options);
-  options.candidates = models.library;
+  options.candidates = library;
   options.threads = values["threads"].as<int>();
   Progress progress("searching", 1.0);
   options.progress = [&](double share) { progress.update(share); };
@@ -255,9 +254,7 @@ void diagnoseStruts(const po::variables_map& values) {
 }
 
 void watchStruts(const po::variables_map& values) {
-  for (const char* option : {"csv", "report", "baseline"})
-    if (values.count(option) != 0)
-      throw std::invalid_argument("--" + std::string(option) + " beside --vehicle, must be left out");
+  refuseBeside(values, {"csv", "report", "baseline"});
   const Interruption interruption;
   std::optional<TextFile> file = jsonFile(values);
   const Recorded recorded = readRecorded(values);
@@ -275,9 +272,7 @@ void watchStruts(const po::variables_map& values) {
     for (HealthLog& log : logs) log.finishRecording();
   }
   if (!monitor.isCoupled()) throw TooLittleError("the drives " + reasonOf(monitor.estimate(), recorded.names));
-  json whole{{"struts", json::object()},
-             {"coupling", couplingJson(rowsOf(monitor.estimate().coupling.ratios), recorded.names)},
-             {"condition", monitor.estimate().condition}};
+  json whole = vehicleJson(describe(*monitor.coupling(), recorded.names), recorded.names);
   for (const std::size_t i : recorded.asked) {
     const SuspensionMonitor& strut = *monitor.strut(i);
     std::printf("\n%s, ", recorded.names[i].c_str());

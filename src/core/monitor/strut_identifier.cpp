@@ -131,8 +131,8 @@ void StrutIdentifier::update(const RegressionRow& row) {
   }
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
   left_ *= forgettingFactor();
-  const SuspensionRegression::Skew& skew = regression_.skew();
-  skew_sizes_.add({skew.column * skew.column, skew.step * skew.step});
+  const SuspensionRegression::Skew& now = regression_.skew();
+  skew_sizes_.add({now.column * now.column, now.step * now.step});
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
   if (la_is_valid_ && noise_level_) noise_level_->add(innovation);
@@ -202,7 +202,7 @@ void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate&
 void StrutIdentifier::restSkew() {
   regression_.setStrut(Eigen::Vector2d::Zero(), 0.0);
   if (sensors_ == SensorColumns::kNone) return;
-  least_squares_.setParameter(numModelColumns(), least_absolute_.parameters()[numModelColumns()]);
+  least_squares_.setParameter(numModelColumns(), skew());
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
@@ -260,16 +260,14 @@ double StrutIdentifier::wheelFrequency() const {
 
 // Of the series in the skew tau two terms are estimated, x tau + x' tau^2 / 2. Where the wheel shakes with omega, the
 // next one is (omega tau)^2 / 6 of the first.
-double StrutIdentifier::skewLeftOut() const {
-  return std::pow(wheelFrequency() / filter_.period * least_absolute_.parameters()[numModelColumns()], 2) / 6.0;
-}
+double StrutIdentifier::skewLeftOut() const { return std::pow(wheelFrequency() / filter_.period * skew(), 2) / 6.0; }
 
 // As far as the series goes.
 double StrutIdentifier::knownSkew() const {
   const double frequency = wheelFrequency() / filter_.period;
   if (!(frequency > 0.0)) return 0.0;
   const double most = std::sqrt(6.0 * kMostSkewLeftOut) / frequency;
-  return std::clamp(least_absolute_.parameters()[numModelColumns()], -most, most);
+  return std::clamp(skew(), -most, most);
 }
 
 // What the whole skew would shift parameter i by if it were not estimated, times the share that is left out.
@@ -278,7 +276,7 @@ double StrutIdentifier::skewShift(int i) const {
   const int column = numModelColumns();
   const double variance = least_squares_.covariance().variance(column);
   if (!(variance > 0.0)) return 0.0;
-  return skewLeftOut() * least_absolute_.parameters()[column] * least_squares_.covariance().entry(i, column) / variance;
+  return skewLeftOut() * skew() * least_squares_.covariance().entry(i, column) / variance;
 }
 
 // Noise does no more to a parameter that is excited than kLeastExcitation says.
@@ -301,9 +299,8 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
   facts.explained = estimate.explained;
   facts.is_physical = estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
   if (sensors_ != SensorColumns::kNone) {
-    const double skew = least_absolute_.parameters()[numModelColumns()];
     const double variance = least_absolute_.parameterVariance(numModelColumns());
-    if (skew * skew > kCertain * kCertain * variance) facts.skew_left_out = skewLeftOut();
+    if (skew() * skew() > kCertain * kCertain * variance) facts.skew_left_out = skewLeftOut();
   }
   facts.has_stddev = std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev);
   return facts;

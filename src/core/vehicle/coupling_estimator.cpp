@@ -24,6 +24,9 @@ constexpr double kLeastOfBar = 0.1;
 constexpr double kCertainOfBar = 50.0;  // chi^2 of two more unknowns: chance gives as much once in 7e10
 constexpr double kFarRest = 3.0;        // usual ones: a row that is farther off is limited to it
 
+// Samples from a row that is taken to the next.
+int rowSpacing(const IntegralFilterOptions& filter) { return std::max(1, filter.horizon_samples / kRowsPerHorizon); }
+
 }  // namespace
 
 bool CouplingEstimate::isKnown() const { return doubt <= kMostDoubt; }
@@ -38,14 +41,12 @@ std::vector<StrutModel> CouplingEstimate::models() const {
 CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const IntegralFilterOptions& filter, double memory)
     : num_struts_(num_struts),
       num_forces_(num_forces),
+      forgetting_factor_(std::exp(-rowSpacing(filter) / memory)),
       noise_(filter),
       regressions_(static_cast<std::size_t>(num_struts), SuspensionRegression(filter)),
       forces_(static_cast<std::size_t>(num_forces), LinearIntegralFilter(2, filter, 2)),
-      row_due_(std::max(1, filter.horizon_samples / kRowsPerHorizon)),
-      usual_rest_(0.0) {
-  const int spacing = std::max(1, filter.horizon_samples / kRowsPerHorizon);
-  forgetting_factor_ = std::exp(-spacing / memory);
-  usual_rest_ = LimitedMean(forgetting_factor_);
+      row_due_(rowSpacing(filter)),
+      usual_rest_(forgetting_factor_) {
   const int columns = 3 * num_struts + num_forces + 1;
   row_ = Row::Zero(columns);
   moments_ = Moments::Zero(columns, columns);
@@ -90,13 +91,10 @@ bool CouplingEstimator::fillRow(const VehicleSample& sample) {
 double CouplingEstimator::weightOfRow() {
   if (!has_start_) return 1.0;
   const Coupling& coupling = estimate_.coupling;
-  StrutVector rest(num_struts_);
-  for (int i = 0; i < num_struts_; ++i) {
-    rest[i] = row_[2 * num_struts_ + num_forces_ + i];
-    for (int j = 0; j < num_struts_; ++j)
-      rest[i] -= coupling.ratios(i, j) * ownColumns(j).dot(row_.head(2 * num_struts_));
-    for (int k = 0; k < num_forces_; ++k) rest[i] -= coupling.forces(i, k) * row_[2 * num_struts_ + k];
-  }
+  StrutVector own(num_struts_);
+  for (int j = 0; j < num_struts_; ++j) own[j] = ownColumns(j).dot(row_.head(2 * num_struts_));
+  const StrutVector rest = row_.segment(2 * num_struts_ + num_forces_, num_struts_) - coupling.ratios * own -
+                           coupling.forces * row_.segment(2 * num_struts_, num_forces_);
   const double size = rest.norm();
   usual_rest_.add(size);
   return std::min(1.0, kFarRest * usual_rest_.mean() / size);
@@ -318,8 +316,23 @@ void CouplingEstimator::describe(const Moments& plain, const Moments& moments, d
   const StrutVector rest = restOf(plain);
   coupling.own_power = of_struts.diagonal().head(n);
   coupling.rest_power = rest.minCoeff();
+  describeAlike(plain, sensor_variance);
+  const double share = describeErrors(moments, of_struts, rest);
+  estimate_.doubt = share + kNoiseKnown / estimate_.told_apart;
+  const bool are_struts = estimate_.damping_to_mass.minCoeff() > 0.0 && estimate_.stiffness_to_mass.minCoeff() > 0.0;
+  if (!(estimate_.doubt >= 0.0) || !are_struts || !(coupling.own_power.minCoeff() > 0.0)) estimate_.doubt = HUGE_VAL;
 
-  Moments noise = Moments::Zero(moments.rows(), moments.cols());
+  const Moments columns = plain.topLeftCorner(2 * n, 2 * n);
+  const Row size = columns.diagonal().cwiseSqrt().cwiseInverse();
+  const Moments scaled = size.asDiagonal() * columns * size.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Moments> spread(scaled, Eigen::EigenvaluesOnly);
+  estimate_.condition = std::sqrt(spread.eigenvalues()[2 * n - 1] / spread.eigenvalues()[0]);
+}
+
+// Which struts the rows tell apart least.
+void CouplingEstimator::describeAlike(const Moments& plain, double sensor_variance) {
+  const int n = num_struts_;
+  Moments noise = Moments::Zero(plain.rows(), plain.cols());
   takeOffNoise(noise, -sensor_variance);
   const StrutMatrix of_noise = combined(noise).topLeftCorner(n, n);
   const StrutMatrix with_noise = combined(plain).topLeftCorner(n, n);
@@ -332,39 +345,35 @@ void CouplingEstimator::describe(const Moments& plain, const Moments& moments, d
   estimate_.first_alike = largest();
   sizes[estimate_.first_alike] = -1.0;
   estimate_.second_alike = largest();
+}
 
-  const Moments inverse = of_struts.ldlt().solve(Moments::Identity(known, known));
+// Standard deviations of the ratios, and what they make of each strut's own parameters: an error of rho_ij is taken for
+// the strut's own, as far as strut j moves like it.
+// @param of_struts  moments of p_j and x_k.  @param rest  of each output.
+// @return the largest rms that they give a strut's own acceleration, as a share of it.
+double CouplingEstimator::describeErrors(const Moments& moments, const Moments& of_struts, const StrutVector& rest) {
+  const int n = num_struts_;
+  const StrutVector& power = estimate_.coupling.own_power;
+  const Moments inverse = of_struts.ldlt().solve(Moments::Identity(of_struts.rows(), of_struts.cols()));
   double most = 0.0;
   for (int i = 0; i < n; ++i) {
     Moments variances = rest[i] * kRowsPerIndependent / weight_ * inverse.topLeftCorner(n, n);
     variances.row(i).setZero();
     variances.col(i).setZero();
     estimate_.stddevs.row(i) = variances.diagonal().cwiseSqrt().transpose();
-    most = std::max(most, (variances.diagonal().dot(coupling.own_power)) / coupling.own_power[i]);
-    // An error of rho_ij is taken for the strut's own, as far as strut j moves like it.
-    const std::array<int, 2> own{i, n + i};
+    most = std::max(most, variances.diagonal().dot(power) / power[i]);
     Eigen::Matrix2d of_own;
+    of_own << moments(i, i), moments(i, n + i), moments(n + i, i), moments(n + i, n + i);
     Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStruts> with_others(2, n);
-    for (int a = 0; a < 2; ++a) {
-      for (int b = 0; b < 2; ++b)
-        of_own(a, b) = moments(own[static_cast<std::size_t>(a)], own[static_cast<std::size_t>(b)]);
-      for (int j = 0; j < n; ++j)
-        with_others(a, j) = strut(j).dot(Eigen::Vector2d(moments(own[static_cast<std::size_t>(a)], j),
-                                                         moments(own[static_cast<std::size_t>(a)], n + j)));
+    for (int j = 0; j < n; ++j) {
+      with_others(0, j) = strut(j).dot(Eigen::Vector2d(moments(i, j), moments(i, n + j)));
+      with_others(1, j) = strut(j).dot(Eigen::Vector2d(moments(n + i, j), moments(n + i, n + j)));
     }
     const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStruts> taken = of_own.inverse() * with_others;
     const Eigen::Matrix2d shared = taken * variances * taken.transpose();
     estimate_.own_stddevs.row(i) = shared.diagonal().cwiseSqrt().transpose();
   }
-  estimate_.doubt = std::sqrt(most) + kNoiseKnown / estimate_.told_apart;
-  const bool are_struts = estimate_.damping_to_mass.minCoeff() > 0.0 && estimate_.stiffness_to_mass.minCoeff() > 0.0;
-  if (!(estimate_.doubt >= 0.0) || !are_struts || !(coupling.own_power.minCoeff() > 0.0)) estimate_.doubt = HUGE_VAL;
-
-  const Moments columns = plain.topLeftCorner(2 * n, 2 * n);
-  const Row size = columns.diagonal().cwiseSqrt().cwiseInverse();
-  const Moments scaled = size.asDiagonal() * columns * size.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Moments> spread(scaled, Eigen::EigenvaluesOnly);
-  estimate_.condition = std::sqrt(spread.eigenvalues()[2 * n - 1] / spread.eigenvalues()[0]);
+  return std::sqrt(most);
 }
 
 }  // namespace suspension_health_monitor

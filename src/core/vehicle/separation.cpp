@@ -6,26 +6,20 @@
 
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-/// Samples [from, to) of a drive without a gap.
-struct Stretch {
-  std::size_t from, to;
-  std::size_t size() const { return to - from; }
-};
-
-std::vector<Stretch> stretchesOf(const Drive& drive, double period) {
-  const auto& samples = drive.samples;
-  std::vector<Stretch> stretches;
+// Leads a drive, series by series.
+template <class Begin, class Take>
+void replay(const StrutDrives& drive, double period, const Begin& begin_series, const Take& take) {
+  const auto& samples = drive.front().samples;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const bool continues =
-        k > 0 && continuity(samples[k].stamp - samples[k - 1].stamp, fromSeconds(period)) == Continuity::kContinues;
-    if (!continues) stretches.push_back({k, k});
-    stretches.back().to = k + 1;
+    if (k == 0 || continuity(samples[k].stamp - samples[k - 1].stamp, fromSeconds(period)) != Continuity::kContinues)
+      begin_series();
+    take(sampleOf(drive, k));
   }
-  return stretches;
 }
 
 void requireSameStamps(const StrutDrives& drive) {
@@ -35,6 +29,13 @@ void requireSameStamps(const StrutDrives& drive) {
     if (!std::equal(first.begin(), first.end(), strut.samples.begin(), strut.samples.end(), same))
       throw std::invalid_argument("the struts of a drive must have samples of the same stamps");
   }
+}
+
+std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
+  std::vector<std::vector<double>> rows(static_cast<std::size_t>(matrix.rows()));
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows[static_cast<std::size_t>(i)].push_back(matrix(i, j));
+  return rows;
 }
 
 }  // namespace
@@ -50,11 +51,18 @@ VehicleSample sampleOf(const StrutDrives& drive, std::size_t k) {
   return sample;
 }
 
-std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
-  std::vector<std::vector<double>> rows(static_cast<std::size_t>(matrix.rows()));
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows[static_cast<std::size_t>(i)].push_back(matrix(i, j));
-  return rows;
+VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std::string>& names) {
+  VehicleCoupling coupling;
+  coupling.ratios = rowsOf(estimate.coupling.ratios);
+  coupling.stddevs = rowsOf(estimate.stddevs);
+  coupling.condition = estimate.condition;
+  const StrutMatrix& bars = estimate.coupling.bars;
+  for (Eigen::Index i = 0; i < bars.rows(); ++i)
+    for (Eigen::Index j = i + 1; j < bars.rows(); ++j)
+      if (bars(i, j) != 0.0)
+        coupling.bars.push_back({static_cast<std::size_t>(i), static_cast<std::size_t>(j), bars(i, j), bars(j, i)});
+  coupling.reason = reasonOf(estimate, names);
+  return coupling;
 }
 
 CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double period) {
@@ -62,10 +70,8 @@ CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double per
   CouplingSurvey survey(n, 0, period, std::numeric_limits<double>::infinity());
   for (const StrutDrives& drive : drives) {
     requireSameStamps(drive);
-    for (const Stretch& stretch : stretchesOf(drive.front(), period)) {
-      survey.startNewSeries();
-      for (std::size_t k = stretch.from; k < stretch.to; ++k) survey.add(sampleOf(drive, k));
-    }
+    replay(
+        drive, period, [&] { survey.startNewSeries(); }, [&](const VehicleSample& sample) { survey.add(sample); });
   }
   return survey.solve();
 }
@@ -74,17 +80,13 @@ StrutDrives separateStruts(const StrutDrives& drive, double period, const Coupli
                            const std::vector<StrutModel>& models) {
   Decoupler decoupler(period, coupling, models);
   StrutDrives separated(drive.size());
-  for (const Stretch& stretch : stretchesOf(drive.front(), period)) {
-    decoupler.startNewSeries();
-    for (std::size_t k = stretch.from; k < stretch.to; ++k) {
-      const VehicleSample* own = decoupler.push(sampleOf(drive, k));
-      if (own == nullptr) continue;
-      for (std::size_t i = 0; i < drive.size(); ++i) {
-        const auto place = static_cast<Eigen::Index>(i);
-        separated[i].samples.push_back({own->stamp, own->sprung[place], own->unsprung[place]});
-      }
-    }
-  }
+  replay(
+      drive, period, [&] { decoupler.startNewSeries(); },
+      [&](const VehicleSample& sample) {
+        const VehicleSample* own = decoupler.push(sample);
+        for (std::size_t i = 0; own != nullptr && i < separated.size(); ++i)
+          separated[i].samples.push_back(own->ofStrut(i));
+      });
   return separated;
 }
 

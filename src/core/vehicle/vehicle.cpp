@@ -19,8 +19,7 @@ std::vector<Drive> flattened(const std::vector<StrutDrives>& drives) {
 
 void check(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
-  if (names.empty() || names.size() > static_cast<std::size_t>(kMostStruts))
-    throw std::invalid_argument(std::to_string(names.size()) + " struts, must be 1 to " + std::to_string(kMostStruts));
+  requireNumStruts(names.size());
   for (const StrutDrives& drive : drives)
     if (drive.size() != names.size())
       throw std::invalid_argument("a drive of " + std::to_string(drive.size()) + " struts, must be " +
@@ -42,16 +41,7 @@ class Separator {
     period_ = sample_period ? *sample_period : medianPeriod(flattened(drives));
     estimate_ = coupleStruts(drives, period_);
     models_ = estimate_.models();
-    coupling_.ratios = rowsOf(estimate_.coupling.ratios);
-    coupling_.stddevs = rowsOf(estimate_.stddevs);
-    coupling_.condition = estimate_.condition;
-    const StrutMatrix& bars = estimate_.coupling.bars;
-    for (Eigen::Index i = 0; i < bars.rows(); ++i)
-      for (Eigen::Index j = i + 1; j < bars.rows(); ++j)
-        if (bars(i, j) != 0.0)
-          coupling_.bars.push_back(
-              {static_cast<std::size_t>(i), static_cast<std::size_t>(j), bars(i, j), bars(j, i)});
-    coupling_.reason = reasonOf(estimate_, names);
+    coupling_ = describe(estimate_, names);
   }
 
   const VehicleCoupling& coupling() const { return coupling_; }
@@ -90,9 +80,7 @@ bool names(const Diagnosis& strut) {
 
 // @return mean square that what was found explains [(m/s^2)^2].
 double explainedPower(const Diagnosis& strut) {
-  return names(strut)
-             ? strut.explained_share * strut.structured_share * strut.base.held_out_rmse * strut.base.held_out_rmse
-             : 0.0;
+  return strut.explained_share * strut.structured_share * strut.base.held_out_rmse * strut.base.held_out_rmse;
 }
 
 bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == strut || bar.second == strut; }
@@ -131,14 +119,17 @@ Verdict VehicleDiagnosis::verdictOn(std::size_t strut) const {
 
 VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
                                       const IdentifyOptions& options) {
-  const SeparatedVehicle separated = separateVehicle(drives, names, options.sample_period);
-  VehicleIdentification result{separated.coupling, {}};
-  for (std::size_t i = 0; i < separated.struts.size(); ++i) {
+  const Separator separator(drives, names, options.sample_period);
+  VehicleIdentification result{separator.coupling(), {}};
+  if (!result) return result;
+  const auto separated = separator.separate();
+  const std::vector<LinearStrut> stddevs = separator.modelStddevs();
+  for (std::size_t i = 0; i < separated.size(); ++i) {
     IdentifyOptions strut = options;
-    if (!options.sample_period) strut.sample_period = medianPeriod(flattened(drives));
-    if (!options.horizon_samples) strut.horizon_samples = horizonFor(separated.models[i], *strut.sample_period);
-    IdentifyResult& identified = result.struts.emplace_back(identify(separated.struts[i], strut));
-    const auto [damping, stiffness] = separated.model_stddevs[i];
+    strut.sample_period = separator.period();
+    if (!options.horizon_samples) strut.horizon_samples = horizonFor(separator.models()[i], separator.period());
+    IdentifyResult& identified = result.struts.emplace_back(identify(separated[i], strut));
+    const auto [damping, stiffness] = stddevs[i];
     for (IdentifiedStrut* estimate : {&identified.ls, &identified.la, &identified.iv}) {
       estimate->damping_to_mass_stddev = std::hypot(estimate->damping_to_mass_stddev, damping);
       estimate->stiffness_to_mass_stddev = std::hypot(estimate->stiffness_to_mass_stddev, stiffness);
@@ -160,10 +151,10 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const s
   result.struts.resize(n);
   std::vector<bool> settled(n, false);
   double done = 0.0;
-  for (bool goes_on = true; goes_on;) {
+  for (auto open = n; open > 0; --open) {
     const auto separated = separator.separate();
-    const auto open = static_cast<double>(std::count(settled.begin(), settled.end(), false));
-    const double step = (1.0 - done) / (open + 1.0);  // what another round would take is not known
+    const double step = (1.0 - done) / (static_cast<double>(open) + 1.0);  // what another round takes is not known
+    std::optional<std::size_t> best;
     for (std::size_t i = 0; i < n; ++i) {
       if (settled[i]) continue;
       DiagnoseOptions strut = options;
@@ -171,21 +162,14 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const s
       if (options.progress) strut.progress = [&](double share) { options.progress(done + share * step); };
       result.struts[i] = diagnose(separated[i], strut);
       done += step;
+      const Diagnosis& found = result.struts[i];
+      if (found) separator.setModel(i, found.base.model);
+      if (names(found) && (!best || explainedPower(found) > explainedPower(result.struts[*best]))) best = i;
     }
-    std::size_t best = n;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (settled[i] || !result.struts[i]) continue;
-      separator.setModel(i, result.struts[i].model());
-      if (names(result.struts[i]) &&
-          (best == n || explainedPower(result.struts[i]) > explainedPower(result.struts[best])))
-        best = i;
-    }
-    goes_on = best < n && open > 1.0;
-    if (best == n) break;
-    settled[best] = true;
+    if (!best) break;
     // What the others seem to lack may be this effect: they are judged anew without it.
-    for (std::size_t i = 0; i < n; ++i)
-      if (!settled[i] && result.struts[i]) separator.setModel(i, result.struts[i].base.model);
+    settled[*best] = true;
+    separator.setModel(*best, result.struts[*best].model());
   }
   result.verdict = worstOf(result);
   result.summary = summaryOf(result, strut_names);

@@ -176,6 +176,10 @@ void checkTopics(const VehicleLayout& layout) {
 
 }  // namespace
 
+bool VehicleLayout::hasFrames() const {
+  return std::any_of(struts.begin(), struts.end(), [](const Strut& strut) { return strut.frame.has_value(); });
+}
+
 VehicleLayout takeVehicle(OptionMap& values) {
   VehicleLayout layout;
   BodySettings body;

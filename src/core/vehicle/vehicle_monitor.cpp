@@ -17,9 +17,7 @@ constexpr double kCouplingEvery = 1.0;    // [s]
 constexpr double kModelsEvery = 0.1;      // [s]
 
 const std::vector<MonitorSettings>& checked(const std::vector<MonitorSettings>& settings) {
-  if (settings.empty() || settings.size() > static_cast<std::size_t>(kMostStruts))
-    throw std::invalid_argument(std::to_string(settings.size()) + " struts, must be 1 to " +
-                                std::to_string(kMostStruts));
+  requireNumStruts(settings.size());
   for (const MonitorSettings& each : settings) {
     if (!each.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
     if (*each.sample_period != *settings.front().sample_period)
@@ -84,8 +82,7 @@ void VehicleMonitor::addSample(const VehicleSample& sample) {
     if (own == nullptr) return;
   }
   for (std::size_t i = 0; i < struts_.size(); ++i) {
-    const auto place = static_cast<Eigen::Index>(i);
-    const MonitorReport* report = struts_[i].addSample({own->stamp, own->sprung[place], own->unsprung[place]});
+    const MonitorReport* report = struts_[i].addSample(own->ofStrut(i));
     if (report != nullptr && sink_) sink_(i, *report);
   }
 }

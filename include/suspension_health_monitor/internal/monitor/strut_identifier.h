@@ -111,6 +111,9 @@ class StrutIdentifier {
   /// @return how many columns are those of the strut and of its effects: all but the sensors', which are the last.
   int numModelColumns() const { return least_absolute_.numParameters() - count(sensors_); }
 
+  /// @return the clocks' skew by LA [s].  @pre there are columns of the sensors.
+  double skew() const { return least_absolute_.parameters()[numModelColumns()]; }
+
   IntegralFilterOptions filter_;
   SensorColumns sensors_;
   SuspensionRegression regression_;

@@ -79,6 +79,8 @@ class CouplingEstimator {
   Moments combined(const Moments& moments) const;
   double sensorVariance(const Moments& moments) const;
   void describe(const Moments& plain, const Moments& moments, double sensor_variance);
+  void describeAlike(const Moments& plain, double sensor_variance);
+  double describeErrors(const Moments& moments, const Moments& of_struts, const StrutVector& rest);
   StrutVector restOf(const Moments& moments) const;
   Eigen::Vector2d strut(int j) const { return {estimate_.damping_to_mass[j], estimate_.stiffness_to_mass[j]}; }
 

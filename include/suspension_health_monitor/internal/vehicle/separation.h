@@ -10,8 +10,9 @@ namespace suspension_health_monitor {
 /// @return what all accelerometers of a recorded drive read at its k-th instant.
 VehicleSample sampleOf(const StrutDrives& drive, std::size_t k);
 
-/// @return a matrix of the struts row by row.
-std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix);
+/// @param names  of the struts.
+/// @return an estimate as users see it.
+VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std::string>& names);
 
 /// @param drives  of one vehicle.
 /// @return the coupling of its struts over all of them.

@@ -29,6 +29,9 @@ struct VehicleLayout {
   std::optional<std::string> body_imu;  ///< topic, as are the others
   std::vector<Strut> struts;            ///< by the alphabet
   std::vector<KnownForce> known_forces;
+
+  /// @return true if transforms are to tell where a strut is.
+  bool hasFrames() const;
 };
 
 /// Takes the settings of a vehicle file out of `values`: `body_imu`, `struts/NAME/...` and `known_forces/NAME/...`.

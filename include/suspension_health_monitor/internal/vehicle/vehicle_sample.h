@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 #include "suspension_health_monitor/drive.h"
 
@@ -8,6 +9,9 @@ namespace suspension_health_monitor {
 
 inline constexpr int kMostStruts = 16;      ///< of a vehicle
 inline constexpr int kMostKnownForces = 4;  ///< that act on its body and are measured
+
+/// @throws std::invalid_argument  unless a vehicle can have so many.
+void requireNumStruts(std::size_t count);
 
 /// One number per strut; on the stack, as samples come.
 using StrutVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostStruts, 1>;
@@ -24,6 +28,12 @@ struct VehicleSample {
   StrutVector sprung;    ///< z_i'' [m/s^2] of the body at the top of strut i
   StrutVector unsprung;  ///< w_i'' [m/s^2] of its wheel carrier
   ForceVector forces;    ///< known forces, in any unit
+
+  /// @return what the two accelerometers of strut i read.
+  CornerSample ofStrut(std::size_t i) const {
+    const auto row = static_cast<Eigen::Index>(i);
+    return {stamp, sprung[row], unsprung[row]};
+  }
 };
 
 }  // namespace suspension_health_monitor

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/signal/alignment.h"
+#include "suspension_health_monitor/internal/signal/stream_grid.h"
+#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
+
+namespace suspension_health_monitor {
+
+/// The readings of all IMUs of a vehicle as samples of its struts, the one way for a live vehicle and for bags:
+/// StreamGrid -> StrutTops. Cost per reading: as StreamGrid, no allocation.
+class VehicleGrid {
+ public:
+  using Sink = std::function<void(const VehicleSample&)>;
+
+  /// @param options  of a strut; before an instant is of use the filter of the strut tops fills, too.
+  /// @param sink  called with every sample.
+  /// @throws std::invalid_argument  as StreamGrid and StrutTops.
+  VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink);
+
+  /// Takes in one message of an IMU.
+  /// @param imu  its place in VehicleStreams::imus.  @param values  of its streams.
+  void push(std::size_t imu, Stamp stamp, const std::vector<double>& values);
+
+  const StreamGrid& streams() const { return grid_; }
+
+  /// @return what timing and losses of an IMU are judged by: all of its streams share their stamps.
+  const StreamGate& gate(std::size_t imu) const { return grid_.gate(channels_[imu].first); }
+
+  /// @return readings of an IMU that were kept out, and what was lost for want of its readings.
+  RejectCounts rejected(std::size_t imu) const;
+  std::uint64_t missed(std::size_t imu) const;
+
+ private:
+  struct Channels {
+    std::size_t first, end;  // streams
+  };
+
+  StrutTops tops_;
+  StreamGrid grid_;
+  std::vector<Channels> channels_;  // by IMU
+  Sink sink_;
+};
+
+}  // namespace suspension_health_monitor
