@@ -13,6 +13,11 @@ namespace suspension_health_monitor {
 /// A recorded drive of a vehicle: one Drive per strut, in the same order always, all with the same stamps.
 using StrutDrives = std::vector<Drive>;
 
+/// What the noise of the sensors makes of a vehicle's drives, where filters colour it or one IMU tells of the tops of
+/// several struts: for every sensor a drive without motion in which it errs once, by its standard deviation, in a unit
+/// that is the same for all. Empty: every strut has two accelerometers of its own, with white noise, all alike.
+using SensorNoise = std::vector<StrutDrives>;
+
 inline constexpr const char* kAntiRollBar = "anti_roll_bar";  ///< the name of the effect
 
 /// A spring that resists the difference of two struts' travels, found in the drives: named `anti_roll_bar`.
@@ -41,6 +46,7 @@ struct SeparatedVehicle {
   std::vector<std::vector<Drive>> struts;  ///< by strut the drives of a quarter car with its b1 and b0; empty without
                                            ///< a coupling
   std::vector<StrutModel> models;          ///< b1, b0 of each by least squares over all drives
+  std::vector<Drive> noise;                ///< by strut, what the sensors' noise makes of it: CompareOptions::noise
   std::vector<LinearStrut> model_stddevs;  ///< what the ratios' errors alone make of b1, b0
 };
 
@@ -50,7 +56,7 @@ struct SeparatedVehicle {
 /// @throws std::invalid_argument  if there is no drive or no strut, if the struts of a drive have not the same stamps,
 /// or for a period that is not above 0.
 SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                 const std::optional<double>& sample_period = {});
+                                 const std::optional<double>& sample_period = {}, const SensorNoise& noise = {});
 
 struct VehicleIdentification {
   VehicleCoupling coupling;
@@ -61,7 +67,7 @@ struct VehicleIdentification {
 
 /// identify() for every strut of a vehicle; what the coupling does not know is in the standard deviations.
 VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                      const IdentifyOptions& options = {});
+                                      const IdentifyOptions& options = {}, const SensorNoise& noise = {});
 
 /// What a search found in a vehicle.
 struct VehicleDiagnosis {
@@ -82,6 +88,6 @@ struct VehicleDiagnosis {
 /// diagnose() for every strut of a vehicle. An effect in one strut shows in others: what was found in the strut where
 /// it explains most is taken out of them, before they are searched again, until nothing more is found.
 VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                 const DiagnoseOptions& options = {});
+                                 const DiagnoseOptions& options = {}, const SensorNoise& noise = {});
 
 }  // namespace suspension_health_monitor

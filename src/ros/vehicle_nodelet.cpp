@@ -160,7 +160,7 @@ bool VehicleNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
 VehicleSearchTask VehicleNodelet::giveSamples(double window) const {
   const double span = searchSpan(window, options_.common.shell.diagnose_window);
   if (!pipeline_ || pipeline_->monitor() == nullptr) throw std::runtime_error(whyNoMonitor() + ": drive on");
-  VehicleSearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};
+  VehicleSearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}, pipeline_->grid()->noise()};
   if (task.drive.front().samples.empty()) throw std::runtime_error("there are no samples yet: drive on");
   task.options.sample_period = pipeline_->period();
   task.options.candidates = struts_.front()->model().library();

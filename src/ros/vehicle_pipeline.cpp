@@ -10,6 +10,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kSpacingsForPeriod = 50;
+constexpr std::uint64_t kInstantsForNoise = 512;
 constexpr double kMostKept = 4000000.0;  // samples of one strut, of 24 bytes each
 
 }  // namespace
@@ -70,6 +71,10 @@ void VehiclePipeline::measurePeriod(Reading reading) {
 
 void VehiclePipeline::take(const VehicleSample& sample) {
   newest_ = sample.stamp;
+  if (grid_->numInstants() >= kInstantsForNoise && !knows_noise_) {
+    monitor_->setNoise(grid_->noise());
+    knows_noise_ = true;
+  }
   for (std::size_t i = 0; i < recent_.size(); ++i) recent_[i].push(sample.ofStrut(i));
   monitor_->addSample(sample);
 }

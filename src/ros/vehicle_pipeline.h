@@ -80,6 +80,7 @@ class VehiclePipeline {
   std::optional<double> period_;
   Stamp newest_{};
   std::optional<VehicleGrid> grid_;
+  bool knows_noise_ = false;
   std::optional<VehicleMonitor> monitor_;
   std::vector<RecentSamples> recent_;  // by strut
 };

@@ -16,6 +16,7 @@ struct VehicleSearchTask {
   StrutDrives drive;
   std::vector<std::string> struts;
   DiagnoseOptions options;
+  SensorNoise noise;
 };
 
 /// diagnoseVehicle() as the work of ~diagnose.

@@ -66,6 +66,7 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
     grid.push(imu, toStamp(message.header.stamp), sensors.read(imu, message));
     return true;
   });
+  read.noise = grid.noise();
   read.alignment = grid.streams().describeAlignment();
   for (std::size_t i = 0; i < streams.imus.size(); ++i) {
     RejectCounts rejected = sensors.rejected(i);

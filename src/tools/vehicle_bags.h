@@ -13,6 +13,7 @@ namespace suspension_health_monitor {
 
 /// One bag, read as a drive of a vehicle.
 struct VehicleBag {
+  SensorNoise noise;      ///< VehicleGrid::noise()
   StrutDrives struts;     ///< by VehicleLayout::struts: z'' at the strut's top and w''; all have the same stamps
   std::string alignment;  ///< StreamGrid::describeAlignment()
   /// What became of one IMU's messages.

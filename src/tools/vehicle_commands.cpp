@@ -41,6 +41,7 @@ struct Recorded {
   std::vector<std::string> names;  ///< of the struts
   std::vector<std::size_t> asked;  ///< their places
   std::vector<StrutDrives> drives;
+  SensorNoise noise;
   PipelineOptions options;  ///< with sample_period
 };
 
@@ -72,6 +73,7 @@ Recorded readRecorded(const po::variables_map& values) {
     for (const VehicleBag::Imu& imu : bag.imus)
       if (imu.rejected.total() > 0) std::printf("%s%s\n", imu.topic.c_str(), describeRejected(imu.rejected).c_str());
     recorded.drives.push_back(std::move(bag.struts));
+    recorded.noise = std::move(bag.noise);
   }
   return recorded;
 }
@@ -172,7 +174,7 @@ void identifyStruts(const po::variables_map& values) {
   options.sample_period = recorded.options.monitor.sample_period;
   options.horizon_samples = givenHorizon(recorded.options);
   options.memory = recorded.options.monitor.memory;
-  const VehicleIdentification found = identifyVehicle(recorded.drives, recorded.names, options);
+  const VehicleIdentification found = identifyVehicle(recorded.drives, recorded.names, options, recorded.noise);
   requireCoupling(found.coupling);
   printCoupling(found.coupling, recorded.names);
   json whole = vehicleJson(found.coupling, recorded.names);
@@ -195,7 +197,7 @@ void compareStruts(const po::variables_map& values) {
   const ModelOptions models = readModelOptions(values);
   const Recorded recorded = readRecorded(values);
   const SeparatedVehicle separated =
-      separateVehicle(recorded.drives, recorded.names, recorded.options.monitor.sample_period);
+      separateVehicle(recorded.drives, recorded.names, recorded.options.monitor.sample_period, recorded.noise);
   requireCoupling(separated.coupling);
   printCoupling(separated.coupling, recorded.names);
   json whole = vehicleJson(separated.coupling, recorded.names);
@@ -206,6 +208,7 @@ void compareStruts(const po::variables_map& values) {
     options.sample_period = recorded.options.monitor.sample_period;
     options.horizon_samples = givenHorizon(recorded.options);
     options.model = models.model;
+    options.noise = separated.noise[i];
     options.fit = !models.model;
     options.progress = [&](double share) { progress.update(done + share); };
     const Comparison comparison = compare(separated.struts[i], options);
@@ -231,7 +234,7 @@ void diagnoseStruts(const po::variables_map& values) {
   options.threads = values["threads"].as<int>();
   Progress progress("searching", 1.0);
   options.progress = [&](double share) { progress.update(share); };
-  const VehicleDiagnosis found = diagnoseVehicle(recorded.drives, recorded.names, options);
+  const VehicleDiagnosis found = diagnoseVehicle(recorded.drives, recorded.names, options, recorded.noise);
   requireCoupling(found.coupling);
   std::printf("%s\n", found.summary.c_str());
   printCoupling(found.coupling, recorded.names);
@@ -262,6 +265,7 @@ void watchStruts(const po::variables_map& values) {
   std::vector<HealthLog> logs(recorded.names.size(), HealthLog(fromSeconds(recorded.options.shell.input_timeout)));
   VehicleMonitor monitor(std::vector<MonitorSettings>(recorded.names.size(), settings),
                          [&](std::size_t strut, const MonitorReport& report) { logs[strut].addReport(report); });
+  monitor.setNoise(recorded.noise);
   for (const StrutDrives& drive : recorded.drives) {
     for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
       const VehicleSample sample = sampleOf(drive, k);

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/hat_functions.h"
@@ -64,7 +65,12 @@ struct Regression {
 
 /// z'' from its neighbours, from the wheel's motion during the steps around it (which stands for w''), and a constant.
 /// @param series  z'' per segment.
-Regression interpolate(const Segments& segments, const std::vector<Place>& places, const Series& series) {
+struct InterpolationRows {
+  Eigen::MatrixXd rows;
+  Eigen::VectorXd measured;
+};
+
+InterpolationRows interpolationRows(const Segments& segments, const std::vector<Place>& places, const Series& series) {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(places.size()), kTerms);
   Eigen::VectorXd measured(rows.rows());
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
@@ -83,6 +89,17 @@ Regression interpolate(const Segments& segments, const std::vector<Place>& place
     measured[r] = *y;
   }
   return {rows, measured};
+}
+
+Regression interpolate(const Segments& segments, const std::vector<Place>& places, const Series& series) {
+  const auto [rows, measured] = interpolationRows(segments, places, series);
+  return {rows, measured};
+}
+
+Series sprungOf(const Segments& segments) {
+  Series series;
+  for (const DriveSegment* segment : segments) series.push_back(segment->sprung);
+  return series;
 }
 
 /// Laws that a model may lack, along its free run: a free-form force of travel rate, with nodes that lie closer the
@@ -161,17 +178,21 @@ class FreeFormLaws {
   double travel_ = 0.0, travel_rate_ = 0.0;  // rms
 };
 
-/// @return standard deviation of the body's noise; 0 if there are too few samples.
-double bodyNoise(const Segments& segments, const StrutModel& model, bool without_laws) {
+/// What an interpolation cannot tell.
+struct Untold {
+  double deviation = 0.0;         ///< 0 if there are too few samples
+  Eigen::VectorXd interpolation;  ///< that was fitted
+};
+
+Untold untold(const Segments& segments, const StrutModel& model, bool without_laws) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());
-  if (count <= 2.0 * kTerms) return 0.0;
-  Series series;
-  for (const DriveSegment* segment : segments) series.push_back(segment->sprung);
+  if (count <= 2.0 * kTerms) return {};
+  Series series = sprungOf(segments);
   Regression interpolation = interpolate(segments, places, series);
   const double plain = interpolation.deviation() * std::sqrt(count / (count - kTerms));
   FreeFormLaws laws(segments);
-  if (!without_laws || count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return plain;
+  if (!without_laws || count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return {plain, interpolation.solution};
   double deviation = 0.0;
   for (int round = 1;; ++round) {
     const Regression fit(laws.interpolated(places, interpolation.solution), interpolation.error);
@@ -180,7 +201,7 @@ double bodyNoise(const Segments& segments, const StrutModel& model, bool without
     laws.takeOff(fit.solution, series);
     interpolation = interpolate(segments, places, series);
   }
-  return std::min(plain, deviation);
+  return {std::min(plain, deviation), interpolation.solution};
 }
 
 /// White noise on w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): its variance grows by T (b1^2 + b0) / (2 b1).
@@ -189,15 +210,40 @@ double ofBothSensors(double body_noise, double period, const StrutModel& model) 
   return body_noise * std::sqrt(1.0 + period * (square(b1) + b0) / (2.0 * b1));
 }
 
-}  // namespace
-
-double estimateNoiseFloor(const Records& records, const StrutModel& model) {
-  const double noise = ofBothSensors(bodyNoise(segmentsOf(records), model, true), records.front()->period(), model);
-  return noise > 0.0 ? std::max(noise, accuracyOfFreeRuns(records)) : 0.0;
+/// What is left of noise by the model's free run, over what is left of it by the interpolation.
+double gainOfNoise(const Drive& drive, double period, const Eigen::VectorXd& interpolation, const StrutModel& model) {
+  const std::deque<DriveRecord> records = makeRecords({drive}, period, model);
+  const Segments noise = segmentsOf(pointersTo(records));
+  const auto [rows, measured] = interpolationRows(noise, choosePlaces(noise), sprungOf(noise));
+  const double untold = (measured - rows * interpolation).norm() / std::sqrt(static_cast<double>(measured.size()));
+  const StrutModel linear{model.damping_to_mass, model.stiffness_to_mass, {}, {}};
+  double squares = 0.0, count = 0.0;
+  std::vector<double> predicted;
+  for (const DriveSegment* segment : noise) {
+    if (!runFree(linear, *segment, {}, predicted)) return 0.0;
+    for (std::size_t k = 0; k < predicted.size(); ++k) squares += square(segment->sprung[k] - predicted[k]);
+    count += static_cast<double>(predicted.size());
+  }
+  return std::sqrt(squares / count) / untold;
 }
 
-double estimateSamplingFloor(const Records& records, const StrutModel& model) {
-  return ofBothSensors(bodyNoise(segmentsOf(records), model, false), records.front()->period(), model);
+double floorOfNoise(const Records& records, const StrutModel& model, const std::optional<Drive>& noise,
+                    bool without_laws) {
+  const Untold left = untold(segmentsOf(records), model, without_laws);
+  const double period = records.front()->period();
+  if (!noise || left.deviation == 0.0) return ofBothSensors(left.deviation, period, model);
+  return left.deviation * gainOfNoise(*noise, period, left.interpolation, model);
+}
+
+}  // namespace
+
+double estimateNoiseFloor(const Records& records, const StrutModel& model, const std::optional<Drive>& noise) {
+  const double floor = floorOfNoise(records, model, noise, true);
+  return floor > 0.0 ? std::max(floor, accuracyOfFreeRuns(records)) : 0.0;
+}
+
+double estimateSamplingFloor(const Records& records, const StrutModel& model, const std::optional<Drive>& noise) {
+  return floorOfNoise(records, model, noise, false);
 }
 
 double accuracyOfFreeRuns(const Records& records) {

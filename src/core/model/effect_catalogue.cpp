@@ -43,7 +43,7 @@ std::vector<ForceEffect> makeForceEffects() {
        "m/s^2",
        "dry friction: seal, bent rod, top mount",
        [](const M& m, const double* vs) { return std::tanh(m.travel_rate / vs[0]); },
-       {{"vs", "m/s", ShapeScale::kTravelRate, 0.01, 0.2, kOpenBelow}},
+       {{"vs", "m/s", ShapeScale::kTravelRate, 0.01, 0.5, kOpenBelow}},
        {},
        kPositive},
       {"quadratic_damping",

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -38,11 +40,12 @@ std::vector<StrutModel> CouplingEstimate::models() const {
   return models;
 }
 
-CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const IntegralFilterOptions& filter, double memory)
+CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const IntegralFilterOptions& filter, double memory,
+                                     const SensorNoise& noise)
     : num_struts_(num_struts),
       num_forces_(num_forces),
+      fill_(2 * filter.horizon_samples + 1),
       forgetting_factor_(std::exp(-rowSpacing(filter) / memory)),
-      noise_(filter),
       regressions_(static_cast<std::size_t>(num_struts), SuspensionRegression(filter)),
       forces_(static_cast<std::size_t>(num_forces), LinearIntegralFilter(2, filter, 2)),
       row_due_(rowSpacing(filter)),
@@ -57,6 +60,26 @@ CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const Integ
   estimate_.stddevs = StrutMatrix::Constant(num_struts, num_struts, HUGE_VAL);
   estimate_.damping_to_mass = estimate_.stiffness_to_mass = StrutVector::Zero(num_struts);
   estimate_.own_stddevs.setZero(num_struts, 2);
+  setNoise(noise);
+}
+
+void CouplingEstimator::setNoise(const SensorNoise& noise) {
+  CouplingEstimator rows(*this);  // its filters are at work on the drive
+  const Eigen::Index columns = row_.size() - 1;
+  noise_ = Moments::Zero(columns, columns);
+  const VehicleSample at_rest{
+      {}, StrutVector::Zero(num_struts_), StrutVector::Zero(num_struts_), ForceVector::Zero(num_forces_)};
+  for (const StrutDrives& response : noise) {
+    rows.startNewSeries();
+    for (int k = 1; k < fill_; ++k) rows.fillRow(at_rest);
+    const std::size_t length = response.front().samples.size();
+    for (std::size_t k = 0; k < length + static_cast<std::size_t>(fill_); ++k) {
+      VehicleSample sample = k < length ? sampleOf(response, k) : at_rest;
+      sample.forces = at_rest.forces;
+      rows.fillRow(sample);
+      noise_ += rows.row_.head(columns) * rows.row_.head(columns).transpose();
+    }
+  }
 }
 
 void CouplingEstimator::add(const VehicleSample& sample) {
@@ -114,18 +137,15 @@ const CouplingEstimate& CouplingEstimator::solve() {
   if (is_first && !start(plain)) return estimate_;
   refine(plain, is_first ? kFirstSteps : kSteps);
   lookForBars(plain);
-  Moments moments = plain;
   const double variance = sensorVariance(plain);
-  takeOffNoise(moments, variance);
-  describe(plain, moments, variance);
+  describe(plain, plain - variance * noise_, variance);
   return estimate_;
 }
 
 // @param plain  moments with the noise's.
 void CouplingEstimator::refine(const Moments& plain, int steps) {
   for (int i = 0; i < steps; ++i) {
-    Moments moments = plain;
-    takeOffNoise(moments, sensorVariance(plain));
+    const Moments moments = plain - sensorVariance(plain) * noise_;
     solveRatios(moments);
     solveStruts(moments);
   }
@@ -284,28 +304,13 @@ StrutVector CouplingEstimator::restOf(const Moments& moments) const {
   return rest;
 }
 
-// What noise of both sensors of every strut alike would have to be to leave the least of the rests.
+// What the sensors' noise would have to be to leave the least of the rests.
 double CouplingEstimator::sensorVariance(const Moments& moments) const {
   const StrutVector rest = restOf(moments);
   double least = HUGE_VAL;
-  for (int i = 0; i < num_struts_; ++i) {
-    double gain = noise_.residualGain(strut(i));
-    for (int j = 0; j < num_struts_; ++j)
-      if (j != i) gain += std::pow(estimate_.coupling.ratios(i, j), 2) * noise_.forceGain(strut(j));
-    least = std::min(least, std::max(0.0, rest[i]) / gain);
-  }
+  const StrutVector gain = restOf(noise_);
+  for (int i = 0; i < num_struts_; ++i) least = std::min(least, std::max(0.0, rest[i]) / gain[i]);
   return least;
-}
-
-void CouplingEstimator::takeOffNoise(Moments& moments, double sensor_variance) const {
-  const int n = num_struts_;
-  const Eigen::Matrix3d noise = sensor_variance * noise_.rowMoments();
-  for (int j = 0; j < n; ++j) {
-    const std::array<int, 3> columns{j, n + j, 2 * n + num_forces_ + j};
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b)
-        moments(columns[static_cast<std::size_t>(a)], columns[static_cast<std::size_t>(b)]) -= noise(a, b);
-  }
 }
 
 // @param plain  with the noise's.
@@ -332,8 +337,7 @@ void CouplingEstimator::describe(const Moments& plain, const Moments& moments, d
 // Which struts the rows tell apart least.
 void CouplingEstimator::describeAlike(const Moments& plain, double sensor_variance) {
   const int n = num_struts_;
-  Moments noise = Moments::Zero(plain.rows(), plain.cols());
-  takeOffNoise(noise, -sensor_variance);
+  const Moments noise = sensor_variance * noise_;
   const StrutMatrix of_noise = combined(noise).topLeftCorner(n, n);
   const StrutMatrix with_noise = combined(plain).topLeftCorner(n, n);
   const Eigen::GeneralizedSelfAdjointEigenSolver<StrutMatrix> parts(with_noise, of_noise);

@@ -13,17 +13,21 @@ constexpr int kFewestSamples = 8;                                // of a horizon
 
 }  // namespace
 
-CouplingSurvey::CouplingSurvey(int num_struts, int num_forces, double period, double memory) {
+CouplingSurvey::CouplingSurvey(int num_struts, int num_forces, double period, double memory, const SensorNoise& noise) {
   for (double horizon = kShortestHorizon; horizon <= kLongestHorizon; horizon *= 2.0) {
     IntegralFilterOptions filter;
     filter.period = period;
     filter.horizon_samples = static_cast<int>(std::lround(horizon / period));
     if (filter.horizon_samples >= kFewestSamples)
-      estimators_.emplace_back(num_struts, num_forces, filter, memory / period);
+      estimators_.emplace_back(num_struts, num_forces, filter, memory / period, noise);
   }
   if (estimators_.empty())
     throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be at most " +
                                 numberText(kLongestHorizon / kFewestSamples) + " for the struts of a vehicle");
+}
+
+void CouplingSurvey::setNoise(const SensorNoise& noise) {
+  for (CouplingEstimator& estimator : estimators_) estimator.setNoise(noise);
 }
 
 void CouplingSurvey::add(const VehicleSample& sample) {

@@ -41,20 +41,28 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   }
   if (!travels_.front().full()) return nullptr;
   out_ = recent_.front();
-  StrutVector moving = out_.sprung, modelled(out_.sprung.size()), by_bars(out_.sprung.size());
+  StrutVector moving = out_.sprung, modelled(out_.sprung.size()), stiffness = modelled, travel = modelled,
+              slow = modelled;
   for (std::size_t j = 0; j < models_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
     moving[place] -= gravity_[j].mean();
-    by_bars[place] = 0.0;
-    for (std::size_t m = 0; m < models_.size(); ++m)
-      by_bars[place] += bars_(place, static_cast<Eigen::Index>(m)) * (travels_[j].travel() - travels_[m].travel());
-    modelled[place] = models_[j].force(travels_[j].travel(), travels_[j].travelRate(), 0.0, kNoMemories.data());
+    travel[place] = travels_[j].travel();
+    slow[place] = out_.unsprung[place] - out_.sprung[place] - travels_[j].acceleration();
+    stiffness[place] = models_[j].stiffness_to_mass;
+    modelled[place] = models_[j].force(travel[place], travels_[j].travelRate(), 0.0, kNoMemories.data());
   }
   // At its own strut, too, what a bar does is not the strut's.
+  const StrutVector by_bars = ofBars(travel), slow_by_bars = ofBars(slow);
   const StrutVector neighbours = weights_.neighbours(moving, out_.forces, modelled + by_bars) + by_bars;
+  const StrutVector unseen = weights_.leaked(stiffness.cwiseProduct(slow) + slow_by_bars) + slow_by_bars;
   out_.sprung -= neighbours;
-  out_.unsprung -= neighbours;
+  out_.unsprung -= neighbours - unseen.cwiseQuotient(stiffness);
   return &out_;
+}
+
+// @return sum over m of bar_im (x_i - x_m).
+StrutVector Decoupler::ofBars(const StrutVector& travels) const {
+  return bars_.rowwise().sum().cwiseProduct(travels) - bars_ * travels;
 }
 
 void Decoupler::startNewSeries() {

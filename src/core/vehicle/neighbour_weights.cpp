@@ -32,7 +32,7 @@ StrutVector NeighbourWeights::neighbours(const StrutVector& moving, const ForceV
                                          const StrutVector& modelled) const {
   StrutVector of_struts = moving;
   if (coupling_.forces.cols() > 0) of_struts -= coupling_.forces * forces;
-  return moving - combination_ * of_struts + leak_ * modelled;
+  return moving - combination_ * of_struts + leaked(modelled);
 }
 
 StrutModel withoutMemories(StrutModel model) {

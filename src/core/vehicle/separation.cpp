@@ -65,9 +65,9 @@ VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std
   return coupling;
 }
 
-CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double period) {
+CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double period, const SensorNoise& noise) {
   const int n = static_cast<int>(drives.front().size());
-  CouplingSurvey survey(n, 0, period, std::numeric_limits<double>::infinity());
+  CouplingSurvey survey(n, 0, period, std::numeric_limits<double>::infinity(), noise);
   for (const StrutDrives& drive : drives) {
     requireSameStamps(drive);
     replay(

@@ -92,12 +92,6 @@ void StrutTops::spread(const std::vector<double>& values, const std::vector<doub
   }
 }
 
-double StrutTops::noise(std::size_t strut, double accelerometer, double gyro) const {
-  if (!filter_) return accelerometer;
-  const double lever = channels_.struts[strut].position.head<2>().norm();
-  return std::hypot(accelerometer * MotionFilter::valueNoise(), gyro * filter_->rateNoise() * lever);
-}
-
 void StrutTops::reset() {
   if (filter_) filter_->reset();
 }

@@ -25,22 +25,24 @@ TravelObserver::TravelObserver(double period, double stiffness_to_mass, int natu
       horizon_(std::pow(natural_period * period, kMeans)),
       step_(0.0, 1.0, period),
       offset_(std::exp(-period / kMeanMemory)),
-      slow_(2, LinearIntegralFilter(kMeans, {natural_period, period, IntegrationRule::kTrapezoid}, 0)),
-      recent_(2, boost::circular_buffer<double>(static_cast<std::size_t>(kMeans * natural_period / 2) + 1)) {}
+      slow_(now_.size(), LinearIntegralFilter(kMeans, {natural_period, period, IntegrationRule::kTrapezoid}, 0)),
+      recent_(now_.size(), boost::circular_buffer<double>(static_cast<std::size_t>(kMeans * natural_period / 2) + 1)) {}
 
 void TravelObserver::push(double relative_acceleration) {
   offset_.add(relative_acceleration);
-  auto& [travel, rate] = now_;
+  auto& [travel, rate, acceleration] = now_;
+  double leaves = 0.0;
   if (input_.full()) {
     const WheelStep gain = step_(input_.data());
     age_ += period_;
     const double washout = std::max(washout_, kStart / age_);
-    const double leaves = washout * (2.0 * kDamping * rate + washout * travel);
+    leaves = washout * (2.0 * kDamping * rate + washout * travel);
     travel += period_ * rate + gain.end_position;
     rate += gain.end_velocity - period_ * leaves;
   }
   input_.push(relative_acceleration - offset_.mean());
   if (!input_.full()) return;
+  acceleration = input_.data()[WheelInterpolator::kWidth / 2 - 1] - leaves;
   for (std::size_t i = 0; i < now_.size(); ++i) {
     slow_[i].push(now_[i]);
     recent_[i].push_back(now_[i]);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
@@ -35,11 +36,13 @@ int horizonFor(const StrutModel& model, double period) {
 class Separator {
  public:
   Separator(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-            const std::optional<double>& sample_period)
+            const std::optional<double>& sample_period, const SensorNoise& noise)
       : drives_(drives) {
     check(drives, names);
+    const SensorNoise sensors = noise.empty() ? noiseOfOwnSensors(names.size()) : noise;
     period_ = sample_period ? *sample_period : medianPeriod(flattened(drives));
-    estimate_ = coupleStruts(drives, period_);
+    noise_ = makeNoiseDrive(sensors, period_);
+    estimate_ = coupleStruts(drives, period_, sensors);
     models_ = estimate_.models();
     coupling_ = describe(estimate_, names);
   }
@@ -57,6 +60,9 @@ class Separator {
 
   void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
 
+  /// @return by strut, what the sensors' noise makes of its drives.
+  StrutDrives separateNoise() const { return separateStruts(noise_, period_, estimate_.coupling, estimate_.models()); }
+
   std::vector<std::vector<Drive>> separate() const {
     std::vector<std::vector<Drive>> struts(models_.size());
     for (const StrutDrives& drive : drives_) {
@@ -69,6 +75,7 @@ class Separator {
  private:
   const std::vector<StrutDrives>& drives_;
   double period_ = 0.0;
+  StrutDrives noise_;
   CouplingEstimate estimate_;
   VehicleCoupling coupling_;
   std::vector<StrutModel> models_;
@@ -95,11 +102,11 @@ Verdict worstOf(const VehicleDiagnosis& found) {
 }  // namespace
 
 SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                 const std::optional<double>& sample_period) {
-  const Separator separator(drives, names, sample_period);
-  SeparatedVehicle separated{separator.coupling(), {}, separator.models(), separator.modelStddevs()};
-  if (separated.coupling) separated.struts = separator.separate();
-  return separated;
+                                 const std::optional<double>& sample_period, const SensorNoise& noise) {
+  const Separator separator(drives, names, sample_period, noise);
+  if (!separator.coupling()) return {separator.coupling(), {}, {}, {}, {}};
+  return {separator.coupling(), separator.separate(), separator.models(), separator.separateNoise(),
+          separator.modelStddevs()};
 }
 
 std::vector<std::string> VehicleDiagnosis::selected(std::size_t strut) const {
@@ -118,8 +125,8 @@ Verdict VehicleDiagnosis::verdictOn(std::size_t strut) const {
 }
 
 VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                      const IdentifyOptions& options) {
-  const Separator separator(drives, names, options.sample_period);
+                                      const IdentifyOptions& options, const SensorNoise& noise) {
+  const Separator separator(drives, names, options.sample_period, noise);
   VehicleIdentification result{separator.coupling(), {}};
   if (!result) return result;
   const auto separated = separator.separate();
@@ -139,8 +146,8 @@ VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, co
 }
 
 VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& strut_names,
-                                 const DiagnoseOptions& options) {
-  Separator separator(drives, strut_names, options.sample_period);
+                                 const DiagnoseOptions& options, const SensorNoise& noise) {
+  Separator separator(drives, strut_names, options.sample_period, noise);
   VehicleDiagnosis result;
   result.coupling = separator.coupling();
   if (!result) {
@@ -150,6 +157,7 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const s
   const std::size_t n = strut_names.size();
   result.struts.resize(n);
   std::vector<bool> settled(n, false);
+  const StrutDrives of_noise = separator.separateNoise();
   double done = 0.0;
   for (auto open = n; open > 0; --open) {
     const auto separated = separator.separate();
@@ -159,6 +167,7 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const s
       if (settled[i]) continue;
       DiagnoseOptions strut = options;
       strut.sample_period = separator.period();
+      strut.noise = of_noise[i];
       if (options.progress) strut.progress = [&](double share) { options.progress(done + share * step); };
       result.struts[i] = diagnose(separated[i], strut);
       done += step;

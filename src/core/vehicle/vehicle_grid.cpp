@@ -1,13 +1,27 @@
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "suspension_health_monitor/internal/signal/continuity.h"
+#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
+
 namespace suspension_health_monitor {
+namespace {
+
+constexpr double kLevelMemory = 4096.0;  // samples: the ratio of two deviations within 2 %
+constexpr std::size_t kFewestOfLevel = 256;
+
+}  // namespace
 
 VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink)
-    : tops_(fromSeconds(period), streams.channels),
+    : period_(fromSeconds(period)),
+      vehicle_(streams.channels),
+      tops_(period_, streams.channels),
       grid_(period, streams.options, options.alignment, options.fill_samples + 2 * tops_.delay()),
+      body_levels_(streams.channels.body_imu ? 6 : 0, WhiteLevel(1.0 - 1.0 / kLevelMemory)),
       sink_(std::move(sink)) {
   for (const VehicleStreams::Imu& imu : streams.imus) {
     std::size_t end = imu.stream;
@@ -19,8 +33,30 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
 void VehicleGrid::push(std::size_t imu, Stamp stamp, const std::vector<double>& values) {
   std::size_t stream = channels_[imu].first;
   for (const double value : values)
-    for (auto instant = grid_.push(stream++, stamp, value); instant != nullptr; instant = grid_.next())
-      if (const VehicleSample* sample = tops_.push(*instant)) sink_(*sample);
+    for (auto instant = grid_.push(stream++, stamp, value); instant != nullptr; instant = grid_.next()) take(*instant);
+}
+
+void VehicleGrid::take(const GridInstant& instant) {
+  const bool continues = last_ && continuity(instant.stamp - *last_, period_) == Continuity::kContinues;
+  last_ = instant.stamp;
+  ++num_instants_;
+  for (std::size_t axis = 0; axis < body_levels_.size(); ++axis) {
+    if (!continues) body_levels_[axis].startNewSeries();
+    body_levels_[axis].add(instant.values[*vehicle_.body_imu + axis]);
+  }
+  if (const VehicleSample* sample = tops_.push(instant)) sink_(*sample);
+}
+
+// @return of three axes of the body's IMU, rms.
+double VehicleGrid::deviation(std::size_t first_axis) const {
+  double squares = 0.0;
+  for (std::size_t axis = first_axis; axis < first_axis + 3; ++axis) squares += square(body_levels_[axis].deviation());
+  return std::sqrt(squares / 3.0);
+}
+
+SensorNoise VehicleGrid::noise() const {
+  const bool is_known = !body_levels_.empty() && body_levels_.front().count() >= kFewestOfLevel && deviation(0) > 0.0;
+  return noiseOfStrutTops(vehicle_, period_, is_known ? deviation(3) / deviation(0) : kUsualGyroNoise);
 }
 
 RejectCounts VehicleGrid::rejected(std::size_t imu) const {

@@ -8,6 +8,7 @@
 
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
+#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -36,7 +37,8 @@ VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sin
       period_(fromSeconds(*settings.front().sample_period)),
       sink_(std::move(sink)),
       starts_(settings.size()),
-      survey_(static_cast<int>(settings.size()), num_forces, toSeconds(period_), kCouplingMemory),
+      survey_(static_cast<int>(settings.size()), num_forces, toSeconds(period_), kCouplingMemory,
+              noiseOfOwnSensors(settings.size())),
       coupling_due_(samplesOf(kCouplingEvery, toSeconds(period_))),
       models_due_(samplesOf(kModelsEvery, toSeconds(period_))) {
   if (settings_.size() > 1) return;

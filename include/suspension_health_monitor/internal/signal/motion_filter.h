@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -13,22 +13,20 @@ namespace suspension_health_monitor {
 /// what comes out as well.
 ///
 /// A gyro's white noise grows with the frequency when it is differentiated, so H ends where the motion does, not at
-/// Nyquist's frequency. Both filters are FIR, kDelay samples to either side, h symmetrical and g antisymmetrical: they
-/// delay by kDelay samples exactly, at all frequencies. No FIR filter is exactly j 2 pi f H of another one; the taps
-/// are those of the least mean square of
-/// - H - 1 up to kFlat, and H from kStop on, in cycles per sample,
+/// Nyquist's frequency. Both filters are FIR, delay() samples to either side, h symmetrical and g antisymmetrical: they
+/// delay by that exactly, at all frequencies. No FIR filter is exactly j 2 pi f H of another one; the taps are those of
+/// the least mean square of
+/// - H - 1 up to flat(), and H from stop() on,
 /// - T G - j 2 pi f T H at all frequencies, whose mean square counts kSameFilter times that of the others, since an
-/// error
-///   of G is one of the relation while an error of H is none,
+///   error of G is one of the relation while an error of H is none,
 /// with H(0) = 1 and G'(0) = j 2 pi: a constant, gravity say, and the rate of a ramp pass exactly.
-/// Then |H - 1| < 1e-3 up to kFlat, |H| < 1e-3 from kStop on, and |T G - j 2 pi f T H| < 1e-4 everywhere. Shorter
+/// Then |H - 1| < 1e-3 up to flat(), |H| < 1e-3 from stop() on, and |T G - j 2 pi f T H| < 1e-4 everywhere. Shorter
 /// filters could not do that: the width of the transition is what they need their length for. Cost per instant:
-/// O(signals), no allocation.
+/// O(signals / T), no allocation.
 class MotionFilter {
  public:
-  static constexpr int kDelay = 12;      ///< samples; so late is an instant
-  static constexpr double kFlat = 0.24;  ///< of the sampling rate
-  static constexpr double kStop = 0.42;  ///< of the sampling rate
+  /// Bodies move on their struts below this, wheels shake them up to it [Hz]; slower sampling ends it sooner.
+  static constexpr double kBand = 15.0;
   static constexpr double kSameFilter = 10.0;
 
   /// @param period  T > 0.
@@ -44,25 +42,26 @@ class MotionFilter {
   /// Takes in the next sample of all signals. One that follows less than half a period after the one before is left
   /// out; after a gap the filter fills anew.
   /// @param signals  the filtered ones, then those to differentiate.
-  /// @return the instant kDelay samples ago, valid until the next call; nullptr while the filter fills.
+  /// @return the instant delay() samples ago, valid until the next call; nullptr while the filter fills.
   const Instant* push(Stamp stamp, const std::vector<double>& signals);
 
   void reset() { samples_ = 0; }
 
-  /// @return standard deviation of what comes out where the signal's white noise has 1: of a value [-], of a rate
-  /// [1/s].
-  static double valueNoise();
-  double rateNoise() const;
+  int delay() const { return delay_; }   ///< samples; so late is an instant
+  double flat() const { return flat_; }  ///< [Hz]
+  double stop() const;                   ///< [Hz]
 
  private:
-  static constexpr int kTaps = 2 * kDelay + 1;
-
   Stamp period_;
+  double flat_;
+  int delay_;
+  std::size_t num_taps_;
+  Eigen::VectorXd value_, rate_;  // taps from the oldest sample to the newest
   Instant instant_;
-  std::vector<double> history_;  // kTaps of every signal, twice so that they are in a row wherever the ring begins
-  std::array<Stamp, kTaps> stamps_{};
-  std::size_t newest_ = kTaps - 1;  // place in the ring
-  int samples_ = 0;                 // since the last gap, up to kTaps
+  std::vector<double> history_;  // num_taps_ of every signal, twice so that they are in a row wherever the ring begins
+  std::vector<Stamp> stamps_;
+  std::size_t newest_;       // place in the ring
+  std::size_t samples_ = 0;  // since the last gap, up to num_taps_
 };
 
 }  // namespace suspension_health_monitor

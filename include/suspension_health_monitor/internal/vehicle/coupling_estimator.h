@@ -6,10 +6,10 @@
 
 #include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/identification/limited_mean.h"
-#include "suspension_health_monitor/internal/identification/regressor_noise.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
 #include "suspension_health_monitor/internal/vehicle/coupling.h"
 #include "suspension_health_monitor/strut_model.h"
+#include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
@@ -36,7 +36,8 @@ struct CouplingEstimate {
 ///   I_2^2 z_i'' = sum_j rho_ij (b1_j I_1^2 u_j + b0_j I_0^2 u_j) + sum_k kappa_ik I_2^2 x_k + c_i + e_i,
 /// by least squares over a long memory: rho does not wear. The right side is linear in rho for given b1, b0 and the
 /// other way round; solve() alternates between the two, each step of which lowers the sum of squares. The moments that
-/// the sensors' noise has of itself are taken off (regressor_noise.h).
+/// the sensors' noise has of itself are taken off: their pattern is that of the rows that follow one wrong reading of
+/// every sensor, their size what the rows leave at least.
 ///
 /// An anti-roll bar is looked for between every two struts: it stays if it takes more of what is left than chance, and
 /// more than any law in one strut would (lookForBars()).
@@ -47,7 +48,11 @@ struct CouplingEstimate {
 class CouplingEstimator {
  public:
   /// @param memory  of the rows [samples].
-  CouplingEstimator(int num_struts, int num_forces, const IntegralFilterOptions& filter, double memory);
+  CouplingEstimator(int num_struts, int num_forces, const IntegralFilterOptions& filter, double memory,
+                    const SensorNoise& noise);
+
+  /// From the next solve() on.
+  void setNoise(const SensorNoise& noise);
 
   /// Takes in the next sample of an uninterrupted uniform series.
   void add(const VehicleSample& sample);
@@ -68,7 +73,6 @@ class CouplingEstimator {
   bool fillRow(const VehicleSample& sample);
   double weightOfRow();
   bool start(const Moments& moments);
-  void takeOffNoise(Moments& moments, double sensor_variance) const;
   void solveRatios(const Moments& moments);
   void solveStruts(const Moments& moments);
   void refine(const Moments& plain, int steps);
@@ -84,14 +88,14 @@ class CouplingEstimator {
   StrutVector restOf(const Moments& moments) const;
   Eigen::Vector2d strut(int j) const { return {estimate_.damping_to_mass[j], estimate_.stiffness_to_mass[j]}; }
 
-  int num_struts_, num_forces_;
-  double forgetting_factor_;  // of a row that is taken
-  RegressorNoise noise_;
+  int num_struts_, num_forces_, fill_;  // fill_: samples until there are rows
+  double forgetting_factor_;            // of a row that is taken
   std::vector<SuspensionRegression> regressions_;
   std::vector<LinearIntegralFilter> forces_;
   EveryN row_due_;
   Row row_;          // I_1^2 u_j, I_0^2 u_j, I_2^2 x_k, I_2^2 z_i'', 1
   Moments moments_;  // mean of row row'
+  Moments noise_;    // the same of noise whose standard deviation is 1 in every sensor
   double weight_ = 0.0;
   LimitedMean usual_rest_;
   bool has_start_ = false;

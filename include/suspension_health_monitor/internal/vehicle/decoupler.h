@@ -15,7 +15,10 @@ namespace suspension_health_monitor {
 ///   S_i = z_i'' - n_i,   W_i = w_i'' - n_i,   n_i = sum_{j != i} rho_ij p_j + sum_k kappa_ik x_k + anti-roll bars
 /// (NeighbourWeights),
 /// so that S_i = p_i and W_i - S_i = w_i'' - z_i'': what is left is a quarter car, with the strut's own b1 and b0.
-/// The models of the neighbours see their travel by a TravelObserver, and with it everything is late by delay().
+/// The models of the neighbours see their travel by a TravelObserver, and with it everything is late by delay(). What is
+/// slower than that observes, E of n_i, is not seen. A strut passes it nearly as it is, S = G W with G near 1: what it
+/// leaves, (1 - G) E = G E'' / (b1 s + b0), is that of a wheel which moves by E'' / b0, and E'' needs no travel, only the
+/// slow part of u_j.
 /// Cost per sample: O(N^2), no allocation.
 class Decoupler {
  public:
@@ -40,6 +43,8 @@ class Decoupler {
   void startNewSeries();
 
  private:
+  StrutVector ofBars(const StrutVector& travels) const;
+
   NeighbourWeights weights_;
   StrutMatrix bars_;
   std::vector<StrutModel> models_;

@@ -19,6 +19,9 @@ class NeighbourWeights {
   /// @return n_i, what the other struts and known forces do to the top of strut i [m/s^2].
   StrutVector neighbours(const StrutVector& moving, const ForceVector& forces, const StrutVector& modelled) const;
 
+  /// @return what of the neighbours' modelled p_j is in that [m/s^2].
+  StrutVector leaked(const StrutVector& modelled) const { return leak_ * modelled; }
+
  private:
   StrutMatrix combination_;  // l_i' in row i
   StrutMatrix leak_;         // l_i' rho_j, 0 for j = i

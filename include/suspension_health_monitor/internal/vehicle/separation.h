@@ -17,7 +17,7 @@ VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std
 /// @param drives  of one vehicle.
 /// @return the coupling of its struts over all of them.
 /// @throws std::invalid_argument  if the struts of a drive have not the same stamps, or as CouplingSurvey.
-CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double period);
+CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double period, const SensorNoise& noise);
 
 /// Every strut of a recorded drive on its own, by the Decoupler as live.
 /// @param models  of the struts, as they are known.

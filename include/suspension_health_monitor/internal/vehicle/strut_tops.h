@@ -49,14 +49,7 @@ class StrutTops {
   const VehicleSample* push(const GridInstant& instant);
 
   /// @return samples by which a sample is late.
-  int delay() const { return filter_ ? MotionFilter::kDelay : 0; }
-
-  /// @param accelerometer, gyro  standard deviations of the white noise of the body's IMU [m/s^2], [rad/s].
-  /// @return that of z'' of a strut whose top the body's IMU tells [m/s^2].
-  double noise(std::size_t strut, double accelerometer, double gyro) const;
-
-  /// @return by what factor the noise of all other streams is less than it was.
-  double noiseGain() const { return filter_ ? MotionFilter::valueNoise() : 1.0; }
+  int delay() const { return filter_ ? filter_->delay() : 0; }
 
   void reset();
 

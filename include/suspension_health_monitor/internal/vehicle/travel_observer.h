@@ -33,6 +33,8 @@ class TravelObserver {
   /// At the sample so much before the newest one, once full():
   double travel() const { return fast(0); }      ///< d [m]
   double travelRate() const { return fast(1); }  ///< v [m/s]
+  /// What of the relative acceleration that travel belongs to [m/s^2]: the rest of it is slower than is observed.
+  double acceleration() const { return fast(2); }
 
   /// After a gap.
   void startNewSeries();
@@ -44,7 +46,7 @@ class TravelObserver {
   WheelInterpolator step_;
   LimitedMean offset_;           // between the sensors
   double age_ = 0.0;             // of the series [s]
-  std::array<double, 2> now_{};  // travel, rate
+  std::array<double, 3> now_{};  // travel, rate, acceleration
   SlidingWindow<WheelInterpolator::kWidth> input_;
   std::vector<LinearIntegralFilter> slow_;
   std::vector<boost::circular_buffer<double>> recent_;

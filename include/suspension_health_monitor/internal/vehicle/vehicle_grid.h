@@ -3,12 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
+#include "suspension_health_monitor/internal/signal/white_level.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
+#include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
@@ -36,14 +39,28 @@ class VehicleGrid {
   RejectCounts rejected(std::size_t imu) const;
   std::uint64_t missed(std::size_t imu) const;
 
+  /// @return what the sensors' noise makes of the samples, by what the body's IMU has had of it. Allocates.
+  SensorNoise noise() const;
+
+  /// @return instants of the grid so far.
+  std::uint64_t numInstants() const { return num_instants_; }
+
  private:
   struct Channels {
     std::size_t first, end;  // streams
   };
 
+  void take(const GridInstant& instant);
+  double deviation(std::size_t first_axis) const;
+
+  Stamp period_;
+  VehicleChannels vehicle_;
   StrutTops tops_;
   StreamGrid grid_;
-  std::vector<Channels> channels_;  // by IMU
+  std::vector<Channels> channels_;       // by IMU
+  std::vector<WhiteLevel> body_levels_;  // of the body's IMU, by stream
+  std::optional<Stamp> last_;
+  std::uint64_t num_instants_ = 0;
   Sink sink_;
 };
 

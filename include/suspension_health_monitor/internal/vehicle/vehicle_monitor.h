@@ -29,6 +29,9 @@ class VehicleMonitor {
   /// @throws std::invalid_argument  as SuspensionMonitor; without a strut, or with more than kMostStruts.
   VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0);
 
+  /// What the noise of the sensors makes of the samples; so far every strut has two of its own, all alike. Allocates.
+  void setNoise(const SensorNoise& noise) { survey_.setNoise(noise); }
+
   /// Takes in the next sample; gaps and clocks that go back begin a new series.
   void addSample(const VehicleSample& sample);
 
