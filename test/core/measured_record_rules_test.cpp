@@ -137,7 +137,7 @@ TEST(MeasuredRecordRules, AShapeAtTheEndOfItsRangeNamesNothingUnlessTheEndIsOpen
   EXPECT_TRUE(at("bump_stop", 4.0 * 0.02));
   EXPECT_FALSE(at("bump_stop", 0.02));
   EXPECT_FALSE(at("coulomb_friction", 0.01 * 0.5));  // friction that turns at once is friction
-  EXPECT_TRUE(at("coulomb_friction", 0.2 * 0.5));    // and that turns slowly is damping
+  EXPECT_TRUE(at("coulomb_friction", 0.5 * 0.5));    // and that turns slowly is damping
   EXPECT_FALSE(hasShapeAtEnd({findEffect(forceEffects(), "asymmetric_spring"), 1.0, {}}, scale));
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include "suspension_health_monitor/internal/pi.h"
@@ -16,18 +15,20 @@ namespace {
 constexpr Stamp kPeriod = std::chrono::milliseconds(10);
 constexpr double kT = 0.01;
 
+int delay() { return MotionFilter(kPeriod, 1, 1).delay(); }
+
 struct Output {
   double value, rate;
 };
 
-/// @return the filtered signal and its filtered derivative, at kDelay .. signal.size() - 1 - kDelay.
+/// @return the filtered signal and its filtered derivative, at delay .. signal.size() - 1 - delay.
 std::vector<Output> filtered(const std::vector<double>& signal) {
   MotionFilter filter(kPeriod, 1, 1);
   std::vector<Output> outputs;
   for (std::size_t k = 0; k < signal.size(); ++k) {
     const MotionFilter::Instant* instant = filter.push(static_cast<int>(k) * kPeriod, {signal[k], signal[k]});
     if (instant == nullptr) continue;
-    EXPECT_EQ(instant->stamp, static_cast<int>(k - MotionFilter::kDelay) * kPeriod);
+    EXPECT_EQ(instant->stamp, (static_cast<int>(k) - filter.delay()) * kPeriod);
     outputs.push_back({instant->values[0], instant->rates[0]});
   }
   return outputs;
@@ -39,12 +40,13 @@ struct Response {
   double low_pass_odd, derivative_even;
 };
 Response responseAt(double frequency) {
-  std::vector<double> pulse(6 * MotionFilter::kDelay + 1, 0.0);
-  pulse[3 * MotionFilter::kDelay] = 1.0;
+  const auto late_by = static_cast<std::size_t>(delay());
+  std::vector<double> pulse(6 * late_by + 1, 0.0);
+  pulse[3 * late_by] = 1.0;
   const std::vector<Output> answer = filtered(pulse);
   Response response{};
   for (std::size_t k = 0; k < answer.size(); ++k) {
-    const double late = static_cast<double>(k) - 2.0 * MotionFilter::kDelay;  // by how much, in samples
+    const double late = static_cast<double>(k) - 2.0 * delay();  // by how much, in samples
     const double angle = 2.0 * kPi * frequency * late;
     response.low_pass += answer[k].value * std::cos(angle);
     response.low_pass_odd += answer[k].value * std::sin(angle);
@@ -55,10 +57,11 @@ Response responseAt(double frequency) {
 }
 
 TEST(MotionFilter, IsFlatThenStopsAndDelaysByWholeSamples) {
+  const MotionFilter filter(kPeriod, 1, 1);
   for (int i = 0; i <= 500; ++i) {
     const double frequency = 0.001 * i;
     const Response response = responseAt(frequency);
-    const bool passes = frequency <= MotionFilter::kFlat, stops = frequency >= MotionFilter::kStop;
+    const bool passes = frequency <= filter.flat() * kT, stops = frequency >= filter.stop() * kT;
     if (passes || stops) {
       EXPECT_NEAR(response.low_pass, passes ? 1.0 : 0.0, 1e-3) << frequency;
     }
@@ -78,9 +81,9 @@ TEST(MotionFilter, DifferentiatesWhatTheLowPassFilterLeavesAtAllFrequencies) {
 TEST(MotionFilter, PassesGravityAndTheRateOfARamp) {
   std::vector<double> signal;
   for (int k = 0; k < 60; ++k) signal.push_back(9.81 + 3.0 * kT * k);
-  std::size_t k = 0;
+  auto k = static_cast<std::size_t>(delay());
   for (const Output& output : filtered(signal)) {
-    EXPECT_NEAR(output.value, signal[k + MotionFilter::kDelay], 1e-12);
+    EXPECT_NEAR(output.value, signal[k], 1e-12);
     EXPECT_NEAR(output.rate, 3.0, 1e-11);
     ++k;
   }
@@ -100,33 +103,30 @@ TEST(MotionFilter, GivesASineAndItsDerivativeAtTheInstantOfTheStamp) {
     EXPECT_NEAR(instant->rates[0], frequency * std::cos(frequency * t), 1e-3 * frequency);
     ++instants;
   }
-  EXPECT_EQ(instants, 200 - 2 * MotionFilter::kDelay);
+  EXPECT_EQ(instants, 200 - 2 * filter.delay());
 }
 
-// Parseval: the variance that white noise of 1 leaves is the mean square of the response, which is |2 pi f H|^2 / T^2.
-TEST(MotionFilter, TellsTheNoiseThatItLeaves) {
-  double value = 0.0, rate = 0.0;
-  constexpr int kSteps = 1000;
-  for (int i = 0; i < kSteps; ++i) {
-    const double frequency = 0.5 * (i + 0.5) / kSteps, low_pass = responseAt(frequency).low_pass;
-    value += low_pass * low_pass / kSteps;
-    rate += std::pow(2.0 * kPi * frequency * low_pass / kT, 2) / kSteps;
+// The same band in Hz, however fast the sampling: a gyro's noise does not grow with the rate. Slow sampling ends it.
+TEST(MotionFilter, HasItsBandInHertz) {
+  for (const int microseconds : {1000, 2500, 5000, 10000}) {
+    const MotionFilter filter(std::chrono::microseconds(microseconds), 1, 1);
+    EXPECT_EQ(filter.flat(), MotionFilter::kBand);
+    EXPECT_NEAR(filter.delay() * 1e-6 * microseconds, 0.19, 0.01) << microseconds;  // 12 * 0.24 / 15 Hz
   }
-  const MotionFilter filter(kPeriod, 1, 1);
-  EXPECT_NEAR(MotionFilter::valueNoise(), std::sqrt(value), 1e-6);
-  EXPECT_NEAR(filter.rateNoise() * kT, std::sqrt(rate) * kT, 1e-4);
+  const MotionFilter slow(std::chrono::milliseconds(20), 1, 1);
+  EXPECT_NEAR(slow.flat(), 0.24 * 50.0, 1e-12);
+  EXPECT_EQ(slow.delay(), 12);
 
-  std::mt19937_64 engine(3);
-  std::normal_distribution<double> noise;
-  std::vector<double> signal(100000);
-  std::generate(signal.begin(), signal.end(), [&] { return noise(engine); });
-  double square = 0.0, count = 0.0;
-  for (const Output& output : filtered(signal)) {
-    square += output.rate * output.rate;
-    count += 1.0;
+  MotionFilter fast(std::chrono::milliseconds(1), 1, 1);
+  const double within = 2.0 * kPi * 12.0, beyond = 2.0 * kPi * 40.0;
+  for (int k = 0; k < 2000; ++k) {
+    const double t = 1e-3 * k, sine = std::sin(within * t) + std::sin(beyond * t);
+    const MotionFilter::Instant* instant = fast.push(k * std::chrono::milliseconds(1), {sine, sine});
+    if (instant == nullptr) continue;
+    const double at = toSeconds(instant->stamp);
+    EXPECT_NEAR(instant->values[0], std::sin(within * at), 3e-3);
+    EXPECT_NEAR(instant->rates[0], within * std::cos(within * at), 3e-3 * beyond);
   }
-  EXPECT_NEAR(std::sqrt(square / count) / filter.rateNoise(), 1.0,
-              0.01);  // 3 of its standard deviations, 1 / sqrt(count)
 }
 
 TEST(MotionFilter, FillsAnewAfterAGapAndLeavesOutWhatComesTooSoon) {
@@ -135,7 +135,7 @@ TEST(MotionFilter, FillsAnewAfterAGapAndLeavesOutWhatComesTooSoon) {
     const MotionFilter::Instant* instant = filter.push(std::chrono::milliseconds(milliseconds), {value});
     return instant == nullptr ? std::nullopt : std::optional<double>(instant->values[0]);
   };
-  const int fill = 2 * MotionFilter::kDelay;
+  const int fill = 2 * filter.delay();
   for (int k = 0; k < fill; ++k) EXPECT_FALSE(push(10 * k, 1.0));
   EXPECT_TRUE(push(10 * fill, 1.0));
   EXPECT_FALSE(push(10 * fill + 4, 100.0));

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -77,7 +76,7 @@ std::vector<double> topsAfter(const VehicleChannels& channels, const Acceleratio
   for (int k = 0; k < 60; ++k) last = tops.push(instantOf(acceleration(0.01 * k), rate(0.01 * k), wheels, k));
   return {last->sprung.data(), last->sprung.data() + last->sprung.size()};
 }
-constexpr double kLast = 0.01 * (59 - MotionFilter::kDelay);
+const double kLast = 0.01 * (59 - MotionFilter(kPeriod, 1, 1).delay());
 
 const auto kAtRest = [](double) { return Vector3d(0.0, 0.0, kGravity); };
 
@@ -176,27 +175,6 @@ TEST(StrutTops, AreTheReadingsThemselvesWhereEveryStrutHasItsOwn) {
   EXPECT_EQ(instant->sprung, Eigen::Vector2d(2.0, 4.0));
   ASSERT_EQ(instant->forces.size(), 1);
   EXPECT_EQ(instant->forces[0], 5.0);
-  EXPECT_EQ(tops.noiseGain(), 1.0);
-}
-
-TEST(StrutTops, TellTheNoiseOfABodysImu) {
-  constexpr double kAccelerometer = 0.03, kGyro = 0.002;
-  const VehicleChannels channels = bodyImuFor({{1.3, -0.7, 0.4}});
-  StrutTops tops(kPeriod, channels);
-  std::mt19937_64 engine(8);
-  std::normal_distribution<double> noise;
-  const auto three = [&](double size) {
-    return Vector3d(size * noise(engine), size * noise(engine), size * noise(engine));
-  };
-  double square = 0.0;
-  int count = 0;
-  for (int k = 0; k < 50000; ++k) {
-    const VehicleSample* instant = tops.push(instantOf(three(kAccelerometer), three(kGyro), {0.0}, k));
-    if (instant == nullptr) continue;
-    square += instant->sprung[0] * instant->sprung[0];
-    ++count;
-  }
-  EXPECT_NEAR(std::sqrt(square / count) / tops.noise(0, kAccelerometer, kGyro), 1.0, 0.02);
 }
 
 TEST(StrutTops, RefuseAStrutThatNothingTellsOfAndMoreThanAVehicleHas) {

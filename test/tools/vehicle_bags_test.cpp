@@ -117,7 +117,8 @@ TEST_F(VehicleBags, AreReadAsDrivesOfAllStrutsWithOneGrid) {
     ASSERT_EQ(drives.size(), 2u);
     EXPECT_EQ(drives[0].alignment, "paired");
     ASSERT_EQ(drives[0].struts.size(), 3u);
-    ASSERT_EQ(drives[1].struts[0].samples.size(), 500u - 2 * MotionFilter::kDelay);
+    ASSERT_EQ(drives[1].struts[0].samples.size(),
+              500u - 2 * static_cast<std::size_t>(MotionFilter(std::chrono::milliseconds(10), 1, 1).delay()));
     for (std::size_t k = 0; k < drives[0].struts[0].samples.size(); ++k) {
       const double t = toSeconds(drives[0].struts[0].samples[k].stamp) - 1000.0;
       const double alpha = kPitch * kTurn * std::cos(kTurn * t), rate = kPitch * std::sin(kTurn * t);

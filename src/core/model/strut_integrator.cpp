@@ -84,17 +84,25 @@ double forgettingRate(const ActiveEffect& active, StrutMotion motion) {
 
 // In how many parts a step must be taken so that the memories can follow: a hysteresis of short stroke forgets within a
 // fraction of a sample when the strut moves fast.
-int numParts(const StrutModel& model, double time, double step, const WheelStep& wheel, const StrutState& state) {
+int numParts(const StrutModel& model, const StrutMotion& from, const StrutMotion& to, double step,
+             const std::array<double, kMostEffects>& memory) {
   double fastest = 0.0;
   for (std::size_t j = 0; j < model.effects.size(); ++j) {
     const ActiveEffect& active = model.effects[j];
     if (!active.effect.memory_rate) continue;
-    const double end = state.travel + step * state.travel_rate + wheel.end_position;
-    fastest = std::max({fastest, forgettingRate(active, {state.travel, state.travel_rate, time, state.memory[j]}),
-                        forgettingRate(active, {end, state.travel_rate + wheel.end_velocity, time, state.memory[j]})});
+    for (StrutMotion motion : {from, to}) {
+      motion.memory = memory[j];
+      fastest = std::max(fastest, forgettingRate(active, motion));
+    }
   }
   const double parts = std::ceil(fastest * step / kStiffest);
   return parts < kMostParts ? std::max(1, static_cast<int>(parts)) : kMostParts;  // NaN, too
+}
+
+StrutMotion between(const StrutMotion& from, const StrutMotion& to, double share) {
+  const auto at = [share](double a, double b) { return a + share * (b - a); };
+  return {at(from.travel, to.travel), at(from.travel_rate, to.travel_rate), at(from.time, to.time), 0.0,
+          at(from.body_acceleration, to.body_acceleration)};
 }
 
 // The wheel's position within a step: the polynomial of fifth degree with the step's four gains, in shares of the step.
@@ -129,7 +137,10 @@ class WheelPath {
 
 void integrateWithEffects(const StrutModel& model, double time, double step, const WheelStep& wheel,
                           StrutState& state) {
-  const int parts = numParts(model, time, step, wheel, state);
+  const StrutMotion start{state.travel, state.travel_rate, time};
+  const StrutMotion end{state.travel + step * state.travel_rate + wheel.end_position,
+                        state.travel_rate + wheel.end_velocity, time};
+  const int parts = numParts(model, start, end, step, state.memory);
   if (parts == 1) return integrate<true>(model, time, step, wheel, state);
   const WheelPath path(wheel, step);
   for (int i = 0; i < parts; ++i) {
@@ -158,6 +169,26 @@ WheelInterpolator::WheelInterpolator(double from, double to, double period)
 WheelStep WheelInterpolator::ofPart(const double* around) const {
   const auto [position, velocity, middle_position, middle_velocity] = sums<4>(around);
   return {middle_position, middle_velocity, position, velocity};
+}
+
+void followMemories(const StrutModel& model, const StrutMotion& from, const StrutMotion& to, double step,
+                    std::array<double, kMostEffects>& memory) {
+  const int parts = numParts(model, from, to, step, memory);
+  const double h = step / parts;
+  for (std::size_t j = 0; j < model.effects.size(); ++j) {
+    const ActiveEffect& active = model.effects[j];
+    if (!active.effect.memory_rate) continue;
+    const auto rate = [&](double share, double value) {
+      StrutMotion motion = between(from, to, share);
+      motion.memory = value;
+      return active.effect.memory_rate(motion, active.shapes.data());
+    };
+    for (int i = 0; i < parts; ++i) {  // Heun's method
+      const double start = rate(static_cast<double>(i) / parts, memory[j]);
+      const double end = rate((i + 1.0) / parts, memory[j] + h * start);
+      memory[j] += h / 2.0 * (start + end);
+    }
+  }
 }
 
 void integrateStrut(const StrutModel& model, double time, double step, const WheelStep& wheel, StrutState& state) {

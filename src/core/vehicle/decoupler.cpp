@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "suspension_health_monitor/internal/pi.h"
@@ -11,7 +10,6 @@ namespace {
 
 constexpr double kMeanMemory = 10.0;  // [s]
 constexpr double kLongest = 4.0;      // natural period [s]: softer is no suspension
-constexpr std::array<double, kMostEffects> kNoMemories{};
 
 // That of the slowest strut [samples], even.
 int naturalPeriod(const std::vector<StrutModel>& models, double period) {
@@ -23,33 +21,34 @@ int naturalPeriod(const std::vector<StrutModel>& models, double period) {
 }  // namespace
 
 Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models)
-    : weights_(coupling), bars_(coupling.bars), gravity_(models.size(), LimitedMean(std::exp(-period / kMeanMemory))) {
+    : period_(period), weights_(coupling), bars_(coupling.bars) {
   const int natural_period = naturalPeriod(models, period);
-  for (const StrutModel& model : models) {
-    models_.push_back(withoutMemories(model));
-    travels_.emplace_back(period, model.stiffness_to_mass, natural_period);
-  }
+  for (const StrutModel& model : models)
+    struts_.push_back({model, TravelObserver(period, model.stiffness_to_mass, natural_period),
+                       LimitedMean(std::exp(-period / kMeanMemory))});
   recent_.set_capacity(static_cast<std::size_t>(TravelObserver::delayOf(natural_period)) + 1);
 }
 
 const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   recent_.push_back(sample);
-  for (std::size_t j = 0; j < models_.size(); ++j) {
+  for (std::size_t j = 0; j < struts_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
-    gravity_[j].add(sample.sprung[place]);
-    travels_[j].push(sample.unsprung[place] - sample.sprung[place]);
+    struts_[j].gravity.add(sample.sprung[place]);
+    struts_[j].travel.push(sample.unsprung[place] - sample.sprung[place]);
   }
-  if (!travels_.front().full()) return nullptr;
+  if (!struts_.front().travel.full()) return nullptr;
   out_ = recent_.front();
   StrutVector moving = out_.sprung, modelled(out_.sprung.size()), stiffness = modelled, travel = modelled,
               slow = modelled;
-  for (std::size_t j = 0; j < models_.size(); ++j) {
+  for (std::size_t j = 0; j < struts_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
-    moving[place] -= gravity_[j].mean();
-    travel[place] = travels_[j].travel();
-    slow[place] = out_.unsprung[place] - out_.sprung[place] - travels_[j].acceleration();
-    stiffness[place] = models_[j].stiffness_to_mass;
-    modelled[place] = models_[j].force(travel[place], travels_[j].travelRate(), 0.0, kNoMemories.data());
+    Strut& strut = struts_[j];
+    moving[place] -= strut.gravity.mean();
+    follow(strut, moving[place]);
+    travel[place] = strut.motion.travel;
+    slow[place] = out_.unsprung[place] - out_.sprung[place] - strut.travel.acceleration();
+    stiffness[place] = strut.model.stiffness_to_mass;
+    modelled[place] = strut.model.force(strut.motion.travel, strut.motion.travel_rate, 0.0, strut.memory.data());
   }
   // At its own strut, too, what a bar does is not the strut's.
   const StrutVector by_bars = ofBars(travel), slow_by_bars = ofBars(slow);
@@ -60,6 +59,12 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   return &out_;
 }
 
+void Decoupler::follow(Strut& strut, double body_acceleration) const {
+  const StrutMotion now{strut.travel.travel(), strut.travel.travelRate(), 0.0, 0.0, body_acceleration};
+  followMemories(strut.model, strut.motion, now, period_, strut.memory);
+  strut.motion = now;
+}
+
 // @return sum over m of bar_im (x_i - x_m).
 StrutVector Decoupler::ofBars(const StrutVector& travels) const {
   return bars_.rowwise().sum().cwiseProduct(travels) - bars_ * travels;
@@ -67,7 +72,11 @@ StrutVector Decoupler::ofBars(const StrutVector& travels) const {
 
 void Decoupler::startNewSeries() {
   recent_.clear();
-  for (TravelObserver& travel : travels_) travel.startNewSeries();
+  for (Strut& strut : struts_) {
+    strut.travel.startNewSeries();
+    strut.motion = {};
+    strut.memory = {};
+  }
 }
 
 }  // namespace suspension_health_monitor

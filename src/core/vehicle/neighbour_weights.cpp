@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/internal/vehicle/neighbour_weights.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 
 namespace suspension_health_monitor {
 namespace {
@@ -33,13 +32,6 @@ StrutVector NeighbourWeights::neighbours(const StrutVector& moving, const ForceV
   StrutVector of_struts = moving;
   if (coupling_.forces.cols() > 0) of_struts -= coupling_.forces * forces;
   return moving - combination_ * of_struts + leaked(modelled);
-}
-
-StrutModel withoutMemories(StrutModel model) {
-  auto& effects = model.effects;
-  const auto has_memory = [](const ActiveEffect& active) { return static_cast<bool>(active.effect.memory_rate); };
-  effects.erase(std::remove_if(effects.begin(), effects.end(), has_memory), effects.end());
-  return model;
 }
 
 }  // namespace suspension_health_monitor

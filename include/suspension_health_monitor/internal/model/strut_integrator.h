@@ -88,4 +88,10 @@ class WheelInterpolator {
 /// @pre model.effects.size() <= kMostEffects.
 void integrateStrut(const StrutModel& model, double time, double step, const WheelStep& wheel, StrutState& state);
 
+/// The memories of the effects where the motion is known, as an observer knows it: s_j' = g_j along straight lines of
+/// travel, travel rate and body acceleration from one instant to another.
+/// @param step  between the instants [s].  @param memory  at the first, then at the second.
+void followMemories(const StrutModel& model, const StrutMotion& from, const StrutMotion& to, double step,
+                    std::array<double, kMostEffects>& memory);
+
 }  // namespace suspension_health_monitor

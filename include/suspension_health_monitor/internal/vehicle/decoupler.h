@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <boost/circular_buffer.hpp>
 #include <vector>
 
@@ -15,22 +16,21 @@ namespace suspension_health_monitor {
 ///   S_i = z_i'' - n_i,   W_i = w_i'' - n_i,   n_i = sum_{j != i} rho_ij p_j + sum_k kappa_ik x_k + anti-roll bars
 /// (NeighbourWeights),
 /// so that S_i = p_i and W_i - S_i = w_i'' - z_i'': what is left is a quarter car, with the strut's own b1 and b0.
-/// The models of the neighbours see their travel by a TravelObserver, and with it everything is late by delay(). What is
-/// slower than that observes, E of n_i, is not seen. A strut passes it nearly as it is, S = G W with G near 1: what it
-/// leaves, (1 - G) E = G E'' / (b1 s + b0), is that of a wheel which moves by E'' / b0, and E'' needs no travel, only the
-/// slow part of u_j.
-/// Cost per sample: O(N^2), no allocation.
+/// The models of the neighbours see their travel by a TravelObserver, and with it everything is late by delay(). What
+/// is slower than that observes, E of n_i, is not seen. A strut passes it nearly as it is, S = G W with G near 1: what
+/// it leaves, (1 - G) E = G E'' / (b1 s + b0), is that of a wheel which moves by E'' / b0, and E'' needs no travel,
+/// only the slow part of u_j. Cost per sample: O(N^2), no allocation.
 class Decoupler {
  public:
   /// @param period  T [s].  @param models  of the struts, b0 > 0: as they show in others.
   Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models);
 
-  /// From the next sample on.
+  /// From the next sample on. Effects with a memory go on with what they remember.
   void setCoupling(const Coupling& coupling) {
     weights_ = NeighbourWeights(coupling);
     bars_ = coupling.bars;
   }
-  void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = withoutMemories(model); }
+  void setModel(std::size_t strut, const StrutModel& model) { struts_[strut].model = model; }
 
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @return S and W as a sample of the vehicle, delay() before this one, valid until the next call; nullptr: the
@@ -43,13 +43,21 @@ class Decoupler {
   void startNewSeries();
 
  private:
+  struct Strut {
+    StrutModel model;
+    TravelObserver travel;
+    LimitedMean gravity;  // of z''
+    StrutMotion motion{};
+    std::array<double, kMostEffects> memory{};
+  };
+
+  void follow(Strut& strut, double body_acceleration) const;
   StrutVector ofBars(const StrutVector& travels) const;
 
+  double period_;
   NeighbourWeights weights_;
   StrutMatrix bars_;
-  std::vector<StrutModel> models_;
-  std::vector<TravelObserver> travels_;
-  std::vector<LimitedMean> gravity_;  // of each z''
+  std::vector<Strut> struts_;
   boost::circular_buffer<VehicleSample> recent_;
   VehicleSample out_;
 };

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "suspension_health_monitor/internal/vehicle/coupling.h"
-#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 
@@ -27,9 +26,5 @@ class NeighbourWeights {
   StrutMatrix leak_;         // l_i' rho_j, 0 for j = i
   Coupling coupling_;
 };
-
-/// What of a strut's model is taken off of others: forces of travel and travel rate at an instant. Effects with a
-/// memory are left in.
-StrutModel withoutMemories(StrutModel model);
 
 }  // namespace suspension_health_monitor
