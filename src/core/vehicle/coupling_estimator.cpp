@@ -60,6 +60,7 @@ CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const Integ
   estimate_.stddevs = StrutMatrix::Constant(num_struts, num_struts, HUGE_VAL);
   estimate_.damping_to_mass = estimate_.stiffness_to_mass = StrutVector::Zero(num_struts);
   estimate_.own_stddevs.setZero(num_struts, 2);
+  estimate_.stddevs.diagonal().setZero();
   setNoise(noise);
 }
 
@@ -133,9 +134,8 @@ const CouplingEstimate& CouplingEstimator::solve() {
   const Eigen::Index columns = row_.size() - 1;
   const Row mean = moments_.topRightCorner(columns, 1);
   const Moments plain = moments_.topLeftCorner(columns, columns) - mean * mean.transpose();
-  const bool is_first = !has_start_;
-  if (is_first && !start(plain)) return estimate_;
-  refine(plain, is_first ? kFirstSteps : kSteps);
+  if (!estimate_.isKnown() && !start(plain)) return estimate_;
+  refine(plain, kSteps);
   lookForBars(plain);
   const double variance = sensorVariance(plain);
   describe(plain, plain - variance * noise_, variance);
@@ -210,17 +210,40 @@ CouplingEstimator::Row CouplingEstimator::ownColumns(int j) const {
   return own;
 }
 
-// Every strut by the columns of all, without the knowledge that the ratios are the same for damper and spring.
+// The alternation goes downhill, and where tracks are alike there is more than one valley. It is begun by what is known
+// so far, by every strut alone, and by the columns of all without the knowledge that the ratios are the same for damper
+// and spring; the best is kept.
 // @return false: there is no strut yet.
-bool CouplingEstimator::start(const Moments& moments) {
-  const int regressors = 2 * num_struts_ + num_forces_;
-  const Moments solution =
-      moments.topLeftCorner(regressors, regressors).ldlt().solve(moments.block(0, regressors, regressors, num_struts_));
-  for (int j = 0; j < num_struts_; ++j) {
-    estimate_.damping_to_mass[j] = solution(j, j);
-    estimate_.stiffness_to_mass[j] = solution(num_struts_ + j, j);
+bool CouplingEstimator::start(const Moments& plain) {
+  const int n = num_struts_, regressors = 2 * n + num_forces_;
+  CouplingEstimate best = estimate_;
+  double least = HUGE_VAL;
+  const auto tryFrom = [&](const CouplingEstimate& begin) {
+    estimate_ = begin;
+    refine(plain, kFirstSteps);
+    const double left = shareLeft(plain);
+    if (!(left < least)) return;
+    least = left;
+    best = estimate_;
+  };
+  if (has_start_) tryFrom(best);
+  CouplingEstimate alone = estimate_, together = estimate_;
+  const Moments of_all =
+      plain.topLeftCorner(regressors, regressors).ldlt().solve(plain.block(0, regressors, regressors, n));
+  for (int j = 0; j < n; ++j) {
+    together.damping_to_mass[j] = of_all(j, j);
+    together.stiffness_to_mass[j] = of_all(n + j, j);
+    Eigen::Matrix2d own;
+    own << plain(j, j), plain(j, n + j), plain(n + j, j), plain(n + j, n + j);
+    const Eigen::Vector2d strut =
+        own.ldlt().solve(Eigen::Vector2d(plain(j, regressors + j), plain(n + j, regressors + j)));
+    alone.damping_to_mass[j] = strut[0];
+    alone.stiffness_to_mass[j] = strut[1];
   }
-  has_start_ = solution.allFinite();
+  tryFrom(together);
+  tryFrom(alone);
+  estimate_ = best;
+  has_start_ = least < HUGE_VAL;
   return has_start_;
 }
 
@@ -240,33 +263,40 @@ void CouplingEstimator::solveRatios(const Moments& moments) {
   coupling.forces = solution.middleRows(n, num_forces_).transpose();
 }
 
-void CouplingEstimator::solveStruts(const Moments& moments) {
-  Coupling& coupling = estimate_.coupling;
+// b1 and b0 of all struts, then two for every bar.
+CouplingEstimator::OwnUnknowns CouplingEstimator::ownUnknowns() const {
   const int n = num_struts_;
-  const auto unknowns = static_cast<int>(2 * static_cast<std::size_t>(n) + 2 * bars_.size());
-  // What one of each unknown is as a combination of the columns, and in which strut.
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(unknowns, 2 * n);
-  std::vector<int> place;
+  OwnUnknowns unknowns;
+  unknowns.columns = Eigen::MatrixXd::Zero(static_cast<int>(2 * static_cast<std::size_t>(n) + 2 * bars_.size()), 2 * n);
   for (int a = 0; a < 2 * n; ++a) {
-    columns(a, a) = 1.0;
-    place.push_back(a % n);
+    unknowns.columns(a, a) = 1.0;
+    unknowns.place.push_back(a % n);
   }
   for (const auto& [i, j] : bars_)
     for (const auto& [at, other] : {std::pair(i, j), std::pair(j, i)}) {
-      const auto row = static_cast<Eigen::Index>(place.size());
-      columns(row, n + at) = 1.0;
-      columns(row, n + other) = -1.0;
-      place.push_back(at);
+      const auto row = static_cast<Eigen::Index>(unknowns.place.size());
+      unknowns.columns(row, n + at) = 1.0;
+      unknowns.columns(row, n + other) = -1.0;
+      unknowns.place.push_back(at);
     }
+  return unknowns;
+}
+
+void CouplingEstimator::solveStruts(const Moments& moments) {
+  Coupling& coupling = estimate_.coupling;
+  const int n = num_struts_;
+  const auto [columns, place] = ownUnknowns();
+  const Eigen::Index unknowns = columns.rows();
   const StrutMatrix products = coupling.ratios.transpose() * coupling.ratios;
   const Eigen::MatrixXd inputs = columns * moments.topLeftCorner(2 * n, 2 * n) * columns.transpose();
   const Eigen::MatrixXd outputs = columns * (moments.block(0, 2 * n + num_forces_, 2 * n, n) -
                                              moments.block(0, 2 * n, 2 * n, num_forces_) * coupling.forces.transpose());
   Eigen::MatrixXd normal(unknowns, unknowns);
   Eigen::VectorXd right(unknowns);
-  for (int a = 0; a < unknowns; ++a) {
+  for (Eigen::Index a = 0; a < unknowns; ++a) {
     const int at = place[static_cast<std::size_t>(a)];
-    for (int b = 0; b < unknowns; ++b) normal(a, b) = products(at, place[static_cast<std::size_t>(b)]) * inputs(a, b);
+    for (Eigen::Index b = 0; b < unknowns; ++b)
+      normal(a, b) = products(at, place[static_cast<std::size_t>(b)]) * inputs(a, b);
     right[a] = outputs.row(a).dot(coupling.ratios.col(at));
   }
   const Eigen::VectorXd own = normal.ldlt().solve(right);
@@ -351,31 +381,52 @@ void CouplingEstimator::describeAlike(const Moments& plain, double sensor_varian
   estimate_.second_alike = largest();
 }
 
-// Standard deviations of the ratios, and what they make of each strut's own parameters: an error of rho_ij is taken for
-// the strut's own, as far as strut j moves like it.
+// Standard deviations of the ratios and of the struts' own parameters, from the information that the rows have of all
+// of them together: of z_i'' by rho_ij, j != i, and by what every strut does of its own. One by one they would seem to
+// be known far better where tracks are alike.
 // @param of_struts  moments of p_j and x_k.  @param rest  of each output.
-// @return the largest rms that they give a strut's own acceleration, as a share of it.
+// @return the largest rms that the ratios' errors give a strut's own acceleration, as a share of it.
 double CouplingEstimator::describeErrors(const Moments& moments, const Moments& of_struts, const StrutVector& rest) {
   const int n = num_struts_;
-  const StrutVector& power = estimate_.coupling.own_power;
-  const Moments inverse = of_struts.ldlt().solve(Moments::Identity(of_struts.rows(), of_struts.cols()));
+  const StrutMatrix& ratios = estimate_.coupling.ratios;
+  const auto [columns, place] = ownUnknowns();
+  const auto ratio = [n](int i, int j) { return i * (n - 1) + (j < i ? j : j - 1); };
+  const Eigen::Index num_ratios = n * (n - 1), num_own = columns.rows();
+  const Eigen::MatrixXd with_own = columns * moments.topLeftCorner(2 * n, 2 * n);
+  const Eigen::MatrixXd among_own = with_own * columns.transpose();
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(num_ratios + num_own, num_ratios + num_own);
+  for (int i = 0; i < n; ++i) {
+    const double rows = weight_ / (kRowsPerIndependent * rest[i]);
+    Eigen::VectorXd own_ratios(num_own);
+    for (Eigen::Index a = 0; a < num_own; ++a) own_ratios[a] = ratios(i, place[static_cast<std::size_t>(a)]);
+    for (int j = 0; j < n; ++j) {
+      if (j == i) continue;
+      for (int l = 0; l < n; ++l)
+        if (l != i) information(ratio(i, j), ratio(i, l)) = rows * of_struts(j, l);
+      information.row(ratio(i, j)).tail(num_own) = rows * own_ratios.cwiseProduct(with_own * ownColumns(j)).transpose();
+    }
+    information.bottomRightCorner(num_own, num_own) +=
+        rows * own_ratios.asDiagonal() * among_own * own_ratios.asDiagonal();
+  }
+  information.bottomLeftCorner(num_own, num_ratios) = information.topRightCorner(num_ratios, num_own).transpose();
+  const Eigen::MatrixXd covariance =
+      information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
   double most = 0.0;
   for (int i = 0; i < n; ++i) {
-    Moments variances = rest[i] * kRowsPerIndependent / weight_ * inverse.topLeftCorner(n, n);
-    variances.row(i).setZero();
-    variances.col(i).setZero();
-    estimate_.stddevs.row(i) = variances.diagonal().cwiseSqrt().transpose();
-    most = std::max(most, variances.diagonal().dot(power) / power[i]);
-    Eigen::Matrix2d of_own;
-    of_own << moments(i, i), moments(i, n + i), moments(n + i, i), moments(n + i, n + i);
-    Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStruts> with_others(2, n);
+    double error = 0.0;
     for (int j = 0; j < n; ++j) {
-      with_others(0, j) = strut(j).dot(Eigen::Vector2d(moments(i, j), moments(i, n + j)));
-      with_others(1, j) = strut(j).dot(Eigen::Vector2d(moments(n + i, j), moments(n + i, n + j)));
+      if (j == i) continue;
+      estimate_.stddevs(i, j) = std::sqrt(covariance(ratio(i, j), ratio(i, j)));
+      for (int l = 0; l < n; ++l)
+        if (l != i) error += covariance(ratio(i, j), ratio(i, l)) * of_struts(j, l);
     }
-    const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStruts> taken = of_own.inverse() * with_others;
-    const Eigen::Matrix2d shared = taken * variances * taken.transpose();
-    estimate_.own_stddevs.row(i) = shared.diagonal().cwiseSqrt().transpose();
+    most = std::max(most, error / of_struts(i, i));
+    for (const int a : {0, 1}) {
+      const Eigen::Index own = num_ratios + a * n + i;
+      const double of_noise =
+          kNoiseKnown / estimate_.told_apart * (a == 0 ? estimate_.damping_to_mass[i] : estimate_.stiffness_to_mass[i]);
+      estimate_.own_stddevs(i, a) = std::sqrt(covariance(own, own) + of_noise * of_noise);
+    }
   }
   return std::sqrt(most);
 }

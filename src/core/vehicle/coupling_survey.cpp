@@ -1,15 +1,33 @@
 #include "suspension_health_monitor/internal/vehicle/coupling_survey.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kShortestHorizon = 0.1, kLongestHorizon = 0.8;  // [s]
 constexpr int kFewestSamples = 8;                                // of a horizon
+
+// @return the largest rms that the ratios' difference gives a strut's own acceleration, as a share of it, beyond what
+// their standard deviations account for.
+double unexplainedDifference(const CouplingEstimate& a, const CouplingEstimate& b) {
+  const StrutVector& power = a.coupling.own_power;
+  double most = 0.0;
+  for (Eigen::Index i = 0; i < power.size(); ++i) {
+    double beyond = 0.0;
+    for (Eigen::Index j = 0; j < power.size(); ++j)
+      beyond += (square(a.coupling.ratios(i, j) - b.coupling.ratios(i, j)) - square(a.stddevs(i, j)) -
+                 square(b.stddevs(i, j))) *
+                power[j] / power[i];
+    most = std::max(most, beyond);
+  }
+  return std::sqrt(most);
+}
 
 }  // namespace
 
@@ -24,6 +42,7 @@ CouplingSurvey::CouplingSurvey(int num_struts, int num_forces, double period, do
   if (estimators_.empty())
     throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be at most " +
                                 numberText(kLongestHorizon / kFewestSamples) + " for the struts of a vehicle");
+  best_ = estimators_.front().estimate();
 }
 
 void CouplingSurvey::setNoise(const SensorNoise& noise) {
@@ -39,9 +58,21 @@ void CouplingSurvey::startNewSeries() {
 }
 
 const CouplingEstimate& CouplingSurvey::solve() {
-  for (std::size_t i = 0; i < estimators_.size(); ++i)
-    if (estimators_[i].solve().doubt < estimate().doubt) best_ = i;
-  return estimate();
+  for (CouplingEstimator& estimator : estimators_) estimator.solve();
+  const CouplingEstimate* best = &estimators_.front().estimate();
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < estimators_.size(); ++i) {
+    const CouplingEstimate& estimate = estimators_[i].estimate();
+    const bool has_longer = i + 1 < estimators_.size() && estimators_[i + 1].estimate().doubt < HUGE_VAL;
+    const double doubt =
+        estimate.doubt + (has_longer ? unexplainedDifference(estimate, estimators_[i + 1].estimate()) : 0.0);
+    if (!(doubt < least)) continue;
+    least = doubt;
+    best = &estimate;
+  }
+  best_ = *best;
+  best_.doubt = least;
+  return best_;
 }
 
 }  // namespace suspension_health_monitor

@@ -18,7 +18,7 @@ struct CouplingEstimate {
   Coupling coupling;
   StrutMatrix stddevs;                             ///< of the ratios
   StrutVector damping_to_mass, stiffness_to_mass;  ///< b1_i [1/s], b0_i [1/s^2] over the same rows
-  /// What the ratios' errors alone make of a strut's own (b1_i [1/s], b0_i [1/s^2]): their standard deviations.
+  /// Of b1_i [1/s], b0_i [1/s^2] where the ratios are not known better than these rows tell them.
   Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kMostStruts, 2> own_stddevs;
   double condition = HUGE_VAL;  ///< of the columns of all struts, each scaled to 1
   double told_apart = 0.0;  ///< information of the combination of struts that these rows tell least of, over noise's
@@ -70,6 +70,13 @@ class CouplingEstimator {
   using Row = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostColumns, 1>;
   using Moments = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
 
+  /// What the struts do of their own is linear in.
+  struct OwnUnknowns {
+    Eigen::MatrixXd columns;  ///< by unknown, what one of it is as a combination of I_1^2 u, I_0^2 u of all struts
+    std::vector<int> place;   ///< the strut that it belongs to
+  };
+
+  OwnUnknowns ownUnknowns() const;
   bool fillRow(const VehicleSample& sample);
   double weightOfRow();
   bool start(const Moments& moments);
