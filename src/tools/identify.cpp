@@ -157,9 +157,7 @@ void identify(const Arguments& arguments) {
 
   const LiveModel model(options.pipeline.shell);
   const Interruption interruption;
-  std::optional<TextFile> csv, json;
-  if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
-  if (values->count("csv") != 0) csv.emplace((*values)["csv"].as<std::string>());
+  std::optional<TextFile> csv = outputFile(*values, "csv"), json = outputFile(*values, "json");
   RowTable table(csv ? csv->stream() : nullptr);
   Digest digest;
   bool ever_valid = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
@@ -17,13 +18,16 @@ std::vector<Drive> flattened(const std::vector<StrutDrives>& drives) {
   return all;
 }
 
-void check(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names) {
+void check(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names, const KnownModels& known) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   requireNumStruts(names.size());
   for (const StrutDrives& drive : drives)
     if (drive.size() != names.size())
       throw std::invalid_argument("a drive of " + std::to_string(drive.size()) + " struts, must be " +
                                   std::to_string(names.size()));
+  if (!known.empty() && known.size() != names.size())
+    throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
+                                std::to_string(names.size()) + " or of none");
 }
 
 int horizonFor(const StrutModel& model, double period) {
@@ -35,12 +39,14 @@ int horizonFor(const StrutModel& model, double period) {
 class Separator {
  public:
   Separator(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-            const std::optional<double>& sample_period)
+            const std::optional<double>& sample_period, const KnownModels& known = {})
       : drives_(drives) {
-    check(drives, names);
+    check(drives, names, known);
     period_ = sample_period ? *sample_period : medianPeriod(flattened(drives));
     estimate_ = coupleStruts(drives, period_);
     models_ = estimate_.models();
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (known[i]) models_[i] = *known[i];
     coupling_ = describe(estimate_, names);
   }
 
@@ -95,8 +101,8 @@ Verdict worstOf(const VehicleDiagnosis& found) {
 }  // namespace
 
 SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                 const std::optional<double>& sample_period) {
-  const Separator separator(drives, names, sample_period);
+                                 const std::optional<double>& sample_period, const KnownModels& models) {
+  const Separator separator(drives, names, sample_period, models);
   SeparatedVehicle separated{separator.coupling(), {}, separator.models(), separator.modelStddevs()};
   if (separated.coupling) separated.struts = separator.separate();
   return separated;
@@ -139,8 +145,8 @@ VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, co
 }
 
 VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& strut_names,
-                                 const DiagnoseOptions& options) {
-  Separator separator(drives, strut_names, options.sample_period);
+                                 const DiagnoseOptions& options, const KnownModels& models) {
+  Separator separator(drives, strut_names, options.sample_period, models);
   VehicleDiagnosis result;
   result.coupling = separator.coupling();
   if (!result) {
@@ -149,18 +155,21 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const s
   }
   const std::size_t n = strut_names.size();
   result.struts.resize(n);
+  result.drives.resize(n);
   std::vector<bool> settled(n, false);
   double done = 0.0;
   for (auto open = n; open > 0; --open) {
-    const auto separated = separator.separate();
+    auto separated = separator.separate();
     const double step = (1.0 - done) / (static_cast<double>(open) + 1.0);  // what another round takes is not known
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < n; ++i) {
       if (settled[i]) continue;
       DiagnoseOptions strut = options;
       strut.sample_period = separator.period();
+      strut.model = models.empty() ? std::nullopt : models[i];
       if (options.progress) strut.progress = [&](double share) { options.progress(done + share * step); };
       result.struts[i] = diagnose(separated[i], strut);
+      result.drives[i] = std::move(separated[i]);
       done += step;
       const Diagnosis& found = result.struts[i];
       if (found) separator.setModel(i, found.base.model);

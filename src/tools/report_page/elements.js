@@ -1,7 +1,12 @@
 // Making elements. Text only ever becomes text, never markup: names of files and effects are the user's.
 
-function element(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
+const element = (tag, attributes, ...children) => filled(document.createElement(tag), attributes, children);
+
+/** A part of a drawing. */
+const drawn = (tag, attributes, ...children) =>
+    filled(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
+
+function filled(node, attributes = {}, children = []) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === false || value === undefined || value === null) continue;
     if (name.startsWith('on'))
