@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,8 +65,10 @@ struct VehicleIdentification {
 };
 
 /// identify() for every strut of a vehicle; what the coupling does not know is in the standard deviations.
+/// @param report  IdentifyOptions::report of every strut, one strut after the other.
 VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                      const IdentifyOptions& options = {});
+                                      const IdentifyOptions& options = {},
+                                      const std::function<void(std::size_t strut, const MonitorReport&)>& report = {});
 
 /// What a search found in a vehicle.
 struct VehicleDiagnosis {

@@ -28,9 +28,8 @@ json listOf(const std::vector<HealthMoment>& moments) {
 std::string sourceOf(const HealthContent& content) {
   std::vector<std::string> names;
   for (const HealthContent::Recording& recording : content.recordings) names.push_back(recording.name);
-  const double period = content.monitor.period();
-  return join(names) + formatted(": %.4g s at %.4g Hz, horizon %.4g s", toSeconds(content.log.elapsed()), 1.0 / period,
-                                 content.monitor.horizonSamples() * period);
+  return join(names) +
+         formatted(": %.4g s at %.4g Hz", toSeconds(content.log.elapsed()), 1.0 / content.monitor.period());
 }
 
 }  // namespace
@@ -72,6 +71,7 @@ json findingsOf(const HealthContent& content) {
     recordings.push_back({{"name", recording.name}, {"from", toSeconds(recording.from)}});
   return {{"strut", content.strut},
           {"source", sourceOf(content)},
+          {"horizon", content.monitor.horizonSamples() * content.monitor.period()},
           {"judged_by", content.reference},
           {"recordings", recordings},
           {"duration", toSeconds(content.log.elapsed())},

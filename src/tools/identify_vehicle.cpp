@@ -5,6 +5,7 @@
 #include "identify_tables.h"
 #include "long_work.h"
 #include "recorded_vehicle.h"
+#include "row_table.h"
 #include "vehicle_commands.h"
 #include "vehicle_tables.h"
 
@@ -27,9 +28,8 @@ nlohmann::json toJson(const IdentifyResult& found) {
 }  // namespace
 
 void identifyStruts(const boost::program_options::variables_map& values) {
-  refuseBesideVehicle(values, {"csv"});
   const Interruption interruption;
-  std::optional<TextFile> file = outputFile(values, "json");
+  std::optional<TextFile> file = outputFile(values, "json"), csv = outputFile(values, "csv");
   const AskedVehicle vehicle = readVehicle(values);
   PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
   const std::vector<StrutDrives> drives = readDrives(values, vehicle, settings);
@@ -37,7 +37,18 @@ void identifyStruts(const boost::program_options::variables_map& values) {
   options.sample_period = settings.monitor.sample_period;
   options.horizon_samples = givenHorizon(settings);
   options.memory = settings.monitor.memory;
-  const VehicleIdentification found = identifyVehicle(drives, vehicle.names, options);
+  std::vector<RowTable> rows;
+  for (std::size_t i = 0; i < vehicle.names.size(); ++i)
+    rows.emplace_back(csv && (!vehicle.only || *vehicle.only == i) ? csv->stream() : nullptr,
+                      vehicle.only ? "" : vehicle.names[i]);
+  if (csv) RowTable::writeHead(csv->stream(), !vehicle.only);
+  std::size_t last = 0;
+  const VehicleIdentification found =
+      identifyVehicle(drives, vehicle.names, options, [&](std::size_t strut, const MonitorReport& report) {
+        if (strut != last) rows[last].finish();
+        rows[last = strut].add(report);
+      });
+  rows[last].finish();
   requireCoupling(found.coupling);
   printCoupling(found.coupling, vehicle.names);
   nlohmann::json whole = toJson(found.coupling, vehicle.names);
@@ -51,6 +62,7 @@ void identifyStruts(const boost::program_options::variables_map& values) {
     for (const std::string& warning : strut.warnings) std::printf("warning: %s\n", warning.c_str());
     whole["struts"][vehicle.names[i]] = toJson(strut);
   }
+  if (csv) csv->commit();
   if (file) file->commit(whole.dump(2) + '\n');
 }
 

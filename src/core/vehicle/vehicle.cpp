@@ -124,7 +124,8 @@ Verdict VehicleDiagnosis::verdictOn(std::size_t strut) const {
 }
 
 VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                      const IdentifyOptions& options) {
+                                      const IdentifyOptions& options,
+                                      const std::function<void(std::size_t strut, const MonitorReport&)>& report) {
   const Separator separator(drives, names, options.sample_period);
   VehicleIdentification result{separator.coupling(), {}};
   if (!result) return result;
@@ -133,6 +134,7 @@ VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, co
   for (std::size_t i = 0; i < separated.size(); ++i) {
     IdentifyOptions strut = options;
     strut.sample_period = separator.period();
+    if (report) strut.report = [&report, i](const MonitorReport& each) { report(i, each); };
     if (!options.horizon_samples) strut.horizon_samples = horizonFor(separator.models()[i], separator.period());
     IdentifyResult& identified = result.struts.emplace_back(identify(separated[i], strut));
     const auto [damping, stiffness] = stddevs[i];

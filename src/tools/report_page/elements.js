@@ -28,10 +28,10 @@ function section(id, title, lede, ...content) {
 const head = (text, kind) => element('th', {class: kind}, text);
 
 /** A table that a narrow page may scroll sideways. */
-function wideTable(heads, rows) {
+function wideTable(heads, rows, kind = null) {
   return element(
       'div', {class: 'wide'},
-      element('table', {}, element('thead', {}, element('tr', {}, heads)), element('tbody', {}, rows)));
+      element('table', {class: kind}, element('thead', {}, element('tr', {}, heads)), element('tbody', {}, rows)));
 }
 
 /** Names what the colours mean: entries [colour, text, dashed?]. */

@@ -26,11 +26,18 @@ function strutsSection({struts}) {
           struts.map(strut => strutRow(strut, scale))));
 }
 
+/** A ratio to the first digit of its standard deviation. */
+function ratioCell(value, stddev) {
+  const digits = stddev > 0 ? Math.min(4, Math.max(0, -Math.floor(Math.log10(stddev)))) : 3;
+  const shown = number => number.toFixed(digits).replace('-', '−');
+  return [shown(value), element('small', {}, `± ${shown(stddev)}`)];
+}
+
 function couplingSection({struts, ratios, stddevs, condition}) {
   if (struts.length < 2) return null;
   const cell = (i, j) => element(
       'td', {class: 'number', 'data-ratio': ratios[i][j], 'data-stddev': i === j ? null : stddevs[i][j]},
-      i === j ? '1' : withDeviation(ratios[i][j], stddevs[i][j]));
+      i === j ? '1' : ratioCell(ratios[i][j], stddevs[i][j]));
   return section(
       'coupling', 'How the struts move one another',
       'A row is the top of a strut: how much of what each strut does to its own top reaches it, ± standard deviation. ' +
@@ -40,5 +47,6 @@ function couplingSection({struts, ratios, stddevs, condition}) {
           [head('moved by'), struts.map(({name}) => head(spoken(name), 'number'))],
           struts.map(
               ({name}, i) => element(
-                  'tr', {'data-strut': name}, element('td', {}, spoken(name)), struts.map((_, j) => cell(i, j))))));
+                  'tr', {'data-strut': name}, element('td', {}, spoken(name)), struts.map((_, j) => cell(i, j)))),
+          'matrix'));
 }
