@@ -20,14 +20,14 @@ void diagnose(const Arguments& arguments) {
   addModelOptions(description);
   auto add = description.add_options();
   add("output,o", po::value<std::string>(), "write the model that was found as YAML; of a vehicle those of its struts");
-  add("report", po::value<std::string>(),
+  add(kReport, po::value<std::string>(),
       "write DIR/report.html: the search as a page with figures; of a vehicle also DIR/NAME/report.html of every "
       "strut");
   add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       "processor cores to use");
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json", "output"});
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json", "output", kReport});
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
@@ -37,7 +37,7 @@ void diagnose(const Arguments& arguments) {
   const Interruption interruption;
   std::optional<TextFile> json = outputFile(*values, "json"), model = outputFile(*values, "output");
   std::optional<ReportPage> page;
-  if (values->count("report") != 0) page.emplace((*values)["report"].as<std::string>());
+  if (values->count(kReport) != 0) page.emplace((*values)[kReport].as<std::string>());
 
   DiagnoseOptions searching;
   takeSettings(options, models, searching);

@@ -71,7 +71,7 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   const KnownModels models = readModels(values, vehicle, options.candidates);
   std::optional<TextFile> file = outputFile(values, "json"), model = outputFile(values, "output");
   std::optional<VehiclePage> page;
-  if (values.count("report") != 0) page.emplace(values["report"].as<std::string>(), vehicle);
+  if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>(), vehicle);
 
   PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
   const std::vector<StrutDrives> drives = readDrives(values, vehicle, settings);

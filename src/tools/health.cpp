@@ -98,10 +98,10 @@ void health(const Arguments& arguments) {
   add(kBaseline, po::value<std::string>(),
       "YAML file with the healthy strut, as the monitor writes it; of a vehicle struts: {NAME: ...}");
   add("csv", po::value<std::string>(), "write a line per second and change of level, full precision");
-  add("report", po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
+  add(kReport, po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
   const auto values = parse(arguments, "health BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, {"csv", "json"});
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, {"csv", "json", kReport});
   if (isOfVehicle(*values)) return watchStruts(*values);
   const BagOptions options = readOptions(*values);
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bag_options.h"
+#include "command.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -91,7 +92,7 @@ HealthFiles::HealthFiles(const po::variables_map& values, const std::vector<std:
       csv_(outputFile(values, "csv")),
       table_(csv_ ? csv_->stream() : nullptr, struts),
       courses_(std::max<std::size_t>(1, struts.size())) {
-  if (values.count("report") != 0) page_.emplace(values["report"].as<std::string>());
+  if (values.count(kReport) != 0) page_.emplace(values[kReport].as<std::string>());
 }
 
 void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Baseline& healthy) {

@@ -5,10 +5,10 @@ function buildHealthPage() {
   const several = struts.length > 1;
   showPage(headlineOf(struts), [
     several ? [overviewSection(struts), levelsSection(struts)] : [],
-    struts.map(strut => [
-                 healthVerdictSection(strut, several), courseSection(strut, several), eventsSection(strut, several),
-                 estimatesSection(strut, several)
-               ]),
+    struts.map(
+        strut =>
+            [healthVerdictSection(strut, several), courseSection(strut, several), eventsSection(strut, several),
+             estimatesSection(strut, several)]),
     element(
         'footer', {},
         element(

@@ -18,7 +18,8 @@ function headlineOf(struts) {
 
 function overviewRow({strut, events, end, seconds, duration}) {
   const worst = worstLevel(events);
-  const share = level => element('td', {class: 'number minor'}, duration > 0 ? percent(100 * seconds[level] / duration) : '');
+  const share = level =>
+      element('td', {class: 'number minor'}, duration > 0 ? percent(100 * seconds[level] / duration) : '');
   return element(
       'tr', {'data-strut': strut, 'data-level': worst},
       element('td', {}, element('a', {href: `#verdict-${strut}`}, spoken(strut))),

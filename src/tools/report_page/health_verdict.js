@@ -59,8 +59,10 @@ function healthVerdictSection(findings, several) {
   const worst = worstLevel(events);
   return element(
       'section', {id: idOf('verdict', strut, several), class: 'verdict', 'data-level': worst},
-      element('p', {class: 'source'}, `${several ? '' : `${strut ? `${spoken(strut)} in ` : ''}${findings.source}, `}horizon ${
-          quantity(findings.horizon, 's')}`),
+      element(
+          'p', {class: 'source'},
+          `${several ? '' : `${strut ? `${spoken(strut)} in ` : ''}${findings.source}, `}horizon ${
+              quantity(findings.horizon, 's')}`),
       element(
           several ? 'h2' : 'h1', {},
           several ? `${capitalised(spoken(strut))}: ` : [element('span', {class: 'pill'}, worst), element('br')],

@@ -2,11 +2,11 @@
 
 const DRAWING = {
   width: 360,
-  track: 120,    // largest distance between left and right [px]; the rest is for names
-  length: 300,   // between the first and the last axle
-  spacing: 42,   // least of two names on one side
-  margin: 62,    // ahead of the first axle and behind the last
-  letters: 15,
+  track: 120,   // largest distance between left and right [px]; the rest is for names
+  length: 300,  // between the first and the last axle
+  spacing: 42,  // least of two names on one side
+  margin: 62,   // ahead of the first axle and behind the last
+  letters: 14,
 };
 
 /** Ahead and to the left, by what the struts are called: "rear_left", "rl", "axle_2_right"; axles by name. */
@@ -15,16 +15,15 @@ function placesByName(names) {
   const lefts = names.map(name => ({l: 0.5, r: -0.5}[(name.match(side) || [''])[0].charAt(0).toLowerCase()] || 0));
   const axles = names.map(name => name.replace(side, '*'));
   const rank = axle => (/front|^f/i.test(axle) ? -1 : /rear|back|^[rb]/i.test(axle) ? 1 : 0);
-  const inOrder = [...new Set(axles)].sort(
-      (a, b) => rank(a) - rank(b) || a.localeCompare(b, 'en', {numeric: true}));
+  const inOrder = [...new Set(axles)].sort((a, b) => rank(a) - rank(b) || a.localeCompare(b, 'en', {numeric: true}));
   return names.map((_, i) => ({ahead: -1.5 * inOrder.indexOf(axles[i]), left: lefts[i]}));
 }
 
 const havePositions = struts => struts.every(({position}) => position);
 
-const placesOf = struts => (havePositions(struts) ?
-                                struts.map(({position: [ahead, left]}) => ({ahead, left})) :
-                                placesByName(struts.map(({name}) => name)));
+const placesOf = struts =>
+    (havePositions(struts) ? struts.map(({position: [ahead, left]}) => ({ahead, left})) :
+                             placesByName(struts.map(({name}) => name)));
 
 /** The least distance of two of these numbers that differ. */
 function leastGap(numbers) {
@@ -53,27 +52,24 @@ function layOut(places) {
   };
 }
 
-function outline(pixels, height) {
-  const half = Math.max(34, 16 + Math.max(...pixels.map(({x}) => Math.abs(x - DRAWING.width / 2))));
+/** Half of the body's width. */
+const halfWidth = pixels => Math.max(30, 16 + Math.max(...pixels.map(({x}) => Math.abs(x - DRAWING.width / 2))));
+
+function outline(half, height) {
   const centre = DRAWING.width / 2;
+  const sides = {x: centre - half, y: 6, width: 2 * half, height: height - 12, rx: Math.min(34, half)};
   return [
-    drawn('rect', {
-      class: 'body-outline',
-      x: centre - half,
-      y: 6,
-      width: 2 * half,
-      height: height - 12,
-      rx: Math.min(34, half)
-    }),
+    drawn('rect', {class: 'body-outline', ...sides}),
     drawn('path', {class: 'front-mark', d: `M${centre - 9} 25 l9 -9 l9 9`}, drawn('title', {}, 'ahead'))
   ];
 }
 
-const fitting = name =>
-    (name.length > DRAWING.letters ? `${name.slice(0, DRAWING.letters - 1)}…` : name);
+const fitting = name => (name.length > DRAWING.letters ? `${name.slice(0, DRAWING.letters - 1)}…` : name);
 
-function wheel({name, verdict, selected = [], has_page: hasPage}, {x, y, onRight}) {
-  const at = {x: onRight ? x + 24 : x - 24, 'text-anchor': onRight ? 'start' : 'end'};
+/** A wheel, and beside the body its name and verdict. */
+function wheel({name, verdict, selected = [], has_page: hasPage}, {x, y, onRight}, half) {
+  const aside = DRAWING.width / 2 + (onRight ? 1 : -1) * (half + 7);
+  const at = {x: aside, 'text-anchor': onRight ? 'start' : 'end'};
   const word = verdictWord(verdict, selected.length);
   const parts = [
     drawn('title', {}, `${spoken(name)}: ${word}`),
@@ -90,20 +86,18 @@ function antiRollBar({struts: [first, second]}, struts, pixels) {
   return drawn(
       'g', {'data-bar': `${struts[first].name} ${struts[second].name}`},
       drawn('line', {class: 'bar-line', x1: from.x, y1: from.y, x2: to.x, y2: to.y}),
-      level ? drawn('text', {
-                class: 'muted',
-                x: (from.x + to.x) / 2,
-                y: (from.y + to.y) / 2 - 9,
-                'text-anchor': 'middle'
-              },
-                    'anti-roll bar') :
+      level ? drawn(
+                  'text', {class: 'muted', x: (from.x + to.x) / 2, y: (from.y + to.y) / 2 - 9, 'text-anchor': 'middle'},
+                  'anti-roll bar') :
               drawn('title', {}, 'anti-roll bar'));
 }
 
 function vehicleDrawing({struts, anti_roll_bars: bars}) {
   const {pixels, height} = layOut(placesOf(struts));
+  const half = halfWidth(pixels);
   return drawn(
-      'svg', {viewBox: `0 0 ${DRAWING.width} ${height.toFixed(1)}`, role: 'img', 'aria-label': 'the vehicle from above'},
-      outline(pixels, height), bars.map(bar => antiRollBar(bar, struts, pixels)),
-      struts.map((strut, i) => wheel(strut, pixels[i])));
+      'svg',
+      {viewBox: `0 0 ${DRAWING.width} ${height.toFixed(1)}`, role: 'img', 'aria-label': 'the vehicle from above'},
+      outline(half, height), bars.map(bar => antiRollBar(bar, struts, pixels)),
+      struts.map((strut, i) => wheel(strut, pixels[i], half)));
 }

@@ -14,14 +14,13 @@ function strutsSection({struts}) {
   const scale = scaleFor(Math.max(0, ...struts.map(({error_before: error = 0}) => error)), 'm/s^2');
   return section(
       'struts', 'The struts by numbers',
-      'Each with its own damping and stiffness over the mass that it has of the body, free of what the others do; the ' +
-          'error of its predicted acceleration on parts of the drive that no fit has seen.',
+      'Damping b₁ and stiffness b₀ over the mass that each has of the body, free of what the others do; error: of the ' +
+          'predicted acceleration on parts of the drive that no fit has seen, of the model as it is.',
       wideTable(
           [
-            head('strut'), head('verdict'), head('b₁ damping/mass [1/s]', 'number'),
-            head('b₀ stiffness/mass [1/s²]', 'number'), head(`error, model as it is [${scale.unit}]`, 'number minor'),
-            head(`with what was found [${scale.unit}]`, 'number minor'),
-            head(`noise floor [${scale.unit}]`, 'number minor')
+            head('strut'), head('verdict'), head('b₁ [1/s]', 'number'), head('b₀ [1/s²]', 'number'),
+            head(`error [${scale.unit}]`, 'number minor'), head('with what was found', 'number minor'),
+            head('noise floor', 'number minor')
           ],
           struts.map(strut => strutRow(strut, scale))));
 }

@@ -3,7 +3,8 @@
 /** What was found in a strut, with what the drive cannot tell from it. */
 function foundIn({selected, indistinguishable, reason}) {
   if (reason) return `the drive ${typeset(reason)}`;
-  const rivals = name => (indistinguishable.find(group => group.includes(name)) || []).filter(each => !selected.includes(each));
+  const rivals = name =>
+      (indistinguishable.find(group => group.includes(name)) || []).filter(each => !selected.includes(each));
   return selected.map(name => joined([name, ...rivals(name)].map(spoken), 'or')).join('; ');
 }
 
@@ -23,8 +24,9 @@ function strutItem(strut) {
 function barSentence({struts: [first, second], stiffness_to_mass: stiffness}, struts) {
   const own = [first, second].map((strut, i) => `${rounded(stiffness[i])} of ${spoken(struts[strut].name)}`);
   return element(
-      'p', {}, `Anti-roll bar between ${spoken(struts[first].name)} and ${
-                   spoken(struts[second].name)}: stiffness over the body’s mass at the strut ${joined(own)} [1/s²].`);
+      'p', {},
+      `Anti-roll bar between ${spoken(struts[first].name)} and ${
+          spoken(struts[second].name)}: stiffness over the body’s mass at the strut ${joined(own)} [1/s²].`);
 }
 
 function vehicleVerdictSection(findings) {
@@ -33,13 +35,13 @@ function vehicleVerdictSection(findings) {
   return element(
       'section', {id: 'verdict', 'data-verdict': verdict}, element('p', {class: 'source'}, source),
       element('h1', {}, element('span', {class: 'pill'}, verdictWord(verdict, named)), element('br'), spoken(summary)),
-      element(
-          'div', {class: 'from-above'}, vehicleDrawing(findings), element('ul', {}, struts.map(strutItem))),
+      element('div', {class: 'from-above'}, vehicleDrawing(findings), element('ul', {}, struts.map(strutItem))),
       bars.map(bar => barSentence(bar, struts)),
       element(
           'p', {class: 'lede'},
           `From above, ahead is up; ${
-              havePositions(struts) ? 'the wheels stand where the vehicle file has the tops of their struts' :
-                                      'laid out by the names of the struts, as the vehicle file does not place all'}. ` +
+              havePositions(struts) ?
+                  'the wheels stand where the vehicle file has the tops of their struts' :
+                  'laid out by the names of the struts, as the vehicle file does not place all'}. ` +
               'A strut opens its own page: the error over time, the missing force, every candidate.'));
 }
