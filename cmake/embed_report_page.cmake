@@ -9,7 +9,7 @@ set(searchTemplate_scripts ${shared} heat_map drives time_zoom time_view verdict
 set(vehicleTemplate_title "Which strut lacks what?")
 set(vehicleTemplate_scripts ${shared} vehicle_drawing vehicle_verdict vehicle_tables showing vehicle_page)
 set(healthTemplate_title "How healthy is the strut?")
-set(healthTemplate_scripts ${shared} time_zoom health_verdict health_course health_tables health_vehicle showing health_page)
+set(healthTemplate_scripts ${shared} time_zoom time_window health_verdict health_course health_tables health_vehicle showing health_page)
 
 file(READ ${FOLDER}/page.html frame)
 file(READ ${FOLDER}/page.css style)
