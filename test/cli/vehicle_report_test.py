@@ -173,3 +173,56 @@ def test_page_that_cannot_be_written_is_refused_before_the_search(program, tmp_p
     for folder, words in ((tmp_path / "no" / "folder", "cannot be made"), (tmp_path / "page", "page/rear: cannot be made")):
         program.refuse(3, ["diagnose", bag, "--vehicle", path, "--report", folder], [words], tmp_path)
     assert [each.name for each in (tmp_path / "page").iterdir()] == ["rear"]
+
+
+@pytest.fixture(scope="module")
+def page_of(program, tmp_path_factory):
+    """Makes the page of a vehicle whose struts have these names and, if any, settings."""
+    folder = tmp_path_factory.mktemp("made")
+    bag, path = simulate(program, folder, "half_sedan")
+    program.succeed("diagnose", bag, "--vehicle", path, "--report", folder / "page")
+    text = (folder / "page" / "report.html").read_text()
+    before, findings, after = re.fullmatch(
+        r'(.*<script type="application/json" id="findings">)(.*?)(</script>.*)', text, re.DOTALL).groups()
+
+    def make(names, **settings):
+        found = json.loads(findings)
+        strut = {key: value for key, value in found["struts"][0].items() if key != "position"}
+        found["struts"] = [{**strut, "name": name, **settings} for name in names]
+        found["ratios"] = found["stddevs"] = [[0.1] * len(names)] * len(names)
+        page = folder / "page" / f"{names[0]}.html"
+        page.write_text(before + json.dumps(found) + after)
+        return types.SimpleNamespace(path=page, page=browser.shown(page, folder / "profile"), folder=folder)
+    return make
+
+
+@pytest.mark.parametrize("rows", [
+    [("fl", "fr"), ("ml", "mr"), ("rl", "rr")], [("f_l", "f_r"), ("b_l", "b_r")],
+    [("axle_1_left", "axle_1_right"), ("axle_2_left", "axle_2_right"), ("axle_10_left", "axle_10_right")],
+    [("front",), ("rear_left", "rear_right")], [("left_front", "right_front"), ("left_rear", "right_rear")],
+    [("left", "right")], [("one",), ("two",)]], ids=lambda rows: rows[0][0])
+def test_struts_without_positions_are_laid_out_by_their_names(page_of, rows):
+    """Rows from ahead to behind, in each from left to right."""
+    made = page_of(sorted(name for row in rows for name in row))
+    assert made.page.one(id="script-errors").text == ""
+    at = {name: tuple(float(each[f"data-{axis}"]) for axis in "xy") for name, each in wheels(made).items()}
+    for row in rows:
+        assert len({at[name][1] for name in row}) == 1
+        assert [at[name][0] for name in row] == sorted({at[name][0] for name in row})
+    heights = [at[row[0]][1] for row in rows]
+    assert heights == sorted(set(heights))
+    assert min((b - a for a, b in zip(heights, heights[1:])), default=42) >= 40
+
+
+@pytest.mark.parametrize("count, settings", [
+    (16, {}), (4, {"verdict": "cannot_tell", "has_page": False, "reason": "are too short", "selected": []})])
+def test_any_vehicle_has_room(page_of, count, settings):
+    names = [f"a_rather_long_name_{i}_{side}" for i in range(count // 2) for side in ("left", "right")]
+    made = page_of(names, **settings)
+    root = browser.measured(made.path, made.folder / "measured", 390, False).one("html").attributes
+    assert root["data-cut"] == ""
+    assert made.page.one(id="script-errors").text == ""
+    assert {each["data-verdict"] for each in wheels(made).values()} == {settings.get("verdict", "nothing_missing")}
+    if settings:
+        assert [each.text for each in made.page.one("svg").all("text", class_="word")] == count * ["Cannot tell"]
+        assert list(made.page.all("a")) == [] and "are too short" in made.page.one(id="verdict").text
