@@ -2,10 +2,6 @@
 
 const element = (tag, attributes, ...children) => filled(document.createElement(tag), attributes, children);
 
-/** A part of a drawing. */
-const drawn = (tag, attributes, ...children) =>
-    filled(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
-
 function filled(node, attributes = {}, children = []) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === false || value === undefined || value === null) continue;

@@ -2,12 +2,16 @@
 
 const DRAWING = {
   width: 360,
-  track: 120,   // largest distance between left and right [px]; the rest is for names
+  track: 100,   // largest distance between left and right [px]; the rest is for names
   length: 300,  // between the first and the last axle
   spacing: 42,  // least of two names on one side
   margin: 62,   // ahead of the first axle and behind the last
   letters: 14,
 };
+
+/** A part of a drawing. */
+const drawn = (tag, attributes, ...children) =>
+    filled(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
 
 /** Ahead and to the left, by what the struts are called: "rear_left", "rl", "axle_2_right"; axles by name. */
 function placesByName(names) {
@@ -64,7 +68,9 @@ function outline(half, height) {
   ];
 }
 
-const fitting = name => (name.length > DRAWING.letters ? `${name.slice(0, DRAWING.letters - 1)}…` : name);
+/** Names differ at their ends. */
+const fitting = name =>
+    (name.length > DRAWING.letters ? `${name.slice(0, 5)}…${name.slice(6 - DRAWING.letters)}` : name);
 
 /** A wheel, and beside the body its name and verdict. */
 function wheel({name, verdict, selected = [], has_page: hasPage}, {x, y, onRight}, half) {

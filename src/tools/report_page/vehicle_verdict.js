@@ -2,7 +2,7 @@
 
 /** What was found in a strut, with what the drive cannot tell from it. */
 function foundIn({selected, indistinguishable, reason}) {
-  if (reason) return `the drive ${typeset(reason)}`;
+  if (reason) return `the drives ${typeset(reason)}`;
   const rivals = name =>
       (indistinguishable.find(group => group.includes(name)) || []).filter(each => !selected.includes(each));
   return selected.map(name => joined([name, ...rivals(name)].map(spoken), 'or')).join('; ');
