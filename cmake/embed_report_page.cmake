@@ -3,16 +3,18 @@
 
 cmake_minimum_required(VERSION 3.16)
 # The order of the scripts: what others use comes first.
-set(shared elements numbers theme axes plot layers)
+set(shared elements numbers verdict_words theme axes plot layers)
 set(searchTemplate_title "Which effect is missing?")
 set(searchTemplate_scripts ${shared} heat_map drives time_zoom time_view verdict ladder views tables adding showing page)
+set(vehicleTemplate_title "Which strut lacks what?")
+set(vehicleTemplate_scripts ${shared} vehicle_drawing vehicle_verdict vehicle_tables showing vehicle_page)
 set(healthTemplate_title "How healthy is the strut?")
-set(healthTemplate_scripts ${shared} time_zoom health_verdict health_course health_tables showing health_page)
+set(healthTemplate_scripts ${shared} time_zoom time_window health_verdict health_course health_tables health_vehicle showing health_page)
 
 file(READ ${FOLDER}/page.html frame)
 file(READ ${FOLDER}/page.css style)
 set(functions)
-foreach(function searchTemplate healthTemplate)
+foreach(function searchTemplate vehicleTemplate healthTemplate)
   set(script)
   foreach(name ${${function}_scripts})
     file(READ ${FOLDER}/${name}.js text)

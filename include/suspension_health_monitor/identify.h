@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
@@ -32,6 +34,8 @@ struct IdentifyOptions {
   std::optional<double> sample_period;  ///< T [s]; nothing: the median spacing of the samples
   std::optional<int> horizon_samples;   ///< L of the integral filter; nothing: proposed from the data
   std::optional<double> memory;         ///< of ls and la [s], at least 10 samples; nothing: 2, or 10/3 of the horizon
+  /// Told what the live monitor would have said after every sample, on the calling thread.
+  std::function<void(const MonitorReport&)> report = {};
 };
 
 struct IdentifyResult {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,13 +41,16 @@ struct VehicleCoupling {
   explicit operator bool() const { return reason.empty(); }
 };
 
+/// By strut the model that is known of it beforehand; a strut without one, and all where it is empty: the linear one,
+/// by least squares.
+using KnownModels = std::vector<std::optional<StrutModel>>;
+
 /// Every strut on its own: what the others do to the body is taken out of both signals.
 struct SeparatedVehicle {
   VehicleCoupling coupling;
   std::vector<std::vector<Drive>> struts;  ///< by strut the drives of a quarter car with its b1 and b0; empty without
                                            ///< a coupling
-  std::vector<StrutModel> models;          ///< b1, b0 of each by least squares over all drives
-  std::vector<Drive> noise;                ///< by strut, what the sensors' noise makes of it: CompareOptions::noise
+  std::vector<StrutModel> models;          ///< of each: as it was known, else b1, b0 by least squares over all drives
   std::vector<LinearStrut> model_stddevs;  ///< what the ratios' errors alone make of b1, b0
 };
 
@@ -54,9 +58,9 @@ struct SeparatedVehicle {
 /// @param names  of the struts, for what is said of them.
 /// @param sample_period  T [s]; nothing: the median spacing of the samples.
 /// @throws std::invalid_argument  if there is no drive or no strut, if the struts of a drive have not the same stamps,
-/// or for a period that is not above 0.
+/// or for a period that is not above 0; for models of another number of struts.
 SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                 const std::optional<double>& sample_period = {}, const SensorNoise& noise = {});
+                                 const std::optional<double>& sample_period = {}, const KnownModels& models = {});
 
 struct VehicleIdentification {
   VehicleCoupling coupling;
@@ -66,13 +70,16 @@ struct VehicleIdentification {
 };
 
 /// identify() for every strut of a vehicle; what the coupling does not know is in the standard deviations.
+/// @param report  IdentifyOptions::report of every strut, one strut after the other.
 VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                      const IdentifyOptions& options = {}, const SensorNoise& noise = {});
+                                      const IdentifyOptions& options = {},
+                                      const std::function<void(std::size_t strut, const MonitorReport&)>& report = {});
 
 /// What a search found in a vehicle.
 struct VehicleDiagnosis {
   VehicleCoupling coupling;
-  std::vector<Diagnosis> struts;  ///< by strut; empty without a coupling
+  std::vector<Diagnosis> struts;           ///< by strut; empty without a coupling
+  std::vector<std::vector<Drive>> drives;  ///< by strut those of a quarter car that it was judged by
   Verdict verdict = Verdict::kNothingMissing;
   std::string summary;  ///< in a sentence: which effect is missing in which strut
 
@@ -87,7 +94,8 @@ struct VehicleDiagnosis {
 
 /// diagnose() for every strut of a vehicle. An effect in one strut shows in others: what was found in the strut where
 /// it explains most is taken out of them, before they are searched again, until nothing more is found.
+/// @param options  for every strut; instead of its model `models` are where the searches start.
 VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                 const DiagnoseOptions& options = {}, const SensorNoise& noise = {});
+                                 const DiagnoseOptions& options = {}, const KnownModels& models = {});
 
 }  // namespace suspension_health_monitor

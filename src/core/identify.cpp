@@ -24,8 +24,14 @@ IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions&
   const int horizon = options.horizon_samples ? *options.horizon_samples : proposeHorizon(drives, period);
   monitor.integration_horizon = horizon * period;
   monitor.alignment = "paired";
-  DriveIdentification identification(monitor);
   constexpr Stamp kLater(1);  // 0 is the stamp that a driver has not set; a drive may begin with it
+  DriveIdentification identification(monitor, [&](const MonitorReport& later) {
+    if (!options.report) return;
+    MonitorReport report = later;
+    report.stamp -= kLater;
+    report.comparison.stamp -= kLater;
+    options.report(report);
+  });
   for (const Drive& drive : drives)
     for (const CornerSample& sample : drive.samples) {
       identification.push(Side::kSprung, sample.stamp + kLater, sample.sprung_acceleration);

@@ -94,21 +94,28 @@ std::string toYaml(const Baseline& baseline, double horizon, double sample_perio
   return text.str();
 }
 
+Baseline takeBaseline(OptionMap& values) {
+  BaselineSettings settings;
+  takeOptions(values, kBaselineFields, settings);
+  refuseUnknown(values, describeOptions(kBaselineFields));
+  return toBaseline(settings);
+}
+
 Baseline readBaselineFile(const std::string& path) {
   OptionMap values = readYaml(path);
-  return prefixed(path + ": ", [&] {
-    BaselineSettings settings;
-    takeOptions(values, kBaselineFields, settings);
-    refuseUnknown(values, describeOptions(kBaselineFields));
-    return toBaseline(settings);
-  });
+  return prefixed(path + ": ", [&] { return takeBaseline(values); });
+}
+
+void requireOneReference(const PipelineOptions& options) {
+  if (!options.shell.baseline_file.empty() &&
+      (options.monitor.nominal_damping_to_mass || options.monitor.nominal_stiffness_to_mass))
+    throw std::invalid_argument("baseline_file = \"" + options.shell.baseline_file +
+                                "\" and nominal values are both given, must be one of them");
 }
 
 LiveBaseline::LiveBaseline(const PipelineOptions& options) : path_(options.shell.baseline_file) {
+  requireOneReference(options);
   if (path_.empty()) return;
-  if (options.monitor.nominal_damping_to_mass || options.monitor.nominal_stiffness_to_mass)
-    throw std::invalid_argument("baseline_file = \"" + path_ +
-                                "\" and nominal values are both given, must be one of them");
   if (std::filesystem::exists(path_)) known_ = readBaselineFile(path_);
 }
 

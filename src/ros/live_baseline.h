@@ -40,6 +40,13 @@ class LiveBaseline {
 /// The file's text.
 std::string toYaml(const Baseline& baseline, double horizon, double sample_period);
 
+/// Takes a baseline out of the settings of a file.
+/// @throws std::invalid_argument  naming what is missing, unknown or wrong.
+Baseline takeBaseline(OptionMap& values);
+
+/// @throws std::invalid_argument  if nominal values are given beside a baseline_file.
+void requireOneReference(const PipelineOptions& options);
+
 /// @throws std::invalid_argument  naming the file and what is wrong in it.
 Baseline readBaselineFile(const std::string& path);
 

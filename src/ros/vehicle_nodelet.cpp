@@ -1,5 +1,7 @@
 #include "vehicle_nodelet.h"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
+
 #include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
@@ -65,6 +67,9 @@ void VehicleNodelet::addStruts() {
 }
 
 void VehicleNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
+  // Who advertises first decides how long the queue is: an Updater's own holds one message, and all of them publish at
+  // once, so that the status of a strut would be lost behind that of the next.
+  diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (options_.struts.size() + 1));
   std::vector<std::string> topics;
   for (std::size_t i = 0; i < streams_->imus.size(); ++i) topics.push_back(imus_->topic(i));
   input_.emplace(options_.common.shell, *streams_, topics);

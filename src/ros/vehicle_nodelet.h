@@ -59,6 +59,7 @@ class VehicleNodelet : public nodelet::Nodelet {
   std::optional<sensor_msgs::Imu> body_message_;
   std::optional<ImuTopics> imus_;
   std::optional<VehiclePipeline> pipeline_;
+  ros::Publisher diagnostics_;  // of all updaters
   std::vector<std::unique_ptr<LiveStrut>> struts_;
   std::optional<CouplingOutput> coupling_;
   std::optional<VehicleInput> input_;

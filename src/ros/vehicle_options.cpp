@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
@@ -73,8 +74,13 @@ void requireOwnFiles(const VehicleOptions& options, const char* name, std::strin
 }  // namespace
 
 VehicleOptions VehicleOptions::fromValues(OptionMap values) {
+  VehicleLayout layout = takeLayout(values);
+  return fromValues(std::move(layout), std::move(values));
+}
+
+VehicleOptions VehicleOptions::fromValues(VehicleLayout layout, OptionMap values) {
   VehicleOptions options;
-  options.layout = takeLayout(values);
+  options.layout = std::move(layout);
   std::map<std::string, OptionMap> own = takeGroups(values, "struts");
   options.common = PipelineOptions::fromValues(values);
   for (const std::string& strut : options.strutNames()) {

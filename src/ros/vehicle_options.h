@@ -18,6 +18,9 @@ struct VehicleOptions {
   /// @throws std::invalid_argument  naming file, strut, option, value and what is allowed.
   static VehicleOptions fromValues(OptionMap values);
 
+  /// The same with the sensors that were read already; `values` are without `vehicle`.
+  static VehicleOptions fromValues(VehicleLayout layout, OptionMap values);
+
   std::vector<std::string> strutNames() const;
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "../ros/model_file.h"
 #include "bag_samples.h"
@@ -91,6 +92,11 @@ ModelOptions readModelOptions(const po::variables_map& values) {
   ModelOptions options{readEffects(values), std::nullopt};
   if (values.count(kModel) != 0) options.model = readModelFile(values[kModel].as<std::string>(), options.library);
   return options;
+}
+
+std::optional<TextFile> outputFile(const po::variables_map& values, const char* option) {
+  if (values.count(option) == 0) return std::nullopt;
+  return std::optional<TextFile>(std::in_place, values[option].as<std::string>());
 }
 
 std::vector<Drive> readDrives(const BagOptions& options) {

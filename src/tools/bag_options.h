@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "../ros/shell_options.h"
+#include "../ros/whole_file.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/effects.h"
@@ -58,6 +59,10 @@ EffectLibrary readEffects(const boost::program_options::variables_map& values);
 
 /// Adds --effects-file alone.
 void addEffectsFile(boost::program_options::options_description& description);
+
+/// @return the file of an option, begun; nothing: it is not given.
+/// @throws std::runtime_error  naming the file, if it cannot be written.
+std::optional<TextFile> outputFile(const boost::program_options::variables_map& values, const char* option);
 
 /// Reads bags as drives, one each: both accelerations and what else the body's IMU measures.
 /// @throws InputError, TooLittleError  as readSamples().

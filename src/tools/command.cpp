@@ -60,9 +60,10 @@ void requireSeparateFiles(const po::variables_map& values, const std::vector<std
   taken.erase("");  // an option that was not given
   for (const std::string& option : outputs)
     for (const std::string& path : paths(values, option)) {
-      const fs::path full = fs::weakly_canonical(path, error);
+      const fs::path file = option == kReport ? fs::path(path) / kReportFile : fs::path(path);
+      const fs::path full = fs::weakly_canonical(file, error);
       const bool is_new = full.empty() || taken.insert(full).second;
-      if (!is_new && (fs::is_regular_file(path, error) || !fs::exists(path, error)))
+      if (!is_new && (fs::is_regular_file(file, error) || !fs::exists(file, error)))
         throw std::invalid_argument("--" + option + " " + path + ", must be a file of its own: it is used already");
     }
 }

@@ -39,6 +39,10 @@ std::optional<boost::program_options::variables_map> parse(const Arguments& argu
 /// @throws std::invalid_argument  naming what is wrong.
 OptionMap gatherOptions(const boost::program_options::variables_map& values);
 
+/// The option whose value is a folder, and the file that is written there.
+inline constexpr const char* kReport = "report";
+inline constexpr const char* kReportFile = "report.html";
+
 /// Refuses to write a file that is read, too, or to write two results into one file.
 /// @param inputs, outputs  names of options with a path, or several, as their value; those not given do not matter.
 /// @throws std::invalid_argument  naming option and path.

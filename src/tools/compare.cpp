@@ -21,8 +21,7 @@ void compare(const Arguments& arguments) {
   const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;
-  std::optional<TextFile> json;
-  if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
+  std::optional<TextFile> json = outputFile(*values, "json");
 
   CompareOptions comparing;
   takeSettings(options, models, comparing);

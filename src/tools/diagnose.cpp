@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <filesystem>
 #include <thread>
 
 #include "../ros/whole_file.h"
@@ -12,34 +11,7 @@
 #include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
-namespace {
-
 namespace po = boost::program_options;
-
-/// The page for people; what the search found is compared with the drives before and after.
-void report(ReportPage& page, const Diagnosis& found, const std::vector<Drive>& drives, const DiagnoseOptions& options,
-            const std::vector<std::string>& paths) {
-  CompareOptions comparing;
-  comparing.sample_period = options.sample_period;
-  comparing.model = found.base.model;
-  Comparison before = compare(drives, comparing);
-  if (!before) {  // nothing fits without what was found: clocks that differ
-    comparing.fit = false;
-    before = compare(drives, comparing);
-  }
-  requireEnough(before.shortcoming, before.reason);
-  std::optional<Comparison> after;
-  if (found.final_fit) {
-    comparing.model = found.final_fit->model;
-    comparing.fit = false;
-    after = compare(drives, comparing);
-  }
-  std::vector<std::string> names;
-  for (const std::string& path : paths) names.push_back(std::filesystem::path(path).filename());
-  page.write({found, options.candidates, *options.sample_period, names, before, after && *after ? &*after : nullptr});
-}
-
-}  // namespace
 
 void diagnose(const Arguments& arguments) {
   po::options_description description("options");
@@ -47,13 +19,15 @@ void diagnose(const Arguments& arguments) {
   addVehicleOptions(description);
   addModelOptions(description);
   auto add = description.add_options();
-  add("output,o", po::value<std::string>(), "write the model that was found as YAML");
-  add("report", po::value<std::string>(), "write DIR/report.html: the search as a page with figures");
+  add("output,o", po::value<std::string>(), "write the model that was found as YAML; of a vehicle those of its struts");
+  add(kReport, po::value<std::string>(),
+      "write DIR/report.html: the search as a page with figures; of a vehicle also DIR/NAME/report.html of every "
+      "strut");
   add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       "processor cores to use");
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json", "output"});
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json", "output", kReport});
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
@@ -61,11 +35,9 @@ void diagnose(const Arguments& arguments) {
   const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;
-  std::optional<TextFile> json, model;
+  std::optional<TextFile> json = outputFile(*values, "json"), model = outputFile(*values, "output");
   std::optional<ReportPage> page;
-  if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
-  if (values->count("output") != 0) model.emplace((*values)["output"].as<std::string>());
-  if (values->count("report") != 0) page.emplace((*values)["report"].as<std::string>());
+  if (values->count(kReport) != 0) page.emplace((*values)[kReport].as<std::string>());
 
   DiagnoseOptions searching;
   takeSettings(options, models, searching);
@@ -86,7 +58,7 @@ void diagnose(const Arguments& arguments) {
     json->commit(whole.dump(2) + '\n');
   }
   if (model) model->commit(toYaml(found.model()));
-  if (page) report(*page, found, drives, searching, options.bags.paths);
+  if (page) page->write(found, drives, searching, fileNames(options.bags.paths));
 }
 
 }  // namespace suspension_health_monitor

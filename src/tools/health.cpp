@@ -8,14 +8,12 @@
 #include "../ros/imu_pipeline.h"
 #include "../ros/live_baseline.h"
 #include "../ros/live_model.h"
-#include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
 #include "health_page.h"
 #include "health_results.h"
-#include "html_page.h"
 #include "identify_tables.h"
 #include "long_work.h"
 #include "vehicle_commands.h"
@@ -24,8 +22,6 @@ namespace suspension_health_monitor {
 namespace {
 
 namespace po = boost::program_options;
-
-constexpr const char* kBaseline = "baseline";
 
 /// The options as a live monitor would have them, with the file of --baseline for baseline_file.
 BagOptions readOptions(const po::variables_map& values) {
@@ -99,35 +95,27 @@ void health(const Arguments& arguments) {
   addBagOptions(description);
   addVehicleOptions(description);
   auto add = description.add_options();
-  add(kBaseline, po::value<std::string>(), "YAML file with the healthy strut, as the monitor writes it");
+  add(kBaseline, po::value<std::string>(),
+      "YAML file with the healthy strut, as the monitor writes it; of a vehicle struts: {NAME: ...}");
   add("csv", po::value<std::string>(), "write a line per second and change of level, full precision");
-  add("report", po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
+  add(kReport, po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
   const auto values = parse(arguments, "health BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, {"csv", "json"});
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, {"csv", "json", kReport});
   if (isOfVehicle(*values)) return watchStruts(*values);
   const BagOptions options = readOptions(*values);
 
   const Interruption interruption;
-  std::optional<TextFile> csv, json;
-  std::optional<HtmlPage> page;
-  if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
-  if (values->count("csv") != 0) csv.emplace((*values)["csv"].as<std::string>());
-  if (values->count("report") != 0) page.emplace((*values)["report"].as<std::string>());
-  HealthTable table(csv ? csv->stream() : nullptr);
-  HealthCourse course;
-  RecordedMonitor recorded(options, [&](const HealthMoment& moment, const Baseline& healthy) {
-    table.add(moment);
-    if (page) course.add(moment, healthy);
-  });
+  HealthFiles files(*values, {});
+  RecordedMonitor recorded(options,
+                           [&](const HealthMoment& moment, const Baseline& healthy) { files.add(0, moment, healthy); });
   const std::vector<HealthContent::Recording> recordings = recorded.read(options.bags);
 
   const SuspensionMonitor& monitor = recorded.monitor();
   const std::string reference =
       describeReference(monitor.baseline(), recorded.hasBaselineOfFile() ? options.pipeline.shell.baseline_file : "");
-  if (json) json->commit(toJson(recorded.log(), monitor).dump(2) + '\n');
-  if (csv) csv->commit();
-  if (page) page->write(healthTemplate(), findingsOf({recorded.log(), course, monitor, recordings, reference}));
+  files.commit(toJson(recorded.log(), monitor),
+               {{recorded.log(), files.course(0), monitor, recordings, reference, ""}});
   printInput(monitor, recorded.grid(), options, recorded.rejected());
   printHealth(recorded.log(), monitor, reference);
 }

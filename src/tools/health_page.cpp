@@ -1,15 +1,18 @@
 #include "health_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "health_results.h"
+#include "bag_options.h"
+#include "command.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
+namespace po = boost::program_options;
 using nlohmann::json;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // null in JSON: no line there
@@ -26,9 +29,8 @@ json listOf(const std::vector<HealthMoment>& moments) {
 std::string sourceOf(const HealthContent& content) {
   std::vector<std::string> names;
   for (const HealthContent::Recording& recording : content.recordings) names.push_back(recording.name);
-  const double period = content.monitor.period();
-  return join(names) + formatted(": %.4g s at %.4g Hz, horizon %.4g s", toSeconds(content.log.elapsed()), 1.0 / period,
-                                 content.monitor.horizonSamples() * period);
+  return join(names) +
+         formatted(": %.4g s at %.4g Hz", toSeconds(content.log.elapsed()), 1.0 / content.monitor.period());
 }
 
 }  // namespace
@@ -68,7 +70,9 @@ json findingsOf(const HealthContent& content) {
   json recordings = json::array();
   for (const HealthContent::Recording& recording : content.recordings)
     recordings.push_back({{"name", recording.name}, {"from", toSeconds(recording.from)}});
-  return {{"source", sourceOf(content)},
+  return {{"strut", content.strut},
+          {"source", sourceOf(content)},
+          {"horizon", content.monitor.horizonSamples() * content.monitor.period()},
           {"judged_by", content.reference},
           {"recordings", recordings},
           {"duration", toSeconds(content.log.elapsed())},
@@ -81,6 +85,28 @@ json findingsOf(const HealthContent& content) {
             {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},
           {"course", content.course.toJson()},
           {"estimates", estimatesJson(content.monitor)}};
+}
+
+HealthFiles::HealthFiles(const po::variables_map& values, const std::vector<std::string>& struts)
+    : json_(outputFile(values, "json")),
+      csv_(outputFile(values, "csv")),
+      table_(csv_ ? csv_->stream() : nullptr, struts),
+      courses_(std::max<std::size_t>(1, struts.size())) {
+  if (values.count(kReport) != 0) page_.emplace(values[kReport].as<std::string>());
+}
+
+void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Baseline& healthy) {
+  table_.add(strut, moment);
+  if (page_) courses_[strut].add(moment, healthy);
+}
+
+void HealthFiles::commit(const json& result, const std::vector<HealthContent>& contents) {
+  if (json_) json_->commit(result.dump(2) + '\n');
+  if (csv_) csv_->commit();
+  if (!page_) return;
+  json struts = json::array();
+  for (const HealthContent& content : contents) struts.push_back(findingsOf(content));
+  page_->write(healthTemplate(), {{"struts", struts}});
 }
 
 }  // namespace suspension_health_monitor

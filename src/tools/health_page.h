@@ -1,9 +1,12 @@
 #pragma once
 
+#include <boost/program_options.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "health_results.h"
 #include "html_page.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
@@ -51,9 +54,36 @@ struct HealthContent {
   const SuspensionMonitor& monitor;
   std::vector<Recording> recordings;
   std::string reference;  ///< what the strut was judged by, in words
+  std::string strut;      ///< its name in the vehicle; empty: it is alone
 };
 
-/// @return what the scripts of the page expect.
+/// @return what the scripts of the page expect of every strut.
 nlohmann::json findingsOf(const HealthContent& content);
+
+/// The files of `suspension_bag health`, and what they are made of while the monitor runs: of one strut, or of all
+/// those of a vehicle that are asked for.
+class HealthFiles {
+ public:
+  /// Begins the files that the options ask for.
+  /// @param struts  names of a vehicle's; empty: one strut, by itself.
+  /// @throws std::runtime_error  naming the file that cannot be written.
+  HealthFiles(const boost::program_options::variables_map& values, const std::vector<std::string>& struts);
+
+  /// As HealthLog calls its sink.
+  /// @param healthy  what the strut is judged by then.
+  void add(std::size_t strut, const HealthMoment& moment, const Baseline& healthy);
+
+  const HealthCourse& course(std::size_t strut) const { return courses_[strut]; }
+
+  /// @param result  for --json.  @param contents  for the page, a strut each.
+  /// @throws std::runtime_error  naming the file that cannot be written.
+  void commit(const nlohmann::json& result, const std::vector<HealthContent>& contents);
+
+ private:
+  std::optional<TextFile> json_, csv_;
+  std::optional<HtmlPage> page_;
+  HealthTable table_;
+  std::vector<HealthCourse> courses_;
+};
 
 }  // namespace suspension_health_monitor

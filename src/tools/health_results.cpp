@@ -3,6 +3,7 @@
 #include <array>
 #include <cinttypes>
 #include <cmath>
+#include <utility>
 
 #include "identify_tables.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
@@ -37,17 +38,20 @@ void printEstimate(const char* name, const StrutEstimate& estimate, const std::o
 
 }  // namespace
 
-HealthTable::HealthTable(std::FILE* out) : out_(out) {
-  if (out_ != nullptr) std::fputs("time,level,message,b1,b0,b1_stddev,b0_stddev,offset\n", out_);
+HealthTable::HealthTable(std::FILE* out, std::vector<std::string> struts) : out_(out), struts_(std::move(struts)) {
+  if (out_ == nullptr) return;
+  std::fprintf(out_, "time,%slevel,message,b1,b0,b1_stddev,b0_stddev,offset\n", struts_.empty() ? "" : "strut,");
 }
 
-void HealthTable::add(const HealthMoment& moment) {
+void HealthTable::add(std::size_t strut, const HealthMoment& moment) {
   if (out_ == nullptr) return;
   constexpr std::int64_t second = 1000000000;
   const StrutEstimate& la = moment.la;
-  std::fprintf(out_, "%" PRId64 ".%09" PRId64 ",%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g\n", moment.stamp.count() / second,
-               moment.stamp.count() % second, nameOf(moment.level), quoted(moment.message).c_str(), la.damping_to_mass,
-               la.stiffness_to_mass, la.damping_to_mass_stddev, la.stiffness_to_mass_stddev, la.offset);
+  std::fprintf(out_, "%" PRId64 ".%09" PRId64 ",", moment.stamp.count() / second, moment.stamp.count() % second);
+  if (!struts_.empty()) std::fprintf(out_, "%s,", struts_[strut].c_str());
+  std::fprintf(out_, "%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level), quoted(moment.message).c_str(),
+               la.damping_to_mass, la.stiffness_to_mass, la.damping_to_mass_stddev, la.stiffness_to_mass_stddev,
+               la.offset);
 }
 
 std::string describeReference(const Baseline& baseline, const std::string& file) {

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
@@ -12,13 +13,14 @@ namespace suspension_health_monitor {
 /// One line per moment, full precision: `suspension_bag health --csv`.
 class HealthTable {
  public:
-  /// @param out  nullptr: no table is wanted.
-  explicit HealthTable(std::FILE* out);
+  /// @param out  nullptr: no table is wanted.  @param struts  names of a vehicle's, for a column; empty: one strut.
+  HealthTable(std::FILE* out, std::vector<std::string> struts);
 
-  void add(const HealthMoment& moment);
+  void add(std::size_t strut, const HealthMoment& moment);
 
  private:
   std::FILE* out_;
+  std::vector<std::string> struts_;
 };
 
 /// @param file  that the baseline was read from; empty: none was.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "command.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -48,7 +49,7 @@ HtmlPage::Folder::~Folder() {
   if (made_) fs::remove(path_, not_empty);
 }
 
-HtmlPage::HtmlPage(const std::string& folder) : folder_(folder), file_((fs::path(folder) / "report.html").string()) {}
+HtmlPage::HtmlPage(const std::string& folder) : folder_(folder), file_((fs::path(folder) / kReportFile).string()) {}
 
 void HtmlPage::write(std::string_view page, const json& findings) {
   constexpr std::string_view placeholder = "@@findings@@";

@@ -43,6 +43,7 @@ nlohmann::json shortened(nlohmann::json value);
 /// The pages with style and scripts in them and "@@findings@@" where their JSON goes: of a search, and of health.
 /// Made from report_page/ when the package is built (cmake/embed_report_page.cmake).
 std::string_view searchTemplate();
+std::string_view vehicleTemplate();
 std::string_view healthTemplate();
 
 }  // namespace suspension_health_monitor

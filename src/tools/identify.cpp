@@ -1,6 +1,4 @@
-#include <cinttypes>
 #include <cstdio>
-#include <deque>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -14,6 +12,7 @@
 #include "errors.h"
 #include "identify_tables.h"
 #include "long_work.h"
+#include "row_table.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "vehicle_commands.h"
@@ -24,57 +23,6 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr std::size_t kTableLines = 12;
-
-/// One line per regression row, full precision. The comparison of a row's sample comes some samples after the row:
-/// lines wait for it, and go without when their series ends before.
-class RowTable {
- public:
-  /// @param out  nullptr: no table is wanted.
-  explicit RowTable(std::FILE* out) : out_(out) {
-    if (out_ != nullptr)
-      std::fputs(
-          "time,ls_damping_to_mass,ls_stiffness_to_mass,la_damping_to_mass,la_stiffness_to_mass,"
-          "measured,predicted,residual\n",
-          out_);
-  }
-
-  void add(const MonitorReport& report) {
-    if (out_ == nullptr) return;
-    if (!waiting_.empty() && report.stamp < waiting_.back().stamp) finish();  // the clock went back
-    if (report.has_row)
-      waiting_.push_back({report.stamp, report.ls.damping_to_mass, report.ls.stiffness_to_mass,
-                          report.la.damping_to_mass, report.la.stiffness_to_mass, report.measured});
-    const ComparisonReport& comparison = report.comparison;
-    while (comparison.has_sample && !waiting_.empty() && waiting_.front().stamp <= comparison.stamp)
-      write(waiting_.front().stamp == comparison.stamp ? comparison.predicted : std::nullopt);
-  }
-
-  /// No more comparisons will come.
-  void finish() {
-    while (!waiting_.empty()) write(std::nullopt);
-  }
-
- private:
-  struct Row {
-    Stamp stamp;
-    double ls_damping, ls_stiffness, la_damping, la_stiffness, measured;
-  };
-
-  void write(const std::optional<double>& predicted) {
-    const Row row = waiting_.front();
-    waiting_.pop_front();
-    std::fprintf(out_, "%" PRId64 ".%09" PRId64 ",%.17g,%.17g,%.17g,%.17g,%.17g,", row.stamp.count() / 1000000000,
-                 row.stamp.count() % 1000000000, row.ls_damping, row.ls_stiffness, row.la_damping, row.la_stiffness,
-                 row.measured);
-    if (predicted)
-      std::fprintf(out_, "%.17g,%.17g\n", *predicted, row.measured - *predicted);
-    else
-      std::fputs("nan,nan\n", out_);
-  }
-
-  std::FILE* out_;
-  std::deque<Row> waiting_;
-};
 
 /// Keeps a few reports, evenly spread over a series of unknown length: every n-th, n doubling when there are too many.
 class Digest {
@@ -157,10 +105,9 @@ void identify(const Arguments& arguments) {
 
   const LiveModel model(options.pipeline.shell);
   const Interruption interruption;
-  std::optional<TextFile> csv, json;
-  if (values->count("json") != 0) json.emplace((*values)["json"].as<std::string>());
-  if (values->count("csv") != 0) csv.emplace((*values)["csv"].as<std::string>());
-  RowTable table(csv ? csv->stream() : nullptr);
+  std::optional<TextFile> csv = outputFile(*values, "csv"), json = outputFile(*values, "json");
+  if (csv) RowTable::writeHead(csv->stream(), false);
+  RowTable table(csv ? csv->stream() : nullptr, "");
   Digest digest;
   bool ever_valid = false;
   const PipelineOptions& pipeline = options.pipeline;

@@ -39,23 +39,32 @@ std::string settingOf(const StrutModel& model) {
 }  // namespace
 
 json addingJson(const ReportContent& content) {
+  const InVehicle* vehicle = content.vehicle;
   std::string bags;
   for (const std::string& name : content.drive_names) bags += " " + quoted(name);
   const std::string tool = "rosrun suspension_health_monitor suspension_bag ";
+  const std::string of = vehicle ? " --vehicle " + quoted(vehicle->file) + " --strut " + vehicle->strut : "";
+  const std::string file = vehicle ? vehicle->strut + ".yaml" : "model.yaml";
+  const std::string node = vehicle ? '/' + vehicle->strut : "/monitor";
   json commands = json::array();
   const auto add = [&](const char* title, const std::string& text) {
     commands.push_back({{"title", title}, {"text", text}});
   };
-  add("Write the file", tool + "diagnose" + bags + " -o model.yaml");
-  add("Judge the model on another drive", tool + "compare another_drive.bag --model model.yaml");
+  add("Write the file", tool + "diagnose" + bags + of + " -o " + file);
+  add("Judge the model on another drive", tool + "compare another_drive.bag" + of + " --model " + file);
   const StrutModel& model = content.found.model();
   if (!model.effects.empty())
     add("Live: add it to a running monitor and watch the error fall",
-        "rosservice call /monitor/set_effects \"" + settingOf(model) +
-            "\"\nrqt_plot /monitor/comparison/base_rmse /monitor/comparison/rmse");
-  add("Live from the start: name the file in your copy of monitor.yaml",
-      "model_file: /path/to/model.yaml\n\nroslaunch suspension_health_monitor monitor.launch "
-      "config:=$PWD/my_strut.yaml");
+        "rosservice call " + node + "/set_effects \"" + settingOf(model) + "\"\nrqt_plot " + node +
+            "/comparison/base_rmse " + node + "/comparison/rmse");
+  const std::string launch = "roslaunch suspension_health_monitor ";
+  if (vehicle)
+    add("Live from the start: name the file among what differs at this strut, my_struts.yaml",
+        "struts: {" + vehicle->strut + ": {model_file: /path/to/" + file + "}}\n\n" + launch +
+            "vehicle.launch vehicle:=/path/to/my_vehicle.yaml strut_config:=$PWD/my_struts.yaml");
+  else
+    add("Live from the start: name the file in your copy of monitor.yaml",
+        "model_file: /path/to/" + file + "\n\n" + launch + "monitor.launch config:=$PWD/my_strut.yaml");
   return {{"model_file", toYaml(model)}, {"commands", commands}};
 }
 

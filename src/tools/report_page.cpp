@@ -1,7 +1,10 @@
 #include "report_page.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "bag_options.h"
 #include "report_parts.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -15,7 +18,8 @@ std::string sourceOf(const ReportContent& content) {
   double duration = 0.0;
   for (const ComparedSegment& segment : content.before.segments)
     duration += static_cast<double>(segment.size()) * content.period;
-  return join(content.drive_names) + formatted(": %.4g s at %.4g Hz", duration, 1.0 / content.period);
+  const std::string strut = content.vehicle ? content.vehicle->strut + " in " : "";
+  return strut + join(content.drive_names) + formatted(": %.4g s at %.4g Hz", duration, 1.0 / content.period);
 }
 
 json findingsOf(const ReportContent& content) {
@@ -28,11 +32,38 @@ json findingsOf(const ReportContent& content) {
                 {"forces", shortened(forcesJson(content))},
                 {"adding", addingJson(content)}};
   if (content.after != nullptr) findings["after"] = shortened(toJson(*content.after));
+  if (const InVehicle* vehicle = content.vehicle)
+    findings["vehicle"] = {{"strut", vehicle->strut}, {"bars", vehicle->bars}, {"has_page", vehicle->has_page}};
   return findings;
 }
 
 }  // namespace
 
-void ReportPage::write(const ReportContent& content) { page_.write(searchTemplate(), findingsOf(content)); }
+void ReportPage::write(const Diagnosis& found, const std::vector<Drive>& drives, const DiagnoseOptions& options,
+                       const std::vector<std::string>& names, const InVehicle* vehicle) {
+  CompareOptions comparing;
+  comparing.sample_period = options.sample_period;
+  comparing.model = found.base.model;
+  Comparison before = compare(drives, comparing);
+  if (!before) {  // nothing fits without what was found: clocks that differ
+    comparing.fit = false;
+    before = compare(drives, comparing);
+  }
+  requireEnough(before.shortcoming, before.reason);
+  std::optional<Comparison> after;
+  if (found.final_fit) {
+    comparing.model = found.final_fit->model;
+    comparing.fit = false;
+    after = compare(drives, comparing);
+  }
+  page_.write(searchTemplate(), findingsOf({found, options.candidates, *options.sample_period, names, before,
+                                            after && *after ? &*after : nullptr, vehicle}));
+}
+
+std::vector<std::string> fileNames(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) names.push_back(std::filesystem::path(path).filename());
+  return names;
+}
 
 }  // namespace suspension_health_monitor

@@ -9,6 +9,14 @@
 
 namespace suspension_health_monitor {
 
+/// The vehicle of a strut that is not alone.
+struct InVehicle {
+  std::string strut;
+  std::string file;               ///< of --vehicle
+  std::vector<std::string> bars;  ///< struts that anti-roll bars tie it to
+  bool has_page = true;           ///< of its own, in the folder above that of the strut's
+};
+
 /// All that the page of a search is made of.
 struct ReportContent {
   const Diagnosis& found;
@@ -17,6 +25,7 @@ struct ReportContent {
   std::vector<std::string> drive_names;  ///< one per drive
   const Comparison& before;              ///< the model as it is, fitted to all samples
   const Comparison* after = nullptr;     ///< with the effects found; none if there are none
+  const InVehicle* vehicle = nullptr;    ///< none: the strut was searched by itself
 };
 
 /// The page of a search: the verdict, the error step by step, measured against predicted over time, the residual from
@@ -27,11 +36,18 @@ class ReportPage {
   /// As HtmlPage.
   explicit ReportPage(const std::string& folder) : page_(folder) {}
 
-  /// As HtmlPage::write().
-  void write(const ReportContent& content);
+  /// Compares what a search found with the drives, before and after, and writes the page.
+  /// @param drives, options  of the search.  @param names  of the drives.  @param vehicle  nullptr: there is none.
+  /// @throws InputError, TooLittleError  if even the model as it is cannot be compared.
+  /// @throws std::runtime_error  as HtmlPage::write().
+  void write(const Diagnosis& found, const std::vector<Drive>& drives, const DiagnoseOptions& options,
+             const std::vector<std::string>& names, const InVehicle* vehicle = nullptr);
 
  private:
   HtmlPage page_;
 };
+
+/// @return paths without their folders.
+std::vector<std::string> fileNames(const std::vector<std::string>& paths);
 
 }  // namespace suspension_health_monitor

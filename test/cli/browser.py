@@ -69,16 +69,19 @@ class Reader(html.parser.HTMLParser):
         self.open[-1].children.append(data)
 
 
-# Notes what the page is wider than, once its own scripts have run. What lies in a box that scrolls can be reached.
+# Notes what is wider than the page, or than the drawing that it is a part of, once the page's own scripts have run. What
+# lies in a box that scrolls can be reached.
 MEASURE = """<script>(() => {
 const reaches = [...document.querySelectorAll('body *')].filter(node => {
   const box = node.getBoundingClientRect();
-  return box.width > 0 && (box.right > innerWidth + 1 || box.left < -1) && !node.closest('.wide, #tooltip');
+  const drawing = node.closest('svg');
+  const room = drawing ? drawing.getBoundingClientRect() : {left: 0, right: innerWidth};
+  return box.width > 0 && (box.right > room.right + 1 || box.left < room.left - 1) && !node.closest('.wide, #tooltip');
 });
 Object.assign(parent.document.documentElement.dataset, {
   width: innerWidth,
   dark: matchMedia('(prefers-color-scheme: dark)').matches,
-  cut: reaches.map(node => `${node.tagName}.${node.className}`).join(' '),
+  cut: reaches.map(node => `${node.tagName}.${node.getAttribute('class')}`).join(' '),
   scrolls: [...document.querySelectorAll('.wide')].filter(node => node.scrollWidth > node.clientWidth + 1).length
 });
 })();</script>"""

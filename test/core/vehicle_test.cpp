@@ -62,6 +62,19 @@ TEST(SeparatedVehicle, RefusesStrutsWithoutTheSameStamps) {
   EXPECT_THROW(separateVehicle({drive}, {"front"}), std::invalid_argument);
 }
 
+TEST(SeparatedVehicle, TakesTheModelsThatAreKnown) {
+  const Vehicle vehicle = namedVehicle("half_sedan");
+  const std::vector<StrutDrives> drives{strutDrives(vehicle, vehicleDrive(60.0))};
+  const KnownModels models{std::nullopt, StrutModel{3.0, 70.0, {}, {}}};
+  const SeparatedVehicle separated = separateVehicle(drives, strutNames(vehicle), {}, models);
+  ASSERT_TRUE(separated.coupling) << separated.coupling.reason;
+  EXPECT_EQ(separated.models[1].damping_to_mass, 3.0);
+  EXPECT_EQ(separated.models[1].stiffness_to_mass, 70.0);
+  EXPECT_EQ(separated.models[0].damping_to_mass,
+            separateVehicle(drives, strutNames(vehicle)).models[0].damping_to_mass);
+  EXPECT_THROW(separateVehicle(drives, strutNames(vehicle), {}, {std::nullopt}), std::invalid_argument);
+}
+
 TEST(DiagnosedVehicle, LacksNothingWhereNothingIsHidden) {
   const Vehicle vehicle = quiet("sedan");
   const VehicleDiagnosis found = diagnoseVehicle({strutDrives(vehicle, vehicleDrive(120.0))}, strutNames(vehicle));
@@ -86,6 +99,54 @@ TEST(DiagnosedVehicle, NamesAnEffectInTheStrutThatHasItAndInNoOther) {
     EXPECT_EQ(found.struts[i].selected, expected) << found.summary;
   }
   EXPECT_NE(found.summary.find("quadratic_damping in " + vehicle.struts[2].name), std::string::npos) << found.summary;
+}
+
+TEST(DiagnosedVehicle, IsSearchedFromTheModelsThatAreKnown) {
+  Vehicle vehicle = namedVehicle("half_sedan");
+  const EffectLibrary library = builtInEffects();
+  vehicle.struts[0].hidden = {{findEffect(library.forces, "quadratic_damping"), 2.0, {}}};
+  const std::vector<StrutDrives> drives{strutDrives(vehicle, vehicleDrive(120.0))};
+  const VehicleDiagnosis first = diagnoseVehicle(drives, strutNames(vehicle));
+  ASSERT_TRUE(first) << first.coupling.reason;
+  ASSERT_EQ(first.struts[0].selected, std::vector<std::string>{"quadratic_damping"}) << first.summary;
+  const VehicleDiagnosis again =
+      diagnoseVehicle(drives, strutNames(vehicle), {}, {first.struts[0].model(), std::nullopt});
+  EXPECT_TRUE(again.struts[0].selected.empty()) << again.summary;
+  EXPECT_EQ(again.struts[0].base.model.effects.size(), 1U);
+  EXPECT_TRUE(again.struts[1].base.model.effects.empty());
+  EXPECT_THROW(diagnoseVehicle(drives, strutNames(vehicle), {}, {std::nullopt}), std::invalid_argument);
+}
+
+TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
+  const Vehicle vehicle = namedVehicle("half_sedan");
+  const std::vector<StrutDrives> drives{strutDrives(vehicle, vehicleDrive(60.0)),
+                                        strutDrives(vehicle, vehicleDrive(30.0))};
+  const VehicleDiagnosis found = diagnoseVehicle(drives, strutNames(vehicle));
+  ASSERT_TRUE(found) << found.coupling.reason;
+  ASSERT_EQ(found.drives.size(), 2U);
+  for (std::size_t i = 0; i < found.drives.size(); ++i) {
+    ASSERT_EQ(found.drives[i].size(), drives.size());
+    const Diagnosis alone = diagnose(found.drives[i]);
+    EXPECT_DOUBLE_EQ(alone.base.held_out_rmse, found.struts[i].base.held_out_rmse) << i;
+  }
+}
+
+TEST(IdentifiedVehicle, ReportsTheRowsOfOneStrutAfterTheOther) {
+  const Vehicle vehicle = namedVehicle("half_sedan");
+  const StrutDrives drive = strutDrives(vehicle, vehicleDrive(60.0));
+  std::vector<std::uint64_t> rows(2);
+  std::size_t newest = 0;
+  const VehicleIdentification found =
+      identifyVehicle({drive}, strutNames(vehicle), {}, [&](std::size_t strut, const MonitorReport& report) {
+        EXPECT_GE(strut, newest);
+        newest = strut;
+        if (!report.has_row) return;
+        ++rows[strut];
+        EXPECT_GE(report.stamp, drive[strut].samples.front().stamp);
+        EXPECT_EQ((report.stamp - drive[strut].samples.front().stamp) % fromSeconds(0.01), Stamp::zero());
+      });
+  ASSERT_TRUE(found) << found.coupling.reason;
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i], found.struts[i].rows) << i;
 }
 
 TEST(IdentifiedVehicle, IsEveryStrutsOwn) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
@@ -18,13 +19,16 @@ std::vector<Drive> flattened(const std::vector<StrutDrives>& drives) {
   return all;
 }
 
-void check(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names) {
+void check(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names, const KnownModels& known) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   requireNumStruts(names.size());
   for (const StrutDrives& drive : drives)
     if (drive.size() != names.size())
       throw std::invalid_argument("a drive of " + std::to_string(drive.size()) + " struts, must be " +
                                   std::to_string(names.size()));
+  if (!known.empty() && known.size() != names.size())
+    throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
+                                std::to_string(names.size()) + " or of none");
 }
 
 int horizonFor(const StrutModel& model, double period) {
@@ -36,14 +40,16 @@ int horizonFor(const StrutModel& model, double period) {
 class Separator {
  public:
   Separator(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-            const std::optional<double>& sample_period, const SensorNoise& noise)
+            const std::optional<double>& sample_period, const KnownModels& known, const SensorNoise& noise)
       : drives_(drives) {
-    check(drives, names);
+    check(drives, names, known);
     const SensorNoise sensors = noise.empty() ? noiseOfOwnSensors(names.size()) : noise;
     period_ = sample_period ? *sample_period : medianPeriod(flattened(drives));
     noise_ = makeNoiseDrive(sensors, period_);
     estimate_ = coupleStruts(drives, period_, sensors);
     models_ = estimate_.models();
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (known[i]) models_[i] = *known[i];
     coupling_ = describe(estimate_, names);
   }
 
@@ -102,8 +108,9 @@ Verdict worstOf(const VehicleDiagnosis& found) {
 }  // namespace
 
 SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                 const std::optional<double>& sample_period, const SensorNoise& noise) {
-  const Separator separator(drives, names, sample_period, noise);
+                                 const std::optional<double>& sample_period, const KnownModels& models,
+                                 const SensorNoise& noise) {
+  const Separator separator(drives, names, sample_period, models, noise);
   if (!separator.coupling()) return {separator.coupling(), {}, {}, {}, {}};
   return {separator.coupling(), separator.separate(), separator.models(), separator.separateNoise(),
           separator.modelStddevs()};
@@ -125,8 +132,10 @@ Verdict VehicleDiagnosis::verdictOn(std::size_t strut) const {
 }
 
 VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                      const IdentifyOptions& options, const SensorNoise& noise) {
-  const Separator separator(drives, names, options.sample_period, noise);
+                                      const IdentifyOptions& options,
+                                      const std::function<void(std::size_t strut, const MonitorReport&)>& report,
+                                      const SensorNoise& noise) {
+  const Separator separator(drives, names, options.sample_period, {}, noise);
   VehicleIdentification result{separator.coupling(), {}};
   if (!result) return result;
   const auto separated = separator.separate();
@@ -134,6 +143,7 @@ VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, co
   for (std::size_t i = 0; i < separated.size(); ++i) {
     IdentifyOptions strut = options;
     strut.sample_period = separator.period();
+    if (report) strut.report = [&report, i](const MonitorReport& each) { report(i, each); };
     if (!options.horizon_samples) strut.horizon_samples = horizonFor(separator.models()[i], separator.period());
     IdentifyResult& identified = result.struts.emplace_back(identify(separated[i], strut));
     const auto [damping, stiffness] = stddevs[i];
@@ -146,8 +156,8 @@ VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, co
 }
 
 VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& strut_names,
-                                 const DiagnoseOptions& options, const SensorNoise& noise) {
-  Separator separator(drives, strut_names, options.sample_period, noise);
+                                 const DiagnoseOptions& options, const KnownModels& models, const SensorNoise& noise) {
+  Separator separator(drives, strut_names, options.sample_period, models, noise);
   VehicleDiagnosis result;
   result.coupling = separator.coupling();
   if (!result) {
@@ -156,20 +166,23 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const s
   }
   const std::size_t n = strut_names.size();
   result.struts.resize(n);
+  result.drives.resize(n);
   std::vector<bool> settled(n, false);
   const StrutDrives of_noise = separator.separateNoise();
   double done = 0.0;
   for (auto open = n; open > 0; --open) {
-    const auto separated = separator.separate();
+    auto separated = separator.separate();
     const double step = (1.0 - done) / (static_cast<double>(open) + 1.0);  // what another round takes is not known
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < n; ++i) {
       if (settled[i]) continue;
       DiagnoseOptions strut = options;
       strut.sample_period = separator.period();
+      strut.model = models.empty() ? std::nullopt : models[i];
       strut.noise = of_noise[i];
       if (options.progress) strut.progress = [&](double share) { options.progress(done + share * step); };
       result.struts[i] = diagnose(separated[i], strut);
+      result.drives[i] = std::move(separated[i]);
       done += step;
       const Diagnosis& found = result.struts[i];
       if (found) separator.setModel(i, found.base.model);

@@ -1,7 +1,8 @@
 // Making elements. Text only ever becomes text, never markup: names of files and effects are the user's.
 
-function element(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
+const element = (tag, attributes, ...children) => filled(document.createElement(tag), attributes, children);
+
+function filled(node, attributes = {}, children = []) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === false || value === undefined || value === null) continue;
     if (name.startsWith('on'))
@@ -23,10 +24,10 @@ function section(id, title, lede, ...content) {
 const head = (text, kind) => element('th', {class: kind}, text);
 
 /** A table that a narrow page may scroll sideways. */
-function wideTable(heads, rows) {
+function wideTable(heads, rows, kind = null) {
   return element(
       'div', {class: 'wide'},
-      element('table', {}, element('thead', {}, element('tr', {}, heads)), element('tbody', {}, rows)));
+      element('table', {class: kind}, element('thead', {}, element('tr', {}, heads)), element('tbody', {}, rows)));
 }
 
 /** Names what the colours mean: entries [colour, text, dashed?]. */

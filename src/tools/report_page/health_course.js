@@ -1,16 +1,5 @@
 // Levels as a band over time, damping and stiffness below it, all with one window in time.
 
-/** An axis of time in s, min or h. */
-class TimeAxis extends Axis {
-  setDomain(domain) {
-    this.domain = domain;
-    const last = domain[1];
-    this.scale = last < 600 ? {factor: 1, unit: 's'} :
-        last < 3 * 3600     ? {factor: 1 / 60, unit: 'min'} :
-                              {factor: 1 / 3600, unit: 'h'};
-  }
-}
-
 /** The levels with the times between which they held. */
 function levelSpans({events, duration}) {
   return events.map(
@@ -111,96 +100,62 @@ function parameterPlot(host, time, parameter, thresholds, axes) {
   });
 }
 
-class HealthView {
-  constructor(findings) {
-    Object.assign(this, {findings, plots: [], window: [0, findings.duration]});
-    const hosts = ['band', 'damping', 'stiffness'].map(() => element('div', {class: 'zoomable'}));
-    this.content = [
-      element(
-          'div', {class: 'toolbar'}, toolButton('−', () => this.zoom(2), 'show more'),
-          toolButton('+', () => this.zoom(0.5), 'show less'),
-          toolButton('whole drive', () => this.show(this.whole), 'everything')),
-      legend(
-          ...LEVELS.map(level => [AREAS[level], levelName(level), 'area']),
-          ...(findings.early_warnings.length ? [['suspect', 'early warning']] : [])),
-      figure('Level', hosts[0]),
-      ...this.hasEstimates ?
-          [
-            legend(
-                ['after', 'estimate (la)'], ['after', '95 % interval', 'band'], ['fine', 'healthy'],
-                ['open', 'warning', 'dashed'], ['found', 'error', 'dashed']),
-            figure('Damping / mass', hosts[1]), figure('Stiffness / mass', hosts[2])
-          ] :
-          [element('p', {}, 'No estimate was ever valid.')]
-    ];
-    whenPlaced(() => this.build(hosts));
-  }
+const boundaries = ({recordings}) => recordings.slice(1).map(({from}) => from);
 
-  get hasEstimates() {
-    return this.findings.course.damping.value.some(isNumber);
-  }
+const levelLegend = early => legend(
+    ...LEVELS.map(level => [AREAS[level], levelName(level), 'area']), ...(early ? [['suspect', 'early warning']] : []));
 
-  get whole() {
-    return [0, this.findings.duration];
-  }
-
-  build([band, damping, stiffness]) {
-    const {course, thresholds, recordings, duration} = this.findings;
-    const axis = () => new TimeAxis({title: 'time', unit: 's', domain: [0, duration]});
-    const marks = recordings.slice(1).map(({from}) => from);
-    const one = (host, name, title, unit) =>
-        parameterPlot(host, course.time, course[name], thresholds[name], {x: axis(), y: {title, unit}, marks});
-    this.plots = [this.bandPlot(band, axis(), marks)];
-    if (this.hasEstimates)
-      this.plots.push(one(damping, 'damping', 'b₁', '1/s'), one(stiffness, 'stiffness', 'b₀', '1/s^2'));
-    for (const plot of this.plots) listenZoom(plot, this);
-    this.show(this.whole);
-  }
-
-  bandPlot(host, x, marks) {
-    const spans = levelSpans(this.findings);
-    const y = new Axis({title: '', domain: [0, 1]});
-    y.ticks = () => [];
-    const early = this.findings.early_warnings.map(({after}) => after);
-    return new Plot(host, {
-      x,
-      y,
-      height: 96,
-      name: 'levels over time',
-      layers: [levelsLayer(spans), marksLayer(marks, 'ink', [2, 4]), marksLayer(early, 'suspect')],
-      hover(at) {
-        const here = spans.filter(({from}) => from <= at).pop();
-        return here &&
-            {title: `${here.level} for ${span(here.to - here.from)}`, at, rows: [[typeset(here.message), '']]};
-      }
-    });
-  }
-
-  show([from, to]) {
-    const {duration} = this.findings;
-    const length = Math.min(duration, Math.max(Math.min(duration, 2), to - from));
-    const start = Math.max(0, Math.min(duration - length, (from + to - length) / 2));
-    this.window = [start, start + length];
-    for (const plot of this.plots) {
-      plot.x.setDomain(this.window);
-      plot.draw();
+/** The levels of a strut as a band. */
+function bandPlot(host, x, findings) {
+  const spans = levelSpans(findings);
+  const y = new Axis({title: '', domain: [0, 1]});
+  y.ticks = () => [];
+  const early = findings.early_warnings.map(({after}) => after);
+  return new Plot(host, {
+    x,
+    y,
+    height: 96,
+    name: `levels over time${findings.strut ? ` of ${spoken(findings.strut)}` : ''}`,
+    layers: [levelsLayer(spans), marksLayer(boundaries(findings), 'ink', [2, 4]), marksLayer(early, 'suspect')],
+    hover(at) {
+      const here = spans.filter(({from}) => from <= at).pop();
+      return here && {title: `${here.level} for ${span(here.to - here.from)}`, at, rows: [[typeset(here.message), '']]};
     }
-  }
-
-  zoom(factor, centre = (this.window[0] + this.window[1]) / 2) {
-    this.show(this.window.map(edge => centre + factor * (edge - centre)));
-  }
-
-  move(seconds) {
-    this.show(this.window.map(edge => edge + seconds));
-  }
+  });
 }
 
-function courseSection(findings) {
+/** Levels, damping and stiffness of one strut. */
+function courseFigures(findings) {
+  const {course, thresholds, duration} = findings;
+  const view = new TimeWindow(duration);
+  const hosts = ['band', 'damping', 'stiffness'].map(() => element('div', {class: 'zoomable'}));
+  const hasEstimates = course.damping.value.some(isNumber);
+  const marks = boundaries(findings);
+  const one = (host, name, title, unit) =>
+      parameterPlot(host, course.time, course[name], thresholds[name], {x: view.axis(), y: {title, unit}, marks});
+  whenPlaced(() => view.begin([
+    bandPlot(hosts[0], view.axis(), findings),
+    ...(hasEstimates ? [one(hosts[1], 'damping', 'b₁', '1/s'), one(hosts[2], 'stiffness', 'b₀', '1/s^2')] : [])
+  ]));
+  return [
+    view.toolbar(), levelLegend(findings.early_warnings.length), figure('Level', hosts[0]),
+    ...(hasEstimates ?
+            [
+              legend(
+                  ['after', 'estimate (la)'], ['after', '95 % interval', 'band'], ['fine', 'healthy'],
+                  ['open', 'warning', 'dashed'], ['found', 'error', 'dashed']),
+              figure('Damping / mass', hosts[1]), figure('Stiffness / mass', hosts[2])
+            ] :
+            [element('p', {}, 'No estimate was ever valid.')])
+  ];
+}
+
+function courseSection(findings, several) {
   const drives = findings.recordings.length > 1 ? ' Dotted lines part the recordings.' : '';
   return section(
-      'course', 'Level, damping and stiffness over time',
+      idOf('course', findings.strut, several),
+      titleOf('Level, damping and stiffness over time', findings.strut, several),
       `Time is what the recordings cover, one after the other.${
           drives} Where an estimate is not valid there is no line.`,
-      new HealthView(findings).content);
+      courseFigures(findings));
 }

@@ -1,9 +1,14 @@
 // Puts the page of health together, section by section.
 
 function buildHealthPage() {
-  const findings = readFindings();
-  showPage(headline(findings), [
-    healthVerdictSection(findings), courseSection(findings), eventsSection(findings), estimatesSection(findings),
+  const {struts} = readFindings();
+  const several = struts.length > 1;
+  showPage(headlineOf(struts), [
+    several ? [overviewSection(struts), levelsSection(struts)] : [],
+    struts.map(
+        strut =>
+            [healthVerdictSection(strut, several), courseSection(strut, several), eventsSection(strut, several),
+             estimatesSection(strut, several)]),
     element(
         'footer', {},
         element(

@@ -2,7 +2,7 @@
 
 const MOST_EVENTS = 500;  // that a person would read
 
-function eventsSection({events}) {
+function eventsSection({strut, events}, several) {
   const rows = events.slice(0, MOST_EVENTS)
                    .map(
                        ({time, after, level, message}) => element(
@@ -13,7 +13,7 @@ function eventsSection({events}) {
                            element('td', {}, typeset(message))));
   const left = events.length - rows.length;
   return section(
-      'events', 'Events', 'Every change of level with its reason.',
+      idOf('events', strut, several), titleOf('Events', strut, several), 'Every change of level with its reason.',
       wideTable([head('stamp [s]', 'number minor'), head('after', 'moment'), head('level'), head('reason')], rows),
       left > 0 ? element('p', {class: 'lede'}, `${left} more: --json and --csv have all.`) : null);
 }
@@ -30,9 +30,9 @@ function estimateRow(name, estimate) {
       element('td', {}, estimate.valid ? 'yes' : 'no'));
 }
 
-function estimatesSection({estimates}) {
+function estimatesSection({strut, estimates}, several) {
   return section(
-      'estimates', 'Estimates at the end',
+      idOf('estimates', strut, several), titleOf('Estimates at the end', strut, several),
       'What the monitor’s two estimators know after the last reading, ± standard deviation: la, which outliers hardly ' +
           'move, and ls, least squares.',
       wideTable(

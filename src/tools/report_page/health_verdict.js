@@ -40,6 +40,10 @@ function headline({events}) {
   return typeset(`${capitalised(MEANINGS[level])} after ${span(after)}: ${message.split(';')[0]}`);
 }
 
+/** A section's id and title, with the strut's name where there are several. */
+const idOf = (id, strut, several) => (several ? `${id}-${strut}` : id);
+const titleOf = (title, strut, several) => (several ? `${capitalised(spoken(strut))}: ${title.toLowerCase()}` : title);
+
 function levelFigures({seconds, duration}) {
   const one = level => element(
       'div', {style: `--colour: var(--${TONES[level]})`, 'data-seconds': seconds[level], 'data-level': level},
@@ -50,12 +54,19 @@ function levelFigures({seconds, duration}) {
   return element('dl', {class: 'figures-row'}, LEVELS.map(one));
 }
 
-function healthVerdictSection(findings) {
-  const {events, end, early_warnings: early, judged_by: reference} = findings;
+function healthVerdictSection(findings, several) {
+  const {strut, events, end, early_warnings: early, judged_by: reference} = findings;
   const worst = worstLevel(events);
   return element(
-      'section', {id: 'verdict', 'data-level': worst}, element('p', {class: 'source'}, findings.source),
-      element('h1', {}, element('span', {class: 'pill'}, worst), element('br'), headline(findings)),
+      'section', {id: idOf('verdict', strut, several), class: 'verdict', 'data-level': worst},
+      element(
+          'p', {class: 'source'},
+          `${several ? '' : `${strut ? `${spoken(strut)} in ` : ''}${findings.source}, `}horizon ${
+              quantity(findings.horizon, 's')}`),
+      element(
+          several ? 'h2' : 'h1', {},
+          several ? `${capitalised(spoken(strut))}: ` : [element('span', {class: 'pill'}, worst), element('br')],
+          headline(findings)),
       element('p', {class: 'answer'}, element('b', {}, `At the end ${end.level}: `), `${typeset(end.message)}.`),
       element('p', {}, `Judged by ${typeset(reference)}.`),
       early.length ? element(

@@ -20,7 +20,7 @@ function noteWhatIsPainted() {
 
 function showPage(title, sections) {
   document.title = title;
-  document.getElementById('page').append(...sections.filter(Boolean));
+  document.getElementById('page').append(...sections.flat(Infinity).filter(Boolean));
   for (const draw of waiting) draw();
   noteWhatIsPainted();
   document.documentElement.dataset.ready = 'yes';

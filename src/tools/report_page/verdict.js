@@ -100,24 +100,30 @@ function keyFigures(findings) {
   figures.push(one('what sensor noise alone leaves, about', error(floor), scale.unit, 'floor'));
   if (extended) {
     const removed = avoidableRemoved(findings.search);
-    figures.push(one(
-        'of the avoidable error removed', removed > 99.5 ? '> 99' : rounded(Math.max(0, removed), 2), '%', 'good'));
+    figures.push(
+        one('of the avoidable error removed', removed > 99.5 ? '> 99' : rounded(Math.max(0, removed), 2), '%', 'good'));
   } else {
     figures.push(one('of the error is no noise, about', rounded(100 * structure, 2), '%'));
   }
   return element('dl', {class: 'figures-row'}, figures);
 }
 
+/** The way back to the vehicle of the strut, and what of it is in no strut. */
+function ofVehicle({vehicle}) {
+  if (!vehicle) return null;
+  const bars = vehicle.bars.map(
+      other => `An anti-roll bar ties it to ${spoken(other)}: known from the coupling, and taken out here. `);
+  const back = vehicle.has_page ? element('a', {href: '../report.html'}, 'The whole vehicle') : null;
+  return element('p', {}, `${capitalised(spoken(vehicle.strut))} without what the other struts do to it. `, bars, back);
+}
+
 function verdictSection(findings) {
   const {verdict, selected} = findings.search;
-  const pill = {
-    effect_found: selected.length > 1 ? 'Effects found' : 'Effect found',
-    suspect: 'Main suspect',
-    nothing_missing: 'Nothing missing',
-    unexplained: 'Unexplained'
-  }[verdict];
   return element(
       'section', {id: 'verdict', 'data-verdict': verdict}, element('p', {class: 'source'}, findings.source),
-      element('h1', {}, element('span', {class: 'pill'}, pill), element('br'), headline(findings)),
-      selected.map(name => effectSentence(findings, name)), nextSteps(findings), keyFigures(findings));
+      element(
+          'h1', {}, element('span', {class: 'pill'}, verdictWord(verdict, selected.length)), element('br'),
+          headline(findings)),
+      ofVehicle(findings), selected.map(name => effectSentence(findings, name)), nextSteps(findings),
+      keyFigures(findings));
 }

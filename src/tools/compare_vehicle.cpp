@@ -1,0 +1,44 @@
+#include <cstdio>
+
+#include "bag_options.h"
+#include "command.h"
+#include "long_work.h"
+#include "recorded_vehicle.h"
+#include "results.h"
+#include "strut_files.h"
+#include "vehicle_commands.h"
+#include "vehicle_tables.h"
+
+namespace suspension_health_monitor {
+
+void compareStruts(const boost::program_options::variables_map& values) {
+  const Interruption interruption;
+  std::optional<TextFile> file = outputFile(values, "json");
+  const AskedVehicle vehicle = readVehicle(values);
+  const KnownModels models = readModels(values, vehicle, readEffects(values));
+  PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
+  const std::vector<StrutDrives> drives = readDrives(values, vehicle, settings);
+  const SeparatedVehicle separated = separateVehicle(drives, vehicle.names, settings.monitor.sample_period, models);
+  requireCoupling(separated.coupling);
+  printCoupling(separated.coupling, vehicle.names);
+  nlohmann::json whole = toJson(separated.coupling, vehicle.names);
+  Progress progress("comparing", static_cast<double>(vehicle.asked.size()));
+  double done = 0.0;
+  for (const std::size_t i : vehicle.asked) {
+    CompareOptions options;
+    options.sample_period = settings.monitor.sample_period;
+    options.horizon_samples = givenHorizon(settings);
+    options.model = models[i];
+    options.fit = !models[i];
+    options.progress = [&](double share) { progress.update(done + share); };
+    const Comparison comparison = compare(separated.struts[i], options);
+    requireEnough(comparison.shortcoming, comparison.reason);
+    done += 1.0;
+    std::printf("\n%s\n", vehicle.names[i].c_str());
+    printComparison(comparison);
+    whole["struts"][vehicle.names[i]] = toJson(comparison);
+  }
+  if (file) file->commit(whole.dump(2) + '\n');
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,69 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "identify_tables.h"
+#include "long_work.h"
+#include "recorded_vehicle.h"
+#include "row_table.h"
+#include "vehicle_commands.h"
+#include "vehicle_tables.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+nlohmann::json toJson(const IdentifyResult& found) {
+  return {{"samples", found.samples},
+          {"rows", found.rows},
+          {"gaps", found.gaps},
+          {"clock_jumps", found.clock_jumps},
+          {"sample_period", found.sample_period},
+          {"horizon_samples", found.horizon_samples},
+          {"warnings", found.warnings},
+          {"ls", toJson(found.ls)},
+          {"la", toJson(found.la)},
+          {"iv", toJson(found.iv)}};
+}
+
+}  // namespace
+
+void identifyStruts(const boost::program_options::variables_map& values) {
+  const Interruption interruption;
+  std::optional<TextFile> file = outputFile(values, "json"), csv = outputFile(values, "csv");
+  const AskedVehicle vehicle = readVehicle(values);
+  PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
+  const std::vector<StrutDrives> drives = readDrives(values, vehicle, settings);
+  IdentifyOptions options;
+  options.sample_period = settings.monitor.sample_period;
+  options.horizon_samples = givenHorizon(settings);
+  options.memory = settings.monitor.memory;
+  std::vector<RowTable> rows;
+  for (std::size_t i = 0; i < vehicle.names.size(); ++i)
+    rows.emplace_back(csv && (!vehicle.only || *vehicle.only == i) ? csv->stream() : nullptr,
+                      vehicle.only ? "" : vehicle.names[i]);
+  if (csv) RowTable::writeHead(csv->stream(), !vehicle.only);
+  std::size_t last = 0;
+  const VehicleIdentification found =
+      identifyVehicle(drives, vehicle.names, options, [&](std::size_t strut, const MonitorReport& report) {
+        if (strut != last) rows[last].finish();
+        rows[last = strut].add(report);
+      });
+  rows[last].finish();
+  requireCoupling(found.coupling);
+  printCoupling(found.coupling, vehicle.names);
+  nlohmann::json whole = toJson(found.coupling, vehicle.names);
+  for (const std::size_t i : vehicle.asked) {
+    const IdentifyResult& strut = found.struts[i];
+    std::printf("\n%s, at the end, over the last %.0f rows:\n", vehicle.names[i].c_str(), strut.la.rows);
+    printResult("LS", strut.ls, settings.monitor.sprung_mass);
+    printResult("LA", strut.la, settings.monitor.sprung_mass);
+    std::printf("over the whole drive, by instrumental variables:\n");
+    printResult("IV", strut.iv, settings.monitor.sprung_mass);
+    for (const std::string& warning : strut.warnings) std::printf("warning: %s\n", warning.c_str());
+    whole["struts"][vehicle.names[i]] = toJson(strut);
+  }
+  if (csv) csv->commit();
+  if (file) file->commit(whole.dump(2) + '\n');
+}
+
+}  // namespace suspension_health_monitor

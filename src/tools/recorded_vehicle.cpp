@@ -1,0 +1,80 @@
+#include "recorded_vehicle.h"
+
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "../ros/vehicle_file.h"
+#include "bag_options.h"
+#include "bag_samples.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+#include "vehicle_bags.h"
+#include "vehicle_commands.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr const char* kVehicle = "vehicle";
+constexpr const char* kStrut = "strut";
+
+}  // namespace
+
+void addVehicleOptions(po::options_description& description) {
+  auto add = description.add_options();
+  add(kVehicle, po::value<std::string>(),
+      "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
+  add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
+}
+
+bool isOfVehicle(const po::variables_map& values) {
+  if (values.count(kStrut) != 0 && values.count(kVehicle) == 0)
+    throw std::invalid_argument("--strut " + values[kStrut].as<std::string>() + " without --vehicle, which it is of");
+  return values.count(kVehicle) != 0;
+}
+
+void refuseBesideVehicle(const po::variables_map& values, std::initializer_list<const char*> options) {
+  for (const char* option : options)
+    if (values.count(option) != 0 && !values[option].defaulted())
+      throw std::invalid_argument("--" + std::string(option) + " beside --vehicle, must be left out");
+}
+
+AskedVehicle readVehicle(const po::variables_map& values) {
+  refuseBesideVehicle(values, {"sprung-topic", "unsprung-topic", "road-topic"});
+  AskedVehicle vehicle;
+  vehicle.file = values[kVehicle].as<std::string>();
+  vehicle.layout = readVehicleFile(vehicle.file);
+  for (const VehicleLayout::Strut& strut : vehicle.layout.struts) vehicle.names.push_back(strut.name);
+  for (std::size_t i = 0; i < vehicle.names.size(); ++i)
+    if (values.count(kStrut) == 0 || values[kStrut].as<std::string>() == vehicle.names[i]) vehicle.asked.push_back(i);
+  if (vehicle.asked.empty())
+    throw std::invalid_argument("--strut " + values[kStrut].as<std::string>() + ", must be one of " +
+                                join(vehicle.names));
+  if (values.count(kStrut) != 0) vehicle.only = vehicle.asked.front();
+  return vehicle;
+}
+
+std::vector<StrutDrives> readDrives(const po::variables_map& values, const AskedVehicle& vehicle,
+                                    PipelineOptions& options) {
+  ImuBags bags = readBags(values);
+  if (!options.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+  std::vector<VehicleBag> read = readVehicleDrives(bags, options, vehicle.layout);
+  std::printf("sample period %.6g s\n", *options.monitor.sample_period);
+  std::vector<StrutDrives> drives;
+  for (VehicleBag& bag : read) {
+    std::printf("%zu samples of %zu struts, readings %s\n", bag.struts.front().samples.size(), bag.struts.size(),
+                bag.alignment.c_str());
+    for (const VehicleBag::Imu& imu : bag.imus)
+      if (imu.rejected.total() > 0) std::printf("%s%s\n", imu.topic.c_str(), describeRejected(imu.rejected).c_str());
+    drives.push_back(std::move(bag.struts));
+  }
+  return drives;
+}
+
+std::optional<int> givenHorizon(const PipelineOptions& options) {
+  if (!options.monitor.integration_horizon) return std::nullopt;
+  return MonitorSettings(options.monitor).horizonSamples(*options.monitor.sample_period);
+}
+
+}  // namespace suspension_health_monitor

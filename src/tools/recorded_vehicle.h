@@ -1,0 +1,41 @@
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../ros/shell_options.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
+#include "suspension_health_monitor/vehicle.h"
+
+namespace suspension_health_monitor {
+
+/// The vehicle of --vehicle, and which of its struts are asked for.
+struct AskedVehicle {
+  VehicleLayout layout;
+  std::string file;
+  std::vector<std::string> names;   ///< of the struts
+  std::vector<std::size_t> asked;   ///< their places
+  std::optional<std::size_t> only;  ///< place of the strut of --strut
+};
+
+/// Refuses options that have no meaning for a vehicle.
+/// @throws std::invalid_argument  naming the option.
+void refuseBesideVehicle(const boost::program_options::variables_map& values,
+                         std::initializer_list<const char*> options);
+
+/// @throws std::invalid_argument  as readVehicleFile(), for topics of one strut, and for a strut that is none of it.
+AskedVehicle readVehicle(const boost::program_options::variables_map& values);
+
+/// Reads all bags as drives of the vehicle, and tells people what they hold.
+/// @param options  without a sample_period it is measured and set.
+/// @throws InputError, TooLittleError, std::invalid_argument  as readVehicleDrives().
+std::vector<StrutDrives> readDrives(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
+                                    PipelineOptions& options);
+
+/// @return L, if the settings give the horizon.
+std::optional<int> givenHorizon(const PipelineOptions& options);
+
+}  // namespace suspension_health_monitor

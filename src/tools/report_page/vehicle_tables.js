@@ -1,0 +1,51 @@
+// The struts by numbers, and how they move one another.
+
+function strutRow(strut, scale) {
+  const {name, verdict, selected = [], damping_to_mass: damping, stiffness_to_mass: stiffness} = strut;
+  const error = key => (isNumber(strut[key]) ? rounded(strut[key] * scale.factor) : '–');
+  return element(
+      'tr', {'data-strut': name, 'data-verdict': verdict}, element('td', {}, strutName(strut)),
+      element('td', {}, element('span', {class: 'word'}, verdictWord(verdict, selected.length))),
+      [damping, stiffness].map(value => element('td', {class: 'number'}, rounded(value, 4))),
+      ['error_before', 'error_after', 'noise_floor'].map(key => element('td', {class: 'number minor'}, error(key))));
+}
+
+function strutsSection({struts}) {
+  const scale = scaleFor(Math.max(0, ...struts.map(({error_before: error = 0}) => error)), 'm/s^2');
+  return section(
+      'struts', 'The struts by numbers',
+      'Damping b₁ and stiffness b₀ over the mass that each has of the body, free of what the others do; error: of the ' +
+          'predicted acceleration on parts of the drive that no fit has seen, of the model as it is.',
+      wideTable(
+          [
+            head('strut'), head('verdict'), head('b₁ [1/s]', 'number'), head('b₀ [1/s²]', 'number'),
+            head(`error [${scale.unit}]`, 'number minor'), head('with what was found', 'number minor'),
+            head('noise floor', 'number minor')
+          ],
+          struts.map(strut => strutRow(strut, scale))));
+}
+
+/** A ratio to the first digit of its standard deviation. */
+function ratioCell(value, stddev) {
+  const digits = stddev > 0 ? Math.min(4, Math.max(0, -Math.floor(Math.log10(stddev)))) : 3;
+  const shown = number => number.toFixed(digits).replace('-', '−');
+  return [shown(value), element('small', {}, `± ${shown(stddev)}`)];
+}
+
+function couplingSection({struts, ratios, stddevs, condition}) {
+  if (struts.length < 2) return null;
+  const cell = (i, j) => element(
+      'td', {class: 'number', 'data-ratio': ratios[i][j], 'data-stddev': i === j ? null : stddevs[i][j]},
+      i === j ? '1' : ratioCell(ratios[i][j], stddevs[i][j]));
+  return section(
+      'coupling', 'How the struts move one another',
+      'A row is the top of a strut: how much of what each strut does to its own top reaches it, ± standard deviation. ' +
+          'The ratios belong to the body and to where the struts stand, not to wear; positive: both are pushed the ' +
+          `same way. Condition ${rounded(condition, 2)}: 1 is best, above 20 the tracks were much alike.`,
+      wideTable(
+          [head('moved by'), struts.map(({name}) => head(spoken(name), 'number'))],
+          struts.map(
+              ({name}, i) => element(
+                  'tr', {'data-strut': name}, element('td', {}, spoken(name)), struts.map((_, j) => cell(i, j)))),
+          'matrix'));
+}

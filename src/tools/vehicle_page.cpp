@@ -1,0 +1,98 @@
+#include "vehicle_page.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "errors.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using nlohmann::json;
+
+/// @param has_page  of its own, to be opened.
+json strutJson(const VehicleLayout::Strut& strut, std::size_t place, const VehicleDiagnosis& found, bool has_page) {
+  const Diagnosis& its = found.struts[place];
+  json result{{"name", strut.name}, {"has_page", has_page}};
+  if (strut.position) result["position"] = *strut.position;
+  if (!its) {
+    result["verdict"] = "cannot_tell";
+    result["reason"] = its.reason;
+    return result;
+  }
+  result["verdict"] = nameOf(found.verdictOn(place));
+  result["selected"] = found.selected(place);
+  result["indistinguishable"] = its.indistinguishable;
+  result["damping_to_mass"] = its.model().damping_to_mass;
+  result["stiffness_to_mass"] = its.model().stiffness_to_mass;
+  result["error_before"] = its.base.held_out_rmse;
+  if (its.extended) result["error_after"] = its.extended->held_out_rmse;
+  result["noise_floor"] = its.noise_floor;
+  return result;
+}
+
+json barsJson(const VehicleCoupling& coupling) {
+  json bars = json::array();
+  for (const AntiRollBarFound& bar : coupling.bars)
+    bars.push_back({{"struts", {bar.first, bar.second}},
+                    {"stiffness_to_mass", {bar.first_stiffness_to_mass, bar.second_stiffness_to_mass}}});
+  return bars;
+}
+
+/// The struts that bars tie one to.
+std::vector<std::string> partnersOf(std::size_t place, const VehicleCoupling& coupling,
+                                    const std::vector<std::string>& names) {
+  std::vector<std::string> partners;
+  for (const AntiRollBarFound& bar : coupling.bars) {
+    if (bar.first == place) partners.push_back(names[bar.second]);
+    if (bar.second == place) partners.push_back(names[bar.first]);
+  }
+  return partners;
+}
+
+std::string sourceOf(const VehicleDiagnosis& found, double period, const std::vector<std::string>& drive_names) {
+  std::size_t samples = 0;
+  for (const Drive& drive : found.drives.front()) samples += drive.samples.size();
+  return join(drive_names) + formatted(": %.4g s at %.4g Hz", static_cast<double>(samples) * period, 1.0 / period);
+}
+
+}  // namespace
+
+VehiclePage::VehiclePage(const std::string& folder, const AskedVehicle& vehicle) : vehicle_(vehicle) {
+  if (vehicle.only) {
+    struts_.try_emplace(*vehicle.only, folder);
+    return;
+  }
+  page_.emplace(folder);
+  for (std::size_t i = 0; i < vehicle.names.size(); ++i)
+    struts_.try_emplace(i, (std::filesystem::path(folder) / vehicle.names[i]).string());
+}
+
+void VehiclePage::writeStrut(std::size_t place, const VehicleDiagnosis& found, const DiagnoseOptions& options,
+                             const std::vector<std::string>& names) {
+  const InVehicle in{vehicle_.names[place], vehicle_.file, partnersOf(place, found.coupling, vehicle_.names),
+                     page_.has_value()};
+  struts_.at(place).write(found.struts[place], found.drives[place], options, names, &in);
+}
+
+void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options,
+                        const std::vector<std::string>& names) {
+  if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, names);
+  json struts = json::array();
+  for (std::size_t i = 0; i < vehicle_.names.size(); ++i) {
+    if (found.struts[i]) writeStrut(i, found, options, names);
+    struts.push_back(strutJson(vehicle_.layout.struts[i], i, found, static_cast<bool>(found.struts[i])));
+  }
+  page_->write(vehicleTemplate(), shortened({{"source", sourceOf(found, *options.sample_period, names)},
+                                             {"verdict", nameOf(found.verdict)},
+                                             {"summary", found.summary},
+                                             {"struts", struts},
+                                             {"ratios", found.coupling.ratios},
+                                             {"stddevs", found.coupling.stddevs},
+                                             {"condition", found.coupling.condition},
+                                             {"anti_roll_bars", barsJson(found.coupling)}}));
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,64 @@
+#include "vehicle_tables.h"
+
+#include <cstdio>
+
+#include "errors.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using nlohmann::json;
+
+json couplingJson(const std::vector<std::vector<double>>& ratios, const std::vector<std::string>& names) {
+  json result = json::object();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t j = 0; j < names.size(); ++j)
+      if (i != j) result[names[i]][names[j]] = ratios[i][j];
+  return result;
+}
+
+json barsJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  json bars = json::array();
+  for (const AntiRollBarFound& bar : coupling.bars)
+    bars.push_back(
+        {{"struts", {names[bar.first], names[bar.second]}},
+         {"stiffness_to_mass",
+          {{names[bar.first], bar.first_stiffness_to_mass}, {names[bar.second], bar.second_stiffness_to_mass}}}});
+  return bars;
+}
+
+}  // namespace
+
+void requireCoupling(const VehicleCoupling& coupling) {
+  if (!coupling) throw TooLittleError("the drives " + coupling.reason);
+}
+
+void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  if (names.size() < 2) return;
+  std::printf("how much of what a strut does to its own top reaches the others (condition %.2g):\n%16s",
+              coupling.condition, "moved by");
+  for (const std::string& name : names) std::printf("  %14s", name.c_str());
+  std::printf("\n");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::printf("%16s", names[i].c_str());
+    for (std::size_t j = 0; j < names.size(); ++j)
+      if (i == j)
+        std::printf("  %14s", "1");
+      else
+        std::printf("  %6.3f +-%6.3f", coupling.ratios[i][j], coupling.stddevs[i][j]);
+    std::printf("\n");
+  }
+  for (const AntiRollBarFound& bar : coupling.bars)
+    std::printf("anti-roll bar between %s and %s: stiffness/mass %.4g and %.4g 1/s^2\n", names[bar.first].c_str(),
+                names[bar.second].c_str(), bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
+}
+
+json toJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  return {{"struts", json::object()},
+          {"coupling", couplingJson(coupling.ratios, names)},
+          {"coupling_stddevs", couplingJson(coupling.stddevs, names)},
+          {"anti_roll_bars", barsJson(coupling, names)},
+          {"condition", coupling.condition}};
+}
+
+}  // namespace suspension_health_monitor
