@@ -65,7 +65,7 @@ double percent(double value, double truth) { return 100.0 * (value / truth - 1.0
 void printLinear(const char* kind, unsigned seed) {
   Driven driven = prepared(kind, seed);
   drive(driven);
-  const std::vector<StrutDrives> drives{driven.struts()};
+  const std::vector<VehicleDrive> drives{driven.struts()};
   const VehicleIdentification found = identifyVehicle(drives, driven.names);
   const VehicleDiagnosis diagnosis = diagnoseVehicle(drives, driven.names);
   if (!found) {

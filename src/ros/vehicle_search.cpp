@@ -15,7 +15,7 @@ namespace {
 VehicleDiagnosis searchEffects(const VehicleSearchTask& task) {
   VehicleDiagnosis found = diagnoseVehicle({task.drive}, task.struts, task.options);
   if (found) return found;
-  const std::vector<CornerSample>& samples = task.drive.front().samples;
+  const std::vector<CornerSample>& samples = task.drive.struts.front().samples;
   throw std::runtime_error(formatted("the last %.3g s ", toSeconds(samples.back().stamp - samples.front().stamp)) +
                            found.coupling.reason);
 }

@@ -13,7 +13,7 @@ namespace suspension_health_monitor {
 
 /// What a live search in a vehicle works on.
 struct VehicleSearchTask {
-  StrutDrives drive;
+  VehicleDrive drive;
   std::vector<std::string> struts;
   DiagnoseOptions options;
 };

@@ -40,7 +40,7 @@ constexpr const char* kStrut = "strut";
 struct Recorded {
   std::vector<std::string> names;  ///< of the struts
   std::vector<std::size_t> asked;  ///< their places
-  std::vector<StrutDrives> drives;
+  std::vector<VehicleDrive> drives;
   PipelineOptions options;  ///< with sample_period
 };
 
@@ -67,11 +67,13 @@ Recorded readRecorded(const po::variables_map& values) {
   std::vector<VehicleBag> read = readVehicleDrives(bags, recorded.options, layout);
   std::printf("sample period %.6g s\n", *recorded.options.monitor.sample_period);
   for (VehicleBag& bag : read) {
-    std::printf("%zu samples of %zu struts, readings %s\n", bag.struts.front().samples.size(), bag.struts.size(),
+    const StrutDrives& struts = bag.drive.struts;
+    std::printf("%zu samples of %zu struts, readings %s\n", struts.front().samples.size(), struts.size(),
                 bag.alignment.c_str());
-    for (const VehicleBag::Imu& imu : bag.imus)
-      if (imu.rejected.total() > 0) std::printf("%s%s\n", imu.topic.c_str(), describeRejected(imu.rejected).c_str());
-    recorded.drives.push_back(std::move(bag.struts));
+    for (const VehicleBag::Sensor& sensor : bag.sensors)
+      if (sensor.rejected.total() > 0)
+        std::printf("%s%s\n", sensor.topic.c_str(), describeRejected(sensor.rejected).c_str());
+    recorded.drives.push_back(std::move(bag.drive));
   }
   return recorded;
 }
@@ -85,7 +87,17 @@ void requireCoupling(const VehicleCoupling& coupling) {
   if (!coupling) throw TooLittleError("the drives " + coupling.reason);
 }
 
+void printForces(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  for (const KnownForceCoefficients& force : coupling.forces) {
+    std::printf("one unit of %s accelerates the tops by [m/s^2]:", force.name.c_str());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      std::printf("%s %s %.4g +- %.2g", i > 0 ? "," : "", names[i].c_str(), force.values[i], force.stddevs[i]);
+    std::printf("\n");
+  }
+}
+
 void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  printForces(coupling, names);
   if (names.size() < 2) return;
   std::printf("how much of what a strut does to its own top reaches the others (condition %.2g):\n%16s",
               coupling.condition, "moved by");
@@ -123,11 +135,22 @@ json barsJson(const VehicleCoupling& coupling, const std::vector<std::string>& n
   return bars;
 }
 
+json forcesJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  json forces = json::object();
+  for (const KnownForceCoefficients& force : coupling.forces)
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      forces[force.name]["coefficients"][names[i]] = force.values[i];
+      forces[force.name]["stddevs"][names[i]] = force.stddevs[i];
+    }
+  return forces;
+}
+
 json vehicleJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
   return {{"struts", json::object()},
           {"coupling", couplingJson(coupling.ratios, names)},
           {"coupling_stddevs", couplingJson(coupling.stddevs, names)},
           {"anti_roll_bars", barsJson(coupling, names)},
+          {"known_forces", forcesJson(coupling, names)},
           {"condition", coupling.condition}};
 }
 
@@ -260,10 +283,13 @@ void watchStruts(const po::variables_map& values) {
   const Recorded recorded = readRecorded(values);
   const MonitorSettings settings(recorded.options.monitor);
   std::vector<HealthLog> logs(recorded.names.size(), HealthLog(fromSeconds(recorded.options.shell.input_timeout)));
-  VehicleMonitor monitor(std::vector<MonitorSettings>(recorded.names.size(), settings),
-                         [&](std::size_t strut, const MonitorReport& report) { logs[strut].addReport(report); });
-  for (const StrutDrives& drive : recorded.drives) {
-    for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
+  const std::vector<std::string> forces = forceNames(recorded.drives.front());
+  VehicleMonitor monitor(
+      std::vector<MonitorSettings>(recorded.names.size(), settings),
+      [&](std::size_t strut, const MonitorReport& report) { logs[strut].addReport(report); },
+      static_cast<int>(forces.size()));
+  for (const VehicleDrive& drive : recorded.drives) {
+    for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) {
       const VehicleSample sample = sampleOf(drive, k);
       for (HealthLog& log : logs) log.addReading(sample.stamp, sample.stamp);
       monitor.addSample(sample);
@@ -272,7 +298,7 @@ void watchStruts(const po::variables_map& values) {
     for (HealthLog& log : logs) log.finishRecording();
   }
   if (!monitor.isCoupled()) throw TooLittleError("the drives " + reasonOf(monitor.estimate(), recorded.names));
-  json whole = vehicleJson(describe(*monitor.coupling(), recorded.names), recorded.names);
+  json whole = vehicleJson(describe(*monitor.coupling(), recorded.names, forces), recorded.names);
   for (const std::size_t i : recorded.asked) {
     const SuspensionMonitor& strut = *monitor.strut(i);
     std::printf("\n%s, ", recorded.names[i].c_str());

@@ -55,11 +55,13 @@ CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const Integ
   estimate_.coupling.bars = StrutMatrix::Zero(num_struts, num_struts);
   estimate_.coupling.own_power = StrutVector::Zero(num_struts);
   estimate_.stddevs = StrutMatrix::Constant(num_struts, num_struts, HUGE_VAL);
+  estimate_.force_stddevs = ForceMatrix::Constant(num_struts, num_forces, HUGE_VAL);
   estimate_.damping_to_mass = estimate_.stiffness_to_mass = StrutVector::Zero(num_struts);
   estimate_.own_stddevs.setZero(num_struts, 2);
 }
 
 void CouplingEstimator::add(const VehicleSample& sample) {
+  if (first_forces_.size() == 0) first_forces_ = sample.forces;
   if (!fillRow(sample) || !row_due_()) return;
   const double weight = weightOfRow();
   weight_ = forgetting_factor_ * weight_ + weight;
@@ -80,7 +82,7 @@ bool CouplingEstimator::fillRow(const VehicleSample& sample) {
   }
   for (int k = 0; k < num_forces_; ++k) {
     auto& force = forces_[static_cast<std::size_t>(k)];
-    force.push(sample.forces[k]);
+    force.push(sample.forces[k] - first_forces_[k]);
     row_[2 * num_struts_ + k] = force.output(2);
   }
   row_[row_.size() - 1] = 1.0;
@@ -347,29 +349,33 @@ void CouplingEstimator::describeAlike(const Moments& plain, double sensor_varian
   estimate_.second_alike = largest();
 }
 
-// Standard deviations of the ratios, and what they make of each strut's own parameters: an error of rho_ij is taken for
-// the strut's own, as far as strut j moves like it.
+// Standard deviations of ratios and forces' coefficients, and what they make of each strut's own parameters: an error
+// of rho_ij is taken for the strut's own, as far as strut j moves like it; so with a force.
 // @param of_struts  moments of p_j and x_k.  @param rest  of each output.
 // @return the largest rms that they give a strut's own acceleration, as a share of it.
 double CouplingEstimator::describeErrors(const Moments& moments, const Moments& of_struts, const StrutVector& rest) {
   const int n = num_struts_;
-  const StrutVector& power = estimate_.coupling.own_power;
+  const Row power = of_struts.diagonal();
   const Moments inverse = of_struts.ldlt().solve(Moments::Identity(of_struts.rows(), of_struts.cols()));
   double most = 0.0;
   for (int i = 0; i < n; ++i) {
-    Moments variances = rest[i] * kRowsPerIndependent / weight_ * inverse.topLeftCorner(n, n);
+    Moments variances = rest[i] * kRowsPerIndependent / weight_ * inverse;
     variances.row(i).setZero();
     variances.col(i).setZero();
-    estimate_.stddevs.row(i) = variances.diagonal().cwiseSqrt().transpose();
+    estimate_.stddevs.row(i) = variances.diagonal().head(n).cwiseSqrt().transpose();
+    for (int k = 0; k < num_forces_; ++k)
+      estimate_.force_stddevs(i, k) = power[n + k] > 0.0 ? std::sqrt(variances(n + k, n + k)) : HUGE_VAL;
     most = std::max(most, variances.diagonal().dot(power) / power[i]);
     Eigen::Matrix2d of_own;
     of_own << moments(i, i), moments(i, n + i), moments(n + i, i), moments(n + i, n + i);
-    Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStruts> with_others(2, n);
+    using Shared = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStruts + kMostKnownForces>;
+    Shared with_others(2, n + num_forces_);
     for (int j = 0; j < n; ++j) {
       with_others(0, j) = strut(j).dot(Eigen::Vector2d(moments(i, j), moments(i, n + j)));
       with_others(1, j) = strut(j).dot(Eigen::Vector2d(moments(n + i, j), moments(n + i, n + j)));
     }
-    const Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostStruts> taken = of_own.inverse() * with_others;
+    for (int k = 0; k < num_forces_; ++k) with_others.col(n + k) << moments(i, 2 * n + k), moments(n + i, 2 * n + k);
+    const Shared taken = of_own.inverse() * with_others;
     const Eigen::Matrix2d shared = taken * variances * taken.transpose();
     estimate_.own_stddevs.row(i) = shared.diagonal().cwiseSqrt().transpose();
   }

@@ -13,6 +13,8 @@ constexpr double kMeanMemory = 10.0;  // [s]
 constexpr double kLongest = 4.0;      // natural period [s]: softer is no suspension
 constexpr std::array<double, kMostEffects> kNoMemories{};
 
+LimitedMean slowMean(double period) { return LimitedMean(std::exp(-period / kMeanMemory)); }
+
 // That of the slowest strut [samples], even.
 int naturalPeriod(const std::vector<StrutModel>& models, double period) {
   double slowest = 0.0;
@@ -23,7 +25,10 @@ int naturalPeriod(const std::vector<StrutModel>& models, double period) {
 }  // namespace
 
 Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models)
-    : weights_(coupling), bars_(coupling.bars), gravity_(models.size(), LimitedMean(std::exp(-period / kMeanMemory))) {
+    : weights_(coupling),
+      bars_(coupling.bars),
+      gravity_(models.size(), slowMean(period)),
+      force_means_(static_cast<std::size_t>(coupling.forces.cols()), slowMean(period)) {
   const int natural_period = naturalPeriod(models, period);
   for (const StrutModel& model : models) {
     models_.push_back(withoutMemories(model));
@@ -39,8 +44,13 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
     gravity_[j].add(sample.sprung[place]);
     travels_[j].push(sample.unsprung[place] - sample.sprung[place]);
   }
+  for (std::size_t k = 0; k < force_means_.size(); ++k)
+    force_means_[k].add(sample.forces[static_cast<Eigen::Index>(k)]);
   if (!travels_.front().full()) return nullptr;
   out_ = recent_.front();
+  ForceVector moving_by = out_.forces;
+  for (std::size_t k = 0; k < force_means_.size(); ++k)
+    moving_by[static_cast<Eigen::Index>(k)] -= force_means_[k].mean();
   StrutVector moving = out_.sprung, modelled(out_.sprung.size()), by_bars(out_.sprung.size());
   for (std::size_t j = 0; j < models_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
@@ -51,7 +61,7 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
     modelled[place] = models_[j].force(travels_[j].travel(), travels_[j].travelRate(), 0.0, kNoMemories.data());
   }
   // At its own strut, too, what a bar does is not the strut's.
-  const StrutVector neighbours = weights_.neighbours(moving, out_.forces, modelled + by_bars) + by_bars;
+  const StrutVector neighbours = weights_.neighbours(moving, moving_by, modelled + by_bars) + by_bars;
   out_.sprung -= neighbours;
   out_.unsprung -= neighbours;
   return &out_;

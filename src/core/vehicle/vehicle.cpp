@@ -7,23 +7,29 @@
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-std::vector<Drive> flattened(const std::vector<StrutDrives>& drives) {
+std::vector<Drive> flattened(const std::vector<VehicleDrive>& drives) {
   std::vector<Drive> all;
-  for (const StrutDrives& drive : drives) all.push_back(drive.front());
+  for (const VehicleDrive& drive : drives) all.push_back(drive.struts.front());
   return all;
 }
 
-void check(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names) {
+void check(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   requireNumStruts(names.size());
-  for (const StrutDrives& drive : drives)
-    if (drive.size() != names.size())
-      throw std::invalid_argument("a drive of " + std::to_string(drive.size()) + " struts, must be " +
+  requireNumKnownForces(drives.front().forces.size());
+  for (const VehicleDrive& drive : drives) {
+    if (drive.struts.size() != names.size())
+      throw std::invalid_argument("a drive of " + std::to_string(drive.struts.size()) + " struts, must be " +
                                   std::to_string(names.size()));
+    if (forceNames(drive) != forceNames(drives.front()))
+      throw std::invalid_argument("a drive with the known forces [" + join(forceNames(drive)) + "], must be [" +
+                                  join(forceNames(drives.front())) + "] as in the first");
+  }
 }
 
 int horizonFor(const StrutModel& model, double period) {
@@ -34,14 +40,14 @@ int horizonFor(const StrutModel& model, double period) {
 /// Struts with what is known of them, to be separated again as more is known.
 class Separator {
  public:
-  Separator(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+  Separator(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
             const std::optional<double>& sample_period)
       : drives_(drives) {
     check(drives, names);
     period_ = sample_period ? *sample_period : medianPeriod(flattened(drives));
     estimate_ = coupleStruts(drives, period_);
     models_ = estimate_.models();
-    coupling_ = describe(estimate_, names);
+    coupling_ = describe(estimate_, names, forceNames(drives.front()));
   }
 
   const VehicleCoupling& coupling() const { return coupling_; }
@@ -59,7 +65,7 @@ class Separator {
 
   std::vector<std::vector<Drive>> separate() const {
     std::vector<std::vector<Drive>> struts(models_.size());
-    for (const StrutDrives& drive : drives_) {
+    for (const VehicleDrive& drive : drives_) {
       StrutDrives separated = separateStruts(drive, period_, estimate_.coupling, models_);
       for (std::size_t i = 0; i < struts.size(); ++i) struts[i].push_back(std::move(separated[i]));
     }
@@ -67,7 +73,7 @@ class Separator {
   }
 
  private:
-  const std::vector<StrutDrives>& drives_;
+  const std::vector<VehicleDrive>& drives_;
   double period_ = 0.0;
   CouplingEstimate estimate_;
   VehicleCoupling coupling_;
@@ -94,7 +100,7 @@ Verdict worstOf(const VehicleDiagnosis& found) {
 
 }  // namespace
 
-SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+SeparatedVehicle separateVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                                  const std::optional<double>& sample_period) {
   const Separator separator(drives, names, sample_period);
   SeparatedVehicle separated{separator.coupling(), {}, separator.models(), separator.modelStddevs()};
@@ -117,7 +123,7 @@ Verdict VehicleDiagnosis::verdictOn(std::size_t strut) const {
   return has_bar && own == Verdict::kNothingMissing ? Verdict::kEffectFound : own;
 }
 
-VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                                       const IdentifyOptions& options) {
   const Separator separator(drives, names, options.sample_period);
   VehicleIdentification result{separator.coupling(), {}};
@@ -138,7 +144,7 @@ VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, co
   return result;
 }
 
-VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& strut_names,
+VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& strut_names,
                                  const DiagnoseOptions& options) {
   Separator separator(drives, strut_names, options.sample_period);
   VehicleDiagnosis result;

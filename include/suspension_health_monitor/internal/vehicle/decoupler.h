@@ -44,7 +44,8 @@ class Decoupler {
   StrutMatrix bars_;
   std::vector<StrutModel> models_;
   std::vector<TravelObserver> travels_;
-  std::vector<LimitedMean> gravity_;  // of each z''
+  std::vector<LimitedMean> gravity_;      // of each z''
+  std::vector<LimitedMean> force_means_;  // of each x
   boost::circular_buffer<VehicleSample> recent_;
   VehicleSample out_;
 };

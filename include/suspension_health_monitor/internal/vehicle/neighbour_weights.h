@@ -14,7 +14,7 @@ class NeighbourWeights {
  public:
   explicit NeighbourWeights(const Coupling& coupling);
 
-  /// @param moving  z'' without gravity [m/s^2].  @param forces  x.
+  /// @param moving  z'' without gravity [m/s^2].  @param forces  x without what is constant in them.
   /// @param modelled  p_j as the neighbours' models tell it [m/s^2].
   /// @return n_i, what the other struts and known forces do to the top of strut i [m/s^2].
   StrutVector neighbours(const StrutVector& moving, const ForceVector& forces, const StrutVector& modelled) const;
