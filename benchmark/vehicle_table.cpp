@@ -128,7 +128,7 @@ double worstError(const Driven& driven, const VehicleIdentification& found) {
 void printForce(const char* kind, unsigned seed) {
   Driven driven = prepared(kind, seed);
   const vehicle_drive::Strut &front = driven.vehicle.struts.front(), &rear = driven.vehicle.struts.back();
-  driven.options.pull = 0.3 * driven.vehicle.mass;
+  driven.options.pull = 0.1 * driven.vehicle.mass;
   driven.options.pull_x = 1.6 * rear.x;
   driven.options.pull_y = 0.4 * front.y;
   drive(driven);

@@ -14,14 +14,15 @@ namespace {
 
 constexpr double kDuration = 120.0;
 
-/// A vehicle that is pulled at a tow bar behind its axles and to one side, about as hard as its struts push.
-Vehicle towing(const char* name) {
+/// A vehicle that is pulled at a tow bar behind its axles and to one side.
+/// @param strength  what the force would do to the body's mass alone, rms [m/s^2].
+Vehicle towing(const char* name, double strength = 0.3) {
   Vehicle vehicle = namedVehicle(name);
   KnownForce bar;
   bar.name = "tow_bar";
   bar.x = 1.6 * vehicle.struts.back().x;
   bar.y = 0.4 * vehicle.struts.front().y;
-  bar.rms = 0.3 * vehicle.mass;
+  bar.rms = strength * vehicle.mass;
   vehicle.known_forces = {bar};
   return vehicle;
 }
@@ -70,7 +71,7 @@ TEST(KnownForce, MovesEveryStrutTopAsTheBodysMassAndInertiasSay) {
 
 TEST(KnownForce, LeavesNothingMissingAndHidesNothing) {
   for (const bool hidden : {false, true}) {
-    Vehicle vehicle = towing("sedan");
+    Vehicle vehicle = towing("sedan", 0.1);
     if (hidden) vehicle.struts[2].hidden = {{findEffect(builtInEffects().forces, "quadratic_damping"), 12.0, {}}};
     const VehicleDrive drive = vehicleDriveOf(vehicle, vehicleDrive(kDuration));
     const VehicleDiagnosis found = diagnoseVehicle({drive}, strutNames(vehicle));

@@ -33,6 +33,7 @@ Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<
   for (const StrutModel& model : models) {
     models_.push_back(withoutMemories(model));
     travels_.emplace_back(period, model.stiffness_to_mass, natural_period);
+    slow_.emplace_back(period, natural_period);
   }
   recent_.set_capacity(static_cast<std::size_t>(TravelObserver::delayOf(natural_period)) + 1);
 }
@@ -46,30 +47,51 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   }
   for (std::size_t k = 0; k < force_means_.size(); ++k)
     force_means_[k].add(sample.forces[static_cast<Eigen::Index>(k)]);
+  observeSlowParts();
   if (!travels_.front().full()) return nullptr;
   out_ = recent_.front();
-  ForceVector moving_by = out_.forces;
-  for (std::size_t k = 0; k < force_means_.size(); ++k)
-    moving_by[static_cast<Eigen::Index>(k)] -= force_means_[k].mean();
-  StrutVector moving = out_.sprung, modelled(out_.sprung.size()), by_bars(out_.sprung.size());
+  StrutVector modelled(out_.sprung.size()), by_bars(out_.sprung.size());
   for (std::size_t j = 0; j < models_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
-    moving[place] -= gravity_[j].mean();
     by_bars[place] = 0.0;
     for (std::size_t m = 0; m < models_.size(); ++m)
       by_bars[place] += bars_(place, static_cast<Eigen::Index>(m)) * (travels_[j].travel() - travels_[m].travel());
-    modelled[place] = models_[j].force(travels_[j].travel(), travels_[j].travelRate(), 0.0, kNoMemories.data());
+    modelled[place] =
+        models_[j].force(travels_[j].travel(), travels_[j].travelRate(), 0.0, kNoMemories.data()) + slow_[j].value();
   }
   // At its own strut, too, what a bar does is not the strut's.
-  const StrutVector neighbours = weights_.neighbours(moving, moving_by, modelled + by_bars) + by_bars;
+  const StrutVector neighbours = weights_.neighbours(moving(out_), movingForces(out_), modelled + by_bars) + by_bars;
   out_.sprung -= neighbours;
   out_.unsprung -= neighbours;
   return &out_;
 }
 
+// As late as the travel before it is freed of what is slow.
+void Decoupler::observeSlowParts() {
+  constexpr std::size_t kLate = BandlimitedInterpolator::kHalfWidth;
+  if (recent_.size() <= kLate) return;
+  const VehicleSample& sample = recent_[recent_.size() - 1 - kLate];
+  const StrutVector own = weights_.ownOf(moving(sample), movingForces(sample));
+  for (std::size_t j = 0; j < slow_.size(); ++j) slow_[j].push(own[static_cast<Eigen::Index>(j)]);
+}
+
+// Without gravity and offsets.
+StrutVector Decoupler::moving(const VehicleSample& sample) const {
+  StrutVector moving = sample.sprung;
+  for (std::size_t j = 0; j < gravity_.size(); ++j) moving[static_cast<Eigen::Index>(j)] -= gravity_[j].mean();
+  return moving;
+}
+
+ForceVector Decoupler::movingForces(const VehicleSample& sample) const {
+  ForceVector moving = sample.forces;
+  for (std::size_t k = 0; k < force_means_.size(); ++k) moving[static_cast<Eigen::Index>(k)] -= force_means_[k].mean();
+  return moving;
+}
+
 void Decoupler::startNewSeries() {
   recent_.clear();
   for (TravelObserver& travel : travels_) travel.startNewSeries();
+  for (SlowMean& slow : slow_) slow.reset();
 }
 
 }  // namespace suspension_health_monitor

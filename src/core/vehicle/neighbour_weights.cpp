@@ -12,7 +12,7 @@ constexpr double kUnmodelled = 0.2;
 }  // namespace
 
 NeighbourWeights::NeighbourWeights(const Coupling& coupling)
-    : combination_(coupling.ratios), leak_(coupling.ratios), coupling_(coupling) {
+    : combination_(coupling.ratios), leak_(coupling.ratios), estimate_(coupling.ratios), coupling_(coupling) {
   const Eigen::Index n = coupling.numStruts();
   for (Eigen::Index i = 0; i < n; ++i) {
     StrutMatrix unwanted = coupling.rest_power * StrutMatrix::Identity(n, n);
@@ -26,13 +26,20 @@ NeighbourWeights::NeighbourWeights(const Coupling& coupling)
   }
   leak_ = combination_ * coupling.ratios;
   leak_.diagonal().setZero();
+  const StrutMatrix crossed = coupling.own_power.asDiagonal() * coupling.ratios.transpose();
+  const StrutMatrix of_all = coupling.ratios * crossed + coupling.rest_power * StrutMatrix::Identity(n, n);
+  estimate_ = of_all.ldlt().solve(crossed.transpose()).transpose();
+}
+
+StrutVector NeighbourWeights::ofStruts(const StrutVector& moving, const ForceVector& forces) const {
+  StrutVector of_struts = moving;
+  if (coupling_.forces.cols() > 0) of_struts -= coupling_.forces * forces;
+  return of_struts;
 }
 
 StrutVector NeighbourWeights::neighbours(const StrutVector& moving, const ForceVector& forces,
                                          const StrutVector& modelled) const {
-  StrutVector of_struts = moving;
-  if (coupling_.forces.cols() > 0) of_struts -= coupling_.forces * forces;
-  return moving - combination_ * of_struts + leak_ * modelled;
+  return moving - combination_ * ofStruts(moving, forces) + leak_ * modelled;
 }
 
 StrutModel withoutMemories(StrutModel model) {

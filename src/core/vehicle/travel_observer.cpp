@@ -6,9 +6,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kMeans = 3;                // of a mean of a mean
 constexpr double kMeanMemory = 10.0;     // [s]
-constexpr double kWashout = 1.0 / 50.0;  // of the natural frequency
+constexpr double kWashout = 1.0 / 200.0;  // of the natural frequency
 constexpr double kDamping = 0.7;
 // A washout of so many over the age of a series: what its start left is forgotten as fast as anything can be told.
 constexpr double kStart = 2.0;
@@ -16,17 +15,16 @@ constexpr double kStart = 2.0;
 }  // namespace
 
 int TravelObserver::delayOf(int natural_period) {
-  return BandlimitedInterpolator::kHalfWidth + kMeans * natural_period / 2;
+  return BandlimitedInterpolator::kHalfWidth + SlowMean::delayOf(natural_period);
 }
 
 TravelObserver::TravelObserver(double period, double stiffness_to_mass, int natural_period)
     : period_(period),
       washout_(kWashout * std::sqrt(stiffness_to_mass)),
-      horizon_(std::pow(natural_period * period, kMeans)),
       step_(0.0, 1.0, period),
       offset_(std::exp(-period / kMeanMemory)),
-      slow_(2, LinearIntegralFilter(kMeans, {natural_period, period, IntegrationRule::kTrapezoid}, 0)),
-      recent_(2, boost::circular_buffer<double>(static_cast<std::size_t>(kMeans * natural_period / 2) + 1)) {}
+      slow_(2, SlowMean(period, natural_period)),
+      recent_(2, boost::circular_buffer<double>(static_cast<std::size_t>(SlowMean::delayOf(natural_period)) + 1)) {}
 
 void TravelObserver::push(double relative_acceleration) {
   offset_.add(relative_acceleration);
@@ -47,15 +45,13 @@ void TravelObserver::push(double relative_acceleration) {
   }
 }
 
-double TravelObserver::fast(std::size_t which) const {
-  return recent_[which].front() - slow_[which].output(0) / horizon_;
-}
+double TravelObserver::fast(std::size_t which) const { return recent_[which].front() - slow_[which].value(); }
 
 void TravelObserver::startNewSeries() {
   input_.clear();
   age_ = 0.0;
   now_ = {};
-  for (LinearIntegralFilter& slow : slow_) slow.reset();
+  for (SlowMean& slow : slow_) slow.reset();
   for (auto& values : recent_) values.clear();
 }
 

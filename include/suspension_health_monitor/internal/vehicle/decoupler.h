@@ -15,8 +15,8 @@ namespace suspension_health_monitor {
 ///   S_i = z_i'' - n_i,   W_i = w_i'' - n_i,   n_i = sum_{j != i} rho_ij p_j + sum_k kappa_ik x_k + anti-roll bars
 /// (NeighbourWeights),
 /// so that S_i = p_i and W_i - S_i = w_i'' - z_i'': what is left is a quarter car, with the strut's own b1 and b0.
-/// The models of the neighbours see their travel by a TravelObserver, and with it everything is late by delay().
-/// Cost per sample: O(N^2), no allocation.
+/// The models of the neighbours see their travel by a TravelObserver, and with it everything is late by delay(). What
+/// is too slow for that is taken from the strut tops themselves. Cost per sample: O(N^2), no allocation.
 class Decoupler {
  public:
   /// @param period  T [s].  @param models  of the struts, b0 > 0: as they show in others.
@@ -40,12 +40,17 @@ class Decoupler {
   void startNewSeries();
 
  private:
+  void observeSlowParts();
+  StrutVector moving(const VehicleSample& sample) const;
+  ForceVector movingForces(const VehicleSample& sample) const;
+
   NeighbourWeights weights_;
   StrutMatrix bars_;
   std::vector<StrutModel> models_;
   std::vector<TravelObserver> travels_;
   std::vector<LimitedMean> gravity_;      // of each z''
   std::vector<LimitedMean> force_means_;  // of each x
+  std::vector<SlowMean> slow_;            // of each p, as the strut tops tell it
   boost::circular_buffer<VehicleSample> recent_;
   VehicleSample out_;
 };

@@ -19,9 +19,17 @@ class NeighbourWeights {
   /// @return n_i, what the other struts and known forces do to the top of strut i [m/s^2].
   StrutVector neighbours(const StrutVector& moving, const ForceVector& forces, const StrutVector& modelled) const;
 
+  /// @return p as far as the strut tops alone tell it: Wiener's estimate, which leaves out what moves no strut top.
+  StrutVector ownOf(const StrutVector& moving, const ForceVector& forces) const {
+    return estimate_ * ofStruts(moving, forces);
+  }
+
  private:
+  StrutVector ofStruts(const StrutVector& moving, const ForceVector& forces) const;
+
   StrutMatrix combination_;  // l_i' in row i
   StrutMatrix leak_;         // l_i' rho_j, 0 for j = i
+  StrutMatrix estimate_;     // p of kappa-free z''
   Coupling coupling_;
 };
 

@@ -4,19 +4,18 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/identification/limited_mean.h"
-#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
 #include "suspension_health_monitor/internal/signal/sliding_window.h"
+#include "suspension_health_monitor/internal/vehicle/slow_mean.h"
 
 namespace suspension_health_monitor {
 
 /// Travel and travel rate of a strut from its relative acceleration u = w'' - z'' alone, integrated twice.
 ///
 /// The unknown first travel and rate, and the noise of the sensors, make the integrals drift. A washout forgets what is
-/// slower than a fiftieth of the natural frequency, d'' = u - 2 zeta omega d' - omega^2 d, at which the phase at the
-/// natural frequency is right to 3 %. The rest of the drift, which is slower than the strut moves, is taken off as the
-/// mean of the mean of the mean over a natural period. That has no phase, but is late by a period and a half.
-/// Cost per sample: O(1), no allocation.
+/// slower than a two hundredth of the natural frequency, d'' = u - 2 zeta omega d' - omega^2 d, at which the phase at the
+/// natural frequency is right to 1 %. The rest of the drift is taken off as a SlowMean, late by a natural period and a
+/// half. Cost per sample: O(1), no allocation.
 class TravelObserver {
  public:
   /// @param period  T [s].  @param stiffness_to_mass  b0 > 0 of the strut [1/s^2].
@@ -40,13 +39,13 @@ class TravelObserver {
  private:
   double fast(std::size_t which) const;
 
-  double period_, washout_, horizon_;
+  double period_, washout_;
   WheelInterpolator step_;
   LimitedMean offset_;           // between the sensors
   double age_ = 0.0;             // of the series [s]
   std::array<double, 2> now_{};  // travel, rate
   SlidingWindow<WheelInterpolator::kWidth> input_;
-  std::vector<LinearIntegralFilter> slow_;
+  std::vector<SlowMean> slow_;
   std::vector<boost::circular_buffer<double>> recent_;
 };
 
