@@ -13,9 +13,9 @@ namespace suspension_health_monitor {
 /// Travel and travel rate of a strut from its relative acceleration u = w'' - z'' alone, integrated twice.
 ///
 /// The unknown first travel and rate, and the noise of the sensors, make the integrals drift. A washout forgets what is
-/// slower than a two hundredth of the natural frequency, d'' = u - 2 zeta omega d' - omega^2 d, at which the phase at the
-/// natural frequency is right to 1 %. The rest of the drift is taken off as a SlowMean, late by a natural period and a
-/// half. Cost per sample: O(1), no allocation.
+/// slower than a two hundredth of the natural frequency, d'' = u - 2 zeta omega d' - omega^2 d, at which the phase at
+/// the natural frequency is right to 1 %. The rest of the drift is taken off as a SlowMean, late by a natural period
+/// and a half. Cost per sample: O(1), no allocation.
 class TravelObserver {
  public:
   /// @param period  T [s].  @param stiffness_to_mass  b0 > 0 of the strut [1/s^2].
