@@ -23,7 +23,8 @@ struct KnownForceRecord {
 /// A recorded drive of a vehicle.
 struct VehicleDrive {
   VehicleDrive() = default;
-  VehicleDrive(StrutDrives its_struts, std::vector<KnownForceRecord> known = {})  // NOLINT: struts are a drive
+  // NOLINTNEXTLINE(google-explicit-constructor): struts are a drive
+  VehicleDrive(StrutDrives its_struts, std::vector<KnownForceRecord> known = {})
       : struts(std::move(its_struts)), forces(std::move(known)) {}
 
   StrutDrives struts;
