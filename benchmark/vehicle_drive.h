@@ -30,10 +30,11 @@ struct Vehicle {
   double roughness;  // ISO 8608 G_d(n0) [m^3]
   double horizon;    // [s] that suits it
 
-  double mobility(std::size_t i, std::size_t j) const {
+  double mobility(std::size_t i, std::size_t j) const { return mobility(i, struts[j].x, struts[j].y); }
+  double mobility(std::size_t i, double x, double y) const {
     double sum = 1.0 / mass;
-    if (pitch_inertia > 0) sum += struts[i].x * struts[j].x / pitch_inertia;
-    if (roll_inertia > 0) sum += struts[i].y * struts[j].y / roll_inertia;
+    if (pitch_inertia > 0) sum += struts[i].x * x / pitch_inertia;
+    if (roll_inertia > 0) sum += struts[i].y * y / roll_inertia;
     return sum;
   }
   double b1(std::size_t i) const { return mobility(i, i) * struts[i].damping; }
@@ -50,14 +51,17 @@ struct Drive {
   double noise = 0.03;  // [m/s^2]
   Tracks tracks = Tracks::kCoherent;
   unsigned seed = 1;
-  std::vector<Law> hidden;  // one per strut, empty: none
-  double anti_roll = 0.0;   // [N/m] between struts 0 and 1
-  double offset = 0.0;      // [m/s^2], largest of a sensor
+  std::vector<Law> hidden;            // one per strut, empty: none
+  double anti_roll = 0.0;             // [N/m] between struts 0 and 1
+  double offset = 0.0;                // [m/s^2], largest of a sensor
+  double pull = 0.0;                  // [N], rms of a vertical force on the body that is measured
+  double pull_x = 0.0, pull_y = 0.0;  // [m], where it acts, from the centre of gravity
 };
 
 struct Record {
   std::vector<std::vector<double>> body, wheel;    // by strut [m/s^2]
   std::vector<double> travel, travel_rate, force;  // rms by strut [m], [m/s], [N]
+  std::vector<double> pull;                        // [N], up positive
 };
 
 inline std::vector<double> lowPass(double cutoff, double rate, int half) {
@@ -96,6 +100,23 @@ inline std::vector<double> smooth(const std::vector<double>& input, double corne
   return output;
 }
 
+/// Noise between about 0.3 and 4 Hz, of this rms.
+inline std::vector<double> pulling(double rms, unsigned seed, std::size_t n, double dt) {
+  std::mt19937 random(seed * 104729 + 5);
+  std::normal_distribution<double> normal;
+  std::vector<double> force(n);
+  for (double& each : force) each = normal(random);
+  for (const double corner : {4.0, 4.0}) force = smooth(force, corner, dt);
+  const std::vector<double> slow = smooth(force, 0.3, dt);
+  double square = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    force[k] -= slow[k];
+    square += force[k] * force[k] / static_cast<double>(n);
+  }
+  for (double& each : force) each *= rms / std::sqrt(square);
+  return force;
+}
+
 inline Record drive(const Vehicle& vehicle, const Drive& options) {
   constexpr int kSub = 16;
   constexpr double kLead = 8.0;  // [s] before the record
@@ -115,6 +136,7 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
       for (std::size_t k = 0; k < steps; ++k) (*side)[k] = shared[k] + own[k] - slow[k];
     }
   }
+  const std::vector<double> pull = pulling(options.pull, options.seed, steps, dt);
   double front = -1e9;
   for (const Strut& strut : vehicle.struts) front = std::max(front, strut.x);
 
@@ -142,6 +164,10 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
       force[0] += bar;
       force[1] -= bar;
     }
+    const double load = pull[k] + half * (pull[k + 1] - pull[k]);
+    d[dof] += load / vehicle.mass;
+    if (vehicle.pitch_inertia > 0) d[dof + 1] += load * options.pull_x / vehicle.pitch_inertia;
+    if (vehicle.roll_inertia > 0) d[dof + 2] += load * options.pull_y / vehicle.roll_inertia;
     for (std::size_t i = 0; i < n; ++i) {
       const Strut& strut = vehicle.struts[i];
       d[dof] += force[i] / vehicle.mass;
@@ -202,6 +228,11 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
       for (std::size_t i = 0; i < taps.size(); ++i) sum += taps[i] * raw[c][first + k * kSub + i - half];
       channel.push_back(sum);
     }
+  }
+  for (std::size_t k = 0; options.pull > 0 && k < samples; ++k) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < taps.size(); ++i) sum += taps[i] * pull[first + k * kSub + i - half];
+    record.pull.push_back(sum);
   }
   return record;
 }

@@ -1,5 +1,5 @@
 // Whole vehicles, simulated by vehicle_drive.h, which shares nothing with the package: the tables of doc/vehicle.md.
-//   vehicle_table linear|coupling|effect|bar|alone|health [SEEDS [FIRST]]
+//   vehicle_table linear|coupling|effect|bar|force|alone|health [SEEDS [FIRST]]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,6 +48,7 @@ struct Driven {
     for (std::size_t i = 0; i < size(); ++i) drive.push_back(makeDrive(kPeriod, record.body[i], record.wheel[i]));
     return drive;
   }
+  VehicleDrive withForce() const { return {struts(), {{"pull", record.pull}}}; }
 };
 
 Driven prepared(const char* kind, unsigned seed) {
@@ -65,7 +66,7 @@ double percent(double value, double truth) { return 100.0 * (value / truth - 1.0
 void printLinear(const char* kind, unsigned seed) {
   Driven driven = prepared(kind, seed);
   drive(driven);
-  const std::vector<StrutDrives> drives{driven.struts()};
+  const std::vector<VehicleDrive> drives{driven.struts()};
   const VehicleIdentification found = identifyVehicle(drives, driven.names);
   const VehicleDiagnosis diagnosis = diagnoseVehicle(drives, driven.names);
   if (!found) {
@@ -86,11 +87,11 @@ void printLinear(const char* kind, unsigned seed) {
               100.0 * inside / static_cast<double>(driven.size()), floor, diagnosis.summary.c_str());
 }
 
-void printEffect(const char* kind, unsigned seed) {
-  Driven driven = prepared(kind, seed);
-  drive(driven);
-  const Hidden& law = kHidden[seed % kHidden.size()];
-  const std::size_t at = seed / kHidden.size() % driven.size();
+const Hidden& lawOf(unsigned seed) { return kHidden[seed % kHidden.size()]; }
+std::size_t placeOf(unsigned seed, std::size_t struts) { return seed / kHidden.size() % struts; }
+
+/// Drives again with a law hidden in a strut.
+void driveWith(Driven& driven, const Hidden& law, std::size_t at) {
   const double travel = driven.record.travel[at], rate = driven.record.travel_rate[at], steep = rate / kSlip;
   double square = 0.0;
   constexpr int kDraws = 20000;
@@ -101,8 +102,49 @@ void printEffect(const char* kind, unsigned seed) {
   driven.options.hidden.resize(driven.size());
   driven.options.hidden[at] = [=](double d, double v, double) { return size * law.shape(d / travel, v / rate, steep); };
   drive(driven);
+}
+
+void printEffect(const char* kind, unsigned seed) {
+  Driven driven = prepared(kind, seed);
+  drive(driven);
+  const Hidden& law = lawOf(seed);
+  const std::size_t at = placeOf(seed, driven.size());
+  driveWith(driven, law, at);
   const VehicleDiagnosis found = diagnoseVehicle({driven.struts()}, driven.names);
   std::printf("%-6s %3u  %-18s in %-7s  %s\n", kind, seed, law.name, driven.names[at].c_str(), found.summary.c_str());
+}
+
+// @return largest error of LA in any strut, of b1 and b0 alike [%].
+double worstError(const Driven& driven, const VehicleIdentification& found) {
+  double worst = found ? 0.0 : std::nan("");
+  for (std::size_t i = 0; i < found.struts.size(); ++i) {
+    worst = std::max(worst, std::abs(percent(found.struts[i].la.damping_to_mass, driven.vehicle.b1(i))));
+    worst = std::max(worst, std::abs(percent(found.struts[i].la.stiffness_to_mass, driven.vehicle.b0(i))));
+  }
+  return worst;
+}
+
+// A force behind the rear axle and to one side, with nothing hidden behind it and then one law.
+void printForce(const char* kind, unsigned seed) {
+  Driven driven = prepared(kind, seed);
+  const vehicle_drive::Strut &front = driven.vehicle.struts.front(), &rear = driven.vehicle.struts.back();
+  driven.options.pull = 0.1 * driven.vehicle.mass;
+  driven.options.pull_x = 1.6 * rear.x;
+  driven.options.pull_y = 0.4 * front.y;
+  drive(driven);
+  const VehicleIdentification known = identifyVehicle({driven.withForce()}, driven.names);
+  double off = 0.0;
+  for (std::size_t i = 0; i < driven.size(); ++i) {
+    const double truth = driven.vehicle.mobility(i, driven.options.pull_x, driven.options.pull_y);
+    off = std::max(off, 100.0 * driven.vehicle.mass * std::abs(known.coupling.forces[0].values[i] - truth));
+  }
+  std::printf("%-6s %3u  %8.2f  %9.1f  %11.2f  %-29s  %s\n", kind, seed, worstError(driven, known),
+              worstError(driven, identifyVehicle({driven.struts()}, driven.names)), off, "nothing",
+              diagnoseVehicle({driven.withForce()}, driven.names).summary.c_str());
+  const std::size_t at = placeOf(seed, driven.size());
+  driveWith(driven, lawOf(seed), at);
+  std::printf("%44s%-18s in %-7s  %s\n", "", lawOf(seed).name, driven.names[at].c_str(),
+              diagnoseVehicle({driven.withForce()}, driven.names).summary.c_str());
 }
 
 void printBar(const char* kind, unsigned seed) {
@@ -214,6 +256,7 @@ constexpr std::array kTables{
     Table{"coupling", "kind  seed  ratio off  mean square  condition", printCoupling},
     Table{"effect", "kind  seed  hidden                           verdict", printEffect},
     Table{"bar", "kind  seed  stiffness off %  verdict", printBar},
+    Table{"force", "kind  seed   known %  unknown %  coeff. off %  hidden                         verdict", printForce},
     Table{"alone", "kind  seed  strut", printAlone},
     Table{"health", "kind  seed  known s   ERROR s    WARN s  others OK  alarms  inside", printHealth}};
 
@@ -223,7 +266,7 @@ int main(int argc, char** argv) {
   const auto table = std::find_if(kTables.begin(), kTables.end(),
                                   [&](const Table& each) { return argc > 1 && std::string(argv[1]) == each.name; });
   if (table == kTables.end()) {
-    std::fprintf(stderr, "vehicle_table linear|coupling|effect|bar|alone|health [SEEDS [FIRST]]\n");
+    std::fprintf(stderr, "vehicle_table linear|coupling|effect|bar|force|alone|health [SEEDS [FIRST]]\n");
     return 2;
   }
   const auto seeds = static_cast<unsigned>(argc > 2 ? std::atoi(argv[2]) : 2);

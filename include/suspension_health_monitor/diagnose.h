@@ -46,8 +46,6 @@ struct DiagnoseOptions {
   int threads = 2;       ///< the result is the same for any number
   int most_effects = 3;  ///< to add
   int most_forces = 2;   ///< among them: three can imitate almost any law of travel and travel rate
-  /// What the sensors' noise alone makes of a drive, in any unit; nothing: it is white, and alike in both.
-  std::optional<Drive> noise = {};
   /// Told how much is done, 0 .. 1, every now and then, on the calling thread. What it throws ends the search and comes
   /// out of diagnose(): the way to cancel.
   std::function<void(double share)> progress = {};

@@ -50,6 +50,9 @@ struct Drive {
   /// What else the body's IMU measured, if anything, in the order of time, by the clock of the samples. It need not
   /// have their stamps. Only faults of that IMU (tilt, lever arm) are told by it.
   std::vector<BodyMotion> body = {};
+  /// What the sensors' noise alone would make of a drive, in any unit; that of the first of several drives is taken for
+  /// all. Empty: it is white, and alike in both sensors.
+  std::vector<CornerSample> noise = {};
 };
 
 /// Why nothing can be said of some drives.

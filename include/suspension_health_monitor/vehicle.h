@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/diagnose.h"
@@ -11,13 +12,31 @@
 
 namespace suspension_health_monitor {
 
-/// A recorded drive of a vehicle: one Drive per strut, in the same order always, all with the same stamps.
+/// One Drive per strut of a vehicle, in the same order always, all with the same stamps.
 using StrutDrives = std::vector<Drive>;
+
+/// A force on the body that is measured: of an actuator, a tow bar. Or a torque.
+struct KnownForceRecord {
+  std::string name;
+  std::vector<double> values;  ///< at the struts' stamps, in any unit, up or down positive
+};
 
 /// What the noise of the sensors makes of a vehicle's drives, where filters colour it or one IMU tells of the tops of
 /// several struts: for every sensor a drive without motion in which it errs once, by its standard deviation, in a unit
 /// that is the same for all. Empty: every strut has two accelerometers of its own, with white noise, all alike.
 using SensorNoise = std::vector<StrutDrives>;
+
+/// A recorded drive of a vehicle.
+struct VehicleDrive {
+  VehicleDrive() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): struts are a drive
+  VehicleDrive(StrutDrives its_struts, std::vector<KnownForceRecord> known = {})
+      : struts(std::move(its_struts)), forces(std::move(known)) {}
+
+  StrutDrives struts;
+  std::vector<KnownForceRecord> forces;  ///< in the same order always; none needs to be known
+  SensorNoise noise;                     ///< that of the first drive is taken for all
+};
 
 inline constexpr const char* kAntiRollBar = "anti_roll_bar";  ///< the name of the effect
 
@@ -28,15 +47,26 @@ struct AntiRollBarFound {
   double second_stiffness_to_mass;  ///< the same over that of the second
 };
 
+/// What one unit of a known force does to the top of every strut [m/s^2]: of a vertical one in newtons 1/M + x_i x /
+/// Iyy
+/// + y_i y / Ixx [1/kg], with the sign of its direction.
+struct KnownForceCoefficients {
+  std::string name;
+  std::vector<double> values;   ///< by strut
+  std::vector<double> stddevs;  ///< of these; infinite of a force that never changes
+};
+
 /// How the struts of a vehicle move one another through its body: at the top of strut i
-///   z_i'' = sum_j rho_ij p_j,   rho_ij = a_ij / a_jj,   a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx,
-/// where p_j is what strut j does to its own top. doc/vehicle.md derives it.
+///   z_i'' = sum_j rho_ij p_j + sum_k kappa_ik x_k,   rho_ij = a_ij / a_jj,
+///   a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx,
+/// where p_j is what strut j does to its own top, and x_k a known force. doc/vehicle.md derives it.
 struct VehicleCoupling {
   std::vector<std::vector<double>> ratios;   ///< rho_ij in row i [-]; 1 for j = i
   std::vector<std::vector<double>> stddevs;  ///< of these
   std::vector<AntiRollBarFound> bars;        ///< that are part of it
-  double condition = 0.0;                    ///< of the rows of all struts: 1 is best, above 20 tracks are much alike
-  std::string reason;  ///< why the ratios are not known, to be read after "the drives"; empty if they are
+  std::vector<KnownForceCoefficients> forces;
+  double condition = 0.0;  ///< of the rows of all struts: 1 is best, above 20 tracks are much alike
+  std::string reason;      ///< why the ratios are not known, to be read after "the drives"; empty if they are
 
   explicit operator bool() const { return reason.empty(); }
 };
@@ -45,21 +75,22 @@ struct VehicleCoupling {
 /// by least squares.
 using KnownModels = std::vector<std::optional<StrutModel>>;
 
-/// Every strut on its own: what the others do to the body is taken out of both signals.
+/// Every strut on its own: what the others and known forces do to the body is taken out of both signals.
 struct SeparatedVehicle {
   VehicleCoupling coupling;
   std::vector<std::vector<Drive>> struts;  ///< by strut the drives of a quarter car with its b1 and b0; empty without
                                            ///< a coupling
   std::vector<StrutModel> models;          ///< of each: as it was known, else b1, b0 by least squares over all drives
-  std::vector<LinearStrut> model_stddevs;  ///< what the ratios' errors alone make of b1, b0
+  std::vector<LinearStrut> model_stddevs;  ///< what the coupling's errors alone make of b1, b0
 };
 
 /// @param drives  of one vehicle, each with all of its struts.
 /// @param names  of the struts, for what is said of them.
 /// @param sample_period  T [s]; nothing: the median spacing of the samples.
-/// @throws std::invalid_argument  if there is no drive or no strut, if the struts of a drive have not the same stamps,
-/// or for a period that is not above 0; for models of another number of struts.
-SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+/// @throws std::invalid_argument  if there is no drive or no strut, if the struts of a drive have not the same stamps
+/// and its forces not a value for each, if drives have not the same forces, or for a period that is not above 0; for
+/// models of another number of struts.
+SeparatedVehicle separateVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                                  const std::optional<double>& sample_period = {}, const KnownModels& models = {});
 
 struct VehicleIdentification {
@@ -71,7 +102,7 @@ struct VehicleIdentification {
 
 /// identify() for every strut of a vehicle; what the coupling does not know is in the standard deviations.
 /// @param report  IdentifyOptions::report of every strut, one strut after the other.
-VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                                       const IdentifyOptions& options = {},
                                       const std::function<void(std::size_t strut, const MonitorReport&)>& report = {});
 
@@ -94,8 +125,7 @@ struct VehicleDiagnosis {
 
 /// diagnose() for every strut of a vehicle. An effect in one strut shows in others: what was found in the strut where
 /// it explains most is taken out of them, before they are searched again, until nothing more is found.
-/// @param options  for every strut; instead of its model `models` are where the searches start.
-VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                                  const DiagnoseOptions& options = {}, const KnownModels& models = {});
 
 }  // namespace suspension_health_monitor

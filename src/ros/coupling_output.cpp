@@ -9,16 +9,19 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 CouplingInUse toMsg(const CouplingEstimate* coupling, const std::string& why_none,
-                    const std::vector<std::string>& struts) {
+                    const std::vector<std::string>& struts, const std::vector<std::string>& forces) {
   CouplingInUse msg;
   msg.known = coupling != nullptr;
   msg.names = struts;
+  msg.forces = forces;
   msg.condition = kUnknown;
   const auto n = static_cast<Eigen::Index>(struts.size());
   if (coupling == nullptr) {
     msg.reason = why_none;
     msg.ratios.assign(struts.size() * struts.size(), kUnknown);
     msg.stddevs = msg.ratios;
+    msg.force_coefficients.assign(struts.size() * forces.size(), kUnknown);
+    msg.force_stddevs = msg.force_coefficients;
     return msg;
   }
   msg.condition = coupling->condition;
@@ -27,18 +30,24 @@ CouplingInUse toMsg(const CouplingEstimate* coupling, const std::string& why_non
       msg.ratios.push_back(coupling->coupling.ratios(i, j));
       msg.stddevs.push_back(coupling->stddevs(i, j));
     }
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index k = 0; k < coupling->coupling.forces.cols(); ++k) {
+      msg.force_coefficients.push_back(coupling->coupling.forces(i, k));
+      msg.force_stddevs.push_back(coupling->force_stddevs(i, k));
+    }
   return msg;
 }
 
 /// What is not known is NaN in both, and alike.
 bool saysTheSame(const CouplingInUse& a, const CouplingInUse& b) {
-  return a.known == b.known && a.reason == b.reason && (!a.known || (a.ratios == b.ratios && a.stddevs == b.stddevs));
+  return a.known == b.known && a.reason == b.reason &&
+         (!a.known || (a.ratios == b.ratios && a.stddevs == b.stddevs && a.force_stddevs == b.force_stddevs));
 }
 
 }  // namespace
 
 void CouplingOutput::publish(const VehicleMonitor* monitor, const std::string& why_none, const ros::Time& stamp) {
-  CouplingInUse msg = toMsg(monitor != nullptr ? monitor->coupling() : nullptr, why_none, struts_);
+  CouplingInUse msg = toMsg(monitor != nullptr ? monitor->coupling() : nullptr, why_none, struts_, forces_);
   if (last_ && saysTheSame(*last_, msg)) return;
   msg.header.stamp = stamp;
   publisher_.publish(msg);
@@ -62,6 +71,12 @@ void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& 
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
       status.addf(struts_[i] + " moved by " + struts_[j], "%.3f +- %.3f", coupling->coupling.ratios(row, column),
                   coupling->stddevs(row, column));
+    }
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
+      status.addf(struts_[i] + " moved by " + forces_[k], "%.4g +- %.2g m/s^2 per unit",
+                  coupling->coupling.forces(row, column), coupling->force_stddevs(row, column));
     }
 }
 

@@ -16,8 +16,10 @@ namespace suspension_health_monitor {
 /// /diagnostics.
 class CouplingOutput {
  public:
-  CouplingOutput(ros::NodeHandle& private_node, const std::vector<std::string>& struts)
-      : struts_(struts), publisher_(private_node.advertise<CouplingInUse>("coupling", 1, true)) {}
+  /// @param struts, forces  their names.
+  CouplingOutput(ros::NodeHandle& private_node, const std::vector<std::string>& struts,
+                 const std::vector<std::string>& forces)
+      : struts_(struts), forces_(forces), publisher_(private_node.advertise<CouplingInUse>("coupling", 1, true)) {}
 
   /// Publishes what is known, if it is not what was published last.
   /// @param monitor  nullptr: none yet, and then why.  @param stamp  of the newest sample.
@@ -28,7 +30,7 @@ class CouplingOutput {
                 diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
-  std::vector<std::string> struts_;
+  std::vector<std::string> struts_, forces_;
   ros::Publisher publisher_;
   std::optional<CouplingInUse> last_;
 };

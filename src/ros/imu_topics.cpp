@@ -5,15 +5,19 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 100000;  // messages of either IMU that may wait: 100 s at 1 kHz, some 50 MB
+constexpr std::uint32_t kQueueSize = 100000;  // messages with transforms
 
 }  // namespace
 
 ImuTopics::ImuTopics(const ros::NodeHandle& node, const std::vector<std::string>& topics, bool by_transforms,
                      Receive receive)
-    : node_(node), by_transforms_(by_transforms), receive_(std::move(receive)) {
-  for (const std::string& topic : topics) imus_.push_back({topic, "", {}});
-}
+    : node_(node),
+      by_transforms_(by_transforms),
+      frames_(topics.size()),
+      imus_(node, topics, [this, receive = std::move(receive)](std::size_t imu, const sensor_msgs::Imu& message) {
+        frames_[imu] = message.header.frame_id;
+        receive(imu, message);
+      }) {}
 
 ImuTopics::~ImuTopics() {  // nothing may call back into members that are already gone
   static_transforms_.shutdown();
@@ -21,25 +25,12 @@ ImuTopics::~ImuTopics() {  // nothing may call back into members that are alread
 }
 
 void ImuTopics::listen() {
-  if (imus_.front().subscriber) return;
   if (by_transforms_ && !static_transforms_)
     static_transforms_ = node_.subscribe("/tf_static", kQueueSize, &ImuTopics::receiveTransforms, this);
-  for (std::size_t i = 0; i < imus_.size(); ++i)
-    imus_[i].subscriber = node_.subscribe<sensor_msgs::Imu>(
-        imus_[i].topic, kQueueSize,
-        [this, i](const sensor_msgs::ImuConstPtr& message) {
-          imus_[i].frame = message->header.frame_id;
-          receive_(i, *message);
-        },
-        nullptr, ros::TransportHints().tcpNoDelay());
+  imus_.listen();
 }
 
-void ImuTopics::stop() {
-  for (Imu& imu : imus_) {
-    imu.subscriber.shutdown();
-    imu.subscriber = {};
-  }
-}
+void ImuTopics::stop() { imus_.stop(); }
 
 void ImuTopics::receiveTransforms(const tf2_msgs::TFMessageConstPtr& tree) {
   for (const geometry_msgs::TransformStamped& transform : tree->transforms)

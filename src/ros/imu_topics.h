@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "message_topics.h"
+
 namespace suspension_health_monitor {
 
 /// The IMU topics of a strut or vehicle, and /tf_static if the mounts are told by transforms.
 class ImuTopics {
  public:
-  /// @param imu  its place among the topics.
-  using Receive = std::function<void(std::size_t imu, const sensor_msgs::Imu& message)>;
+  using Receive = MessageTopics<sensor_msgs::Imu>::Receive;
 
   /// Hears nothing before listen().
   /// @param by_transforms  whether static transforms are needed.
@@ -29,29 +30,23 @@ class ImuTopics {
   void stop();
 
   /// @return the topic's whole name.
-  std::string topic(std::size_t imu) const { return node_.resolveName(imus_[imu].topic); }
+  std::string topic(std::size_t imu) const { return imus_.name(imu); }
 
   /// @return frame_id of the IMU; empty before its first message.
-  const std::string& frame(std::size_t imu) const { return imus_[imu].frame; }
+  const std::string& frame(std::size_t imu) const { return frames_[imu]; }
 
   /// @return the static transforms so far.
   const tf2::BufferCore& transforms() const { return transforms_; }
 
  private:
-  struct Imu {
-    std::string topic;
-    std::string frame;
-    ros::Subscriber subscriber;
-  };
-
   void receiveTransforms(const tf2_msgs::TFMessageConstPtr& tree);
 
   ros::NodeHandle node_;
   bool by_transforms_;
-  Receive receive_;
+  std::vector<std::string> frames_;  // by IMU
   tf2::BufferCore transforms_;
   ros::Subscriber static_transforms_;
-  std::vector<Imu> imus_;
+  MessageTopics<sensor_msgs::Imu> imus_;
 };
 
 }  // namespace suspension_health_monitor

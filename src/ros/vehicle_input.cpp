@@ -8,24 +8,29 @@ namespace suspension_health_monitor {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
+using Place = VehicleStreams::Place;
+
+// @return [Hz]
+std::optional<double> expectedRate(Place place, const ShellOptions& options) {
+  if (place == Place::kForce) return std::nullopt;
+  return place == Place::kUnsprung ? options.unsprung_rate : options.sprung_rate;
+}
 
 }  // namespace
 
 VehicleInput::VehicleInput(const ShellOptions& options, const VehicleStreams& streams,
                            const std::vector<std::string>& topics)
     : max_lag_(options.max_lag) {
-  for (std::size_t i = 0; i < streams.imus.size(); ++i) {
-    const bool is_wheel = streams.imus[i].place == VehicleStreams::Place::kUnsprung;
-    imus_.push_back({topics[i],
-                     is_wheel ? options.unsprung_rate : options.sprung_rate,
-                     ImuArrivals(topics[i], options.input_timeout),
-                     {}});
-  }
+  for (std::size_t i = 0; i < streams.sensors.size(); ++i)
+    sensors_.push_back({topics[i],
+                        expectedRate(streams.sensors[i].place, options),
+                        ImuArrivals(topics[i], options.input_timeout),
+                        {}});
 }
 
 void VehicleInput::restart() {
   series_ = {};
-  for (Imu& imu : imus_) imu.rejected = {};
+  for (Sensor& sensor : sensors_) sensor.rejected = {};
   refusal_.clear();
 }
 
@@ -39,9 +44,10 @@ void VehicleInput::describe(const VehiclePipeline* pipeline, const std::string& 
     status.add("alignment", grid.describeAlignment());
     status.add("bridged", grid.bridged());
   }
-  for (std::size_t i = 0; pipeline != nullptr && i < imus_.size(); ++i) describeImu(imus_[i], *pipeline, i, status);
+  for (std::size_t i = 0; pipeline != nullptr && i < sensors_.size(); ++i)
+    describeSensor(sensors_[i], *pipeline, i, status);
   if (refusal_.empty())
-    for (const Imu& imu : imus_) imu.arrivals.describeSilence(status);
+    for (const Sensor& sensor : sensors_) sensor.arrivals.describeSilence(status);
   else
     status.mergeSummary(DiagnosticStatus::ERROR, "stopped listening until reset: " + refusal_);
   clock_.describe(status);
@@ -53,22 +59,23 @@ void VehicleInput::summarize(const VehiclePipeline* pipeline, const std::string&
     status.summary(DiagnosticStatus::ERROR, missing);
   else if (pipeline->monitor() == nullptr)
     status.summary(DiagnosticStatus::OK, kMeasuringPeriod);
-  else if (clock_.standsStill() &&
-           std::all_of(imus_.begin(), imus_.end(), [](const Imu& imu) { return imu.arrivals.isSilentByWall(); }))
+  else if (clock_.standsStill() && std::all_of(sensors_.begin(), sensors_.end(),
+                                               [](const Sensor& sensor) { return sensor.arrivals.isSilentByWall(); }))
     status.summary(DiagnosticStatus::OK, "nothing arrives at present");
   else
-    status.summary(DiagnosticStatus::OK, "all IMUs arrive as expected");
+    status.summary(DiagnosticStatus::OK, "all sensors arrive as expected");
 }
 
-void VehicleInput::describeImu(Imu& imu, const VehiclePipeline& pipeline, std::size_t place,
-                               ImuArrivals::Status& status) {
-  imu.arrivals.describeLag(imu.topic, max_lag_, status);
+void VehicleInput::describeSensor(Sensor& sensor, const VehiclePipeline& pipeline, std::size_t place,
+                                  ImuArrivals::Status& status) {
+  sensor.arrivals.describeLag(sensor.topic, max_lag_, status);
   if (pipeline.grid() != nullptr) {
-    describeTiming(pipeline.grid()->gate(place).timing(), imu.topic, imu.expected_rate, status);
-    status.add(imu.topic + " waited for in vain", pipeline.grid()->missed(place));
+    describeTiming(pipeline.grid()->gate(place).timing(), sensor.topic, sensor.expected_rate, status);
+    status.add(sensor.topic + " waited for in vain", pipeline.grid()->missed(place));
   }
-  if (const std::string newly = imu.rejected.describe(pipeline.rejected(place), imu.topic, status); !newly.empty())
-    status.mergeSummary(DiagnosticStatus::WARN, "readings of " + imu.topic + " rejected: " + newly);
+  if (const std::string newly = sensor.rejected.describe(pipeline.rejected(place), sensor.topic, status);
+      !newly.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, "readings of " + sensor.topic + " rejected: " + newly);
 }
 
 }  // namespace suspension_health_monitor

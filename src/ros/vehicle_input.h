@@ -12,14 +12,14 @@
 
 namespace suspension_health_monitor {
 
-/// The task Input of /diagnostics for a vehicle: which IMU is silent, late, or has messages that were kept out, by its
-/// topic. Counters run from the start or the last reset; a warning is about what came since the last report.
+/// The task Input of /diagnostics for a vehicle: which sensor is silent, late, or has messages that were kept out, by
+/// its topic. Counters run from the start or the last reset; a warning is about what came since the last report.
 class VehicleInput {
  public:
-  /// @param topics  by VehicleStreams::imus.
+  /// @param topics  by VehicleStreams::sensors.
   VehicleInput(const ShellOptions& options, const VehicleStreams& streams, const std::vector<std::string>& topics);
 
-  void noteMessage(std::size_t imu, const ros::Time& stamp) { imus_[imu].arrivals.note(stamp); }
+  void noteMessage(std::size_t sensor, const ros::Time& stamp) { sensors_[sensor].arrivals.note(stamp); }
 
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
@@ -31,7 +31,7 @@ class VehicleInput {
   void describe(const VehiclePipeline* pipeline, const std::string& missing, ImuArrivals::Status& status);
 
  private:
-  struct Imu {
+  struct Sensor {
     std::string topic;
     std::optional<double> expected_rate;  // [Hz]
     ImuArrivals arrivals;
@@ -39,10 +39,10 @@ class VehicleInput {
   };
 
   void summarize(const VehiclePipeline* pipeline, const std::string& missing, ImuArrivals::Status& status) const;
-  void describeImu(Imu& imu, const VehiclePipeline& pipeline, std::size_t place, ImuArrivals::Status& status);
+  void describeSensor(Sensor& sensor, const VehiclePipeline& pipeline, std::size_t place, ImuArrivals::Status& status);
 
   std::optional<double> max_lag_;  // [s]
-  std::vector<Imu> imus_;
+  std::vector<Sensor> sensors_;
   std::string refusal_;
   SeriesHistory series_;
   ClockHistory clock_;

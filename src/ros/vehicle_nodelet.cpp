@@ -28,6 +28,7 @@ VehicleNodelet::~VehicleNodelet() {
   diagnose_.reset();
   tick_.stop();
   imus_.reset();
+  forces_.reset();
   reset_.shutdown();
   struts_.clear();
 }
@@ -37,10 +38,13 @@ void VehicleNodelet::onInit() {
   startOrRefuse(private_node, [&] {
     options_ = VehicleOptions::fromValues(readParameters(private_node));
     streams_ = unplacedStreams(options_.layout);
-    std::vector<std::string> topics;
-    for (const VehicleStreams::Imu& imu : streams_->imus) topics.push_back(imu.topic);
-    imus_.emplace(node, topics, !options_.common.shell.target_frame.empty() || options_.layout.hasFrames(),
+    const std::vector<std::string> imus = streams_->topicsOfImus();
+    imus_.emplace(node, imus, !options_.common.shell.target_frame.empty() || options_.layout.hasFrames(),
                   [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(imu, message); });
+    forces_.emplace(node, streams_->topicsOfForces(),
+                    [this, first = imus.size()](std::size_t force, const geometry_msgs::WrenchStamped& message) {
+                      onMessage(first + force, message);
+                    });
     addStruts();
     makePipeline();
   });
@@ -51,15 +55,13 @@ void VehicleNodelet::addStruts() {
   for (std::size_t i = 0; i < options_.struts.size(); ++i) {
     const std::optional<std::size_t>& sprung = streams_->channels.struts[i].sprung;
     const std::size_t stream = sprung ? *sprung : *streams_->channels.body_imu;
-    const auto its = std::find_if(streams_->imus.begin(), streams_->imus.end(),
-                                  [&](const VehicleStreams::Imu& imu) { return imu.stream == stream; });
-    body_imus_.push_back(static_cast<std::size_t>(its - streams_->imus.begin()));
+    body_imus_.push_back(streams_->options[stream].sensor);
     struts_.push_back(std::make_unique<LiveStrut>(
         options_.layout.struts[i].name, i, options_.struts[i],
         LiveStrut::Vehicle{
             [this] { return monitor(); },
             [this, i] {
-              return pipeline_ ? pipeline_->newestSamples(options_.common.shell.diagnose_window)[i].samples
+              return pipeline_ ? pipeline_->newestSamples(options_.common.shell.diagnose_window).struts[i].samples
                                : std::vector<CornerSample>{};
             },
             [this] { return whyNoMonitor(); }, [this, i]() -> const std::string& { return frameOf(i); }}));
@@ -71,9 +73,10 @@ void VehicleNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   // once, so that the status of a strut would be lost behind that of the next.
   diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (options_.struts.size() + 1));
   std::vector<std::string> topics;
-  for (std::size_t i = 0; i < streams_->imus.size(); ++i) topics.push_back(imus_->topic(i));
+  for (std::size_t i = 0; i < streams_->topicsOfImus().size(); ++i) topics.push_back(imus_->topic(i));
+  for (std::size_t i = 0; i < streams_->topicsOfForces().size(); ++i) topics.push_back(forces_->name(i));
   input_.emplace(options_.common.shell, *streams_, topics);
-  coupling_.emplace(private_node, options_.strutNames());
+  coupling_.emplace(private_node, options_.strutNames(), options_.forceNames());
   for (const auto& strut : struts_) strut->start(node, private_node);
   const std::string name = getName().substr(getName().find_first_not_of('/'));
   updater_.emplace(node, private_node, getName());
@@ -84,6 +87,7 @@ void VehicleNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
     input_->describe(pipeline_ ? &*pipeline_ : nullptr, missing_position_, status);
   });
   imus_->listen();
+  forces_->listen();
   reset_ = private_node.advertiseService("reset", &VehicleNodelet::onReset, this);
   diagnose_.emplace(private_node, thread_->queue(), [this](double window) {
     return searchOf(giveSamples(window), [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
@@ -121,13 +125,16 @@ VehiclePipeline::Sinks VehicleNodelet::pipelineSinks() {
 }
 
 void VehicleNodelet::onImu(std::size_t imu, const sensor_msgs::Imu& message) {
-  input_->noteMessage(imu, message.header.stamp);
-  if (!pipeline_) {
-    if (streams_->imus[imu].place == VehicleStreams::Place::kBody) body_message_ = message;
-    return;
-  }
+  if (!pipeline_ && streams_->sensors[imu].place == VehicleStreams::Place::kBody) body_message_ = message;
+  onMessage(imu, message);
+}
+
+template <class Message>
+void VehicleNodelet::onMessage(std::size_t sensor, const Message& message) {
+  input_->noteMessage(sensor, message.header.stamp);
+  if (!pipeline_) return;
   try {
-    pipeline_->push(imu, message);
+    pipeline_->push(sensor, message);
   } catch (const std::invalid_argument& error) {  // the options do not fit what was measured
     stopListening(error.what());
   }
@@ -137,6 +144,7 @@ void VehicleNodelet::stopListening(const std::string& reason) {
   NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
   input_->setRefusal(reason);
   imus_->stop();
+  forces_->stop();
 }
 
 std::string VehicleNodelet::whyNoMonitor() const {
@@ -157,6 +165,7 @@ bool VehicleNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   for (const auto& strut : struts_) strut->publishModel();
   input_->restart();
   imus_->listen();
+  forces_->listen();
   response.success = true;
   response.message = "estimates, coupling, filters and counters start anew";
   return true;
@@ -165,8 +174,9 @@ bool VehicleNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
 VehicleSearchTask VehicleNodelet::giveSamples(double window) const {
   const double span = searchSpan(window, options_.common.shell.diagnose_window);
   if (!pipeline_ || pipeline_->monitor() == nullptr) throw std::runtime_error(whyNoMonitor() + ": drive on");
-  VehicleSearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}, pipeline_->grid()->noise()};
-  if (task.drive.front().samples.empty()) throw std::runtime_error("there are no samples yet: drive on");
+  VehicleSearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};
+  task.drive.noise = pipeline_->grid()->noise();
+  if (task.drive.struts.front().samples.empty()) throw std::runtime_error("there are no samples yet: drive on");
   task.options.sample_period = pipeline_->period();
   task.options.candidates = struts_.front()->model().library();
   return task;

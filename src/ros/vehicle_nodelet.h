@@ -1,6 +1,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
@@ -14,6 +15,7 @@
 #include "coupling_output.h"
 #include "imu_topics.h"
 #include "live_strut.h"
+#include "message_topics.h"
 #include "monitor_thread.h"
 #include "vehicle_input.h"
 #include "vehicle_options.h"
@@ -22,9 +24,9 @@
 
 namespace suspension_health_monitor {
 
-/// All IMUs of a vehicle in; estimates, comparison and health of every strut out, below the strut's name, and how the
-/// struts move one another. Every callback comes from one thread, that of all monitors of the process, so nothing here
-/// needs a lock; ~diagnose works beside it.
+/// All IMUs and known forces of a vehicle in; estimates, comparison and health of every strut out, below the strut's
+/// name, and how the struts move one another. Every callback comes from one thread, that of all monitors of the
+/// process, so nothing here needs a lock; ~diagnose works beside it.
 class VehicleNodelet : public nodelet::Nodelet {
  public:
   ~VehicleNodelet() override;
@@ -41,6 +43,8 @@ class VehicleNodelet : public nodelet::Nodelet {
   VehiclePipeline::Sinks pipelineSinks();
 
   void onImu(std::size_t imu, const sensor_msgs::Imu& message);
+  template <class Message>
+  void onMessage(std::size_t sensor, const Message& message);
   void onTick();
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   VehicleSearchTask giveSamples(double window) const;
@@ -54,10 +58,11 @@ class VehicleNodelet : public nodelet::Nodelet {
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   VehicleOptions options_;
   std::optional<VehicleStreams> streams_;  // whose positions may not be known yet
-  std::vector<std::size_t> body_imus_;     // by strut its body's IMU, in streams_->imus
+  std::vector<std::size_t> body_imus_;     // by strut its body's IMU, in streams_->sensors
   std::string missing_position_;           // why there is no pipeline
   std::optional<sensor_msgs::Imu> body_message_;
   std::optional<ImuTopics> imus_;
+  std::optional<MessageTopics<geometry_msgs::WrenchStamped>> forces_;
   std::optional<VehiclePipeline> pipeline_;
   ros::Publisher diagnostics_;  // of all updaters
   std::vector<std::unique_ptr<LiveStrut>> struts_;

@@ -26,13 +26,7 @@ VehicleLayout takeLayout(OptionMap& values) {
   takeOptions(values, kFileFields, file);
   if (file.vehicle.empty())
     throw std::invalid_argument("vehicle is missing, must be the YAML file that says which sensors the vehicle has");
-  return prefixed("vehicle = ", [&] {
-    VehicleLayout layout = readVehicleFile(file.vehicle);
-    if (!layout.known_forces.empty())
-      throw std::invalid_argument(file.vehicle + ": known_forces/" + layout.known_forces.front().name +
-                                  ": forces are not read live, must be left out");
-    return layout;
-  });
+  return prefixed("vehicle = ", [&] { return readVehicleFile(file.vehicle); });
 }
 
 /// Sensors are read, aligned and kept for all struts together.
@@ -93,6 +87,12 @@ VehicleOptions VehicleOptions::fromValues(VehicleLayout layout, OptionMap values
   requireOwnFiles(options, "baseline_file", &ShellOptions::baseline_file);
   requireOwnFiles(options, "model_file", &ShellOptions::model_file);
   return options;
+}
+
+std::vector<std::string> VehicleOptions::forceNames() const {
+  std::vector<std::string> names;
+  for (const VehicleLayout::KnownForce& force : layout.known_forces) names.push_back(force.name);
+  return names;
 }
 
 std::vector<std::string> VehicleOptions::strutNames() const {

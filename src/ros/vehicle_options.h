@@ -22,6 +22,7 @@ struct VehicleOptions {
   static VehicleOptions fromValues(VehicleLayout layout, OptionMap values);
 
   std::vector<std::string> strutNames() const;
+  std::vector<std::string> forceNames() const;  ///< of known forces
 };
 
 }  // namespace suspension_health_monitor

@@ -21,8 +21,8 @@ VehiclePipeline::VehiclePipeline(const VehicleOptions& options, const VehicleStr
       streams_(streams),
       sinks_(std::move(sinks)),
       sensors_(streams, options.common.shell, transforms),
-      measurement_(kSpacingsForPeriod, std::vector<bool>(streams.imus.size(), true)),
-      rejected_(streams.imus.size()) {
+      measurement_(kSpacingsForPeriod, std::vector<bool>(streams.sensors.size(), true)),
+      rejected_(streams.sensors.size()) {
   if (options_.common.monitor.sample_period) start(*options_.common.monitor.sample_period);
 }
 
@@ -36,37 +36,46 @@ void VehiclePipeline::start(double period) {
   grid_.emplace(period, streams_, MonitorSettings(options_.common.monitor).grid(period),
                 [this](const VehicleSample& sample) { take(sample); });
   const double kept = std::ceil(options_.common.shell.diagnose_window / period) + 1.0;
-  recent_.assign(settings.size(), RecentSamples(static_cast<std::size_t>(std::min(kept, kMostKept))));
-  monitor_.emplace(settings, sinks_.report);
+  const auto capacity = static_cast<std::size_t>(std::min(kept, kMostKept));
+  recent_.assign(settings.size(), RecentSamples(capacity));
+  const std::size_t forces = streams_.channels.known_forces.size();
+  if (forces > 0) recent_forces_.emplace(capacity);
+  monitor_.emplace(settings, sinks_.report, static_cast<int>(forces));
   sinks_.begin(*monitor_);
 }
 
-void VehiclePipeline::push(std::size_t imu, const sensor_msgs::Imu& message) {
-  const std::vector<double>& values = sensors_.read(imu, message);
+void VehiclePipeline::push(std::size_t sensor, const sensor_msgs::Imu& message) {
+  push(sensor, toStamp(message.header.stamp), sensors_.read(sensor, message));
+}
+
+void VehiclePipeline::push(std::size_t sensor, const geometry_msgs::WrenchStamped& message) {
+  push(sensor, toStamp(message.header.stamp), sensors_.read(sensor, message));
+}
+
+void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) {
   if (values.empty()) return;
-  const Stamp stamp = toStamp(message.header.stamp);
   if (monitor_)
-    grid_->push(imu, stamp, values);
+    grid_->push(sensor, stamp, values);
   else
-    measurePeriod({imu, stamp, values});
+    measurePeriod({sensor, stamp, values});
 }
 
 void VehiclePipeline::measurePeriod(Reading reading) {
-  RejectCounts& rejected = rejected_[reading.imu];
-  const bool goes_back = measurement_.goesBack(reading.imu, reading.stamp);
-  if (!measurement_.add(reading.imu, reading.stamp))
+  RejectCounts& rejected = rejected_[reading.sensor];
+  const bool goes_back = measurement_.goesBack(reading.sensor, reading.stamp);
+  if (!measurement_.add(reading.sensor, reading.stamp))
     return rejected.add(reading.stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp);
   if (goes_back) return rejected.add(RejectReason::kTimeWentBack);
-  if (early_.size() == streams_.imus.size() * StreamGrid::kMostWaiting) {  // one IMU is silent
-    for (const Reading& each : early_) rejected_[each.imu].add(RejectReason::kMissingPartner);
+  if (early_.size() == streams_.sensors.size() * StreamGrid::kMostWaiting) {  // one is silent
+    for (const Reading& each : early_) rejected_[each.sensor].add(RejectReason::kMissingPartner);
     early_.clear();
-    measurement_ = PeriodMeasurement(kSpacingsForPeriod, std::vector<bool>(streams_.imus.size(), true));
+    measurement_ = PeriodMeasurement(kSpacingsForPeriod, std::vector<bool>(streams_.sensors.size(), true));
   }
   early_.push_back(std::move(reading));
   const std::optional<double> period = measurement_.period();
   if (!period) return;
   start(*period);
-  for (const Reading& each : std::exchange(early_, {})) grid_->push(each.imu, each.stamp, each.values);
+  for (const Reading& each : std::exchange(early_, {})) grid_->push(each.sensor, each.stamp, each.values);
 }
 
 void VehiclePipeline::take(const VehicleSample& sample) {
@@ -76,19 +85,25 @@ void VehiclePipeline::take(const VehicleSample& sample) {
     knows_noise_ = true;
   }
   for (std::size_t i = 0; i < recent_.size(); ++i) recent_[i].push(sample.ofStrut(i));
+  if (recent_forces_) recent_forces_->push({sample.stamp, sample.forces});
   monitor_->addSample(sample);
 }
 
-StrutDrives VehiclePipeline::newestSamples(double span) const {
-  StrutDrives drives(options_.struts.size());
-  for (std::size_t i = 0; i < recent_.size(); ++i) drives[i].samples = recent_[i].newest(fromSeconds(span));
-  return drives;
+VehicleDrive VehiclePipeline::newestSamples(double span) const {
+  VehicleDrive drive{StrutDrives(options_.struts.size())};
+  for (std::size_t i = 0; i < recent_.size(); ++i) drive.struts[i].samples = recent_[i].newest(fromSeconds(span));
+  if (!recent_forces_) return drive;
+  for (const std::string& name : options_.forceNames()) drive.forces.push_back({name, {}});
+  for (const Forces& forces : recent_forces_->newest(fromSeconds(span)))
+    for (std::size_t k = 0; k < drive.forces.size(); ++k)
+      drive.forces[k].values.push_back(forces.values[static_cast<Eigen::Index>(k)]);
+  return drive;
 }
 
-RejectCounts VehiclePipeline::rejected(std::size_t imu) const {
-  RejectCounts all = sensors_.rejected(imu);
-  all += rejected_[imu];
-  if (grid_) all += grid_->rejected(imu);
+RejectCounts VehiclePipeline::rejected(std::size_t sensor) const {
+  RejectCounts all = sensors_.rejected(sensor);
+  all += rejected_[sensor];
+  if (grid_) all += grid_->rejected(sensor);
   return all;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2/buffer_core.h>
 
@@ -19,7 +20,7 @@
 
 namespace suspension_health_monitor {
 
-/// From the IMU messages of a vehicle to reports by strut:
+/// From the messages of a vehicle's sensors to reports by strut:
 /// message -> VehicleSensors -> VehicleGrid -> VehicleMonitor::addSample -> sinks.
 /// Without a sample_period the first messages wait until their stamps have told it; until then there is no monitor. It
 /// keeps the newest samples of all struts, for a search.
@@ -38,10 +39,11 @@ class VehiclePipeline {
   VehiclePipeline(const VehiclePipeline&) = delete;  // its monitor's sink refers to it
   VehiclePipeline& operator=(const VehiclePipeline&) = delete;
 
-  /// @param imu  its place in VehicleStreams::imus.
+  /// @param sensor  its place in VehicleStreams::sensors.
   /// @throws std::invalid_argument  if the options do not fit what was measured, the sample period or the struts: no
   /// message is to come any more.
-  void push(std::size_t imu, const sensor_msgs::Imu& message);
+  void push(std::size_t sensor, const sensor_msgs::Imu& message);
+  void push(std::size_t sensor, const geometry_msgs::WrenchStamped& message);
 
   /// @return nullptr while the sample period is being measured; so with the grid.
   VehicleMonitor* monitor() { return monitor_ ? &*monitor_ : nullptr; }
@@ -54,18 +56,25 @@ class VehiclePipeline {
   Stamp newest() const { return newest_; }
 
   /// @return the samples kept, of diagnose_window, that are at most `span` [s] older than the newest one.
-  StrutDrives newestSamples(double span) const;
+  VehicleDrive newestSamples(double span) const;
 
-  /// @return messages of an IMU that were kept out so far, wherever it was noticed.
-  RejectCounts rejected(std::size_t imu) const;
+  /// @return messages of a sensor that were kept out so far, wherever it was noticed.
+  RejectCounts rejected(std::size_t sensor) const;
 
  private:
   struct Reading {
-    std::size_t imu;
+    std::size_t sensor;
     Stamp stamp;
     std::vector<double> values;
   };
 
+  /// The known forces of a sample.
+  struct Forces {
+    Stamp stamp{};
+    ForceVector values;
+  };
+
+  void push(std::size_t sensor, Stamp stamp, const std::vector<double>& values);
   void measurePeriod(Reading reading);
   void start(double period);
   void take(const VehicleSample& sample);
@@ -76,13 +85,14 @@ class VehiclePipeline {
   VehicleSensors sensors_;
   PeriodMeasurement measurement_;
   std::vector<Reading> early_;          // that wait for the sample period
-  std::vector<RejectCounts> rejected_;  // by IMU, while it is being measured
+  std::vector<RejectCounts> rejected_;  // by sensor, while it is being measured
   std::optional<double> period_;
   Stamp newest_{};
   std::optional<VehicleGrid> grid_;
   bool knows_noise_ = false;
   std::optional<VehicleMonitor> monitor_;
-  std::vector<RecentSamples> recent_;  // by strut
+  std::vector<RecentSamples> recent_;            // by strut
+  std::optional<Recent<Forces>> recent_forces_;  // if there are any
 };
 
 }  // namespace suspension_health_monitor

@@ -13,10 +13,9 @@ namespace suspension_health_monitor {
 
 /// What a live search in a vehicle works on.
 struct VehicleSearchTask {
-  StrutDrives drive;
+  VehicleDrive drive;
   std::vector<std::string> struts;
   DiagnoseOptions options;
-  SensorNoise noise;
 };
 
 /// diagnoseVehicle() as the work of ~diagnose.

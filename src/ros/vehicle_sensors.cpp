@@ -19,13 +19,15 @@ std::string withoutSlash(const std::string& frame) {
 VehicleSensors::VehicleSensors(const VehicleStreams& streams, const ShellOptions& options,
                                const tf2::BufferCore* transforms) {
   const std::array<ImuMount, kMostStreams> mounts = ImuMount::of(options, transforms);
-  for (const VehicleStreams::Imu& imu : streams.imus)
-    imus_.push_back({imu.place, mounts[indexOf(imu.place == Place::kUnsprung ? Side::kUnsprung : Side::kSprung)], {}});
+  for (const VehicleStreams::Sensor& sensor : streams.sensors) {
+    const Side side = sensor.place == Place::kUnsprung ? Side::kUnsprung : Side::kSprung;
+    sensors_.push_back({sensor.place, mounts[indexOf(side)], sensor.fields, {}});
+  }
   values_.reserve(6);
 }
 
-const std::vector<double>& VehicleSensors::read(std::size_t imu, const sensor_msgs::Imu& message) {
-  Imu& its = imus_[imu];
+const std::vector<double>& VehicleSensors::read(std::size_t sensor, const sensor_msgs::Imu& message) {
+  Sensor& its = sensors_[sensor];
   values_.clear();
   if (its.place == Place::kBody) {
     const auto axes = its.mount.sixAxes(message);
@@ -40,6 +42,15 @@ const std::vector<double>& VehicleSensors::read(std::size_t imu, const sensor_ms
     else
       its.rejected.add(std::get<RejectReason>(acceleration));
   }
+  return values_;
+}
+
+const std::vector<double>& VehicleSensors::read(std::size_t sensor, const geometry_msgs::WrenchStamped& message) {
+  const geometry_msgs::Wrench& wrench = message.wrench;
+  const std::array<double, kWrenchFields.size()> all{wrench.force.x,  wrench.force.y,  wrench.force.z,
+                                                     wrench.torque.x, wrench.torque.y, wrench.torque.z};
+  values_.clear();
+  for (const std::size_t field : sensors_[sensor].fields) values_.push_back(all[field]);
   return values_;
 }
 

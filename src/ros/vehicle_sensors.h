@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2/buffer_core.h>
 
@@ -14,29 +15,31 @@
 
 namespace suspension_health_monitor {
 
-/// The IMUs of a vehicle: message -> values of the streams of that IMU, by its mount. The body's axes are those of the
-/// strut in ImuMount: sprung_axis names what points up, of target_frame or of the IMU.
+/// The sensors of a vehicle: message -> values of the streams of that sensor, of IMUs by their mount. The body's axes
+/// are those of the strut in ImuMount: sprung_axis names what points up, of target_frame or of the IMU.
 class VehicleSensors {
  public:
   /// @param transforms  as ImuMount.
   VehicleSensors(const VehicleStreams& streams, const ShellOptions& options, const tf2::BufferCore* transforms);
 
-  /// @param imu  its place in VehicleStreams::imus.
-  /// @return the values of its streams, from VehicleStreams::Imu::stream on, valid until the next call; none if the
+  /// @param sensor  its place in VehicleStreams::sensors.
+  /// @return the values of its streams, from VehicleStreams::Sensor::stream on, valid until the next call; none if the
   /// message must be kept out, which rejected() counts.
-  const std::vector<double>& read(std::size_t imu, const sensor_msgs::Imu& message);
+  const std::vector<double>& read(std::size_t sensor, const sensor_msgs::Imu& message);
+  const std::vector<double>& read(std::size_t sensor, const geometry_msgs::WrenchStamped& message);
 
-  /// @return messages of an IMU that were kept out so far.
-  const RejectCounts& rejected(std::size_t imu) const { return imus_[imu].rejected; }
+  /// @return messages of a sensor that were kept out so far.
+  const RejectCounts& rejected(std::size_t sensor) const { return sensors_[sensor].rejected; }
 
  private:
-  struct Imu {
+  struct Sensor {
     VehicleStreams::Place place;
-    ImuMount mount;
+    ImuMount mount;                   // of an IMU
+    std::vector<std::size_t> fields;  // of a wrench
     RejectCounts rejected;
   };
 
-  std::vector<Imu> imus_;
+  std::vector<Sensor> sensors_;
   std::vector<double> values_;
 };
 

@@ -17,7 +17,7 @@ void compareStruts(const boost::program_options::variables_map& values) {
   const AskedVehicle vehicle = readVehicle(values);
   const KnownModels models = readModels(values, vehicle, readEffects(values));
   PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
-  const std::vector<StrutDrives> drives = readDrives(values, vehicle, settings);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings);
   const SeparatedVehicle separated = separateVehicle(drives, vehicle.names, settings.monitor.sample_period, models);
   requireCoupling(separated.coupling);
   printCoupling(separated.coupling, vehicle.names);

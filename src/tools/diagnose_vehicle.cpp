@@ -74,7 +74,7 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>(), vehicle);
 
   PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
-  const std::vector<StrutDrives> drives = readDrives(values, vehicle, settings);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings);
   options.sample_period = settings.monitor.sample_period;
   options.horizon_samples = givenHorizon(settings);
   Progress progress("searching", 1.0);

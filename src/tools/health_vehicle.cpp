@@ -59,10 +59,13 @@ std::vector<WatchedStrut> readWatched(const po::variables_map& values, const Ask
 class WatchedVehicle {
  public:
   /// @param row  called as HealthLog calls its sink, with what the strut is judged by then.
-  WatchedVehicle(const VehicleOptions& options, const std::vector<WatchedStrut>& watched,
+  WatchedVehicle(const VehicleOptions& options, const std::vector<WatchedStrut>& watched, const VehicleDrive& first,
                  const std::function<void(std::size_t strut, const HealthMoment&, const Baseline&)>& row)
-      : monitor_(settingsOf(options),
-                 [this](std::size_t strut, const MonitorReport& report) { logs_[strut].addReport(report); }) {
+      : monitor_(
+            settingsOf(options),
+            [this](std::size_t strut, const MonitorReport& report) { logs_[strut].addReport(report); },
+            static_cast<int>(first.forces.size())) {
+    monitor_.setNoise(noiseOf(first));
     for (std::size_t i = 0; i < watched.size(); ++i) {
       const LiveModel& model = watched[i].model;
       monitor_.setEffects(i, model.effects(), model.strutFor(model.effects()));
@@ -78,11 +81,11 @@ class WatchedVehicle {
   /// Takes in the drives, one after the other.
   /// @return the time elapsed when each begins.
   /// @throws TooLittleError  if they do not tell how the struts move one another.
-  std::vector<Stamp> read(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names) {
+  std::vector<Stamp> read(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names) {
     std::vector<Stamp> begins;
-    for (const StrutDrives& drive : drives) {
+    for (const VehicleDrive& drive : drives) {
       begins.push_back(logs_.front().elapsed());
-      for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
+      for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) {
         const VehicleSample sample = sampleOf(drive, k);
         for (HealthLog& log : logs_) log.addReading(sample.stamp, sample.stamp);
         monitor_.addSample(sample);
@@ -116,10 +119,10 @@ void watchStruts(const po::variables_map& values) {
   VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
   const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
   HealthFiles files(values, vehicle.only ? std::vector<std::string>{} : vehicle.names);
-  const std::vector<StrutDrives> drives = readDrives(values, vehicle, options.common);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, options.common);
   for (PipelineOptions& strut : options.struts) strut.monitor.sample_period = options.common.monitor.sample_period;
   const auto placeInFiles = [&](std::size_t strut) { return vehicle.only ? 0 : strut; };
-  WatchedVehicle recorded(options, watched,
+  WatchedVehicle recorded(options, watched, drives.front(),
                           [&](std::size_t strut, const HealthMoment& moment, const Baseline& healthy) {
                             if (!vehicle.only || *vehicle.only == strut)
                               files.add(placeInFiles(strut), moment, healthy);
@@ -129,7 +132,8 @@ void watchStruts(const po::variables_map& values) {
   std::vector<HealthContent::Recording> recordings;
   for (const std::string& name : fileNames(values["bag"].as<std::vector<std::string>>()))
     recordings.push_back({name, begins[recordings.size()]});
-  nlohmann::json whole = toJson(describe(*recorded.monitor().coupling(), vehicle.names), vehicle.names);
+  nlohmann::json whole =
+      toJson(describe(*recorded.monitor().coupling(), vehicle.names, forceNames(drives.front())), vehicle.names);
   std::vector<HealthContent> contents;
   for (const std::size_t i : vehicle.asked) {
     const SuspensionMonitor& strut = *recorded.monitor().strut(i);

@@ -32,7 +32,7 @@ void identifyStruts(const boost::program_options::variables_map& values) {
   std::optional<TextFile> file = outputFile(values, "json"), csv = outputFile(values, "csv");
   const AskedVehicle vehicle = readVehicle(values);
   PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
-  const std::vector<StrutDrives> drives = readDrives(values, vehicle, settings);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings);
   IdentifyOptions options;
   options.sample_period = settings.monitor.sample_period;
   options.horizon_samples = givenHorizon(settings);

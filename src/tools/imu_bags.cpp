@@ -15,12 +15,11 @@
 namespace suspension_health_monitor {
 namespace {
 
-using Take = std::function<bool(std::size_t, const sensor_msgs::Imu&, Stamp)>;
-
-std::string listImuTopics(const std::vector<BagConnection>& connections) {
+template <class Message>
+std::string listTopics(const std::vector<BagConnection>& connections) {
   std::vector<std::string> list;
   for (const BagConnection& connection : connections)
-    if (carries<sensor_msgs::Imu>(connection) && std::find(list.begin(), list.end(), connection.topic) == list.end())
+    if (carries<Message>(connection) && std::find(list.begin(), list.end(), connection.topic) == list.end())
       list.push_back(connection.topic);
   return list.empty() ? "none" : join(list);
 }
@@ -28,20 +27,33 @@ std::string listImuTopics(const std::vector<BagConnection>& connections) {
 /// For every connection of a bag the topic that it carries, by its place, if that is wanted.
 using Places = std::map<std::uint32_t, std::optional<std::size_t>>;
 
+/// @param kind  of the messages, in a word.  @param place  of the topic.
+template <class Message>
+void findTopic(const BagFile& file, const std::string& topic, const std::string& named_by, const char* kind,
+               std::size_t place, Places& places) {
+  bool found = false;
+  for (const BagConnection& connection : file.connections()) {
+    if (connection.topic != topic) continue;
+    requireType<Message>(file, connection);
+    places[connection.id] = place;
+    found = true;
+  }
+  if (!found)
+    throw InputError(file.path() + ": no topic " + topic + " (" + named_by + "); " + kind +
+                     " topics in this bag: " + listTopics<Message>(file.connections()));
+}
+
 Places findPlaces(const BagFile& file, const ImuBags& bags) {
   Places places;
   for (const BagConnection& connection : file.connections()) places[connection.id] = std::nullopt;
-  for (std::size_t i = 0; i < bags.topics.size(); ++i) {
-    bool found = false;
-    for (const BagConnection& connection : file.connections()) {
-      if (connection.topic != bags.topics[i]) continue;
-      requireType<sensor_msgs::Imu>(file, connection);
-      places[connection.id] = i;
-      found = true;
-    }
-    if (!found)
-      throw InputError(file.path() + ": no topic " + bags.topics[i] + " (" + bags.named_by[i] +
-                       "); Imu topics in this bag: " + listImuTopics(file.connections()));
+  std::size_t place = 0;
+  for (const std::string& topic : bags.topics) {
+    findTopic<sensor_msgs::Imu>(file, topic, bags.named_by[place], "Imu", place, places);
+    ++place;
+  }
+  for (const std::string& topic : bags.wrench_topics) {
+    findTopic<geometry_msgs::WrenchStamped>(file, topic, bags.named_by[place], "WrenchStamped", place, places);
+    ++place;
   }
   return places;
 }
@@ -88,12 +100,12 @@ bool isLater(const OpenChunk& a, const OpenChunk& b) {
   return std::tie(a.message().time, a.position) > std::tie(b.message().time, b.position);
 }
 
-/// Delivers the IMU messages of one bag by recording time. Its chunks are opened in the order in which they begin and
+/// Delivers the messages of one bag by recording time. Its chunks are opened in the order in which they begin and
 /// kept as long as they have messages that are later than the beginning of the next one.
 class Delivery {
  public:
-  Delivery(BagFile& file, Places places, const Range& range, const Take& take)
-      : file_(file), places_(std::move(places)), range_(range), take_(take) {}
+  Delivery(BagFile& file, const ImuBags& bags, const Range& range, const TopicSinks& take)
+      : file_(file), places_(findPlaces(file, bags)), num_imus_(bags.topics.size()), range_(range), take_(take) {}
 
   void open(const BagChunk& chunk) {
     file_.read(chunk, spare_);
@@ -124,25 +136,36 @@ class Delivery {
     const auto place = places_.find(message.connection);
     if (place == places_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
     if (!place->second || !range_.contains(message.time)) return true;
-    decode(file_, message, "", imu_);
-    return take_(*place->second, imu_, Stamp(static_cast<Stamp::rep>(message.time)));
+    const bool is_imu = *place->second < num_imus_;
+    return is_imu ? deliver(message, *place->second, imu_, take_.imu)
+                  : deliver(message, *place->second, wrench_, take_.wrench);
+  }
+
+  /// @param decoded  storage for it.
+  template <class Message>
+  bool deliver(const BagMessage& message, std::size_t place, Message& decoded,
+               const std::function<bool(std::size_t, const Message&, Stamp)>& take) {
+    decode(file_, message, "", decoded);
+    return take(place, decoded, Stamp(static_cast<Stamp::rep>(message.time)));
   }
 
   BagFile& file_;
   Places places_;
+  std::size_t num_imus_;
   Range range_;
-  const Take& take_;
+  const TopicSinks& take_;
   std::vector<OpenChunk> open_;  // a heap
   ChunkContents spare_;          // storage of a chunk that is done
   sensor_msgs::Imu imu_;
+  geometry_msgs::WrenchStamped wrench_;
 };
 
-bool readBag(BagFile& file, const ImuBags& bags, const Take& take) {
+bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
   std::vector<BagChunk> chunks = file.chunks();
   std::stable_sort(chunks.begin(), chunks.end(),
                    [](const BagChunk& a, const BagChunk& b) { return a.start < b.start; });
   const Range range = toRange(bags, chunks.front().start);
-  Delivery delivery(file, findPlaces(file, bags), range, take);
+  Delivery delivery(file, bags, range, take);
   Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
   double done = 0.0;
   for (const BagChunk& chunk : chunks) {
@@ -173,7 +196,7 @@ double duration(const ImuBags& bags) {
   return sum;
 }
 
-void readTopics(const ImuBags& bags, const Take& take) {
+void readTopics(const ImuBags& bags, const TopicSinks& take) {
   for (const std::string& path : bags.paths) {
     BagFile file(path);
     if (file.chunks().empty()) throw TooLittleError(path + ": the bag holds no messages");
@@ -183,9 +206,10 @@ void readTopics(const ImuBags& bags, const Take& take) {
 
 void readImuMessages(const ImuBags& bags,
                      const std::function<bool(Side, const sensor_msgs::Imu&, Stamp recorded)>& take) {
-  readTopics(bags, [&](std::size_t topic, const sensor_msgs::Imu& imu, Stamp recorded) {
+  const auto take_imu = [&](std::size_t topic, const sensor_msgs::Imu& imu, Stamp recorded) {
     return take(static_cast<Side>(topic), imu, recorded);
-  });
+  };
+  readTopics(bags, {take_imu, {}});
 }
 
 void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take) {

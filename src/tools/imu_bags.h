@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2/buffer_core.h>
 
@@ -21,8 +22,9 @@ inline constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", 
 /// What to read: one or more bags, the topics of the two IMUs, and a part of each bag.
 struct ImuBags {
   std::vector<std::string> paths;
-  std::vector<std::string> topics;  ///< by Side; the road's may be left out. Or any, for readTopics()
-  /// By topic the option or setting that names it.
+  std::vector<std::string> topics;         ///< by Side; the road's may be left out. Or any, for readTopics()
+  std::vector<std::string> wrench_topics;  ///< of geometry_msgs/WrenchStamped, for readTopics()
+  /// By topic, then by wrench topic, the option or setting that names it.
   std::vector<std::string> named_by{kTopicOptions.begin(), kTopicOptions.end()};
   double start = 0.0;  ///< seconds after the beginning of each bag
   double end = std::numeric_limits<double>::infinity();
@@ -43,14 +45,18 @@ double duration(const ImuBags& bags);
 /// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
 std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths);
 
-/// Reads the IMU messages of all bags in the order of their recording, with a progress bar.
+/// What is called with every message, its place among ImuBags::topics and then ImuBags::wrench_topics, and the time of
+/// its recording; returns false to stop.
+struct TopicSinks {
+  std::function<bool(std::size_t, const sensor_msgs::Imu&, Stamp recorded)> imu;
+  std::function<bool(std::size_t, const geometry_msgs::WrenchStamped&, Stamp recorded)> wrench;
+};
+
+/// Reads the messages of all bags in the order of their recording, with a progress bar.
 /// Memory does not grow with the bags; only chunks that overlap in time are held together.
-/// @param take  called with every message, its place among ImuBags::topics and the time of its recording; returns false
-/// to stop.
 /// @throws InputError  naming the bag: unreadable, a topic missing (with those that are there) or of another type.
 /// @throws TooLittleError  if a bag holds no message at all.
-void readTopics(const ImuBags& bags,
-                const std::function<bool(std::size_t, const sensor_msgs::Imu&, Stamp recorded)>& take);
+void readTopics(const ImuBags& bags, const TopicSinks& take);
 
 /// The same of the sensors of one strut.
 void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take);

@@ -55,19 +55,21 @@ AskedVehicle readVehicle(const po::variables_map& values) {
   return vehicle;
 }
 
-std::vector<StrutDrives> readDrives(const po::variables_map& values, const AskedVehicle& vehicle,
-                                    PipelineOptions& options) {
+std::vector<VehicleDrive> readDrives(const po::variables_map& values, const AskedVehicle& vehicle,
+                                     PipelineOptions& options) {
   ImuBags bags = readBags(values);
   if (!options.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
   std::vector<VehicleBag> read = readVehicleDrives(bags, options, vehicle.layout);
   std::printf("sample period %.6g s\n", *options.monitor.sample_period);
-  std::vector<StrutDrives> drives;
+  std::vector<VehicleDrive> drives;
   for (VehicleBag& bag : read) {
-    std::printf("%zu samples of %zu struts, readings %s\n", bag.struts.front().samples.size(), bag.struts.size(),
+    const StrutDrives& struts = bag.drive.struts;
+    std::printf("%zu samples of %zu struts, readings %s\n", struts.front().samples.size(), struts.size(),
                 bag.alignment.c_str());
-    for (const VehicleBag::Imu& imu : bag.imus)
-      if (imu.rejected.total() > 0) std::printf("%s%s\n", imu.topic.c_str(), describeRejected(imu.rejected).c_str());
-    drives.push_back(std::move(bag.struts));
+    for (const VehicleBag::Sensor& sensor : bag.sensors)
+      if (sensor.rejected.total() > 0)
+        std::printf("%s%s\n", sensor.topic.c_str(), describeRejected(sensor.rejected).c_str());
+    drives.push_back(std::move(bag.drive));
   }
   return drives;
 }

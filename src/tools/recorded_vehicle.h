@@ -32,7 +32,7 @@ AskedVehicle readVehicle(const boost::program_options::variables_map& values);
 /// Reads all bags as drives of the vehicle, and tells people what they hold.
 /// @param options  without a sample_period it is measured and set.
 /// @throws InputError, TooLittleError, std::invalid_argument  as readVehicleDrives().
-std::vector<StrutDrives> readDrives(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
+std::vector<VehicleDrive> readDrives(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
                                     PipelineOptions& options);
 
 /// @return L, if the settings give the horizon.

@@ -13,16 +13,14 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kMessagesForPeriod = 20000;  // of one IMU: the mean of n spacings has 1/n of a stamp's jitter
+constexpr std::size_t kMessagesForPeriod = 20000;  // of one sensor: the mean of n spacings has 1/n of a stamp's jitter
 constexpr std::size_t kFewestSpacings = 10;
 
 void takeTopics(const VehicleStreams& streams, ImuBags& bags) {
-  bags.topics.clear();
+  bags.topics = streams.topicsOfImus();
+  bags.wrench_topics = streams.topicsOfForces();
   bags.named_by.clear();
-  for (const VehicleStreams::Imu& imu : streams.imus) {
-    bags.topics.push_back(imu.topic);
-    bags.named_by.push_back(imu.setting);
-  }
+  for (const VehicleStreams::Sensor& sensor : streams.sensors) bags.named_by.push_back(sensor.setting);
 }
 
 /// Looks up the positions of struts that have a frame.
@@ -32,21 +30,23 @@ void place(VehicleLayout& layout, ImuBags bags, const PipelineOptions& options) 
   bags.topics = {*layout.body_imu};
   bags.named_by = {"body_imu"};
   std::optional<sensor_msgs::Imu> first;
-  readTopics(bags, [&](std::size_t, const sensor_msgs::Imu& imu, Stamp) {
+  const auto take = [&](std::size_t, const sensor_msgs::Imu& imu, Stamp) {
     first = imu;
     return false;
-  });
+  };
+  readTopics(bags, {take, {}});
   if (!first) throw TooLittleError("the bags hold no message of body_imu, " + *layout.body_imu);
   placeFrames(layout, *first, options.shell, *bags.transforms);
 }
 
 double measurePeriod(const ImuBags& bags) {
-  PeriodMeasurement measurement(kFewestSpacings, std::vector<bool>(bags.topics.size(), true));
+  PeriodMeasurement measurement(kFewestSpacings, std::vector<bool>(bags.named_by.size(), true));
   std::size_t count = 0;
-  readTopics(bags, [&](std::size_t topic, const sensor_msgs::Imu& imu, Stamp) {
-    measurement.add(topic, toStamp(imu.header.stamp));
-    return ++count < kMessagesForPeriod * bags.topics.size();
-  });
+  const auto take = [&](std::size_t topic, const auto& message, Stamp) {
+    measurement.add(topic, toStamp(message.header.stamp));
+    return ++count < kMessagesForPeriod * bags.named_by.size();
+  };
+  readTopics(bags, {take, take});
   const std::optional<double> period = measurement.period();
   if (!period)
     throw TooLittleError("the sample period cannot be measured: fewer than " + std::to_string(kFewestSpacings) +
@@ -54,24 +54,32 @@ double measurePeriod(const ImuBags& bags) {
   return *period;
 }
 
-VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleStreams& streams) {
+void append(const VehicleSample& sample, VehicleDrive& drive) {
+  for (std::size_t i = 0; i < drive.struts.size(); ++i) drive.struts[i].samples.push_back(sample.ofStrut(i));
+  for (std::size_t k = 0; k < drive.forces.size(); ++k)
+    drive.forces[k].values.push_back(sample.forces[static_cast<Eigen::Index>(k)]);
+}
+
+VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout,
+                   const VehicleStreams& streams) {
   const double period = *options.monitor.sample_period;
   VehicleBag read;
-  read.struts.resize(streams.channels.struts.size());
+  read.drive.struts.resize(layout.struts.size());
+  for (const VehicleLayout::KnownForce& force : layout.known_forces) read.drive.forces.push_back({force.name, {}});
   VehicleSensors sensors(streams, options.shell, bag.transforms.get());
-  VehicleGrid grid(period, streams, MonitorSettings(options.monitor).grid(period), [&](const VehicleSample& sample) {
-    for (std::size_t i = 0; i < read.struts.size(); ++i) read.struts[i].samples.push_back(sample.ofStrut(i));
-  });
-  readTopics(bag, [&](std::size_t imu, const sensor_msgs::Imu& message, Stamp) {
-    grid.push(imu, toStamp(message.header.stamp), sensors.read(imu, message));
+  VehicleGrid grid(period, streams, MonitorSettings(options.monitor).grid(period),
+                   [&](const VehicleSample& sample) { append(sample, read.drive); });
+  const auto take = [&](std::size_t sensor, const auto& message, Stamp) {
+    grid.push(sensor, toStamp(message.header.stamp), sensors.read(sensor, message));
     return true;
-  });
-  read.noise = grid.noise();
+  };
+  readTopics(bag, {take, take});
+  read.drive.noise = grid.noise();
   read.alignment = grid.streams().describeAlignment();
-  for (std::size_t i = 0; i < streams.imus.size(); ++i) {
+  for (std::size_t i = 0; i < streams.sensors.size(); ++i) {
     RejectCounts rejected = sensors.rejected(i);
     rejected += grid.rejected(i);
-    read.imus.push_back({streams.imus[i].topic, rejected, grid.missed(i)});
+    read.sensors.push_back({streams.sensors[i].topic, rejected, grid.missed(i)});
   }
   return read;
 }
@@ -79,9 +87,6 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
 }  // namespace
 
 std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout layout) {
-  if (!layout.known_forces.empty())
-    throw std::invalid_argument("known_forces/" + layout.known_forces.front().name +
-                                ": forces are not read from bags, must be left out");
   place(layout, bags, options);
   const VehicleStreams streams(layout);
   takeTopics(streams, bags);
@@ -90,7 +95,7 @@ std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options
   for (const std::string& path : bags.paths) {
     ImuBags bag = bags;
     bag.paths = {path};
-    drives.push_back(readBag(bag, options, streams));
+    drives.push_back(readBag(bag, options, layout, streams));
   }
   return drives;
 }

@@ -13,24 +13,24 @@ namespace suspension_health_monitor {
 
 /// One bag, read as a drive of a vehicle.
 struct VehicleBag {
-  SensorNoise noise;      ///< VehicleGrid::noise()
-  StrutDrives struts;     ///< by VehicleLayout::struts: z'' at the strut's top and w''; all have the same stamps
+  /// By VehicleLayout::struts z'' at the strut's top and w'', by VehicleLayout::known_forces the forces.
+  VehicleDrive drive;
   std::string alignment;  ///< StreamGrid::describeAlignment()
-  /// What became of one IMU's messages.
-  struct Imu {
+  /// What became of one sensor's messages.
+  struct Sensor {
     std::string topic;
     RejectCounts rejected;
     std::uint64_t missed;  ///< readings of others and instants that were lost for want of its readings
   };
-  std::vector<Imu> imus;
+  std::vector<Sensor> sensors;  ///< by VehicleStreams::sensors
 };
 
-/// Reads bags as drives of a vehicle, one each: all IMUs on one grid, the strut tops told by their own IMUs or by that
-/// of the body.
+/// Reads bags as drives of a vehicle, one each: all sensors on one grid, the strut tops told by their own IMUs or by
+/// that of the body.
 /// @param bags  whose topics are taken from the layout; the static transforms are read if the layout has frames.
 /// @param options  without a sample_period it is measured and set.
 /// @throws InputError, TooLittleError  as readTopics().
-/// @throws std::invalid_argument  if a frame has no static transform, or if there are known forces: only IMUs are read.
+/// @throws std::invalid_argument  if a frame has no static transform.
 std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout layout);
 
 }  // namespace suspension_health_monitor

@@ -27,6 +27,25 @@ json barsJson(const VehicleCoupling& coupling, const std::vector<std::string>& n
   return bars;
 }
 
+json forcesJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  json forces = json::object();
+  for (const KnownForceCoefficients& force : coupling.forces)
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      forces[force.name]["coefficients"][names[i]] = force.values[i];
+      forces[force.name]["stddevs"][names[i]] = force.stddevs[i];
+    }
+  return forces;
+}
+
+void printForces(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  for (const KnownForceCoefficients& force : coupling.forces) {
+    std::printf("one unit of %s accelerates the tops by [m/s^2]:", force.name.c_str());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      std::printf("%s %s %.4g +- %.2g", i > 0 ? "," : "", names[i].c_str(), force.values[i], force.stddevs[i]);
+    std::printf("\n");
+  }
+}
+
 }  // namespace
 
 void requireCoupling(const VehicleCoupling& coupling) {
@@ -34,6 +53,7 @@ void requireCoupling(const VehicleCoupling& coupling) {
 }
 
 void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  printForces(coupling, names);
   if (names.size() < 2) return;
   std::printf("how much of what a strut does to its own top reaches the others (condition %.2g):\n%16s",
               coupling.condition, "moved by");
@@ -58,6 +78,7 @@ json toJson(const VehicleCoupling& coupling, const std::vector<std::string>& nam
           {"coupling", couplingJson(coupling.ratios, names)},
           {"coupling_stddevs", couplingJson(coupling.stddevs, names)},
           {"anti_roll_bars", barsJson(coupling, names)},
+          {"known_forces", forcesJson(coupling, names)},
           {"condition", coupling.condition}};
 }
 

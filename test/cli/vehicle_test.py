@@ -52,6 +52,62 @@ def test_health_watches_every_strut(program, vehicle, tmp_path):
         assert sum(strut["seconds"].values()) == pytest.approx(60, abs=1)
 
 
+# A half car with a tow bar: 1/M + x_i x / Iyy of it at front and rear.
+TOWING = """
+mass: 600
+pitch_inertia: 900
+speed: 15
+struts:
+  front: {x: 1.1, y: 0, damping: 1500, stiffness: 18000, wheel_mass: 40, tyre_stiffness: 180000}
+  rear: {x: -1.4, y: 0, damping: 1500, stiffness: 18000, wheel_mass: 40, tyre_stiffness: 180000, effects: EFFECTS}
+known_forces: {tow_bar: {x: -2.2, rms: 120}}
+"""
+TOW_BAR = {"front": 1 / 600 - 1.1 * 2.2 / 900, "rear": 1 / 600 + 1.4 * 2.2 / 900}
+
+
+def towed(program, folder, effects="{bump_stop: {coefficient: 0, g: 0.1}}"):
+    """@return bag and vehicle file of a drive."""
+    bag, path, model = folder / "towed.bag", folder / "towed.yaml", folder / "towing.yaml"
+    model.write_text(TOWING.replace("EFFECTS", effects))
+    program.succeed("simulate", "--vehicle-model", model, "--duration", "60", "--rate", "100", "-o", bag,
+                    "--vehicle-file", path)
+    return bag, path
+
+
+def test_known_force_is_told_by_its_coefficients(program, tmp_path):
+    vehicle = towed(program, tmp_path)
+    found = result(program, "identify", vehicle, tmp_path)
+    bar = found["known_forces"]["tow_bar"]
+    for name, coefficient in TOW_BAR.items():
+        assert bar["coefficients"][name] == pytest.approx(coefficient, abs=0.02 * TOW_BAR["rear"])
+        assert 0 < bar["stddevs"][name] < 0.02 * TOW_BAR["rear"]
+        x = 1.1 if name == "front" else -1.4
+        own = 1 / 600 + x ** 2 / 900
+        assert found["struts"][name]["la"]["stiffness_to_mass"] == pytest.approx(18000 * own, rel=0.03)
+    path = tmp_path / "without.yaml"
+    path.write_text(vehicle[1].read_text().partition("known_forces:")[0])
+    without = program("identify", vehicle[0], "--vehicle", path, "--json", tmp_path / "without.json")
+    if without.returncode == 0:  # else it has not been taken for struts at all
+        wrong = json.loads((tmp_path / "without.json").read_text())["struts"]["rear"]["la"]
+        assert abs(wrong["stiffness_to_mass"] / (18000 * (1 / 600 + 1.4 ** 2 / 900)) - 1) > 0.1
+    health = result(program, "health", vehicle, tmp_path)
+    assert health["known_forces"]["tow_bar"]["coefficients"]["rear"] == pytest.approx(TOW_BAR["rear"], rel=0.05)
+
+
+def test_effect_behind_a_known_force_is_named(program, tmp_path):
+    found = result(program, "diagnose", towed(program, tmp_path, "{quadratic_damping: {coefficient: 12}}"), tmp_path)
+    assert found["selected"] == {"front": [], "rear": ["quadratic_damping"]}
+
+
+def test_force_that_the_bag_has_not_is_refused(program, vehicle, tmp_path):
+    path = tmp_path / "forces.yaml"
+    for field, topic, words in (("force.z", "/tow_bar/wrench", ["no topic /tow_bar/wrench", "known_forces/bar/topic"]),
+                                ("force.z", "/simulator/truth", ["/simulator/truth is", "geometry_msgs/WrenchStamped"]),
+                                ("force", "/tow_bar/wrench", ["known_forces/bar/field", '"force"', "torque.z"])):
+        path.write_text(vehicle[1].read_text() + f"known_forces: {{bar: {{topic: {topic}, field: {field}}}}}\n")
+        program.refuse(2 if field == "force" else 3, ["identify", vehicle[0], "--vehicle", path], words, tmp_path)
+
+
 @pytest.mark.parametrize("options, words", [
     (["--strut", "rear"], ["--vehicle"]),
     (["--vehicle", "V", "--strut", "middle"], ["middle", "front, rear"]),

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <complex>
 
 #include "suspension_health_monitor/internal/pi.h"
 
@@ -37,7 +40,8 @@ TEST(NeighbourWeights, OfTwoStrutsNeedNoModel) {
   EXPECT_NEAR(neighbours[1], 0.3 * 0.7, 1e-5);
 }
 
-TEST(NeighbourWeights, OfFourStrutsOnThreeMotionsAreRightWhereTheModelsAre) {
+// A body on four struts.
+StrutMatrix ratiosOfFour() {
   StrutMatrix ratios(4, 4);
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
@@ -46,6 +50,11 @@ TEST(NeighbourWeights, OfFourStrutsOnThreeMotionsAreRightWhereTheModelsAre) {
       const auto mobility = [&](int a, int b) { return 1.0 / 1250.0 + x(a) * x(b) / 1900.0 + y(a) * y(b) / 450.0; };
       ratios(i, j) = mobility(i, j) / mobility(j, j);
     }
+  return ratios;
+}
+
+TEST(NeighbourWeights, OfFourStrutsOnThreeMotionsAreRightWhereTheModelsAre) {
+  const StrutMatrix ratios = ratiosOfFour();
   const NeighbourWeights weights(couplingOf(ratios));
   const StrutVector own = vectorOf({0.7, -1.1, 0.4, 0.9}), body = ratios * own;
   const StrutVector neighbours = weights.neighbours(body, ForceVector(0), own);
@@ -84,6 +93,41 @@ TEST(TravelObserver, IntegratesASineTwiceAsLateAsItSays) {
     // At the natural frequency the washout is 2.8 % off, and the mean of ten seconds 1.3 %.
     EXPECT_LT(worst, 0.045 / (omega * omega)) << frequency;
     EXPECT_LT(worst_rate, 0.045 / omega) << frequency;
+  }
+}
+
+// A body that heaves on four struts, faster and slower than they are, and that a known force lifts: what is left of
+// body and wheel are those of a strut, (b1 s + b0) (W - S) = s^2 S, by their Fourier coefficients.
+TEST(Decoupler, LeavesEveryStrutItsOwnHoweverSlowTheBodyMoves) {
+  constexpr double kPeriod = 0.01, kDamping = 3.0, kStiffness = 60.0, kForce = 400.0;
+  constexpr int kFirst = 6000, kEnd = 26000;  // whole periods of all frequencies
+  const StrutModel model{kDamping, kStiffness, {}, {}};
+  Coupling coupling = couplingOf(ratiosOfFour());
+  coupling.forces.resize(4, 1);
+  coupling.forces << 1e-3, -2e-3, 3e-3, 1e-3;
+  for (const double frequency : {0.3, 0.6, 1.2, 3.0}) {
+    Decoupler decoupler(kPeriod, coupling, std::vector<StrutModel>(4, model));
+    const double omega = 2.0 * kPi * frequency;
+    const std::complex<double> strut(kStiffness, kDamping * omega);
+    std::array<std::complex<double>, 4> sprung{}, unsprung{};
+    for (int k = 0; k < kEnd; ++k) {
+      const double t = kPeriod * k, own = (strut * std::polar(1.0, omega * t)).imag();
+      VehicleSample sample{fromSeconds(t + 1.0), StrutVector(4), StrutVector(4), ForceVector(1)};
+      const double moving = kForce * std::cos(0.5 * omega * t);
+      sample.forces[0] = 5000.0 + moving;
+      sample.sprung = coupling.ratios * StrutVector::Constant(4, own) + coupling.forces.col(0) * moving;
+      sample.unsprung = sample.sprung.array() - omega * omega * std::sin(omega * t);
+      const VehicleSample* found = decoupler.push(sample);
+      if (found == nullptr || k < kFirst) continue;
+      for (std::size_t i = 0; i < 4; ++i) {
+        sprung[i] += std::polar(1.0, -omega * t) * found->ofStrut(i).sprung_acceleration;
+        unsprung[i] += std::polar(1.0, -omega * t) * found->ofStrut(i).unsprung_acceleration;
+      }
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::complex<double> told = strut * (unsprung[i] - sprung[i]) / (-omega * omega);
+      EXPECT_LT(std::abs(told - sprung[i]) / std::abs(sprung[i]), 0.03) << frequency << " Hz, strut " << i;
+    }
   }
 }
 

@@ -15,7 +15,10 @@ namespace {
 constexpr Stamp kPeriod = std::chrono::milliseconds(10);
 constexpr double kT = 0.01;
 
-int delay() { return MotionFilter(kPeriod, 1, 1).delay(); }
+int delay() {
+  static const int delay = MotionFilter(kPeriod, 1, 1).delay();
+  return delay;
+}
 
 struct Output {
   double value, rate;
@@ -40,10 +43,12 @@ struct Response {
   double low_pass_odd, derivative_even;
 };
 Response responseAt(double frequency) {
-  const auto late_by = static_cast<std::size_t>(delay());
-  std::vector<double> pulse(6 * late_by + 1, 0.0);
-  pulse[3 * late_by] = 1.0;
-  const std::vector<Output> answer = filtered(pulse);
+  static const std::vector<Output> answer = [] {
+    const auto late_by = static_cast<std::size_t>(delay());
+    std::vector<double> pulse(6 * late_by + 1, 0.0);
+    pulse[3 * late_by] = 1.0;
+    return filtered(pulse);
+  }();
   Response response{};
   for (std::size_t k = 0; k < answer.size(); ++k) {
     const double late = static_cast<double>(k) - 2.0 * delay();  // by how much, in samples

@@ -65,6 +65,20 @@ TEST(StreamGate, KeepsOutWhatIsClippedAtARangeThatNobodyToldIt) {
   EXPECT_EQ(free.rejected().total(), 0u);
 }
 
+TEST(StreamGate, OfAForceKeepsOutWhatIsNoNumberInAnyUnit) {
+  StreamGate gate(kPeriod, true);
+  int k = 0;
+  for (; k < 500; ++k) ASSERT_EQ(gate.judge(at(k), 0.0), StreamGate::Verdict::kPasses) << k;
+  for (const double value : {3e4, -2e7, 3e4}) EXPECT_EQ(gate.judge(at(k++), value), StreamGate::Verdict::kPasses);
+  EXPECT_EQ(gate.judge(at(k++), std::nan("")), StreamGate::Verdict::kRejected);
+  EXPECT_EQ(gate.judge(at(k++), 1e20), StreamGate::Verdict::kRejected);
+  EXPECT_EQ(gate.judge(at(k), 1.0), StreamGate::Verdict::kRejected);  // beside what is absurd
+  EXPECT_EQ(gate.judge(at(k - 5), 1.0), StreamGate::Verdict::kRejected);
+  EXPECT_EQ(gate.rejected().byName(),
+            (std::map<std::string, std::uint64_t>{{"absurd", 2u}, {"not_finite", 1u}, {"time_went_back", 1u}}));
+  EXPECT_FALSE(gate.isStill());
+}
+
 TEST(StreamGate, GivesALimitUpThatIsExceeded) {
   StreamGate gate(kPeriod);
   std::mt19937 generator(3);

@@ -224,6 +224,32 @@ TEST_F(StreamGridTest, TakesASensorForStillOnlyIfAllItsStreamsAre) {
   }
 }
 
+// Two accelerometers, and an actuator that is off for long, then pulls at its limit, in newtons.
+TEST_F(StreamGridTest, TakesAForceAtRestOrAtItsLimitForWhatItIs) {
+  const std::vector<StreamOptions> options{{0, true}, {1, true}, {2, true, true}};
+  for (const Alignment alignment : {Alignment::kPaired, Alignment::kResampled}) {
+    StreamGrid grid(kPeriod, options, alignment, kFill);
+    int instants = 0;
+    constexpr int kLast = 3000;
+    for (int k = 0; k < kLast; ++k)
+      for (const std::size_t stream : {0, 1, 2}) {
+        const Stamp stamp = k * fromSeconds(kPeriod) + Stamp(1);
+        const double pull = k < 1000 ? 0.0 : std::min(4000.0, 5000.0 * std::sin(0.01 * k));
+        const double value = stream == 2 ? pull : 9.81 + std::sin(0.3 * k + stream);
+        for (auto found = grid.push(stream, stamp, value); found != nullptr; found = grid.next()) ++instants;
+      }
+    EXPECT_GE(instants, kLast - 20);
+    EXPECT_EQ(grid.rejected().total(), 0u);
+    // Nor does a force that moves make a vehicle at rest stuck.
+    for (int k = kLast; k < 2 * kLast; ++k)
+      for (const std::size_t stream : {0, 1, 2})
+        for (auto found = grid.push(stream, k * fromSeconds(kPeriod) + Stamp(1), stream == 2 ? k : 9.81);
+             found != nullptr; found = grid.next())
+          ++instants;
+    EXPECT_EQ(grid.rejected().count(RejectReason::kStuck), 0u);
+  }
+}
+
 TEST_F(StreamGridTest, DoesWithoutStreamsThatAreNotRequired) {
   const std::vector<StreamOptions> options{{0, false}, {1, true}, {2, true}, {3, false}};
   for (const Alignment alignment : {Alignment::kPaired, Alignment::kResampled}) {

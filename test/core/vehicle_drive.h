@@ -8,14 +8,22 @@
 
 namespace suspension_health_monitor {
 
-/// A simulated drive as recorded ones are: what the IMUs at every strut's top and wheel read.
-inline StrutDrives strutDrives(const Vehicle& vehicle, const VehicleDriveOptions& options) {
-  StrutDrives drive(vehicle.struts.size());
-  for (const VehicleInstant& instant : driveVehicle(vehicle, options))
-    for (std::size_t i = 0; i < drive.size(); ++i)
-      drive[i].samples.push_back({instant.stamp, instant.struts[i].sprung->acceleration + options.gravity,
-                                  instant.struts[i].unsprung->acceleration + options.gravity});
+/// A simulated drive as recorded ones are: what the IMUs at every strut's top and wheel read, and the known forces.
+inline VehicleDrive vehicleDriveOf(const Vehicle& vehicle, const VehicleDriveOptions& options) {
+  VehicleDrive drive{StrutDrives(vehicle.struts.size())};
+  for (const KnownForce& force : vehicle.known_forces) drive.forces.push_back({force.name, {}});
+  for (const VehicleInstant& instant : driveVehicle(vehicle, options)) {
+    for (std::size_t i = 0; i < drive.struts.size(); ++i)
+      drive.struts[i].samples.push_back({instant.stamp, instant.struts[i].sprung->acceleration + options.gravity,
+                                         instant.struts[i].unsprung->acceleration + options.gravity});
+    for (std::size_t k = 0; k < drive.forces.size(); ++k) drive.forces[k].values.push_back(instant.known_forces[k]);
+  }
   return drive;
+}
+
+/// The same without the forces.
+inline StrutDrives strutDrives(const Vehicle& vehicle, const VehicleDriveOptions& options) {
+  return vehicleDriveOf(vehicle, options).struts;
 }
 
 inline std::vector<std::string> strutNames(const Vehicle& vehicle) {

@@ -60,7 +60,7 @@ TEST(VehicleLayout, TakesWhatTheFileSays) {
   ASSERT_EQ(layout.known_forces.size(), 1u);
   EXPECT_EQ(layout.known_forces[0].name, "tow_bar");
   EXPECT_EQ(layout.known_forces[0].topic, "/tow_bar/wrench");
-  EXPECT_EQ(layout.known_forces[0].field, "force.z");
+  EXPECT_EQ(kWrenchFields[layout.known_forces[0].field], "force.z");
 }
 
 TEST(VehicleLayout, NeedsNoBodyImuWhereEveryStrutHasItsOwn) {
@@ -115,9 +115,10 @@ TEST(VehicleLayout, RefusesNamesAndTopicsThatRosWould) {
                 {"struts/front_left/sprung_imu", topic, "must be a topic"});
     expectNamed(refusal({{"known_forces/tow_bar/topic", text(topic)}}), {"known_forces/tow_bar/topic", topic});
   }
-  for (const char* field : {"force..z", "force.", ".z", "force z"})
+  for (const char* field : {"force..z", "force", "z", "force.w", "wrench.force.z", "Force.z"})
     expectNamed(refusal({{"known_forces/tow_bar/field", text(field)}}),
-                {"known_forces/tow_bar/field", field, "force.z"});
+                {"known_forces/tow_bar/field", field,
+                 "must be one of force.x, force.y, force.z, torque.x, torque.y, torque.z"});
   expectNamed(refusal({{"struts/rear_right/frame", text("a b")}}), {"struts/rear_right/frame", "a b"});
 }
 
@@ -126,6 +127,15 @@ TEST(VehicleLayout, RefusesOneImuInTwoPlaces) {
               {"struts/rear_left/unsprung_imu", "/wheel/front_left", "struts/front_left/unsprung_imu", "position"});
   expectNamed(refusal({{"struts/front_left/sprung_imu", text("/imu/data")}}),
               {"struts/front_left/sprung_imu", "/imu/data", "body_imu"});
+}
+
+TEST(VehicleLayout, RefusesAForceTwiceAndOneOnTheTopicOfAnImu) {
+  const auto second = [](const char* topic, const char* field) {
+    return refusal({{"known_forces/winch/topic", text(topic)}, {"known_forces/winch/field", text(field)}});
+  };
+  EXPECT_EQ(second("/tow_bar/wrench", "force.x"), "accepted");
+  expectNamed(second("/tow_bar/wrench", "force.z"), {"known_forces/winch", "known_forces/tow_bar", "another force"});
+  expectNamed(second("/imu/data", "force.z"), {"known_forces/winch/topic", "/imu/data", "body_imu"});
 }
 
 TEST(VehicleLayout, RefusesMoreStrutsThanAVehicleHas) {
@@ -146,7 +156,8 @@ TEST(VehicleLayout, RefusesMoreStrutsThanAVehicleHas) {
   OptionMap forces;
   for (const char* name : {"a", "b", "c", "d"})
     for (const char* setting : {"topic", "field"})
-      forces[std::string("known_forces/") + name + '/' + setting] = std::string(name);
+      forces[std::string("known_forces/") + name + '/' + setting] =
+          std::string(setting) == "topic" ? std::string(name) : std::string("force.z");
   expectNamed(refusal(forces), {"known_forces: 5", "at most 4"});
 }
 
@@ -166,10 +177,28 @@ TEST(VehicleStreams, NumberWhatTheStrutsNeed) {
   EXPECT_EQ(streams.channels.struts[1].unsprung, 8u);
   EXPECT_EQ(streams.channels.struts[2].position, Eigen::Vector3d(-0.4, -0.3, 0.1));
   EXPECT_EQ(streams.channels.known_forces, std::vector<std::size_t>{10});
-  ASSERT_EQ(streams.imus.size(), 5u);
-  EXPECT_EQ(streams.imus[1].topic, "/imu/front_left");
-  EXPECT_EQ(streams.imus[4].setting, "struts/rear_right/unsprung_imu");
-  EXPECT_EQ(streams.imus[4].stream, 9u);
+  for (std::size_t i = 0; i < streams.options.size(); ++i) EXPECT_EQ(streams.options[i].is_force, i == 10) << i;
+  ASSERT_EQ(streams.sensors.size(), 6u);
+  EXPECT_EQ(streams.sensors[1].topic, "/imu/front_left");
+  EXPECT_EQ(streams.sensors[4].setting, "struts/rear_right/unsprung_imu");
+  EXPECT_EQ(streams.sensors[4].stream, 9u);
+  EXPECT_EQ(streams.sensors[5].setting, "known_forces/tow_bar/topic");
+  EXPECT_EQ(streams.topicsOfImus().size(), 5u);
+  EXPECT_EQ(streams.topicsOfForces(), std::vector<std::string>{"/tow_bar/wrench"});
+}
+
+TEST(VehicleStreams, OfForcesFromOneTopicAreOfOneSensor) {
+  VehicleLayout layout;
+  layout.struts = {{"only", "/wheel", "/imu/top", {}, {}}};
+  layout.known_forces = {{"lift", "/tow_bar", 2}, {"winch", "/winch", 0}, {"pull", "/tow_bar", 0}};
+  const VehicleStreams streams(layout);
+  ASSERT_EQ(streams.sensors.size(), 4u);
+  EXPECT_EQ(streams.sensors[2].topic, "/tow_bar");
+  EXPECT_EQ(streams.sensors[2].fields, (std::vector<std::size_t>{2, 0}));
+  EXPECT_EQ(streams.sensors[3].fields, std::vector<std::size_t>{0});
+  EXPECT_EQ(streams.channels.known_forces, (std::vector<std::size_t>{2, 4, 3}));
+  EXPECT_EQ(streams.options[3].sensor, 2u);
+  EXPECT_EQ(streams.options[4].sensor, 3u);
 }
 
 TEST(VehicleStreams, LeaveABodyImuOutThatNoStrutNeedsAndRefuseAStrutNobodyPlaces) {

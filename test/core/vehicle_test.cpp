@@ -64,7 +64,7 @@ TEST(SeparatedVehicle, RefusesStrutsWithoutTheSameStamps) {
 
 TEST(SeparatedVehicle, TakesTheModelsThatAreKnown) {
   const Vehicle vehicle = namedVehicle("half_sedan");
-  const std::vector<StrutDrives> drives{strutDrives(vehicle, vehicleDrive(60.0))};
+  const std::vector<VehicleDrive> drives{strutDrives(vehicle, vehicleDrive(60.0))};
   const KnownModels models{std::nullopt, StrutModel{3.0, 70.0, {}, {}}};
   const SeparatedVehicle separated = separateVehicle(drives, strutNames(vehicle), {}, models);
   ASSERT_TRUE(separated.coupling) << separated.coupling.reason;
@@ -105,7 +105,7 @@ TEST(DiagnosedVehicle, IsSearchedFromTheModelsThatAreKnown) {
   Vehicle vehicle = namedVehicle("half_sedan");
   const EffectLibrary library = builtInEffects();
   vehicle.struts[0].hidden = {{findEffect(library.forces, "quadratic_damping"), 2.0, {}}};
-  const std::vector<StrutDrives> drives{strutDrives(vehicle, vehicleDrive(120.0))};
+  const std::vector<VehicleDrive> drives{strutDrives(vehicle, vehicleDrive(120.0))};
   const VehicleDiagnosis first = diagnoseVehicle(drives, strutNames(vehicle));
   ASSERT_TRUE(first) << first.coupling.reason;
   ASSERT_EQ(first.struts[0].selected, std::vector<std::string>{"quadratic_damping"}) << first.summary;
@@ -119,7 +119,7 @@ TEST(DiagnosedVehicle, IsSearchedFromTheModelsThatAreKnown) {
 
 TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
   const Vehicle vehicle = namedVehicle("half_sedan");
-  const std::vector<StrutDrives> drives{strutDrives(vehicle, vehicleDrive(60.0)),
+  const std::vector<VehicleDrive> drives{strutDrives(vehicle, vehicleDrive(60.0)),
                                         strutDrives(vehicle, vehicleDrive(30.0))};
   const VehicleDiagnosis found = diagnoseVehicle(drives, strutNames(vehicle));
   ASSERT_TRUE(found) << found.coupling.reason;

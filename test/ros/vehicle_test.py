@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""vehicle.launch on the messages of a simulated half car: both struts and their coupling near the truth, the services,
-a silent IMU named, and vehicle files and parameters that are refused."""
+"""vehicle.launch on the messages of a simulated half car with a tow bar whose force is measured: both struts, their
+coupling and what the bar does to them near the truth, the services, silent sensors named, and vehicle files and
+parameters that are refused."""
 import os
 import tempfile
 import unittest
@@ -10,6 +11,7 @@ import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import WrenchStamped
 from ros_session import (PACKAGE, PATIENCE, UNLIMITED, Collector, launch, load_nodelet, read_bag, run_tool, statuses,
                          values, wait_until)
 from rosgraph_msgs.msg import Log
@@ -26,7 +28,8 @@ COUPLED = 1500  # instants after which the coupling is known for long; before, n
 # Of LA with its memory of 2 s the median over the second half of the drive; both struts of a half car at 100 Hz with
 # noise of 0.03 m/s^2 lie within 2 %.
 TOLERANCE = 0.03
-COUPLING_TOLERANCE = 0.03  # of the ratios [-]
+COUPLING_TOLERANCE = 0.03  # of the ratios [-], and of the tow bar's coefficients, as shares of the largest
+TOW_BAR = ("--set", "known_forces/tow_bar/x=-2.5", "--set", "known_forces/tow_bar/rms=150")
 
 
 def service(name, service_type):
@@ -40,7 +43,7 @@ class VehicleTest(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         bag, cls.vehicle = (os.path.join(cls.folder.name, name) for name in ("drive.bag", "vehicle.yaml"))
         run_tool("simulate", "--vehicle-model", "half_sedan", "--duration", str(DURATION), "--rate", "100",
-                 "--seed", "7", "-o", bag, "--vehicle-file", cls.vehicle)
+                 "--seed", "7", *TOW_BAR, "-o", bag, "--vehicle-file", cls.vehicle)
         cls.baselines = {name: os.path.join(cls.folder.name, f"{name}.yaml") for name in STRUTS}
         cls.strut_config = cls.write("struts.yaml", {
             "struts": {name: {"baseline_file": path} for name, path in cls.baselines.items()}})
@@ -77,21 +80,25 @@ class VehicleTest(unittest.TestCase):
     def drive(cls):
         """Publishes the drive by batches, each of which the monitor has taken in before the next one; then nothing
         comes any more, until that is told."""
-        topics = [strut[side] for strut in cls.layout["struts"].values() for side in ("sprung_imu", "unsprung_imu")]
-        publishers = {topic: rospy.Publisher(topic, Imu, queue_size=UNLIMITED, tcp_nodelay=True) for topic in topics}
+        topics = {strut[side]: Imu for strut in cls.layout["struts"].values()
+                  for side in ("sprung_imu", "unsprung_imu")}
+        topics[cls.layout["known_forces"]["tow_bar"]["topic"]] = WrenchStamped
+        publishers = {topic: rospy.Publisher(topic, kind, queue_size=UNLIMITED, tcp_nodelay=True)
+                      for topic, kind in topics.items()}
         for publisher in publishers.values():
             wait_until(publisher.get_num_connections, f"a subscriber of {publisher.name}")
-        count = len(cls.messages[topics[0]])
+        first = next(iter(topics))
+        count = len(cls.messages[first])
         for begin in range(0, count, BATCH):
             end = min(begin + BATCH, count)
             for index in range(begin, end):
                 for topic, publisher in publishers.items():
                     publisher.publish(cls.messages[topic][index])
             if end >= COUPLED:
-                cls.wait_until_taken_in(topics[0], end - 1)
+                cls.wait_until_taken_in(first, end - 1)
         cls.silence = wait_until(lambda: next(
             (status for status in statuses(cls.diagnostics.messages, "vehicle: Input")
-             if all(f"no message on {topic}" in status.message for topic in topics)), None), "the silent IMUs")
+             if all(f"no message on {topic}" in status.message for topic in topics)), None), "the silent sensors")
 
     @classmethod
     def wait_until_taken_in(cls, topic, index):
@@ -125,6 +132,19 @@ class VehicleTest(unittest.TestCase):
         self.assertTrue(last.known)
         np.testing.assert_allclose(last.ratios, truth.coupling, atol=COUPLING_TOLERANCE)
         self.assertLess(max(last.stddevs), COUPLING_TOLERANCE)
+        self.assertEqual(list(last.forces), ["tow_bar"])
+        true = self.force_coefficients()
+        self.assertLess(true[0], 0.0, "what lifts the rear lowers the front")
+        np.testing.assert_allclose(last.force_coefficients, true, atol=COUPLING_TOLERANCE * max(true))
+        self.assertLess(max(last.force_stddevs), COUPLING_TOLERANCE * max(true))
+
+    def force_coefficients(self):
+        """@return 1/M + x_i x / Iyy by strut, from the simulator's forces and accelerations, which have no noise."""
+        body = self.messages["/simulator/truth"]
+        columns = np.array([[*message.forces, *message.known_forces] for message in body])
+        return [np.linalg.lstsq(columns, np.array([message.sprung_acceleration for message in
+                                                   self.messages[f"/simulator/{name}/truth"]]), rcond=None)[0][-1]
+                for name in STRUTS]
 
     def test_diagnostics_have_tasks_of_struts_and_vehicle(self):
         for name in STRUTS:
@@ -137,8 +157,9 @@ class VehicleTest(unittest.TestCase):
         coupled = statuses(self.diagnostics.messages, "vehicle: Coupling")
         self.assertEqual((coupled[0].level, coupled[-1].level), (DiagnosticStatus.STALE, DiagnosticStatus.OK))
         self.assertIn("front moved by rear", values(coupled[-1]))
+        self.assertIn("rear moved by tow_bar", values(coupled[-1]))
 
-    def test_silent_imus_are_named(self):
+    def test_silent_sensors_are_named(self):
         self.assertEqual(self.silence.level, DiagnosticStatus.ERROR)
 
     def test_search_answers_by_strut(self):
@@ -170,9 +191,12 @@ class VehicleTest(unittest.TestCase):
 
     def test_wrong_files_and_parameters_are_refused_by_name(self):
         no_wheel = self.write("no_wheel.yaml", {"struts": {"front": {"sprung_imu": "/a"}}})
+        no_field = self.write("no_field.yaml", {"struts": {"front": {"sprung_imu": "/a", "unsprung_imu": "/b"}},
+                                                "known_forces": {"bar": {"topic": "/c", "field": "force"}}})
         cases = ({}, ["vehicle is missing"]), \
             ({"vehicle": "/none.yaml"}, ["vehicle = /none.yaml"]), \
             ({"vehicle": no_wheel}, [no_wheel, "struts/front/unsprung_imu is missing"]), \
+            ({"vehicle": no_field}, [no_field, 'known_forces/bar/field = "force"', "must be one of force.x"]), \
             ({"vehicle": self.vehicle, "struts": {"middle": {"sprung_mass": 100.0}}},
              ["struts/middle", "must be one of front, rear"]), \
             ({"vehicle": self.vehicle, "struts": {"rear": {"sprung_mass": -1.0}}}, ["struts/rear: sprung_mass = -1"]), \

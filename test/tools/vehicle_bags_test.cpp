@@ -1,6 +1,7 @@
 // A vehicle file, and bags of its IMUs, as drives of all struts.
 #include "tools/vehicle_bags.h"
 
+#include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
 #include <ros/time.h>
 #include <rosbag/bag.h>
@@ -66,6 +67,8 @@ const char* const kVehicle =
 
 double wheel(int strut, double t) { return kGravity + (2.0 + strut) * std::sin(2.0 * kPi * 5.0 * t + strut); }
 
+double pull(double t) { return 300.0 * std::cos(2.0 * kPi * 1.5 * t); }  // [N]
+
 sensor_msgs::Imu message(double t, double z) {
   sensor_msgs::Imu imu;
   imu.header.stamp = ros::Time(1000.0 + t);
@@ -100,6 +103,12 @@ void writeDrive(const std::string& path, double seconds, bool with_frame, bool u
     bag.write("/wheel/front", body.header.stamp, message(t, wheel(0, t)));
     bag.write("/wheel/middle", body.header.stamp, message(t + 2e-4, wheel(1, t)));
     bag.write("/wheel/rear", body.header.stamp, message(t, wheel(2, t)));
+    geometry_msgs::WrenchStamped wrench;
+    wrench.header.stamp = body.header.stamp;
+    wrench.wrench.force.z = pull(t);
+    wrench.wrench.force.x = 50.0;
+    wrench.wrench.torque.y = -2.0 * pull(t);
+    bag.write("/tow_bar", body.header.stamp, wrench);
   }
 }
 
@@ -116,24 +125,57 @@ TEST_F(VehicleBags, AreReadAsDrivesOfAllStrutsWithOneGrid) {
     EXPECT_NEAR(*options.monitor.sample_period, 1.0 / kRate, 1e-6);
     ASSERT_EQ(drives.size(), 2u);
     EXPECT_EQ(drives[0].alignment, "paired");
-    ASSERT_EQ(drives[0].struts.size(), 3u);
-    ASSERT_EQ(drives[1].struts[0].samples.size(),
+    ASSERT_EQ(drives[0].drive.struts.size(), 3u);
+    ASSERT_EQ(drives[1].drive.struts[0].samples.size(),
               500u - 2 * static_cast<std::size_t>(MotionFilter(std::chrono::milliseconds(10), 1, 1).delay()));
-    for (std::size_t k = 0; k < drives[0].struts[0].samples.size(); ++k) {
-      const double t = toSeconds(drives[0].struts[0].samples[k].stamp) - 1000.0;
+    for (std::size_t k = 0; k < drives[0].drive.struts[0].samples.size(); ++k) {
+      const double t = toSeconds(drives[0].drive.struts[0].samples[k].stamp) - 1000.0;
       const double alpha = kPitch * kTurn * std::cos(kTurn * t), rate = kPitch * std::sin(kTurn * t);
       const std::vector<double> tops{kGravity - 1.2 * alpha, kGravity - 0.5 * alpha - 0.1 * rate * rate,
                                      kGravity + 0.8 * alpha};
       for (int i = 0; i < 3; ++i) {
-        const CornerSample& sample = drives[0].struts[static_cast<std::size_t>(i)].samples[k];
-        ASSERT_EQ(sample.stamp, drives[0].struts[0].samples[k].stamp);
+        const CornerSample& sample = drives[0].drive.struts[static_cast<std::size_t>(i)].samples[k];
+        ASSERT_EQ(sample.stamp, drives[0].drive.struts[0].samples[k].stamp);
         ASSERT_NEAR(sample.sprung_acceleration, tops[static_cast<std::size_t>(i)], 3e-3) << i << " at " << t;
         ASSERT_NEAR(sample.unsprung_acceleration, wheel(i, t), 5e-3) << i << " at " << t;
       }
     }
-    ASSERT_EQ(drives[0].imus.size(), 5u);
-    for (const VehicleBag::Imu& imu : drives[0].imus) EXPECT_EQ(imu.rejected.total() + imu.missed, 0u) << imu.topic;
+    ASSERT_EQ(drives[0].sensors.size(), 5u);
+    for (const VehicleBag::Sensor& imu : drives[0].sensors)
+      EXPECT_EQ(imu.rejected.total() + imu.missed, 0u) << imu.topic;
   }
+}
+
+// As late as everything else, by the filter of the one body IMU, and counted if they are no numbers.
+TEST_F(VehicleBags, HoldKnownForcesOnTheSameGrid) {
+  writeDrive(path("drive.bag"), 5.0, true);
+  {
+    rosbag::Bag bag(path("drive.bag"), rosbag::bagmode::Append);
+    geometry_msgs::WrenchStamped wrong;
+    wrong.header.stamp = ros::Time(1010.0);
+    wrong.wrench.force.z = std::nan("");
+    bag.write("/tow_bar", wrong.header.stamp, wrong);
+  }
+  const std::string forces =
+      "known_forces:\n  lift: {topic: /tow_bar, field: force.z}\n  turn: {topic: /tow_bar, field: torque.y}\n";
+  ImuBags bags;
+  bags.paths = {path("drive.bag")};
+  PipelineOptions options;
+  const VehicleBag read =
+      readVehicleDrives(bags, options, readVehicleFile(write("vehicle.yaml", kVehicle + forces))).front();
+  ASSERT_EQ(read.drive.forces.size(), 2u);
+  EXPECT_EQ(read.drive.forces[0].name, "lift");
+  EXPECT_EQ(read.drive.forces[1].name, "turn");
+  const std::vector<CornerSample>& samples = read.drive.struts[0].samples;
+  ASSERT_GT(samples.size(), 400u);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double t = toSeconds(samples[k].stamp) - 1000.0;
+    ASSERT_NEAR(read.drive.forces[0].values[k], pull(t), 0.5) << t;
+    ASSERT_NEAR(read.drive.forces[1].values[k], -2.0 * pull(t), 1.0) << t;
+  }
+  ASSERT_EQ(read.sensors.size(), 6u);
+  EXPECT_EQ(read.sensors[5].topic, "/tow_bar");
+  EXPECT_EQ(read.sensors[5].rejected.count(RejectReason::kNotFinite), 1u);
 }
 
 TEST_F(VehicleBags, OfOtherVehiclesAreRefused) {
@@ -154,7 +196,7 @@ TEST_F(VehicleBags, OfOtherVehiclesAreRefused) {
               {"no topic /wheel/left (struts/only/unsprung_imu)", "/wheel/front"});
   expectNamed(read("struts: {only: {sprung_imu: /imu/front, unsprung_imu: /wheel/front}}\n"
                    "known_forces: {bar: {topic: /bar, field: force.z}}"),
-              {"known_forces/bar", "must be left out"});
+              {"no topic /bar (known_forces/bar/topic)", "WrenchStamped topics in this bag: /tow_bar"});
   EXPECT_EQ(read("struts: {only: {sprung_imu: /imu/front, unsprung_imu: /wheel/front}}"), "accepted");
   writeDrive(path("drive.bag"), 1.0, true);
   expectNamed(read("body_imu: /imu/data\nstruts: {only: {unsprung_imu: /wheel/front, frame: front_strut}}"),

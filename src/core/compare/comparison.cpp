@@ -92,7 +92,7 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   filter.period = records.front()->period();
   filter.horizon_samples = comparison.horizon_samples = horizonFor(options, comparison.model, filter.period);
   comparison.one_step = oneStepError(comparison.segments, comparison.model, filter);
-  comparison.noise_floor = estimateNoiseFloor(records, comparison.model, options.noise);
+  comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
   comparison.noise_floor = floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
                                            residualsOf(comparison.segments), filter.period, comparison.model);

@@ -211,8 +211,9 @@ double ofBothSensors(double body_noise, double period, const StrutModel& model) 
 }
 
 /// What is left of noise by the model's free run, over what is left of it by the interpolation.
-double gainOfNoise(const Drive& drive, double period, const Eigen::VectorXd& interpolation, const StrutModel& model) {
-  const std::deque<DriveRecord> records = makeRecords({drive}, period, model);
+double gainOfNoise(const std::vector<CornerSample>& samples, double period, const Eigen::VectorXd& interpolation,
+                   const StrutModel& model) {
+  const std::deque<DriveRecord> records = makeRecords({Drive{samples}}, period, model);
   const Segments noise = segmentsOf(pointersTo(records));
   const auto [rows, measured] = interpolationRows(noise, choosePlaces(noise), sprungOf(noise));
   const double untold = (measured - rows * interpolation).norm() / std::sqrt(static_cast<double>(measured.size()));
@@ -227,23 +228,23 @@ double gainOfNoise(const Drive& drive, double period, const Eigen::VectorXd& int
   return std::sqrt(squares / count) / untold;
 }
 
-double floorOfNoise(const Records& records, const StrutModel& model, const std::optional<Drive>& noise,
-                    bool without_laws) {
+double floorOfNoise(const Records& records, const StrutModel& model, bool without_laws) {
   const Untold left = untold(segmentsOf(records), model, without_laws);
   const double period = records.front()->period();
-  if (!noise || left.deviation == 0.0) return ofBothSensors(left.deviation, period, model);
-  return left.deviation * gainOfNoise(*noise, period, left.interpolation, model);
+  const std::vector<CornerSample>& noise = records.front()->noise();
+  if (noise.empty() || left.deviation == 0.0) return ofBothSensors(left.deviation, period, model);
+  return left.deviation * gainOfNoise(noise, period, left.interpolation, model);
 }
 
 }  // namespace
 
-double estimateNoiseFloor(const Records& records, const StrutModel& model, const std::optional<Drive>& noise) {
-  const double floor = floorOfNoise(records, model, noise, true);
+double estimateNoiseFloor(const Records& records, const StrutModel& model) {
+  const double floor = floorOfNoise(records, model, true);
   return floor > 0.0 ? std::max(floor, accuracyOfFreeRuns(records)) : 0.0;
 }
 
-double estimateSamplingFloor(const Records& records, const StrutModel& model, const std::optional<Drive>& noise) {
-  return floorOfNoise(records, model, noise, false);
+double estimateSamplingFloor(const Records& records, const StrutModel& model) {
+  return floorOfNoise(records, model, false);
 }
 
 double accuracyOfFreeRuns(const Records& records) {

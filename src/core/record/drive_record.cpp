@@ -58,7 +58,7 @@ std::vector<DriveRecord::Stretch> DriveRecord::stretchesOf(const Drive& drive, d
 }
 
 DriveRecord::DriveRecord(const Drive& drive, double period, int steps, double driven_before)
-    : period_(period), steps_(steps) {
+    : period_(period), steps_(steps), noise_(drive.noise) {
   const std::vector<Stretch> stretches = stretchesOf(drive, period);
   double sum = 0.0, count = 0.0;
   for (const Stretch& stretch : stretches) {

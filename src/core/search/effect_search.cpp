@@ -268,8 +268,8 @@ SearchResult Search::run(const ModelFit& rough) {
   report(kStarted);
   result_.base = base_.ranked;
   result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
-  result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model, options_.noise);
-  sampling_floor_ = estimateSamplingFloor(records_, base_.ranked.model, options_.noise);
+  result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
+  sampling_floor_ = estimateSamplingFloor(records_, base_.ranked.model);
   EvaluatedModel last = refine(extend());
   // What several names explain no better than one does, one explains.
   if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {

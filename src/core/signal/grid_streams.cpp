@@ -31,13 +31,14 @@ bool GridStreams::mayStillCome(GridStream& optional) const {
 
 bool GridStreams::rejectStuck() {
   std::fill(sensor_is_still_.begin(), sensor_is_still_.end(), true);
+  const auto isCompared = [](const GridStream& stream) { return stream.options.required && !stream.options.is_force; };
   for (const GridStream& stream : streams_)
-    if (stream.options.required && !stream.is_still) sensor_is_still_[stream.options.sensor] = false;
-  const auto standsStill = [this](const GridStream& stream) {
-    return stream.options.required && sensor_is_still_[stream.options.sensor];
+    if (isCompared(stream) && !stream.is_still) sensor_is_still_[stream.options.sensor] = false;
+  const auto standsStill = [&](const GridStream& stream) {
+    return isCompared(stream) && sensor_is_still_[stream.options.sensor];
   };
-  const auto moves = [this](const GridStream& stream) {
-    return stream.options.required && !sensor_is_still_[stream.options.sensor];
+  const auto moves = [&](const GridStream& stream) {
+    return isCompared(stream) && !sensor_is_still_[stream.options.sensor];
   };
   if (std::none_of(streams_.begin(), streams_.end(), standsStill) ||
       std::none_of(streams_.begin(), streams_.end(), moves))

@@ -23,21 +23,18 @@ struct FilterPair {
 /// @param flat, stop  in cycles per sample.
 FilterPair makePair(int delay, double flat, double stop) {
   const int unknowns = 2 * delay + 1;  // h_0 .. h_delay, g_1 .. g_delay
+  const Eigen::ArrayXd frequencies = Eigen::ArrayXd::LinSpaced(kFrequencies + 1, 0.0, 0.5), q = 2.0 * kPi * frequencies;
+  Eigen::MatrixXd low_pass = Eigen::MatrixXd::Zero(q.size(), unknowns), difference = low_pass;
+  low_pass.col(0).setOnes();
+  for (int n = 1; n <= delay; ++n) low_pass.col(n) = 2.0 * (n * q).cos();
+  difference.leftCols(delay + 1) = -(q.matrix().asDiagonal() * low_pass.leftCols(delay + 1));
+  for (int n = 1; n <= delay; ++n) difference.col(delay + n) = 2.0 * (n * q).sin();
+  const Eigen::VectorXd passes = (frequencies <= flat).cast<double>(), stops = (frequencies >= stop).cast<double>();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns + 2, unknowns + 2);
+  normal.topLeftCorner(unknowns, unknowns) = low_pass.transpose() * (passes + stops).asDiagonal() * low_pass +
+                                             MotionFilter::kSameFilter * difference.transpose() * difference;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns + 2);
-  Eigen::VectorXd low_pass = Eigen::VectorXd::Zero(unknowns), difference = low_pass;
-  low_pass[0] = 1.0;
-  auto gram = normal.topLeftCorner(unknowns, unknowns);
-  for (int i = 0; i <= kFrequencies; ++i) {
-    const double frequency = 0.5 * i / kFrequencies, q = 2.0 * kPi * frequency;
-    for (int n = 1; n <= delay; ++n) low_pass[n] = 2.0 * std::cos(n * q);
-    difference = -q * low_pass;
-    for (int n = 1; n <= delay; ++n) difference[delay + n] = 2.0 * std::sin(n * q);
-    const bool passes = frequency <= flat, stops = frequency >= stop;
-    if (passes || stops) gram += low_pass * low_pass.transpose();
-    if (passes) right.head(unknowns) += low_pass;
-    gram += MotionFilter::kSameFilter * difference * difference.transpose();
-  }
+  right.head(unknowns) = low_pass.transpose() * passes;
   // Lagrange's conditions: sum of h is 1, and sum of n g_n over both sides.
   normal(unknowns, 0) = 1.0;
   for (int n = 1; n <= delay; ++n) {

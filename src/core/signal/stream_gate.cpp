@@ -27,6 +27,7 @@ StreamGate::Verdict StreamGate::judge(Stamp stamp, double acceleration) {
   if (isAbsurd(acceleration)) return reject(RejectReason::kAbsurd);
   last_ = stamp;
   timing_.add(stamp);
+  if (is_force_) return passes;
   noteValue(acceleration);
   if (isClipped(acceleration)) return reject(RejectReason::kClipped);
   return passes;
@@ -47,7 +48,8 @@ std::optional<RejectReason> StreamGate::faultOfStamp(Stamp stamp) const {
 
 bool StreamGate::isAbsurd(double acceleration) {
   const double size = std::abs(acceleration);
-  const double most = std::clamp(kMostTimesUsual * usual_size_.median(), kMostOfAVehicle, kMostInAnyUnit);
+  const double least = is_force_ ? kMostInAnyUnit : kMostOfAVehicle;
+  const double most = std::clamp(kMostTimesUsual * usual_size_.median(), least, kMostInAnyUnit);
   usual_size_.add(size);
   believed_ = size > most ? 0 : std::min(believed_ + 1, kBelievedAgain);
   return believed_ < kBelievedAgain;

@@ -58,6 +58,7 @@ CouplingEstimator::CouplingEstimator(int num_struts, int num_forces, const Integ
   estimate_.coupling.bars = StrutMatrix::Zero(num_struts, num_struts);
   estimate_.coupling.own_power = StrutVector::Zero(num_struts);
   estimate_.stddevs = StrutMatrix::Constant(num_struts, num_struts, HUGE_VAL);
+  estimate_.force_stddevs = ForceMatrix::Constant(num_struts, num_forces, HUGE_VAL);
   estimate_.damping_to_mass = estimate_.stiffness_to_mass = StrutVector::Zero(num_struts);
   estimate_.own_stddevs.setZero(num_struts, 2);
   estimate_.stddevs.diagonal().setZero();
@@ -70,12 +71,14 @@ void CouplingEstimator::setNoise(const SensorNoise& noise) {
   noise_ = Moments::Zero(columns, columns);
   const VehicleSample at_rest{
       {}, StrutVector::Zero(num_struts_), StrutVector::Zero(num_struts_), ForceVector::Zero(num_forces_)};
+  rows.first_forces_ = at_rest.forces;
   for (const StrutDrives& response : noise) {
+    const VehicleDrive wrong{response};
     rows.startNewSeries();
     for (int k = 1; k < fill_; ++k) rows.fillRow(at_rest);
     const std::size_t length = response.front().samples.size();
     for (std::size_t k = 0; k < length + static_cast<std::size_t>(fill_); ++k) {
-      VehicleSample sample = k < length ? sampleOf(response, k) : at_rest;
+      VehicleSample sample = k < length ? sampleOf(wrong, k) : at_rest;
       sample.forces = at_rest.forces;
       rows.fillRow(sample);
       noise_ += rows.row_.head(columns) * rows.row_.head(columns).transpose();
@@ -84,6 +87,7 @@ void CouplingEstimator::setNoise(const SensorNoise& noise) {
 }
 
 void CouplingEstimator::add(const VehicleSample& sample) {
+  if (first_forces_.size() == 0) first_forces_ = sample.forces;
   if (!fillRow(sample) || !row_due_()) return;
   const double weight = weightOfRow();
   weight_ = forgetting_factor_ * weight_ + weight;
@@ -104,7 +108,7 @@ bool CouplingEstimator::fillRow(const VehicleSample& sample) {
   }
   for (int k = 0; k < num_forces_; ++k) {
     auto& force = forces_[static_cast<std::size_t>(k)];
-    force.push(sample.forces[k]);
+    force.push(sample.forces[k] - first_forces_[k]);
     row_[2 * num_struts_ + k] = force.output(2);
   }
   row_[row_.size() - 1] = 1.0;
@@ -381,52 +385,58 @@ void CouplingEstimator::describeAlike(const Moments& plain, double sensor_varian
   estimate_.second_alike = largest();
 }
 
-// Standard deviations of the ratios and of the struts' own parameters, from the information that the rows have of all
-// of them together: of z_i'' by rho_ij, j != i, and by what every strut does of its own. One by one they would seem to
-// be known far better where tracks are alike.
+// Standard deviations of ratios, of forces' coefficients and of the struts' own parameters, from the information that
+// the rows have of all of them together: of z_i'' by rho_ij, j != i, kappa_ik and by what every strut does of its own.
+// One by one they would seem to be known far better where tracks are alike.
 // @param of_struts  moments of p_j and x_k.  @param rest  of each output.
-// @return the largest rms that the ratios' errors give a strut's own acceleration, as a share of it.
+// @return the largest rms that the errors of the first two give a strut's own acceleration, as a share of it.
 double CouplingEstimator::describeErrors(const Moments& moments, const Moments& of_struts, const StrutVector& rest) {
   const int n = num_struts_;
   const StrutMatrix& ratios = estimate_.coupling.ratios;
   const auto [columns, place] = ownUnknowns();
-  const auto ratio = [n](int i, int j) { return i * (n - 1) + (j < i ? j : j - 1); };
-  const Eigen::Index num_ratios = n * (n - 1), num_own = columns.rows();
+  const int num_others = n - 1 + num_forces_;  // of a strut: other struts, then forces
+  const auto coefficient = [&](int i, int j) { return i * num_others + (j < i ? j : j - 1); };
+  const Eigen::Index num_coefficients = n * num_others, num_own = columns.rows();
   const Eigen::MatrixXd with_own = columns * moments.topLeftCorner(2 * n, 2 * n);
   const Eigen::MatrixXd among_own = with_own * columns.transpose();
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(num_ratios + num_own, num_ratios + num_own);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(num_coefficients + num_own, num_coefficients + num_own);
   for (int i = 0; i < n; ++i) {
     const double rows = weight_ / (kRowsPerIndependent * rest[i]);
     Eigen::VectorXd own_ratios(num_own);
     for (Eigen::Index a = 0; a < num_own; ++a) own_ratios[a] = ratios(i, place[static_cast<std::size_t>(a)]);
-    for (int j = 0; j < n; ++j) {
+    for (int j = 0; j < n + num_forces_; ++j) {
       if (j == i) continue;
-      for (int l = 0; l < n; ++l)
-        if (l != i) information(ratio(i, j), ratio(i, l)) = rows * of_struts(j, l);
-      information.row(ratio(i, j)).tail(num_own) = rows * own_ratios.cwiseProduct(with_own * ownColumns(j)).transpose();
+      for (int l = 0; l < n + num_forces_; ++l)
+        if (l != i) information(coefficient(i, j), coefficient(i, l)) = rows * of_struts(j, l);
+      const Eigen::VectorXd with_other =
+          j < n ? Eigen::VectorXd(with_own * ownColumns(j)) : columns * moments.col(n + j).head(2 * n);
+      information.row(coefficient(i, j)).tail(num_own) = rows * own_ratios.cwiseProduct(with_other).transpose();
     }
     information.bottomRightCorner(num_own, num_own) +=
         rows * own_ratios.asDiagonal() * among_own * own_ratios.asDiagonal();
   }
-  information.bottomLeftCorner(num_own, num_ratios) = information.topRightCorner(num_ratios, num_own).transpose();
+  information.bottomLeftCorner(num_own, num_coefficients) =
+      information.topRightCorner(num_coefficients, num_own).transpose();
   const Eigen::MatrixXd covariance =
       information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  const auto deviation = [&](Eigen::Index unknown) { return std::sqrt(covariance(unknown, unknown)); };
   double most = 0.0;
   for (int i = 0; i < n; ++i) {
     double error = 0.0;
-    for (int j = 0; j < n; ++j) {
+    for (int j = 0; j < n + num_forces_; ++j) {
       if (j == i) continue;
-      estimate_.stddevs(i, j) = std::sqrt(covariance(ratio(i, j), ratio(i, j)));
-      for (int l = 0; l < n; ++l)
-        if (l != i) error += covariance(ratio(i, j), ratio(i, l)) * of_struts(j, l);
+      if (j < n)
+        estimate_.stddevs(i, j) = deviation(coefficient(i, j));
+      else
+        estimate_.force_stddevs(i, j - n) = of_struts(j, j) > 0.0 ? deviation(coefficient(i, j)) : HUGE_VAL;
+      for (int l = 0; l < n + num_forces_; ++l)
+        if (l != i) error += covariance(coefficient(i, j), coefficient(i, l)) * of_struts(j, l);
     }
     most = std::max(most, error / of_struts(i, i));
-    for (const int a : {0, 1}) {
-      const Eigen::Index own = num_ratios + a * n + i;
-      const double of_noise =
-          kNoiseKnown / estimate_.told_apart * (a == 0 ? estimate_.damping_to_mass[i] : estimate_.stiffness_to_mass[i]);
-      estimate_.own_stddevs(i, a) = std::sqrt(covariance(own, own) + of_noise * of_noise);
-    }
+    const double of_noise = kNoiseKnown / estimate_.told_apart;
+    estimate_.own_stddevs(i, 0) = std::hypot(deviation(num_coefficients + i), of_noise * estimate_.damping_to_mass[i]);
+    estimate_.own_stddevs(i, 1) =
+        std::hypot(deviation(num_coefficients + n + i), of_noise * estimate_.stiffness_to_mass[i]);
   }
   return std::sqrt(most);
 }

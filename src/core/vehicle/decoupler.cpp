@@ -21,7 +21,10 @@ int naturalPeriod(const std::vector<StrutModel>& models, double period) {
 }  // namespace
 
 Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models)
-    : period_(period), weights_(coupling), bars_(coupling.bars) {
+    : period_(period),
+      weights_(coupling),
+      bars_(coupling.bars),
+      force_means_(static_cast<std::size_t>(coupling.forces.cols()), LimitedMean(std::exp(-period / kMeanMemory))) {
   const int natural_period = naturalPeriod(models, period);
   for (const StrutModel& model : models)
     struts_.push_back({model, TravelObserver(period, model.stiffness_to_mass, natural_period),
@@ -36,8 +39,12 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
     struts_[j].gravity.add(sample.sprung[place]);
     struts_[j].travel.push(sample.unsprung[place] - sample.sprung[place]);
   }
+  for (std::size_t k = 0; k < force_means_.size(); ++k)
+    force_means_[k].add(sample.forces[static_cast<Eigen::Index>(k)]);
   if (!struts_.front().travel.full()) return nullptr;
   out_ = recent_.front();
+  ForceVector forces = out_.forces;
+  for (std::size_t k = 0; k < force_means_.size(); ++k) forces[static_cast<Eigen::Index>(k)] -= force_means_[k].mean();
   StrutVector moving = out_.sprung, modelled(out_.sprung.size()), stiffness = modelled, travel = modelled,
               slow = modelled;
   for (std::size_t j = 0; j < struts_.size(); ++j) {
@@ -52,7 +59,7 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   }
   // At its own strut, too, what a bar does is not the strut's.
   const StrutVector by_bars = ofBars(travel), slow_by_bars = ofBars(slow);
-  const StrutVector neighbours = weights_.neighbours(moving, out_.forces, modelled + by_bars) + by_bars;
+  const StrutVector neighbours = weights_.neighbours(moving, forces, modelled + by_bars) + by_bars;
   const StrutVector unseen = weights_.leaked(stiffness.cwiseProduct(slow) + slow_by_bars) + slow_by_bars;
   out_.sprung -= neighbours;
   out_.unsprung -= neighbours - unseen.cwiseQuotient(stiffness);

@@ -12,10 +12,10 @@ constexpr int kSeed = 1;
 constexpr double kSmall = 1e-3;  // of a reading: products of two of them are nothing
 
 /// What follows one wrong reading of a stream.
-StrutDrives responseOf(const VehicleChannels& channels, Stamp period, std::size_t num_streams, std::size_t stream,
-                       double deviation) {
-  StrutTops tops(period, channels);
-  StrutDrives response(channels.struts.size());
+/// @param tops  new ones.
+StrutDrives responseOf(StrutTops tops, std::size_t num_struts, Stamp period, std::size_t num_streams,
+                       std::size_t stream, double deviation) {
+  StrutDrives response(num_struts);
   const int fill = 2 * tops.delay();
   for (int k = 0; k <= 2 * fill; ++k) {
     GridInstant instant{k * period, std::vector<double>(num_streams, 0.0), std::vector<bool>(num_streams, true)};
@@ -48,8 +48,9 @@ SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, doub
   for (const VehicleChannels::Strut& strut : channels.struts)
     num_streams = std::max({num_streams, strut.unsprung + 1, strut.sprung.value_or(0) + 1});
   for (const std::size_t force : channels.known_forces) num_streams = std::max(num_streams, force + 1);
+  const StrutTops tops(period, channels);
   const auto add = [&](std::size_t stream, double deviation) {
-    noise.push_back(responseOf(channels, period, num_streams, stream, deviation));
+    noise.push_back(responseOf(tops, channels.struts.size(), period, num_streams, stream, deviation));
   };
   bool needs_body = false;
   for (const VehicleChannels::Strut& strut : channels.struts) {

@@ -6,6 +6,7 @@
 
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
+#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
@@ -13,8 +14,8 @@ namespace {
 
 // Leads a drive, series by series.
 template <class Begin, class Take>
-void replay(const StrutDrives& drive, double period, const Begin& begin_series, const Take& take) {
-  const auto& samples = drive.front().samples;
+void replay(const VehicleDrive& drive, double period, const Begin& begin_series, const Take& take) {
+  const auto& samples = drive.struts.front().samples;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     if (k == 0 || continuity(samples[k].stamp - samples[k - 1].stamp, fromSeconds(period)) != Continuity::kContinues)
       begin_series();
@@ -22,13 +23,23 @@ void replay(const StrutDrives& drive, double period, const Begin& begin_series, 
   }
 }
 
-void requireSameStamps(const StrutDrives& drive) {
-  for (const Drive& strut : drive) {
+void requireSameStamps(const VehicleDrive& drive) {
+  const auto& first = drive.struts.front().samples;
+  for (const Drive& strut : drive.struts) {
     const auto same = [](const CornerSample& a, const CornerSample& b) { return a.stamp == b.stamp; };
-    const auto& first = drive.front().samples;
     if (!std::equal(first.begin(), first.end(), strut.samples.begin(), strut.samples.end(), same))
       throw std::invalid_argument("the struts of a drive must have samples of the same stamps");
   }
+  for (const KnownForceRecord& force : drive.forces)
+    if (force.values.size() != first.size())
+      throw std::invalid_argument("force " + force.name + " has " + std::to_string(force.values.size()) +
+                                  " values, must have one for each of " + std::to_string(first.size()) + " samples");
+}
+
+std::vector<double> columnOf(const ForceMatrix& matrix, std::size_t column) {
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) values.push_back(matrix(i, static_cast<Eigen::Index>(column)));
+  return values;
 }
 
 std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
@@ -40,18 +51,28 @@ std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
 
 }  // namespace
 
-VehicleSample sampleOf(const StrutDrives& drive, std::size_t k) {
-  const auto n = static_cast<Eigen::Index>(drive.size());
-  VehicleSample sample{drive.front().samples[k].stamp, StrutVector(n), StrutVector(n), ForceVector(0)};
+VehicleSample sampleOf(const VehicleDrive& drive, std::size_t k) {
+  const auto n = static_cast<Eigen::Index>(drive.struts.size());
+  VehicleSample sample{drive.struts.front().samples[k].stamp, StrutVector(n), StrutVector(n),
+                       ForceVector(static_cast<Eigen::Index>(drive.forces.size()))};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const CornerSample& strut = drive[static_cast<std::size_t>(i)].samples[k];
+    const CornerSample& strut = drive.struts[static_cast<std::size_t>(i)].samples[k];
     sample.sprung[i] = strut.sprung_acceleration;
     sample.unsprung[i] = strut.unsprung_acceleration;
   }
+  for (Eigen::Index i = 0; i < sample.forces.size(); ++i)
+    sample.forces[i] = drive.forces[static_cast<std::size_t>(i)].values[k];
   return sample;
 }
 
-VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std::string>& names) {
+std::vector<std::string> forceNames(const VehicleDrive& drive) {
+  std::vector<std::string> names;
+  for (const KnownForceRecord& force : drive.forces) names.push_back(force.name);
+  return names;
+}
+
+VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std::string>& names,
+                         const std::vector<std::string>& forces) {
   VehicleCoupling coupling;
   coupling.ratios = rowsOf(estimate.coupling.ratios);
   coupling.stddevs = rowsOf(estimate.stddevs);
@@ -61,14 +82,21 @@ VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std
     for (Eigen::Index j = i + 1; j < bars.rows(); ++j)
       if (bars(i, j) != 0.0)
         coupling.bars.push_back({static_cast<std::size_t>(i), static_cast<std::size_t>(j), bars(i, j), bars(j, i)});
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    coupling.forces.push_back({forces[k], columnOf(estimate.coupling.forces, k), columnOf(estimate.force_stddevs, k)});
   coupling.reason = reasonOf(estimate, names);
   return coupling;
 }
 
-CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double period, const SensorNoise& noise) {
-  const int n = static_cast<int>(drives.front().size());
-  CouplingSurvey survey(n, 0, period, std::numeric_limits<double>::infinity(), noise);
-  for (const StrutDrives& drive : drives) {
+SensorNoise noiseOf(const VehicleDrive& drive) {
+  return drive.noise.empty() ? noiseOfOwnSensors(drive.struts.size()) : drive.noise;
+}
+
+CouplingEstimate coupleStruts(const std::vector<VehicleDrive>& drives, double period) {
+  const VehicleDrive& first = drives.front();
+  CouplingSurvey survey(static_cast<int>(first.struts.size()), static_cast<int>(first.forces.size()), period,
+                        std::numeric_limits<double>::infinity(), noiseOf(first));
+  for (const VehicleDrive& drive : drives) {
     requireSameStamps(drive);
     replay(
         drive, period, [&] { survey.startNewSeries(); }, [&](const VehicleSample& sample) { survey.add(sample); });
@@ -76,10 +104,10 @@ CouplingEstimate coupleStruts(const std::vector<StrutDrives>& drives, double per
   return survey.solve();
 }
 
-StrutDrives separateStruts(const StrutDrives& drive, double period, const Coupling& coupling,
+StrutDrives separateStruts(const VehicleDrive& drive, double period, const Coupling& coupling,
                            const std::vector<StrutModel>& models) {
   Decoupler decoupler(period, coupling, models);
-  StrutDrives separated(drive.size());
+  StrutDrives separated(drive.struts.size());
   replay(
       drive, period, [&] { decoupler.startNewSeries(); },
       [&](const VehicleSample& sample) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 namespace suspension_health_monitor {
 namespace {
@@ -26,10 +25,8 @@ StrutTops::StrutTops(Stamp period, const VehicleChannels& channels) : channels_(
   const bool needs_body = static_cast<std::size_t>(own) < struts;
   if (needs_body && !channels_.body_imu)
     throw std::invalid_argument("a strut without a sprung stream of its own needs the body's IMU");
-  if (struts > static_cast<std::size_t>(kMostStruts) ||
-      channels_.known_forces.size() > static_cast<std::size_t>(kMostKnownForces))
-    throw std::invalid_argument("a vehicle has at most " + std::to_string(kMostStruts) + " struts and " +
-                                std::to_string(kMostKnownForces) + " known forces");
+  requireNumStruts(struts);
+  requireNumKnownForces(channels_.known_forces.size());
   const std::size_t measured = struts + static_cast<std::size_t>(own) + channels_.known_forces.size();
   signals_.reserve(measured + kBodySignals + kBodyRates);
   if (needs_body) filter_.emplace(period, measured + kBodySignals, kBodyRates);

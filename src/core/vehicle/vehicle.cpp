@@ -9,23 +9,29 @@
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-std::vector<Drive> flattened(const std::vector<StrutDrives>& drives) {
+std::vector<Drive> flattened(const std::vector<VehicleDrive>& drives) {
   std::vector<Drive> all;
-  for (const StrutDrives& drive : drives) all.push_back(drive.front());
+  for (const VehicleDrive& drive : drives) all.push_back(drive.struts.front());
   return all;
 }
 
-void check(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names, const KnownModels& known) {
+void check(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names, const KnownModels& known) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   requireNumStruts(names.size());
-  for (const StrutDrives& drive : drives)
-    if (drive.size() != names.size())
-      throw std::invalid_argument("a drive of " + std::to_string(drive.size()) + " struts, must be " +
+  requireNumKnownForces(drives.front().forces.size());
+  for (const VehicleDrive& drive : drives) {
+    if (drive.struts.size() != names.size())
+      throw std::invalid_argument("a drive of " + std::to_string(drive.struts.size()) + " struts, must be " +
                                   std::to_string(names.size()));
+    if (forceNames(drive) != forceNames(drives.front()))
+      throw std::invalid_argument("a drive with the known forces [" + join(forceNames(drive)) + "], must be [" +
+                                  join(forceNames(drives.front())) + "] as in the first");
+  }
   if (!known.empty() && known.size() != names.size())
     throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
                                 std::to_string(names.size()) + " or of none");
@@ -39,18 +45,16 @@ int horizonFor(const StrutModel& model, double period) {
 /// Struts with what is known of them, to be separated again as more is known.
 class Separator {
  public:
-  Separator(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-            const std::optional<double>& sample_period, const KnownModels& known, const SensorNoise& noise)
+  Separator(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+            const std::optional<double>& sample_period, const KnownModels& known = {})
       : drives_(drives) {
     check(drives, names, known);
-    const SensorNoise sensors = noise.empty() ? noiseOfOwnSensors(names.size()) : noise;
     period_ = sample_period ? *sample_period : medianPeriod(flattened(drives));
-    noise_ = makeNoiseDrive(sensors, period_);
-    estimate_ = coupleStruts(drives, period_, sensors);
+    estimate_ = coupleStruts(drives, period_);
     models_ = estimate_.models();
     for (std::size_t i = 0; i < known.size(); ++i)
       if (known[i]) models_[i] = *known[i];
-    coupling_ = describe(estimate_, names);
+    coupling_ = describe(estimate_, names, forceNames(drives.front()));
   }
 
   const VehicleCoupling& coupling() const { return coupling_; }
@@ -66,22 +70,23 @@ class Separator {
 
   void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
 
-  /// @return by strut, what the sensors' noise makes of its drives.
-  StrutDrives separateNoise() const { return separateStruts(noise_, period_, estimate_.coupling, estimate_.models()); }
-
   std::vector<std::vector<Drive>> separate() const {
     std::vector<std::vector<Drive>> struts(models_.size());
-    for (const StrutDrives& drive : drives_) {
+    for (const VehicleDrive& drive : drives_) {
       StrutDrives separated = separateStruts(drive, period_, estimate_.coupling, models_);
       for (std::size_t i = 0; i < struts.size(); ++i) struts[i].push_back(std::move(separated[i]));
     }
+    VehicleDrive noise(makeNoiseDrive(noiseOf(drives_.front()), period_));
+    for (const KnownForceRecord& force : drives_.front().forces)
+      noise.forces.push_back({force.name, std::vector<double>(noise.struts.front().samples.size(), 0.0)});
+    StrutDrives of_noise = separateStruts(noise, period_, estimate_.coupling, estimate_.models());
+    for (std::size_t i = 0; i < struts.size(); ++i) struts[i].front().noise = std::move(of_noise[i].samples);
     return struts;
   }
 
  private:
-  const std::vector<StrutDrives>& drives_;
+  const std::vector<VehicleDrive>& drives_;
   double period_ = 0.0;
-  StrutDrives noise_;
   CouplingEstimate estimate_;
   VehicleCoupling coupling_;
   std::vector<StrutModel> models_;
@@ -107,13 +112,12 @@ Verdict worstOf(const VehicleDiagnosis& found) {
 
 }  // namespace
 
-SeparatedVehicle separateVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
-                                 const std::optional<double>& sample_period, const KnownModels& models,
-                                 const SensorNoise& noise) {
-  const Separator separator(drives, names, sample_period, models, noise);
-  if (!separator.coupling()) return {separator.coupling(), {}, {}, {}, {}};
-  return {separator.coupling(), separator.separate(), separator.models(), separator.separateNoise(),
-          separator.modelStddevs()};
+SeparatedVehicle separateVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+                                 const std::optional<double>& sample_period, const KnownModels& models) {
+  const Separator separator(drives, names, sample_period, models);
+  SeparatedVehicle separated{separator.coupling(), {}, separator.models(), separator.modelStddevs()};
+  if (separated.coupling) separated.struts = separator.separate();
+  return separated;
 }
 
 std::vector<std::string> VehicleDiagnosis::selected(std::size_t strut) const {
@@ -131,11 +135,10 @@ Verdict VehicleDiagnosis::verdictOn(std::size_t strut) const {
   return has_bar && own == Verdict::kNothingMissing ? Verdict::kEffectFound : own;
 }
 
-VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& names,
+VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                                       const IdentifyOptions& options,
-                                      const std::function<void(std::size_t strut, const MonitorReport&)>& report,
-                                      const SensorNoise& noise) {
-  const Separator separator(drives, names, options.sample_period, {}, noise);
+                                      const std::function<void(std::size_t strut, const MonitorReport&)>& report) {
+  const Separator separator(drives, names, options.sample_period);
   VehicleIdentification result{separator.coupling(), {}};
   if (!result) return result;
   const auto separated = separator.separate();
@@ -155,9 +158,9 @@ VehicleIdentification identifyVehicle(const std::vector<StrutDrives>& drives, co
   return result;
 }
 
-VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const std::vector<std::string>& strut_names,
-                                 const DiagnoseOptions& options, const KnownModels& models, const SensorNoise& noise) {
-  Separator separator(drives, strut_names, options.sample_period, models, noise);
+VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& strut_names,
+                                 const DiagnoseOptions& options, const KnownModels& models) {
+  Separator separator(drives, strut_names, options.sample_period, models);
   VehicleDiagnosis result;
   result.coupling = separator.coupling();
   if (!result) {
@@ -168,7 +171,6 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const s
   result.struts.resize(n);
   result.drives.resize(n);
   std::vector<bool> settled(n, false);
-  const StrutDrives of_noise = separator.separateNoise();
   double done = 0.0;
   for (auto open = n; open > 0; --open) {
     auto separated = separator.separate();
@@ -179,7 +181,6 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<StrutDrives>& drives, const s
       DiagnoseOptions strut = options;
       strut.sample_period = separator.period();
       strut.model = models.empty() ? std::nullopt : models[i];
-      strut.noise = of_noise[i];
       if (options.progress) strut.progress = [&](double share) { options.progress(done + share * step); };
       result.struts[i] = diagnose(separated[i], strut);
       result.drives[i] = std::move(separated[i]);

@@ -23,15 +23,15 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
       grid_(period, streams.options, options.alignment, options.fill_samples + 2 * tops_.delay()),
       body_levels_(streams.channels.body_imu ? 6 : 0, WhiteLevel(1.0 - 1.0 / kLevelMemory)),
       sink_(std::move(sink)) {
-  for (const VehicleStreams::Imu& imu : streams.imus) {
-    std::size_t end = imu.stream;
-    while (end < streams.options.size() && streams.options[end].sensor == streams.options[imu.stream].sensor) ++end;
-    channels_.push_back({imu.stream, end});
+  for (const VehicleStreams::Sensor& sensor : streams.sensors) {
+    std::size_t end = sensor.stream;
+    while (end < streams.options.size() && streams.options[end].sensor == streams.options[sensor.stream].sensor) ++end;
+    channels_.push_back({sensor.stream, end});
   }
 }
 
-void VehicleGrid::push(std::size_t imu, Stamp stamp, const std::vector<double>& values) {
-  std::size_t stream = channels_[imu].first;
+void VehicleGrid::push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) {
+  std::size_t stream = channels_[sensor].first;
   for (const double value : values)
     for (auto instant = grid_.push(stream++, stamp, value); instant != nullptr; instant = grid_.next()) take(*instant);
 }
@@ -59,15 +59,16 @@ SensorNoise VehicleGrid::noise() const {
   return noiseOfStrutTops(vehicle_, period_, is_known ? deviation(3) / deviation(0) : kUsualGyroNoise);
 }
 
-RejectCounts VehicleGrid::rejected(std::size_t imu) const {
+RejectCounts VehicleGrid::rejected(std::size_t sensor) const {
   RejectCounts all;
-  for (std::size_t stream = channels_[imu].first; stream < channels_[imu].end; ++stream) all += grid_.rejected(stream);
+  for (std::size_t stream = channels_[sensor].first; stream < channels_[sensor].end; ++stream)
+    all += grid_.rejected(stream);
   return all;
 }
 
-std::uint64_t VehicleGrid::missed(std::size_t imu) const {
+std::uint64_t VehicleGrid::missed(std::size_t sensor) const {
   std::uint64_t most = 0;
-  for (std::size_t stream = channels_[imu].first; stream < channels_[imu].end; ++stream)
+  for (std::size_t stream = channels_[sensor].first; stream < channels_[sensor].end; ++stream)
     most = std::max(most, grid_.missed(stream));
   return most;
 }

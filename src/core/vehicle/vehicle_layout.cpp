@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 
+#include <algorithm>
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
 #include <cctype>
@@ -9,6 +10,7 @@
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -151,13 +153,15 @@ VehicleLayout::KnownForce toForce(const std::string& name, const OptionMap& valu
   for (const auto& [wanted, text] : {std::pair("topic", &settings.topic), std::pair("field", &settings.field)})
     if (text->empty()) refuse(where + '/' + wanted + " is missing; a known force has topic, field");
   checkTopic(where + "/topic", settings.topic);
-  const bool is_joined = settings.field.find("..") == std::string::npos && settings.field.back() != '.';
-  if (!isMadeOf(settings.field, ".[]", "") || !is_joined)
-    refuse(where + "/field" + quoted(settings.field) + ", must be names joined by dots, such as force.z");
-  return {name, settings.topic, settings.field};
+  const auto field = std::find(kWrenchFields.begin(), kWrenchFields.end(), settings.field);
+  if (field == kWrenchFields.end())
+    refuse(where + "/field" + quoted(settings.field) + ", must be one of " +
+           join({kWrenchFields.begin(), kWrenchFields.end()}));
+  return {name, settings.topic, static_cast<std::size_t>(field - kWrenchFields.begin())};
 }
 
-/// One IMU for two places would be two struts, or a wheel and a body, that always move alike.
+/// One IMU for two places would be two struts, or a wheel and a body, that always move alike; so would one force for
+/// two.
 void checkTopics(const VehicleLayout& layout) {
   std::map<std::string, std::string> users;
   const auto use = [&](const std::string& topic, const std::string& user) {
@@ -171,6 +175,14 @@ void checkTopics(const VehicleLayout& layout) {
   for (const VehicleLayout::Strut& strut : layout.struts) {
     if (strut.sprung_imu) use(*strut.sprung_imu, "struts/" + strut.name + "/sprung_imu");
     use(strut.unsprung_imu, "struts/" + strut.name + "/unsprung_imu");
+  }
+  std::map<std::pair<std::string, std::size_t>, std::string> forces;
+  for (const VehicleLayout::KnownForce& force : layout.known_forces) {
+    const std::string where = "known_forces/" + force.name;
+    if (const auto imu = users.find(force.topic); imu != users.end())
+      refuse(where + "/topic" + quoted(force.topic) + " is the topic of " + imu->second + ", must be that of a force");
+    const auto [other, is_first] = forces.emplace(std::pair(force.topic, force.field), where);
+    if (!is_first) refuse(where + " has topic and field of " + other->second + ", must be another force");
   }
 }
 

@@ -40,9 +40,10 @@ VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sin
       survey_(static_cast<int>(settings.size()), num_forces, toSeconds(period_), kCouplingMemory,
               noiseOfOwnSensors(settings.size())),
       coupling_due_(samplesOf(kCouplingEvery, toSeconds(period_))),
-      models_due_(samplesOf(kModelsEvery, toSeconds(period_))) {
-  if (settings_.size() > 1) return;
-  coupling_ = survey_.estimate();  // of one strut: nothing else moves it
+      models_due_(samplesOf(kModelsEvery, toSeconds(period_))),
+      is_alone_(settings.size() == 1 && num_forces == 0) {
+  if (!is_alone_) return;
+  coupling_ = survey_.estimate();
   coupling_->stddevs.setZero();
   coupling_->condition = 1.0;
   beginStruts();
@@ -75,7 +76,7 @@ void VehicleMonitor::addSample(const VehicleSample& sample) {
   last_ = sample.stamp;
   if (how != Continuity::kContinues) startNewSeries();
   const VehicleSample* own = &sample;
-  if (settings_.size() > 1) {
+  if (!is_alone_) {
     survey_.add(sample);
     if (coupling_due_()) learnCoupling();
     if (!decoupler_) return;

@@ -10,4 +10,10 @@ void requireNumStruts(std::size_t count) {
     throw std::invalid_argument(std::to_string(count) + " struts, must be 1 to " + std::to_string(kMostStruts));
 }
 
+void requireNumKnownForces(std::size_t count) {
+  if (count > static_cast<std::size_t>(kMostKnownForces))
+    throw std::invalid_argument(std::to_string(count) + " known forces, must be at most " +
+                                std::to_string(kMostKnownForces));
+}
+
 }  // namespace suspension_health_monitor

@@ -12,33 +12,66 @@ constexpr std::size_t kSixAxes = 6;
 }  // namespace
 
 VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
-  std::size_t sensors = 0;
-  const auto add = [&](std::size_t count) {
-    options.insert(options.end(), count, StreamOptions{sensors++, true});
-    return options.size() - count;
+  const auto add = [&](const std::string& topic, Place place, std::size_t count, const std::string& setting) {
+    sensors.push_back({topic, place, options.size(), setting});
+    options.insert(options.end(), count, StreamOptions{sensors.size() - 1, true});
+    return sensors.back().stream;
   };
   const bool needs_body = std::any_of(layout.struts.begin(), layout.struts.end(),
                                       [](const VehicleLayout::Strut& strut) { return !strut.sprung_imu; });
   if (needs_body) {
     if (!layout.body_imu) throw std::invalid_argument("body_imu is missing: a strut has no sprung_imu");
-    channels.body_imu = add(kSixAxes);
-    imus.push_back({*layout.body_imu, Place::kBody, *channels.body_imu, "body_imu"});
+    channels.body_imu = add(*layout.body_imu, Place::kBody, kSixAxes, "body_imu");
   }
   for (const VehicleLayout::Strut& strut : layout.struts) {
     const std::string where = "struts/" + strut.name;
     VehicleChannels::Strut its;
     if (strut.position) its.position = {(*strut.position)[0], (*strut.position)[1], (*strut.position)[2]};
-    if (strut.sprung_imu) {
-      its.sprung = add(1);
-      imus.push_back({*strut.sprung_imu, Place::kSprung, *its.sprung, where + "/sprung_imu"});
-    } else if (!strut.position) {
+    if (strut.sprung_imu)
+      its.sprung = add(*strut.sprung_imu, Place::kSprung, 1, where + "/sprung_imu");
+    else if (!strut.position)
       throw std::invalid_argument(where + " has no position, and no sprung_imu");
-    }
-    its.unsprung = add(1);
-    imus.push_back({strut.unsprung_imu, Place::kUnsprung, its.unsprung, where + "/unsprung_imu"});
+    its.unsprung = add(strut.unsprung_imu, Place::kUnsprung, 1, where + "/unsprung_imu");
     channels.struts.push_back(its);
   }
-  for (std::size_t i = 0; i < layout.known_forces.size(); ++i) channels.known_forces.push_back(add(1));
+  addForces(layout.known_forces);
+}
+
+void VehicleStreams::addForces(const std::vector<VehicleLayout::KnownForce>& forces) {
+  const auto num_imus = static_cast<std::ptrdiff_t>(sensors.size());
+  const auto ofTopic = [&](const std::string& topic) {
+    return std::find_if(sensors.begin() + num_imus, sensors.end(),
+                        [&](const Sensor& sensor) { return sensor.topic == topic; });
+  };
+  for (const VehicleLayout::KnownForce& force : forces) {
+    if (ofTopic(force.topic) == sensors.end())
+      sensors.push_back({force.topic, Place::kForce, 0, "known_forces/" + force.name + "/topic"});
+    ofTopic(force.topic)->fields.push_back(force.field);
+  }
+  for (auto sensor = sensors.begin() + num_imus; sensor != sensors.end(); ++sensor) {
+    sensor->stream = options.size();
+    const auto number = static_cast<std::size_t>(sensor - sensors.begin());
+    options.insert(options.end(), sensor->fields.size(), StreamOptions{number, true, true});
+  }
+  for (const VehicleLayout::KnownForce& force : forces) {
+    const std::vector<std::size_t>& fields = ofTopic(force.topic)->fields;
+    const auto place = std::find(fields.begin(), fields.end(), force.field) - fields.begin();
+    channels.known_forces.push_back(ofTopic(force.topic)->stream + static_cast<std::size_t>(place));
+  }
+}
+
+std::vector<std::string> VehicleStreams::topicsOfImus() const {
+  std::vector<std::string> topics;
+  for (const Sensor& sensor : sensors)
+    if (sensor.place != Place::kForce) topics.push_back(sensor.topic);
+  return topics;
+}
+
+std::vector<std::string> VehicleStreams::topicsOfForces() const {
+  std::vector<std::string> topics;
+  for (const Sensor& sensor : sensors)
+    if (sensor.place == Place::kForce) topics.push_back(sensor.topic);
+  return topics;
 }
 
 }  // namespace suspension_health_monitor

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 
 #include "suspension_health_monitor/internal/record/drive_record.h"
 #include "suspension_health_monitor/internal/statistics.h"
@@ -16,15 +15,14 @@ namespace suspension_health_monitor {
 /// are interpolated, white noise is not. Those that change quickly (friction turns within a sample) are taken out: a
 /// free-form force over the travel and rate of the model's free run is fitted to what the interpolation leaves. From
 /// the median, so that a blow into an end stop is no noise, and with such blows kept out of the fits. The wheel's
-/// sensor is taken to be as noisy; its noise comes through the model.
-/// @param noise  of the sensors alone, in any unit: what the interpolation and the linear part of the model leave of it
-/// tell what they leave of the noise in the records. Nothing: it is white, and alike in both sensors.
+/// sensor is taken to be as noisy; its noise comes through the model. Where the records have the noise of the sensors
+/// alone, what the interpolation and the linear part of the model leave of that tells what they leave of theirs.
 /// @return 0 if there are too few samples to tell; not below accuracyOfFreeRuns().
-double estimateNoiseFloor(const Records& records, const StrutModel& model, const std::optional<Drive>& noise = {});
+double estimateNoiseFloor(const Records& records, const StrutModel& model);
 
 /// The same without taking out what changes quickly: noise, and what sampling loses of forces with corners. No model
 /// that is driven by samples of w'' can be asked to leave less.
-double estimateSamplingFloor(const Records& records, const StrutModel& model, const std::optional<Drive>& noise = {});
+double estimateSamplingFloor(const Records& records, const StrutModel& model);
 
 /// What a free run of the true model leaves where no sensor has noise: the interpolation of w'' is not exact [m/s^2].
 double accuracyOfFreeRuns(const Records& records);

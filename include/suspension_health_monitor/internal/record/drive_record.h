@@ -50,6 +50,7 @@ class DriveRecord {
   const std::vector<DriveSegment>& segments() const { return segments_; }
   std::size_t numSamples() const;
   double gravity() const { return mean_wheel_; }
+  const std::vector<CornerSample>& noise() const { return noise_; }  ///< Drive::noise
 
  private:
   struct Stretch;
@@ -61,6 +62,7 @@ class DriveRecord {
   int steps_;
   double mean_wheel_ = 0.0;
   std::vector<DriveSegment> segments_;
+  std::vector<CornerSample> noise_;
 };
 
 /// Drives of one vehicle and one period, as fits and searches take them.

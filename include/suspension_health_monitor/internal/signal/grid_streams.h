@@ -19,6 +19,9 @@ struct StreamOptions {
   /// An instant without a reading of this stream is none. Other streams are waited for while no more than
   /// kMostOptionalLag readings of the reference wait with them.
   bool required = true;
+  /// A force may rest while the vehicle moves, stay at an end of its range, and have any unit: it is not judged by what
+  /// accelerations are like.
+  bool is_force = false;
 };
 inline constexpr std::size_t kMostOptionalLag = 64;
 
@@ -32,7 +35,8 @@ struct GridInstant {
 
 /// One stream of a StreamGrid, and what has become of its readings.
 struct GridStream {
-  GridStream(Stamp period, const StreamOptions& its_options) : options(its_options), gate(period) {}
+  GridStream(Stamp period, const StreamOptions& its_options)
+      : options(its_options), gate(period, its_options.is_force) {}
 
   /// Drops the oldest reading that waits: it has no partner.
   void drop() {
@@ -72,7 +76,7 @@ class GridStreams {
   /// Whether an optional stream, none of whose readings has come, is to be waited for.
   bool mayStillCome(GridStream& optional) const;
 
-  /// Compares GridStream::is_still of the required ones.
+  /// Compares GridStream::is_still of the required ones that are no forces.
   /// @return true if some sensors stand still while others move, which is then counted for those that are still.
   bool rejectStuck();
 

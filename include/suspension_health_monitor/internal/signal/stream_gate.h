@@ -19,12 +19,15 @@ namespace suspension_health_monitor {
 /// kept out, until a reading beyond it shows that it was no limit.
 /// Absurd is what no vehicle survives, more than kMostOfAVehicle, unless the sensor reads like that: a hundred times
 /// its usual size passes, for sensors that read in another unit. So nothing behind the gate meets a reading of 1e20.
+/// A force may have any usual size, rest and stay at an end of its range: it is absurd above kMostInAnyUnit alone.
 /// Cost per reading: O(1), no allocation.
 class StreamGate {
  public:
   /// @param period  sampling time T; a reading that is more than 50 T older than its predecessor is a clock that jumped
   ///                or a bag that loops, not a message that was overtaken.
-  explicit StreamGate(Stamp period) : longest_overtaking_(50 * period), usual_size_(toSeconds(period)) {}
+  /// @param is_force  not an acceleration.
+  explicit StreamGate(Stamp period, bool is_force = false)
+      : longest_overtaking_(50 * period), is_force_(is_force), usual_size_(toSeconds(period)) {}
 
   enum class Verdict {
     kPasses,
@@ -61,6 +64,7 @@ class StreamGate {
   Verdict reject(RejectReason reason);
 
   Stamp longest_overtaking_;
+  bool is_force_;
   std::optional<Stamp> last_;
   std::optional<double> value_;  // of the last reading
   int equal_in_a_row_ = 0;

@@ -12,8 +12,8 @@ namespace suspension_health_monitor {
 /// with rho_ij = a_ij / a_jj, a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx: ratios that belong to the body and to where
 /// the struts stand, not to what they are worth.
 struct Coupling {
-  StrutMatrix ratios;                                                                              ///< rho [-]
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStruts, kMostKnownForces> forces;  ///< kappa
+  StrutMatrix ratios;  ///< rho [-]
+  ForceMatrix forces;  ///< kappa [m/s^2 per unit of the force: 1/kg of newtons]
   /// Anti-roll bars: b_ij (d_i - d_j) [1/s^2] is in p_i beside strut i's own, b_ij = a_ii times the bar's stiffness;
   /// the bar's force at j is the opposite. 0: there is none.
   StrutMatrix bars;

@@ -17,13 +17,14 @@ namespace suspension_health_monitor {
 struct CouplingEstimate {
   Coupling coupling;
   StrutMatrix stddevs;                             ///< of the ratios
+  ForceMatrix force_stddevs;                       ///< of Coupling::forces; infinite of a force that has been still
   StrutVector damping_to_mass, stiffness_to_mass;  ///< b1_i [1/s], b0_i [1/s^2] over the same rows
   /// Of b1_i [1/s], b0_i [1/s^2] where the ratios are not known better than these rows tell them.
   Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kMostStruts, 2> own_stddevs;
   double condition = HUGE_VAL;  ///< of the columns of all struts, each scaled to 1
   double told_apart = 0.0;  ///< information of the combination of struts that these rows tell least of, over noise's
   int first_alike = 0, second_alike = 0;  ///< the two struts that it is about
-  double doubt = HUGE_VAL;  ///< largest rms that the ratios' errors give a strut's own acceleration, as a share of it
+  double doubt = HUGE_VAL;  ///< largest rms that these errors give a strut's own acceleration, as a share of it
 
   /// @return true if the ratios may be relied upon.
   bool isKnown() const;
@@ -41,6 +42,8 @@ struct CouplingEstimate {
 ///
 /// An anti-roll bar is looked for between every two struts: it stays if it takes more of what is left than chance, and
 /// more than any law in one strut would (lookForBars()).
+///
+/// A known force counts from its first value: one that never changes moves nothing, and of it nothing is known.
 ///
 /// Tracks that are alike move struts alike: then the rows' information of some combination of struts is not clear of
 /// that of noise, and nothing is known.
@@ -99,6 +102,7 @@ class CouplingEstimator {
   double forgetting_factor_;            // of a row that is taken
   std::vector<SuspensionRegression> regressions_;
   std::vector<LinearIntegralFilter> forces_;
+  ForceVector first_forces_;  // empty before the first sample
   EveryN row_due_;
   Row row_;          // I_1^2 u_j, I_0^2 u_j, I_2^2 x_k, I_2^2 z_i'', 1
   Moments moments_;  // mean of row row'

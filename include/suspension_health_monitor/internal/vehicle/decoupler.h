@@ -58,6 +58,7 @@ class Decoupler {
   NeighbourWeights weights_;
   StrutMatrix bars_;
   std::vector<Strut> struts_;
+  std::vector<LimitedMean> force_means_;  // of each x
   boost::circular_buffer<VehicleSample> recent_;
   VehicleSample out_;
 };

@@ -15,7 +15,7 @@
 
 namespace suspension_health_monitor {
 
-/// The readings of all IMUs of a vehicle as samples of its struts, the one way for a live vehicle and for bags:
+/// The readings of all sensors of a vehicle as samples of its struts, the one way for a live vehicle and for bags:
 /// StreamGrid -> StrutTops. Cost per reading: as StreamGrid, no allocation.
 class VehicleGrid {
  public:
@@ -26,18 +26,18 @@ class VehicleGrid {
   /// @throws std::invalid_argument  as StreamGrid and StrutTops.
   VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink);
 
-  /// Takes in one message of an IMU.
-  /// @param imu  its place in VehicleStreams::imus.  @param values  of its streams.
-  void push(std::size_t imu, Stamp stamp, const std::vector<double>& values);
+  /// Takes in one message of a sensor.
+  /// @param sensor  its place in VehicleStreams::sensors.  @param values  of its streams.
+  void push(std::size_t sensor, Stamp stamp, const std::vector<double>& values);
 
   const StreamGrid& streams() const { return grid_; }
 
-  /// @return what timing and losses of an IMU are judged by: all of its streams share their stamps.
-  const StreamGate& gate(std::size_t imu) const { return grid_.gate(channels_[imu].first); }
+  /// @return what timing and losses of a sensor are judged by: all of its streams share their stamps.
+  const StreamGate& gate(std::size_t sensor) const { return grid_.gate(channels_[sensor].first); }
 
-  /// @return readings of an IMU that were kept out, and what was lost for want of its readings.
-  RejectCounts rejected(std::size_t imu) const;
-  std::uint64_t missed(std::size_t imu) const;
+  /// @return readings of a sensor that were kept out, and what was lost for want of its readings.
+  RejectCounts rejected(std::size_t sensor) const;
+  std::uint64_t missed(std::size_t sensor) const;
 
   /// @return what the sensors' noise makes of the samples, by what the body's IMU has had of it. Allocates.
   SensorNoise noise() const;
@@ -57,7 +57,7 @@ class VehicleGrid {
   VehicleChannels vehicle_;
   StrutTops tops_;
   StreamGrid grid_;
-  std::vector<Channels> channels_;       // by IMU
+  std::vector<Channels> channels_;       // by sensor
   std::vector<WhiteLevel> body_levels_;  // of the body's IMU, by stream
   std::optional<Stamp> last_;
   std::uint64_t num_instants_ = 0;

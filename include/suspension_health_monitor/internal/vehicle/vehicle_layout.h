@@ -1,13 +1,19 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "suspension_health_monitor/internal/option_table.h"
 
 namespace suspension_health_monitor {
+
+/// The fields of a geometry_msgs/Wrench that may be a known force.
+inline constexpr std::array<std::string_view, 6> kWrenchFields{"force.x",  "force.y",  "force.z",
+                                                               "torque.x", "torque.y", "torque.z"};
 
 /// Which sensors a vehicle has, and where, as a vehicle file says it.
 struct VehicleLayout {
@@ -22,8 +28,8 @@ struct VehicleLayout {
   };
   struct KnownForce {
     std::string name;
-    std::string topic;
-    std::string field;  ///< of its messages, such as "force.z"
+    std::string topic;  ///< of geometry_msgs/WrenchStamped; several forces may share it
+    std::size_t field;  ///< of its messages, in kWrenchFields
   };
 
   std::optional<std::string> body_imu;  ///< topic, as are the others

@@ -17,7 +17,8 @@ namespace suspension_health_monitor {
 ///        -> Decoupler: every strut on its own -> SuspensionMonitor::addSample of each.
 /// Until the coupling is known there is no monitor: what a strut seems to be is mostly its neighbours then. Once known
 /// it stays; rows that tell less change nothing. Where integration_horizon is left out a strut gets the one that suits
-/// what the coupling knows of it. One strut alone has nothing to be taken off, and is a SuspensionMonitor.
+/// what the coupling knows of it. One strut alone, without known forces, has nothing to be taken off, and is a
+/// SuspensionMonitor.
 /// Cost per sample: O(N^2) and once a second O(N^3); no lock.
 class VehicleMonitor {
  public:
@@ -26,6 +27,7 @@ class VehicleMonitor {
 
   /// @param settings  of each strut, with sample_period given, the same in all.
   /// @param sink  called with the report of every strut after every sample that gave one.
+  /// @param num_forces  known forces in every sample.
   /// @throws std::invalid_argument  as SuspensionMonitor; without a strut, or with more than kMostStruts.
   VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0);
 
@@ -76,6 +78,7 @@ class VehicleMonitor {
   std::optional<Decoupler> decoupler_;
   std::vector<SuspensionMonitor> struts_;
   EveryN coupling_due_, models_due_;
+  bool is_alone_;  // nothing known moves the one strut
   std::optional<Stamp> last_;
 };
 

@@ -12,6 +12,7 @@ inline constexpr int kMostKnownForces = 4;  ///< that act on its body and are me
 
 /// @throws std::invalid_argument  unless a vehicle can have so many.
 void requireNumStruts(std::size_t count);
+void requireNumKnownForces(std::size_t count);
 
 /// One number per strut; on the stack, as samples come.
 using StrutVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostStruts, 1>;
@@ -21,6 +22,10 @@ using StrutMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen:
 
 /// One number per known force.
 using ForceVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostKnownForces, 1>;
+
+/// One number per strut and known force.
+using ForceMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostStruts, kMostKnownForces>;
 
 /// What all accelerometers of a vehicle read at one instant: CornerSample of every strut.
 struct VehicleSample {

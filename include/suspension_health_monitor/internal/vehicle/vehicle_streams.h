@@ -11,15 +11,19 @@
 namespace suspension_health_monitor {
 
 /// The streams of a vehicle, numbered: those of the body's IMU if a strut needs it, then of every strut its sprung IMU,
-/// if it has one, and its unsprung IMU, then the known forces.
+/// if it has one, and its unsprung IMU, then the known forces, those of one topic after another.
 struct VehicleStreams {
-  enum class Place { kBody, kSprung, kUnsprung };
+  enum class Place { kBody, kSprung, kUnsprung, kForce };
 
-  struct Imu {
+  /// An IMU, or what measures known forces.
+  struct Sensor {
     std::string topic;
     Place place;
-    std::size_t stream;   ///< its first: the body's IMU has six (VehicleChannels::body_imu), others one along the strut
-    std::string setting;  ///< of the vehicle file that names the topic
+    /// Its first: the body's IMU has six (VehicleChannels::body_imu), other IMUs one along the strut, others one for
+    /// each force.
+    std::size_t stream;
+    std::string setting;                   ///< of the vehicle file that names the topic
+    std::vector<std::size_t> fields = {};  ///< that are its forces, in kWrenchFields
   };
 
   /// @throws std::invalid_argument  if a strut without a sprung IMU has no position: its frame has not been looked up.
@@ -27,7 +31,14 @@ struct VehicleStreams {
 
   std::vector<StreamOptions> options;  ///< by stream, all required
   VehicleChannels channels;
-  std::vector<Imu> imus;
+  std::vector<Sensor> sensors;  ///< the IMUs, then the others
+
+  /// @return topics of the sensors that are IMUs, or of the others.
+  std::vector<std::string> topicsOfImus() const;
+  std::vector<std::string> topicsOfForces() const;
+
+ private:
+  void addForces(const std::vector<VehicleLayout::KnownForce>& forces);
 };
 
 }  // namespace suspension_health_monitor
