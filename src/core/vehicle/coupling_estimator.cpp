@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 
@@ -23,8 +24,8 @@ constexpr double kMostDoubt = 0.03;
 constexpr double kNoiseKnown = 0.5;
 // A law in one strut shows in the columns of another by chance only; a bar that is worth having takes a tenth.
 constexpr double kLeastOfBar = 0.1;
-constexpr double kCertainOfBar = 50.0;  // chi^2 of two more unknowns: chance gives as much once in 7e10
-constexpr double kFarRest = 3.0;        // usual ones: a row that is farther off is limited to it
+constexpr double kCertain = 50.0;  // chi^2 of two more unknowns: chance gives as much once in 7e10
+constexpr double kFarRest = 3.0;   // usual ones: a row that is farther off is limited to it
 
 // Samples from a row that is taken to the next.
 int rowSpacing(const IntegralFilterOptions& filter) { return std::max(1, filter.horizon_samples / kRowsPerHorizon); }
@@ -184,7 +185,7 @@ bool CouplingEstimator::addBar(const Moments& plain) {
     }
   // Of moments that are no numbers, before there are rows enough, nothing is certain.
   const double gain = before - least;
-  const bool stays = gain >= kLeastOfBar * before && weight_ * gain >= kCertainOfBar * kRowsPerIndependent * least;
+  const bool stays = gain >= kLeastOfBar * before && isCertain(before, least);
   estimate_ = stays && gain > 0.0 ? best : known;
   if (!stays || !(gain > 0.0)) return false;
   bars_.push_back(pair);
@@ -216,24 +217,14 @@ CouplingEstimator::Row CouplingEstimator::ownColumns(int j) const {
 
 // The alternation goes downhill, and where tracks are alike there is more than one valley. It is begun by what is known
 // so far, by every strut alone, and by the columns of all without the knowledge that the ratios are the same for damper
-// and spring; the best is kept.
+// and spring. The best is kept; how far the others are from it that are no worse for certain is in doubt.
 // @return false: there is no strut yet.
 bool CouplingEstimator::start(const Moments& plain) {
   const int n = num_struts_, regressors = 2 * n + num_forces_;
-  CouplingEstimate best = estimate_;
-  double least = HUGE_VAL;
-  const auto tryFrom = [&](const CouplingEstimate& begin) {
-    estimate_ = begin;
-    refine(plain, kFirstSteps);
-    const double left = shareLeft(plain);
-    if (!(left < least)) return;
-    least = left;
-    best = estimate_;
-  };
-  if (has_start_) tryFrom(best);
-  CouplingEstimate alone = estimate_, together = estimate_;
   const Moments of_all =
       plain.topLeftCorner(regressors, regressors).ldlt().solve(plain.block(0, regressors, regressors, n));
+  const CouplingEstimate before = estimate_;
+  CouplingEstimate alone = before, together = before;
   for (int j = 0; j < n; ++j) {
     together.damping_to_mass[j] = of_all(j, j);
     together.stiffness_to_mass[j] = of_all(n + j, j);
@@ -244,11 +235,36 @@ bool CouplingEstimator::start(const Moments& plain) {
     alone.damping_to_mass[j] = strut[0];
     alone.stiffness_to_mass[j] = strut[1];
   }
-  tryFrom(together);
-  tryFrom(alone);
+  std::vector<std::pair<double, CouplingEstimate>> valleys;
+  std::vector<CouplingEstimate> begins{together, alone};
+  if (has_start_) begins.push_back(before);
+  for (const CouplingEstimate& begin : begins) {
+    estimate_ = begin;
+    refine(plain, kFirstSteps);
+    const double left = shareLeft(plain);
+    if (left < HUGE_VAL) valleys.emplace_back(left, estimate_);
+  }
+  if (valleys.empty()) {
+    estimate_ = before;
+    return false;
+  }
+  const auto& [least, best] =
+      *std::min_element(valleys.begin(), valleys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   estimate_ = best;
-  has_start_ = least < HUGE_VAL;
-  return has_start_;
+  has_start_ = true;
+  valley_doubt_ = 0.0;
+  const StrutVector power = combined(plain).diagonal().head(n);
+  for (const auto& [left, valley] : valleys) {
+    if (isCertain(left, least)) continue;
+    const StrutMatrix off = (valley.coupling.ratios - best.coupling.ratios).cwiseAbs2();
+    valley_doubt_ = std::max(valley_doubt_, std::sqrt((off * power).cwiseQuotient(power).maxCoeff()));
+  }
+  return true;
+}
+
+// @return true if rows that are left so much of by two models are so by no chance.
+bool CouplingEstimator::isCertain(double left, double less) const {
+  return weight_ * (left - less) >= kCertain * kRowsPerIndependent * less;
 }
 
 // Of all struts as they are the ratios, and what each strut is of the ratios.
@@ -357,7 +373,7 @@ void CouplingEstimator::describe(const Moments& plain, const Moments& moments, d
   coupling.rest_power = rest.minCoeff();
   describeAlike(plain, sensor_variance);
   const double share = describeErrors(moments, of_struts, rest);
-  estimate_.doubt = share + kNoiseKnown / estimate_.told_apart;
+  estimate_.doubt = share + kNoiseKnown / estimate_.told_apart + valley_doubt_;
   const bool are_struts = estimate_.damping_to_mass.minCoeff() > 0.0 && estimate_.stiffness_to_mass.minCoeff() > 0.0;
   if (!(estimate_.doubt >= 0.0) || !are_struts || !(coupling.own_power.minCoeff() > 0.0)) estimate_.doubt = HUGE_VAL;
 

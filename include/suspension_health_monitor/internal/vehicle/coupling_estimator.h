@@ -89,6 +89,7 @@ class CouplingEstimator {
   void lookForBars(const Moments& plain);
   bool addBar(const Moments& plain);
   double shareLeft(const Moments& plain) const;
+  bool isCertain(double left, double less) const;
   Row ownColumns(int j) const;
   Moments combined(const Moments& moments) const;
   double sensorVariance(const Moments& moments) const;
@@ -110,6 +111,7 @@ class CouplingEstimator {
   double weight_ = 0.0;
   LimitedMean usual_rest_;
   bool has_start_ = false;
+  double valley_doubt_ = 0.0;  // of start()
   std::vector<std::pair<int, int>> bars_;  // between which struts
   CouplingEstimate estimate_;
 };
