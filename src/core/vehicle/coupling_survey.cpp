@@ -14,8 +14,9 @@ constexpr double kShortestHorizon = 0.1, kLongestHorizon = 0.8;  // [s]
 constexpr int kFewestSamples = 8;                                // of a horizon
 
 // @return the largest rms that the ratios' difference gives a strut's own acceleration, as a share of it, beyond what
-// their standard deviations account for.
+// their standard deviations account for; 0 where one has an anti-roll bar that the other has not: they are two models.
 double unexplainedDifference(const CouplingEstimate& a, const CouplingEstimate& b) {
+  if (((a.coupling.bars.array() != 0.0) != (b.coupling.bars.array() != 0.0)).any()) return 0.0;
   const StrutVector& power = a.coupling.own_power;
   double most = 0.0;
   for (Eigen::Index i = 0; i < power.size(); ++i) {

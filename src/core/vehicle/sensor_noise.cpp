@@ -1,15 +1,13 @@
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 
-#include <cmath>
-
-#include "suspension_health_monitor/internal/simulation/random_stream.h"
+#include <algorithm>
+#include <random>
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kDriveSamples = 1 << 14;  // the rms of so many has an error of 0.6 %
-constexpr int kSeed = 1;
-constexpr double kSmall = 1e-3;  // of a reading: products of two of them are nothing
+constexpr double kSmall = 1e-3;                 // of a reading: products of two of them are nothing
 
 /// What follows one wrong reading of a stream.
 /// @param tops  new ones.
@@ -68,12 +66,12 @@ StrutDrives makeNoiseDrive(const SensorNoise& noise, double period) {
   for (Drive& strut : drive)
     for (std::size_t k = 0; k < kDriveSamples; ++k)
       strut.samples.push_back({static_cast<int>(k) * fromSeconds(period), 0.0, 0.0});
-  for (std::size_t sensor = 0; sensor < noise.size(); ++sensor) {
-    RandomStream random(kSeed, RandomPurpose::kSprungNoise, static_cast<unsigned>(sensor));
-    const StrutDrives& response = noise[sensor];
+  std::mt19937_64 engine;
+  std::normal_distribution<double> normal;
+  for (const StrutDrives& response : noise) {
     const std::size_t length = response.front().samples.size();
     for (std::size_t k = 0; k < kDriveSamples + length - 1; ++k) {
-      const double reading = random.gaussian();
+      const double reading = normal(engine);
       for (std::size_t i = 0; i < drive.size(); ++i)
         for (std::size_t l = k < kDriveSamples ? 0 : k - kDriveSamples + 1; l < length && l <= k; ++l) {
           const CornerSample& after = response[i].samples[l];
