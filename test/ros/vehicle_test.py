@@ -147,14 +147,17 @@ class VehicleTest(unittest.TestCase):
                 for name in STRUTS]
 
     def test_diagnostics_have_tasks_of_struts_and_vehicle(self):
+        def told(task):
+            return [status for status in statuses(self.diagnostics.messages, task)
+                    if status.message != "Node starting up"]  # what an updater says of a task that is added
+
         for name in STRUTS:
-            begin = next(status for status in statuses(self.diagnostics.messages, f"{name}: Health")
-                         if status.message != "Node starting up")  # what an updater says of a task that is added
+            begin = told(f"{name}: Health")[0]
             self.assertEqual((begin.level, begin.hardware_id), (DiagnosticStatus.STALE, name))
             judged = statuses(self.diagnostics.messages, f"{name}: Health")
             self.assertTrue(any("la valid" in values(status) for status in judged), f"{name} has been judged")
             self.assertTrue(statuses(self.diagnostics.messages, f"{name}: Model"))
-        coupled = statuses(self.diagnostics.messages, "vehicle: Coupling")
+        coupled = told("vehicle: Coupling")
         self.assertEqual((coupled[0].level, coupled[-1].level), (DiagnosticStatus.STALE, DiagnosticStatus.OK))
         self.assertIn("front moved by rear", values(coupled[-1]))
         self.assertIn("rear moved by tow_bar", values(coupled[-1]))
