@@ -34,16 +34,6 @@ class RegressorNoise {
   /// @return variance of a row's residual over that of a sensor [-].
   double residualGain(const Eigen::Vector2d& theta) const { return rows_.gain(theta); }
 
-  /// @return that of what the regressors make of it, b1 phi_1 + b0 phi_0 [-].
-  double forceGain(const Eigen::Vector2d& theta) const { return 2.0 * theta.dot(rows_.regressors * theta); }
-
-  /// @return moments of (phi_1, phi_0, psi) that noise alone gives, over the variance of a sensor.
-  Eigen::Matrix3d rowMoments() const {
-    Eigen::Matrix3d moments;
-    moments << 2.0 * rows_.regressors, -rows_.cross, -rows_.cross.transpose(), rows_.outputs;
-    return moments;
-  }
-
   /// @return that of the residual's change from row to row [-].
   double changeGain(const Eigen::Vector2d& theta) const { return changes_.gain(theta); }
 

@@ -97,7 +97,6 @@ class CouplingEstimator {
   void describeAlike(const Moments& plain, double sensor_variance);
   double describeErrors(const Moments& moments, const Moments& of_struts, const StrutVector& rest);
   StrutVector restOf(const Moments& moments) const;
-  Eigen::Vector2d strut(int j) const { return {estimate_.damping_to_mass[j], estimate_.stiffness_to_mass[j]}; }
 
   int num_struts_, num_forces_, fill_;  // fill_: samples until there are rows
   double forgetting_factor_;            // of a row that is taken
