@@ -10,7 +10,6 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kSpacingsForPeriod = 50;
-constexpr std::uint64_t kInstantsForNoise = 512;
 constexpr double kMostKept = 4000000.0;  // samples of one strut, of 24 bytes each
 
 }  // namespace
@@ -40,7 +39,7 @@ void VehiclePipeline::start(double period) {
   recent_.assign(settings.size(), RecentSamples(capacity));
   const std::size_t forces = streams_.channels.known_forces.size();
   if (forces > 0) recent_forces_.emplace(capacity);
-  monitor_.emplace(settings, sinks_.report, static_cast<int>(forces));
+  monitor_.emplace(settings, sinks_.report, static_cast<int>(forces), grid_->noise());
   sinks_.begin(*monitor_);
 }
 
@@ -80,9 +79,9 @@ void VehiclePipeline::measurePeriod(Reading reading) {
 
 void VehiclePipeline::take(const VehicleSample& sample) {
   newest_ = sample.stamp;
-  if (grid_->numInstants() >= kInstantsForNoise && !knows_noise_) {
+  if (!has_heard_noise_ && grid_->hasHeardNoise()) {
     monitor_->setNoise(grid_->noise());
-    knows_noise_ = true;
+    has_heard_noise_ = true;
   }
   for (std::size_t i = 0; i < recent_.size(); ++i) recent_[i].push(sample.ofStrut(i));
   if (recent_forces_) recent_forces_->push({sample.stamp, sample.forces});

@@ -64,8 +64,7 @@ class WatchedVehicle {
       : monitor_(
             settingsOf(options),
             [this](std::size_t strut, const MonitorReport& report) { logs_[strut].addReport(report); },
-            static_cast<int>(first.forces.size())) {
-    monitor_.setNoise(noiseOf(first));
+            static_cast<int>(first.forces.size()), first.noise) {
     for (std::size_t i = 0; i < watched.size(); ++i) {
       const LiveModel& model = watched[i].model;
       monitor_.setEffects(i, model.effects(), model.strutFor(model.effects()));

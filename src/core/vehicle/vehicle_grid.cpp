@@ -11,8 +11,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLevelMemory = 4096.0;  // samples: the ratio of two deviations within 2 %
-constexpr std::size_t kFewestOfLevel = 256;
+constexpr double kLevelMemory = 4096.0;      // samples: the ratio of two deviations within 2 %
+constexpr std::size_t kFewestOfLevel = 256;  // the same within 5 %
 
 }  // namespace
 
@@ -39,7 +39,6 @@ void VehicleGrid::push(std::size_t sensor, Stamp stamp, const std::vector<double
 void VehicleGrid::take(const GridInstant& instant) {
   const bool continues = last_ && continuity(instant.stamp - *last_, period_) == Continuity::kContinues;
   last_ = instant.stamp;
-  ++num_instants_;
   for (std::size_t axis = 0; axis < body_levels_.size(); ++axis) {
     if (!continues) body_levels_[axis].startNewSeries();
     body_levels_[axis].add(instant.values[*vehicle_.body_imu + axis]);
@@ -54,9 +53,12 @@ double VehicleGrid::deviation(std::size_t first_axis) const {
   return std::sqrt(squares / 3.0);
 }
 
+bool VehicleGrid::hasHeardNoise() const {
+  return !body_levels_.empty() && body_levels_.front().count() >= kFewestOfLevel && deviation(0) > 0.0;
+}
+
 SensorNoise VehicleGrid::noise() const {
-  const bool is_known = !body_levels_.empty() && body_levels_.front().count() >= kFewestOfLevel && deviation(0) > 0.0;
-  return noiseOfStrutTops(vehicle_, period_, is_known ? deviation(3) / deviation(0) : kUsualGyroNoise);
+  return noiseOfStrutTops(vehicle_, period_, hasHeardNoise() ? deviation(3) / deviation(0) : kUsualGyroNoise);
 }
 
 RejectCounts VehicleGrid::rejected(std::size_t sensor) const {

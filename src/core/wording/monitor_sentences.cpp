@@ -112,9 +112,8 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNotExplained: return "the model does not explain the measured acceleration";
     case EstimateDoubt::kNotAStrut: return "the estimates are not those of a spring and a damper";
     case EstimateDoubt::kClockSkew:
-      return "the clocks of the two IMUs differ by too much for the estimation: synchronise them, diagnose tells by "
-             "how "
-             "much";
+      return "the clocks of the two IMUs differ by too much for the estimation: synchronise them, diagnose tells "
+             "by how much";
     case EstimateDoubt::kNoSpread: return "the estimates' standard deviation cannot be told";
     case EstimateDoubt::kFreeRunFails:
       return "the model, driven by the wheel, fits the body's motion worse than a constant";

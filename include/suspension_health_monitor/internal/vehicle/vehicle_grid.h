@@ -39,11 +39,11 @@ class VehicleGrid {
   RejectCounts rejected(std::size_t sensor) const;
   std::uint64_t missed(std::size_t sensor) const;
 
-  /// @return what the sensors' noise makes of the samples, by what the body's IMU has had of it. Allocates.
+  /// @return what the sensors' noise makes of the samples. Allocates.
   SensorNoise noise() const;
 
-  /// @return instants of the grid so far.
-  std::uint64_t numInstants() const { return num_instants_; }
+  /// @return true once it is by what the body's IMU has had of it; until then, and without one, by what is usual.
+  bool hasHeardNoise() const;
 
  private:
   struct Channels {
@@ -60,7 +60,6 @@ class VehicleGrid {
   std::vector<Channels> channels_;       // by sensor
   std::vector<WhiteLevel> body_levels_;  // of the body's IMU, by stream
   std::optional<Stamp> last_;
-  std::uint64_t num_instants_ = 0;
   Sink sink_;
 };
 
