@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "strut_diagnostics.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -43,6 +44,8 @@ void VehicleInput::describe(const VehiclePipeline* pipeline, const std::string& 
     if (!slow.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow);
     status.add("alignment", grid.describeAlignment());
     status.add("bridged", grid.bridged());
+    if (const std::string leans = suspension_health_monitor::describe(pipeline->grid()->bodyLevel()); !leans.empty())
+      status.add("body IMU", leans);
   }
   for (std::size_t i = 0; pipeline != nullptr && i < sensors_.size(); ++i)
     describeSensor(sensors_[i], *pipeline, i, status);

@@ -66,6 +66,7 @@ std::vector<VehicleDrive> readDrives(const po::variables_map& values, const Aske
     const StrutDrives& struts = bag.drive.struts;
     std::printf("%zu samples of %zu struts, readings %s\n", struts.front().samples.size(), struts.size(),
                 bag.alignment.c_str());
+    if (!bag.body_level.empty()) std::printf("%s\n", bag.body_level.c_str());
     for (const VehicleBag::Sensor& sensor : bag.sensors)
       if (sensor.rejected.total() > 0)
         std::printf("%s%s\n", sensor.topic.c_str(), describeRejected(sensor.rejected).c_str());

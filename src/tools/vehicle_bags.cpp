@@ -9,6 +9,7 @@
 #include "errors.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -74,7 +75,9 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
     return true;
   };
   readTopics(bag, {take, take});
+  grid.finish();
   read.drive.noise = grid.noise();
+  read.body_level = describe(grid.bodyLevel());
   read.alignment = grid.streams().describeAlignment();
   for (std::size_t i = 0; i < streams.sensors.size(); ++i) {
     RejectCounts rejected = sensors.rejected(i);

@@ -15,7 +15,8 @@ namespace suspension_health_monitor {
 struct VehicleBag {
   /// By VehicleLayout::struts z'' at the strut's top and w'', by VehicleLayout::known_forces the forces.
   VehicleDrive drive;
-  std::string alignment;  ///< StreamGrid::describeAlignment()
+  std::string alignment;   ///< StreamGrid::describeAlignment()
+  std::string body_level;  ///< how the body's IMU is turned, in words; empty if it is upright
   /// What became of one sensor's messages.
   struct Sensor {
     std::string topic;

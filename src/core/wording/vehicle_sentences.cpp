@@ -1,7 +1,9 @@
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -36,6 +38,13 @@ std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::st
            struts[static_cast<std::size_t>(estimate.second_alike)] +
            ": their wheels move alike, or too little. Drive over bumps on one side";
   return kTooLittle;
+}
+
+std::string describe(const BodyLevel& level) {
+  if (!level.isTurned()) return "";
+  const double degrees = level.lean() / kPi * 180.0;
+  return "the body's IMU leans by " + std::to_string(std::lround(degrees)) +
+         " degrees: gravity tells which way is up; positions are in its own axes";
 }
 
 std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::string>& struts) {
