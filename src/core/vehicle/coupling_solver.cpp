@@ -144,7 +144,7 @@ void CouplingSolver::solveStruts(const CouplingMoments& moments, const Bars& bar
   }
 }
 
-// Of the bars that there may be more the one that takes most.
+// Of the bars that there may be more the one that takes most at the first step of the alternation is tried to its end.
 // @return true if it stays.
 bool CouplingSolver::addBar() {
   const CouplingEstimate known = estimate_;
@@ -158,15 +158,20 @@ bool CouplingSolver::addBar() {
       estimate_ = known;
       Bars more = bars;
       more.emplace_back(i, j);
-      refine(more, kBarSteps);
+      refine(more, 1);
       const double left = shareLeft();
       if (!(left < least && estimate_.coupling.bars(i, j) > 0.0 && estimate_.coupling.bars(j, i) > 0.0)) continue;
       least = left;
       best = estimate_;
     }
   // Of moments that are no numbers, before there are rows enough, nothing is less.
-  const bool stays = least < before && before - least >= kLeastOfBar * before && isCertain(before, least);
-  estimate_ = stays ? best : known;
+  estimate_ = best;
+  if (!(least < before)) return false;
+  refine(best.bars(), kBarSteps);
+  least = shareLeft();
+  const bool are_bars = (estimate_.coupling.bars.array() >= 0.0).all();
+  const bool stays = are_bars && before - least >= kLeastOfBar * before && isCertain(before, least);
+  if (!stays) estimate_ = known;
   return stays;
 }
 

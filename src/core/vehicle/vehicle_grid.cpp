@@ -40,6 +40,12 @@ void VehicleGrid::push(std::size_t sensor, Stamp stamp, const std::vector<double
 }
 
 void VehicleGrid::take(const GridInstant& instant) {
+  const bool continues = last_ && continuity(instant.stamp - *last_, period_) == Continuity::kContinues;
+  last_ = instant.stamp;
+  for (std::size_t axis = 0; axis < body_levels_.size(); ++axis) {
+    if (!continues) body_levels_[axis].startNewSeries();
+    body_levels_[axis].add(instant.values[*vehicle_.body_imu + axis]);
+  }
   if (num_to_wait_ == 0) return lead(instant);
   waiting_.push_back(instant);
   if (waiting_.size() == num_to_wait_) turnUpright();
@@ -62,12 +68,6 @@ void VehicleGrid::turnUpright() {
 }
 
 void VehicleGrid::lead(const GridInstant& instant) {
-  const bool continues = last_ && continuity(instant.stamp - *last_, period_) == Continuity::kContinues;
-  last_ = instant.stamp;
-  for (std::size_t axis = 0; axis < body_levels_.size(); ++axis) {
-    if (!continues) body_levels_[axis].startNewSeries();
-    body_levels_[axis].add(instant.values[*vehicle_.body_imu + axis]);
-  }
   if (const VehicleSample* sample = tops_.push(instant)) sink_(*sample);
 }
 
