@@ -11,6 +11,12 @@ namespace suspension_health_monitor {
 /// @return why the coupling is not known, to be read after "the drives"; empty if it is.
 std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::string>& struts);
 
+/// To be added to a reason.
+inline constexpr const char* kWheelsFolded =
+    "; a wheel still shakes at half the sampling rate, which is the likely cause: record at twice the rate, or with "
+    "the "
+    "filter of the IMU set below half of it";
+
 /// @return the verdict in a sentence.
 std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::string>& struts);
 
