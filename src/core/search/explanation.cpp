@@ -12,6 +12,14 @@ namespace {
 
 constexpr double kTakenByAnother = 0.3;  // of what is left
 
+/// A force that goes with the body's own motion, not with the strut's.
+bool actsOnBody(const ActiveEffect& active) {
+  const auto rate = [&](double acceleration) {
+    return active.effect.memory_rate({1.0, 1.0, 1.0, 0.5, acceleration}, active.shapes.data());
+  };
+  return active.effect.memory_rate && rate(0.0) != rate(1.0);
+}
+
 }  // namespace
 
 Explanation::Explanation(const Records& records, const ModelEvaluator& evaluator, const EvaluatedModel& base)
@@ -45,10 +53,11 @@ bool Explanation::isExplained(const EvaluatedModel& after) const {
 }
 
 bool Explanation::mayBeOtherStruts(const EvaluatedModel& after) const {
-  const std::vector<ActiveMeasurementEffect>& reading = after.ranked.model.reading;
-  const auto given = static_cast<std::ptrdiff_t>(base_.ranked.model.reading.size());
-  return turning_share_ > kWorthHaving &&
-         std::any_of(reading.begin() + given, reading.end(),
+  if (turning_share_ <= kWorthHaving) return false;
+  const StrutModel &given = base_.ranked.model, &model = after.ranked.model;
+  return std::any_of(model.effects.begin() + static_cast<std::ptrdiff_t>(given.effects.size()), model.effects.end(),
+                     actsOnBody) ||
+         std::any_of(model.reading.begin() + static_cast<std::ptrdiff_t>(given.reading.size()), model.reading.end(),
                      [](const ActiveMeasurementEffect& fault) { return fault.effect.name != "accelerometer_bias"; });
 }
 

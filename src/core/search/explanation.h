@@ -21,8 +21,8 @@ class Explanation {
   /// or was lost in sampling.
   bool isExplained(const EvaluatedModel& after) const;
 
-  /// @return true if other struts of the same body may have done what is taken for a fault of its IMU: they can imitate
-  /// any but an offset on a body that the strut itself turns, see body_turning.h.
+  /// @return true if other struts of the same body may have done what is taken for something else: on a body that the
+  /// strut itself turns, see body_turning.h, they imitate any fault of its IMU but an offset, and forces on the body.
   bool mayBeOtherStruts(const EvaluatedModel& after) const;
 
   /// @return shareOfTurning() of the base.
