@@ -16,7 +16,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 constexpr double kRate = 100.0;
-constexpr std::size_t kSamples = 9000;
+constexpr std::size_t kSamples = 6000;
 
 /// Half a car: a body of mass 1 on two struts, 1.2 m before and 1.4 m behind its centre of gravity, whose wheels go
 /// over roads of their own; integrated here by the midpoint rule. Pitch lifts the rear.
@@ -25,7 +25,7 @@ struct HalfCar {
   double stop = 0.0;  ///< of a bump stop in front [1/s^2]
 
   Drive front() const {
-    const BandNoise roads[] = {BandNoise(3, 0.3, 12.0, 3.0), BandNoise(4, 0.3, 12.0, 3.0)};
+    const BandNoise roads[] = {BandNoise(3, 0.3, 12.0, 3.0, 60), BandNoise(4, 0.3, 12.0, 3.0, 60)};
     RandomStream random(5, RandomPurpose::kSway);
     Drive drive;
     State x{};

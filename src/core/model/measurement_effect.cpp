@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "find_by_name.h"
 #include "suspension_health_monitor/effects.h"
@@ -92,9 +93,11 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
        {{"c_x", "rad"}, {"c_y", "rad"}},
        "IMU of the body is not level",
        [](const double* c, const BodyChannels& body, double, Series& predicted) {
-         leak(c[0], body, C::kAccelerationX, predicted);
-         leak(c[1], body, C::kAccelerationY, predicted);
-         leak(-0.5 * (c[0] * c[0] + c[1] * c[1]), body, C::kGravity, predicted);
+         for (const auto& [angle, channel] : {std::pair(c[0], C::kAccelerationX), std::pair(c[1], C::kAccelerationY)}) {
+           leak(angle, body, channel, predicted);
+           if (!body[static_cast<std::size_t>(channel)].empty())
+             leak(-0.5 * angle * angle, body, C::kGravity, predicted);
+         }
        },
        [](const Sizes& sizes, std::size_t i) {
          return leakScale(sizes, i == 0 ? C::kAccelerationX : C::kAccelerationY);
