@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "suspension_health_monitor/internal/fit/folded_motion.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
@@ -64,7 +65,10 @@ class Separator {
         models_(estimate_.models()) {
     for (std::size_t i = 0; i < known.size(); ++i)
       if (known[i]) models_[i] = *known[i];
-    if (coupling_) noise_ = separatedNoise(drives.front(), period_, estimate_);
+    if (coupling_)
+      noise_ = separatedNoise(drives.front(), period_, estimate_);
+    else if (isUndersampled())
+      coupling_.reason += kWheelsFolded;
   }
 
   const VehicleCoupling& coupling() const { return coupling_; }
@@ -91,6 +95,15 @@ class Separator {
   }
 
  private:
+  bool isUndersampled() const {
+    return std::any_of(drives_.begin(), drives_.end(), [&](const VehicleDrive& drive) {
+      return std::any_of(drive.struts.begin(), drive.struts.end(), [&](const Drive& strut) {
+        const DriveRecord record(strut, period_);
+        return shareAtSamplingLimit({&record}) > kUndersampled;
+      });
+    });
+  }
+
   const std::vector<VehicleDrive>& drives_;
   double period_;
   CouplingEstimate estimate_;

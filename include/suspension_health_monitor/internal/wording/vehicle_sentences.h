@@ -15,6 +15,11 @@ std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::st
 /// @return how the body's IMU was found to be turned, if it was; else empty.
 std::string describe(const BodyLevel& level);
 
+/// To be added to a reason.
+inline constexpr const char* kWheelsFolded =
+    "; a wheel still shakes at half the sampling rate, which is the likely cause: record at twice the rate, or with "
+    "the filter of the IMU set below half of it";
+
 /// @return the verdict in a sentence.
 std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::string>& struts);
 
