@@ -71,7 +71,7 @@ void StrutDiagnostics::describeSilence(const SuspensionMonitor& monitor, Status&
   if (samples != accepted_.samples || now < accepted_.at) accepted_ = {samples, now};
   const double silent = (now - accepted_.at).toSec();
   if (silent <= input_timeout_) return;
-  status.summary(DiagnosticStatus::STALE, describeNoReading(silent, status.message));
+  status.summary(DiagnosticStatus::STALE, describeNoReading(silent, silent_(), status.message));
 }
 
 void StrutDiagnostics::describeModel(const SuspensionMonitor& monitor, Status& status) {

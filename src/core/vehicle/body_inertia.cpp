@@ -140,6 +140,15 @@ bool isCertain(const Measured& number) { return number.value > kCertain * number
 
 }  // namespace
 
+StrutPlaces placesOf(const VehicleLayout& layout) {
+  StrutPlaces places;
+  for (const VehicleLayout::Strut& strut : layout.struts) {
+    if (!strut.position) return {};
+    places.push_back({(*strut.position)[0], (*strut.position)[1]});
+  }
+  return places;
+}
+
 BodyInertiaResult bodyInertia(const Eigen::MatrixXd& ratios, const Eigen::MatrixXd& stddevs,
                               const StrutPlaces& places) {
   if (places.size() != static_cast<std::size_t>(ratios.rows())) return {{}, InertiaDoubt::kNoPositions};

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
+
 namespace suspension_health_monitor {
 
 /// Why the coupling ratios do not tell how the body's mass is spread.
@@ -34,6 +36,9 @@ struct BodyInertiaResult {
 
 /// By strut x ahead and y to the left of the strut's top, from any one point of the body [m].
 using StrutPlaces = std::vector<std::array<double, 2>>;
+
+/// @return by the positions of a layout; empty unless every strut has one.
+StrutPlaces placesOf(const VehicleLayout& layout);
 
 /// M/Iyy and M/Ixx from coupling ratios rho_ij = a_ij / a_jj, doc/vehicle.md.
 ///
