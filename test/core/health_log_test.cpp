@@ -99,6 +99,19 @@ TEST(HealthLog, ASensorThatIsSilentWhileTheOtherGoesOnIsNamed) {
   EXPECT_NEAR(secondsOf(log, HealthLevel::kStale), 13.1 + 8.0, 1e-6);
 }
 
+TEST(HealthLog, ReportsThatAreLateCostNoTime) {
+  HealthLog log(kTimeout, kSensors);
+  for (double time = 5.0; time < 65.05; time += 0.1) {
+    log.addReading(0, fromSeconds(time), fromSeconds(time));
+    if (time < 35.0) log.addReading(1, fromSeconds(time), fromSeconds(time));
+    if (time > 7.0 && time < 35.0) log.addReport(reportAt(time - 1.2, HealthLevel::kOk));
+  }
+  log.finishRecording();
+  EXPECT_NEAR(toSeconds(log.elapsed()), 60.0, 1e-6);
+  EXPECT_NEAR(sum(log), 60.0, 1e-6);
+  EXPECT_EQ(levels(log), "STALE OK STALE ");
+}
+
 TEST(HealthLog, AGapShorterThanTheTimeoutChangesNothing) {
   HealthLog log(kTimeout, kSensors);
   drive(log, 1.0, 10.0, HealthLevel::kWarn);

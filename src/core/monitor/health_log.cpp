@@ -66,8 +66,13 @@ std::size_t HealthLog::count(HealthLevel level) const {
 
 void HealthLog::goTo(Stamp stamp) {
   if (stamp < now_ && newest_reading_ < now_) now_ = stamp;  // the clock went back, not a report that comes late
-  const Stamp recorded = newest_recorded_ - std::exchange(recorded_, newest_recorded_);
-  if (stamp <= now_) return;
+  if (stamp > now_) advance(stamp);
+  // A report may be late behind the readings; a wrong stamp is not.
+  recorded_ = newest_recorded_ - std::clamp(newest_reading_ - now_, Stamp::zero(), timeout_);
+}
+
+void HealthLog::advance(Stamp stamp) {
+  const Stamp recorded = newest_recorded_ - recorded_;
   Stamp step = stamp - now_;
   if (step > timeout_) step = std::clamp(recorded, Stamp::zero(), step);
   const Stamp until = elapsed_ + step, old_at = std::max(elapsed_, reported_ + timeout_);

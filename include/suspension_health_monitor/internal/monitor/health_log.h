@@ -73,6 +73,7 @@ class HealthLog {
 
  private:
   void goTo(Stamp stamp);
+  void advance(Stamp stamp);
   void pass(Stamp duration);
   void changeTo(HealthLevel level, const std::string& message);
   void write(const HealthMoment& moment);
