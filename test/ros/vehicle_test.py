@@ -53,11 +53,12 @@ class VehicleTest(unittest.TestCase):
         cls.messages = read_bag(bag)
         cls.rosout = Collector("/rosout", Log)
         cls.diagnostics = Collector("/diagnostics", DiagnosticArray)
+        cls.tree = Collector("/diagnostics_agg", DiagnosticArray)
         cls.coupling = Collector("/vehicle/coupling", CouplingInUse)
         cls.la = {name: Collector(f"/{name}/la", ParameterEstimate) for name in STRUTS}
         cls.models = cls.write("models.yaml", {"struts": {"front": {"damping_to_mass": 3.0, "stiffness_to_mass": 50.0}}})
         cls.program = launch("vehicle.launch", vehicle=cls.vehicle, strut_config=cls.strut_config,
-                             model_file=cls.models)
+                             model_file=cls.models, aggregate="true")
         for collector in cls.la.values():
             collector.wait_for_publisher()
         cls.unknown = cls.coupling.wait_for(lambda message: True, "what is known at first")
@@ -68,7 +69,7 @@ class VehicleTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.program.stop()
-        for collector in (cls.rosout, cls.diagnostics, cls.coupling, *cls.la.values()):
+        for collector in (cls.rosout, cls.diagnostics, cls.tree, cls.coupling, *cls.la.values()):
             collector.stop()
         cls.folder.cleanup()
 
@@ -169,6 +170,11 @@ class VehicleTest(unittest.TestCase):
         self.assertEqual((coupled[0].level, coupled[-1].level), (DiagnosticStatus.STALE, DiagnosticStatus.OK))
         self.assertIn("front moved by rear", values(coupled[-1]))
         self.assertIn("rear moved by tow_bar", values(coupled[-1]))
+
+    def test_tree_has_the_struts_below_every_task(self):
+        expected = {f"/Suspension/{task}/{name}: {task}" for task in ("Health", "Model", "Input") for name in STRUTS}
+        expected |= {"/Suspension/Coupling/vehicle: Coupling", "/Suspension/Input/vehicle: Input"}
+        self.tree.wait_for(lambda array: expected <= {status.name for status in array.status}, sorted(expected))
 
     def test_silent_sensors_are_named(self):
         self.assertEqual(self.silence.level, DiagnosticStatus.ERROR)
