@@ -58,6 +58,10 @@ void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const std::vector<do
   while (const auto reading = early_.next()) grid_->push(reading->stream, reading->stamp, reading->value);
 }
 
+void VehiclePipeline::finish() {
+  if (grid_) grid_->finish();
+}
+
 void VehiclePipeline::take(const VehicleSample& sample) {
   newest_ = sample.stamp;
   if (!has_heard_noise_ && grid_->hasHeardNoise()) {

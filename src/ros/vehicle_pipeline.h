@@ -45,6 +45,9 @@ class VehiclePipeline {
   void push(std::size_t sensor, const sensor_msgs::Imu& message);
   void push(std::size_t sensor, const geometry_msgs::WrenchStamped& message);
 
+  /// After the last message of a recording.
+  void finish();
+
   /// @return nullptr while the sample period is being measured; so with the grid.
   VehicleMonitor* monitor() { return monitor_ ? &*monitor_ : nullptr; }
   const VehicleMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }

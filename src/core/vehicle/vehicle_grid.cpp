@@ -42,6 +42,7 @@ void VehicleGrid::push(std::size_t sensor, Stamp stamp, const std::vector<double
 void VehicleGrid::take(const GridInstant& instant) {
   const bool continues = last_ && continuity(instant.stamp - *last_, period_) == Continuity::kContinues;
   last_ = instant.stamp;
+  ++num_instants_;
   for (std::size_t axis = 0; axis < body_levels_.size(); ++axis) {
     if (!continues) body_levels_[axis].startNewSeries();
     body_levels_[axis].add(instant.values[*vehicle_.body_imu + axis]);

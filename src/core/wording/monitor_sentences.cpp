@@ -79,8 +79,9 @@ const char* nameOf(HealthLevel level) {
   return "STALE";
 }
 
-std::string describeNoReading(double seconds, const std::string& before) {
-  return formatted("cannot tell: no reading accepted for %.0f s; before: ", seconds) + before;
+std::string describeNoReading(double seconds, const std::vector<std::string>& silent, const std::string& before) {
+  const std::string why = silent.empty() ? "" : ", " + join(silent) + (silent.size() == 1 ? " is" : " are") + " silent";
+  return formatted("cannot tell: no reading accepted for %.0f s", seconds) + why + "; before: " + before;
 }
 
 std::string describe(AlignmentJudge::Verdict verdict) {

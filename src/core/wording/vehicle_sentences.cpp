@@ -40,6 +40,17 @@ std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::st
   return kTooLittle;
 }
 
+std::string describe(InertiaDoubt doubt) {
+  const std::string begin = "cannot tell M/Iyy and M/Ixx: ";
+  switch (doubt) {
+    case InertiaDoubt::kNone: return "";
+    case InertiaDoubt::kNoPositions: return begin + "a strut has no position";
+    case InertiaDoubt::kOnOneLine: return begin + "it takes three struts that do not stand on one line";
+    case InertiaDoubt::kUncertain: return begin + "the ratios are too uncertain, or do not fit the positions";
+  }
+  return "";
+}
+
 std::string describe(const BodyLevel& level) {
   if (!level.isTurned()) return "";
   const double degrees = level.lean() / kPi * 180.0;

@@ -53,6 +53,9 @@ class VehicleGrid {
   /// @return true once it is by what the body's IMU has had of it; until then, and without one, by what is usual.
   bool hasHeardNoise() const;
 
+  /// @return instants of the grid so far.
+  std::uint64_t numInstants() const { return num_instants_; }
+
  private:
   struct Channels {
     std::size_t first, end;  // streams
@@ -73,6 +76,7 @@ class VehicleGrid {
   std::vector<Channels> channels_;       // by sensor
   std::vector<WhiteLevel> body_levels_;  // of the body's IMU, by stream
   std::optional<Stamp> last_;
+  std::uint64_t num_instants_ = 0;
   Sink sink_;
 };
 
