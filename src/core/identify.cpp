@@ -25,7 +25,9 @@ IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions&
   monitor.integration_horizon = horizon * period;
   monitor.alignment = "paired";
   constexpr Stamp kLater(1);  // 0 is the stamp that a driver has not set; a drive may begin with it
-  DriveIdentification identification(monitor, [&](const MonitorReport& later) {
+  MonitorSettings settings(monitor);
+  settings.estimators.noise = drives.front().noise;
+  DriveIdentification identification(settings, [&](const MonitorReport& later) {
     if (!options.report) return;
     MonitorReport report = later;
     report.stamp -= kLater;

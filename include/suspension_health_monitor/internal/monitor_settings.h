@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
@@ -23,6 +24,7 @@ struct EstimatorOptions {
   bool forgets_unexcited = false;  ///< true: exponential forgetting, the paper's; false: directional (excitation.h)
   RecursiveOptions recursive;      ///< whose forgetting factor and correlated rows are set for each estimator
   LeastAbsoluteOptions least_absolute;
+  std::vector<CornerSample> noise;  ///< of the sensors, as in Drive
 };
 
 /// Rows that an estimate needs before it is worth something, in horizons: noise of a tenth then makes an error of 1 or

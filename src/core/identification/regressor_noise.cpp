@@ -3,35 +3,76 @@
 #include <vector>
 
 namespace suspension_health_monitor {
+namespace {
+
+/// phi_1, phi_0 and psi, row by row, with their changes and a horizon's mean of them.
+class NoiseRows {
+ public:
+  explicit NoiseRows(const IntegralFilterOptions& options)
+      : body_(2, options),
+        relative_(2, options),
+        means_(3, RegressorNoise::meanOf(options)),
+        lines_(3, DelayLine(means_.front().requiredHistory())) {}
+
+  void push(double sprung, double unsprung) {
+    body_.push(sprung);
+    relative_.push(unsprung - sprung);
+    const Eigen::Vector3d now(relative_.output(1), relative_.output(0), body_.output(2));
+    change = now - row;
+    row = now;
+    for (std::size_t i = 0; i < 3; ++i) {
+      lines_[i].push(row[static_cast<Eigen::Index>(i)]);
+      mean[static_cast<Eigen::Index>(i)] = means_[i].update(lines_[i]);
+    }
+  }
+
+  Eigen::Vector3d row = Eigen::Vector3d::Zero(), change = row, mean = row;
+
+ private:
+  LinearIntegralFilter body_, relative_;
+  std::vector<HorizonIntegral> means_;
+  std::vector<DelayLine> lines_;
+};
+
+}  // namespace
 
 RegressorNoise::RegressorNoise(const IntegralFilterOptions& options) {
-  LinearIntegralFilter filter(2, options);
   const int settled = 2 * options.horizon_samples + 1;  // the filter answers a little outside of its window, too
-  for (int k = 0; k < settled; ++k) filter.push(0.0);
-  std::vector<HorizonIntegral> means(3, meanOf(options));
-  std::vector<DelayLine> lines(3, DelayLine(means.front().requiredHistory()));
-  Eigen::Vector3d before = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 2 * settled; ++k) {
-    filter.push(k == 0 ? 1.0 : 0.0);
-    const Eigen::Vector3d response(filter.output(1), filter.output(0), filter.output(2));
-    Eigen::Vector3d mean;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto place = static_cast<Eigen::Index>(i);
-      lines[i].push(response[place]);
-      mean[place] = means[i].update(lines[i]);
+  for (const bool of_body : {true, false}) {
+    NoiseRows rows(options);
+    for (int k = 0; k < settled; ++k) rows.push(0.0, 0.0);
+    for (int k = 0; k < 2 * settled; ++k) {
+      const double reading = k == 0 ? 1.0 : 0.0;
+      rows.push(of_body ? reading : 0.0, of_body ? 0.0 : reading);
+      rows_.add(rows.row, 1.0);
+      changes_.add(rows.change, 1.0);
+      means_.add(rows.mean, 1.0);
     }
-    rows_.add(response);
-    changes_.add(response - before);
-    means_.add(mean);
-    before = response;
   }
 }
 
-void RegressorNoise::Moments::add(const Eigen::Vector3d& responses) {
-  const Eigen::Vector2d regressor = responses.head<2>();
-  regressors += regressor * regressor.transpose();
-  cross += regressor * responses[2];
-  outputs += responses[2] * responses[2];
+RegressorNoise::RegressorNoise(const IntegralFilterOptions& options, const std::vector<CornerSample>& noise)
+    : RegressorNoise(options) {
+  const std::size_t settled = 4 * static_cast<std::size_t>(options.horizon_samples) + 2;
+  if (noise.size() <= 2 * settled) return;
+  of_two_sensors_ = false;
+  rows_ = changes_ = means_ = {};
+  NoiseRows rows(options);
+  const double weight = 1.0 / static_cast<double>(noise.size() - settled);
+  for (std::size_t k = 0; k < noise.size(); ++k) {
+    rows.push(noise[k].sprung_acceleration, noise[k].unsprung_acceleration);
+    if (k < settled) continue;  // the filter and its mean fill
+    rows_.add(rows.row, weight);
+    changes_.add(rows.change, weight);
+    means_.add(rows.mean, weight);
+  }
+}
+
+void RegressorNoise::Moments::add(const Eigen::Vector3d& row, double weight) {
+  const Eigen::Vector2d regressor = row.head<2>();
+  regressors += weight * regressor * regressor.transpose();
+  cross += weight * regressor * row[2];
+  outputs += weight * row[2] * row[2];
 }
 
 }  // namespace suspension_health_monitor

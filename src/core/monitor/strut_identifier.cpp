@@ -60,7 +60,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
       sensors_(options.estimators.sensors),
       regression_(filter_, 0, sensors_),
-      excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), RegressorNoise(filter_)),
+      excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), RegressorNoise(filter_, options.estimators.noise)),
       least_squares_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples)),
       least_absolute_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples),
                       options.leastAbsolute()),

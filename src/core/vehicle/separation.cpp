@@ -112,4 +112,12 @@ StrutDrives separateStruts(const VehicleDrive& drive, double period, const Coupl
   return separated;
 }
 
+// Known forces have none.
+StrutDrives separateNoise(const SensorNoise& noise, double period, const CouplingEstimate& estimate) {
+  VehicleDrive drive(makeNoiseDrive(noise, period));
+  const std::vector<double> still(drive.struts.front().samples.size(), 0.0);
+  drive.forces.assign(static_cast<std::size_t>(estimate.coupling.forces.cols()), {"", still});
+  return separateStruts(drive, period, estimate.coupling, estimate.models());
+}
+
 }  // namespace suspension_health_monitor

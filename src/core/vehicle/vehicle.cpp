@@ -45,14 +45,6 @@ int horizonFor(const StrutModel& model, double period) {
   return horizonSamples(horizon, period, IntegrationRule::kBandLimited);
 }
 
-/// @return by strut what the noise of the sensors becomes as the drives are separated.
-StrutDrives separatedNoise(const VehicleDrive& drive, double period, const CouplingEstimate& estimate) {
-  VehicleDrive noise(makeNoiseDrive(knownNoise(drive.noise, drive.struts.size()), period));
-  for (const KnownForceRecord& force : drive.forces)
-    noise.forces.push_back({force.name, std::vector<double>(noise.struts.front().samples.size(), 0.0)});
-  return separateStruts(noise, period, estimate.coupling, estimate.models());
-}
-
 /// Struts with what is known of them, to be separated again as more is known.
 class Separator {
  public:
@@ -66,7 +58,7 @@ class Separator {
     for (std::size_t i = 0; i < known.size(); ++i)
       if (known[i]) models_[i] = *known[i];
     if (coupling_)
-      noise_ = separatedNoise(drives.front(), period_, estimate_);
+      noise_ = separateNoise(knownNoise(drives.front().noise, names.size()), period_, estimate_);
     else if (isUndersampled())
       coupling_.reason += kWheelsFolded;
   }

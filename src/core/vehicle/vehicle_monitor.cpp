@@ -9,6 +9,7 @@
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -38,8 +39,8 @@ VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sin
       period_(fromSeconds(*settings.front().sample_period)),
       sink_(std::move(sink)),
       starts_(settings.size()),
-      survey_({static_cast<int>(settings.size()), num_forces}, toSeconds(period_), kCouplingMemory,
-              knownNoise(noise, settings.size())),
+      noise_(knownNoise(noise, settings.size())),
+      survey_({static_cast<int>(settings.size()), num_forces}, toSeconds(period_), kCouplingMemory, noise_),
       coupling_due_(samplesOf(kCouplingEvery, toSeconds(period_))),
       models_due_(samplesOf(kModelsEvery, toSeconds(period_))),
       is_alone_(settings.size() == 1 && num_forces == 0) {
@@ -48,6 +49,11 @@ VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sin
   coupling_->stddevs.setZero();
   coupling_->condition = 1.0;
   beginStruts();
+}
+
+void VehicleMonitor::setNoise(const SensorNoise& noise) {
+  noise_ = noise;
+  survey_.setNoise(noise);
 }
 
 void VehicleMonitor::beginStruts() {
@@ -107,6 +113,8 @@ void VehicleMonitor::begin(const CouplingEstimate& estimate) {
   for (std::size_t i = 0; i < settings_.size(); ++i)
     if (!settings_[i].integration_horizon)
       settings_[i].integration_horizon = proposeHorizon(models[i].damping_to_mass, models[i].stiffness_to_mass).horizon;
+  StrutDrives noise = separateNoise(noise_, toSeconds(period_), estimate);
+  for (std::size_t i = 0; i < settings_.size(); ++i) settings_[i].estimators.noise = std::move(noise[i].samples);
   beginStruts();
 }
 

@@ -2,33 +2,42 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <vector>
 
+#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 
 namespace suspension_health_monitor {
 
 /// What sensor noise does to the strut's regression (28)-(30): it is in the regressors, too, and so pulls the
-/// estimates. With white noise n_z, n_w of the same variance on both accelerometers and the filters' impulse responses
-/// h_2, h_1, h_0 of I_2^2, I_1^2, I_0^2, row noise is h_2 * n_z for psi and h_i * (n_w - n_z) for phi. Source: the bias
-/// of least squares with errors in the variables, e.g. Soderstrom, Automatica 43 (2007), 939-958.
+/// estimates. With noise n_z, n_w on the accelerometers and the filters' impulse responses h_2, h_1, h_0 of I_2^2,
+/// I_1^2, I_0^2, row noise is h_2 * n_z for psi and h_i * (n_w - n_z) for phi. Source: the bias of least squares with
+/// errors in the variables, e.g. Soderstrom, Automatica 43 (2007), 939-958.
 class RegressorNoise {
  public:
+  /// Of white noise, of the same variance on both.
   explicit RegressorNoise(const IntegralFilterOptions& options);
+
+  /// Of other noise, as where a vehicle's struts are taken apart.
+  /// @param noise  a long series of it, of sensors whose standard deviation is 1; empty: as above.
+  RegressorNoise(const IntegralFilterOptions& options, const std::vector<CornerSample>& noise);
 
   /// @param theta  (b1 [1/s], b0 [1/s^2]).
   /// @param sensor_variance  of either sensor [(m/s^2)^2].
   /// @return E[phi e]: what R^-1 turns into the estimate's shift.
   Eigen::Vector2d moment(const Eigen::Vector2d& theta, double sensor_variance) const {
-    return sensor_variance * (-rows_.cross - 2.0 * (rows_.regressors * theta));
+    return sensor_variance * (rows_.cross - rows_.regressors * theta);
   }
 
-  /// @return standard deviation of moment() if nobody knows how the noise is divided between the sensors: that of a
-  /// uniform distribution from all of it in the one to all of it in the other, with the same residual.
+  /// @return standard deviation of moment() if nobody knows how the noise is divided between the sensors: of two that
+  /// of a uniform distribution from all of it in the one to all of it in the other, with the same residual; of more a
+  /// half.
   Eigen::Vector2d momentSpread(const Eigen::Vector2d& theta, double sensor_variance) const {
-    const Eigen::Vector2d square = rows_.regressors * theta;
-    const double of_wheel = theta.dot(square), of_body = rows_.outputs + 2.0 * theta.dot(rows_.cross) + of_wheel;
+    if (!of_two_sensors_) return 0.5 * moment(theta, sensor_variance);
+    const Eigen::Vector2d square = 0.5 * rows_.regressors * theta, cross = -rows_.cross;
+    const double of_wheel = theta.dot(square), of_body = rows_.outputs + 2.0 * theta.dot(cross) + of_wheel;
     const double residual = sensor_variance * (of_wheel + of_body);
-    return residual / std::sqrt(12.0) * (square / of_wheel - (rows_.cross + square) / of_body);
+    return residual / std::sqrt(12.0) * (square / of_wheel - (cross + square) / of_body);
   }
 
   /// @return variance of a row's residual over that of a sensor [-].
@@ -46,21 +55,22 @@ class RegressorNoise {
   }
 
   /// @return variance that phi_i has of the noise, over that of a sensor [s^2] (damping), [s^4] (stiffness).
-  double regressorGain(int i) const { return 2.0 * rows_.regressors(i, i); }
+  double regressorGain(int i) const { return rows_.regressors(i, i); }
 
  private:
-  /// Moments of the responses to one reading.
+  /// Moments of the rows.
   struct Moments {
-    Eigen::Matrix2d regressors = Eigen::Matrix2d::Zero();  // h_i' h_j
-    Eigen::Vector2d cross = Eigen::Vector2d::Zero();       // h_i' h_2
-    double outputs = 0.0;                                  // h_2' h_2
+    Eigen::Matrix2d regressors = Eigen::Matrix2d::Zero();  // phi phi'
+    Eigen::Vector2d cross = Eigen::Vector2d::Zero();       // phi psi
+    double outputs = 0.0;                                  // psi psi
 
-    void add(const Eigen::Vector3d& responses);
+    void add(const Eigen::Vector3d& row, double weight);
     double gain(const Eigen::Vector2d& theta) const {
-      return outputs + 2.0 * theta.dot(cross) + 2.0 * theta.dot(regressors * theta);
+      return outputs - 2.0 * theta.dot(cross) + theta.dot(regressors * theta);
     }
   };
 
+  bool of_two_sensors_ = true;
   Moments rows_, changes_, means_;
 };
 

@@ -29,4 +29,8 @@ CouplingEstimate coupleStruts(const std::vector<VehicleDrive>& drives, double pe
 StrutDrives separateStruts(const VehicleDrive& drive, double period, const Coupling& coupling,
                            const std::vector<StrutModel>& models);
 
+/// @param noise  of the sensors, that is not empty.
+/// @return by strut what it becomes as the drives are separated: a long series.
+StrutDrives separateNoise(const SensorNoise& noise, double period, const CouplingEstimate& estimate);
+
 }  // namespace suspension_health_monitor

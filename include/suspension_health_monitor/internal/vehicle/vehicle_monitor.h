@@ -34,7 +34,7 @@ class VehicleMonitor {
                  const SensorNoise& noise = {});
 
   /// As more is known of the noise. Allocates.
-  void setNoise(const SensorNoise& noise) { survey_.setNoise(noise); }
+  void setNoise(const SensorNoise& noise);
 
   /// Takes in the next sample; gaps and clocks that go back begin a new series.
   void addSample(const VehicleSample& sample);
@@ -75,6 +75,7 @@ class VehicleMonitor {
   Stamp period_;
   Sink sink_;
   std::vector<Start> starts_;
+  SensorNoise noise_;  // until there are struts
   CouplingSurvey survey_;
   std::optional<CouplingEstimate> coupling_;
   std::optional<Decoupler> decoupler_;
