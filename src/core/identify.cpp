@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/identify.h"
 
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
@@ -26,7 +27,7 @@ IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions&
   monitor.alignment = "paired";
   constexpr Stamp kLater(1);  // 0 is the stamp that a driver has not set; a drive may begin with it
   MonitorSettings settings(monitor);
-  settings.estimators.noise = drives.front().noise;
+  settings.estimators.noise = std::make_shared<const std::vector<CornerSample>>(drives.front().noise);
   DriveIdentification identification(settings, [&](const MonitorReport& later) {
     if (!options.report) return;
     MonitorReport report = later;

@@ -87,8 +87,9 @@ void VehicleNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   // once, so that the status of a strut would be lost behind that of the next.
   diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (options_.struts.size() + 1));
   std::vector<std::string> topics;
-  for (std::size_t i = 0; i < streams_->topicsOfImus().size(); ++i) topics.push_back(imus_->topic(i));
-  for (std::size_t i = 0; i < streams_->topicsOfForces().size(); ++i) topics.push_back(forces_->name(i));
+  const std::size_t num_imus = streams_->topicsOfImus().size();
+  for (std::size_t i = 0; i < streams_->sensors.size(); ++i)
+    topics.push_back(i < num_imus ? imus_->topic(i) : forces_->name(i - num_imus));
   input_.emplace(options_.common.shell, *streams_, topics);
   coupling_.emplace(private_node, options_.strutNames(), options_.forceNames());
   for (const auto& strut : struts_) strut->start(node, private_node);

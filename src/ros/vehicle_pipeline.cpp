@@ -37,7 +37,7 @@ void VehiclePipeline::start(double period) {
   recent_.assign(settings.size(), RecentSamples(capacity));
   const std::size_t forces = streams_.channels.known_forces.size();
   if (forces > 0) recent_forces_.emplace(capacity);
-  monitor_.emplace(settings, sinks_.report, static_cast<int>(forces), grid_->noise());
+  monitor_.emplace(settings, sinks_.report, static_cast<int>(forces));
   sinks_.begin(*monitor_);
 }
 
@@ -63,11 +63,9 @@ void VehiclePipeline::finish() {
 }
 
 void VehiclePipeline::take(const VehicleSample& sample) {
+  // The grid has heard the body's IMU for seconds when it gives the first sample.
+  if (newest_ == Stamp::zero() && streams_.channels.body_imu) monitor_->setNoise(grid_->noise());
   newest_ = sample.stamp;
-  if (!has_heard_noise_ && grid_->hasHeardNoise()) {
-    monitor_->setNoise(grid_->noise());
-    has_heard_noise_ = true;
-  }
   for (std::size_t i = 0; i < recent_.size(); ++i) recent_[i].push(sample.ofStrut(i));
   if (recent_forces_) recent_forces_->push({sample.stamp, sample.forces});
   monitor_->addSample(sample);

@@ -83,7 +83,6 @@ class VehiclePipeline {
   std::optional<double> period_;
   Stamp newest_{};
   std::optional<VehicleGrid> grid_;
-  bool has_heard_noise_ = false;
   std::optional<VehicleMonitor> monitor_;
   std::vector<RecentSamples> recent_;            // by strut
   std::optional<Recent<Forces>> recent_forces_;  // if there are any

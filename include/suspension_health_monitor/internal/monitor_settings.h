@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ struct EstimatorOptions {
   bool forgets_unexcited = false;  ///< true: exponential forgetting, the paper's; false: directional (excitation.h)
   RecursiveOptions recursive;      ///< whose forgetting factor and correlated rows are set for each estimator
   LeastAbsoluteOptions least_absolute;
-  std::vector<CornerSample> noise;  ///< of the sensors, as in Drive
+  std::shared_ptr<const std::vector<CornerSample>> noise;  ///< of the sensors, as in Drive; long, so that it is shared
 };
 
 /// Rows that an estimate needs before it is worth something, in horizons: noise of a tenth then makes an error of 1 or

@@ -28,6 +28,10 @@ RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples
   return recursive;
 }
 
+RegressorNoise regressorNoise(const MonitorSettings& options, const IntegralFilterOptions& filter) {
+  return options.estimators.noise ? RegressorNoise(filter, *options.estimators.noise) : RegressorNoise(filter);
+}
+
 // @param num_model  columns of the strut and of its effects, before those of the sensors.
 // @param shift  by the sensors' noise, of each parameter.
 void describeParameters(const RecursiveEstimator& estimator, const Eigen::VectorXd& shift, int num_model,
@@ -60,7 +64,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
       sensors_(options.estimators.sensors),
       regression_(filter_, 0, sensors_),
-      excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), RegressorNoise(filter_, options.estimators.noise)),
+      excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), regressorNoise(options, filter_)),
       least_squares_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples)),
       least_absolute_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples),
                       options.leastAbsolute()),

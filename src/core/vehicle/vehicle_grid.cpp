@@ -29,7 +29,9 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
     while (end < streams.options.size() && streams.options[end].sensor == streams.options[sensor.stream].sensor) ++end;
     channels_.push_back({sensor.stream, end});
   }
-  if (vehicle_.body_imu) num_to_wait_ = static_cast<std::size_t>(std::ceil(kLevelSeconds / period));
+  // Gaps cost a level some instants.
+  if (vehicle_.body_imu)
+    num_to_wait_ = std::max(static_cast<std::size_t>(std::ceil(kLevelSeconds / period)), 2 * kFewestOfLevel);
   waiting_.reserve(num_to_wait_);
 }
 

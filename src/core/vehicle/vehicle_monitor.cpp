@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -114,7 +115,8 @@ void VehicleMonitor::begin(const CouplingEstimate& estimate) {
     if (!settings_[i].integration_horizon)
       settings_[i].integration_horizon = proposeHorizon(models[i].damping_to_mass, models[i].stiffness_to_mass).horizon;
   StrutDrives noise = separateNoise(noise_, toSeconds(period_), estimate);
-  for (std::size_t i = 0; i < settings_.size(); ++i) settings_[i].estimators.noise = std::move(noise[i].samples);
+  for (std::size_t i = 0; i < settings_.size(); ++i)
+    settings_[i].estimators.noise = std::make_shared<const std::vector<CornerSample>>(std::move(noise[i].samples));
   beginStruts();
 }
 

@@ -47,11 +47,9 @@ class VehicleGrid {
   RejectCounts rejected(std::size_t sensor) const;
   std::uint64_t missed(std::size_t sensor) const;
 
-  /// @return what the sensors' noise makes of the samples. Allocates.
+  /// @return what the sensors' noise makes of the samples, by what the body's IMU has had of it; while that is not known
+  /// by what is usual. Allocates.
   SensorNoise noise() const;
-
-  /// @return true once it is by what the body's IMU has had of it; until then, and without one, by what is usual.
-  bool hasHeardNoise() const;
 
   /// @return instants of the grid so far.
   std::uint64_t numInstants() const { return num_instants_; }
@@ -65,6 +63,7 @@ class VehicleGrid {
   void lead(const GridInstant& instant);
   void turnUpright();
   double deviation(std::size_t first_axis) const;
+  bool hasHeardNoise() const;
 
   Stamp period_;
   VehicleChannels vehicle_;
