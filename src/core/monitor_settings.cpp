@@ -69,7 +69,7 @@ void MonitorSettings::validate() const {
 }
 
 int MonitorSettings::horizonSamples(double period) const {
-  const double horizon = integration_horizon.value_or(kDefaultHorizon);
+  const double horizon = presentHorizon();
   if (horizon / period > kMostHorizonSamples)
     throw std::invalid_argument("integration_horizon = " + numberText(horizon) + " [s], must be at most " +
                                 std::to_string(kMostHorizonSamples) +
@@ -82,7 +82,7 @@ IntegralFilterOptions MonitorSettings::filter(double period) const {
   try {
     HorizonIntegral(filter.horizon_samples, filter.period, filter.rule);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("integration_horizon = " + numberText(integration_horizon.value_or(kDefaultHorizon)) +
+    throw std::invalid_argument("integration_horizon = " + numberText(presentHorizon()) +
                                 " [s] with sample_period = " + numberText(period) + " [s] makes " + error.what());
   }
   return filter;
@@ -106,9 +106,11 @@ RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {
   return recursive;
 }
 
+double MonitorSettings::presentHorizon() const { return integration_horizon.value_or(kDefaultHorizon); }
+
 double MonitorSettings::presentMemory() const {
   constexpr double kMemory = 2.0, kHorizons = 10.0 / 3.0;  // the same for the default horizon
-  return memory.value_or(std::max(kMemory, kHorizons * integration_horizon.value_or(kDefaultHorizon)));
+  return memory.value_or(std::max(kMemory, kHorizons * presentHorizon()));
 }
 
 double MonitorSettings::fewestRows(double horizons, double period) const {

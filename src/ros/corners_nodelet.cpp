@@ -71,12 +71,12 @@ void CornersNodelet::onTick() {
 // @return true if the verdict that is reported has changed.
 bool CornersNodelet::confirm(const CornerComparisonReport& now, ros::WallTime time) {
   if (sameVerdict(now, report_)) {
-    report_ = pending_ = now;  // the figures of today
+    report_ = pending_.verdict = now;  // the figures of today
     return false;
   }
-  if (!sameVerdict(now, pending_)) pending_since_ = time;
-  pending_ = now;
-  if ((time - pending_since_).toSec() < options_.confirm_time) return false;
+  if (!sameVerdict(now, pending_.verdict)) pending_.since = time;
+  pending_.verdict = now;
+  if ((time - pending_.since).toSec() < options_.confirm_time) return false;
   report_ = now;
   return true;
 }

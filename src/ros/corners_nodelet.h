@@ -23,6 +23,12 @@ class CornersNodelet : public nodelet::Nodelet {
   ~CornersNodelet() override;
 
  private:
+  /// A verdict that may take the place of the one that is reported.
+  struct Pending {
+    CornerComparisonReport verdict;
+    ros::WallTime since;
+  };
+
   struct Corner {
     ParameterEstimateConstPtr estimate;
     SuspensionHealthConstPtr health;
@@ -43,8 +49,9 @@ class CornersNodelet : public nodelet::Nodelet {
   CornersOptions options_;
   ros::NodeHandle node_, private_node_;
   std::array<Corner, kNumCorners> corners_;
-  CornerComparisonReport report_, pending_;
-  ros::WallTime pending_since_, published_;
+  CornerComparisonReport report_;
+  Pending pending_;
+  ros::WallTime published_;
   std::optional<diagnostic_updater::Updater> updater_;
   ros::Publisher comparison_;
   ros::WallTimer tick_;

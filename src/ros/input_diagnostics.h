@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "conversions.h"
 #include "imu_pipeline.h"
 #include "input_history.h"
 #include "shell_options.h"
+#include "suspension_health_monitor/internal/signal/silent_sensors.h"
 
 namespace suspension_health_monitor {
 
@@ -22,11 +24,11 @@ class InputDiagnostics {
 
   void noteMessage(Side side, const ros::Time& stamp) {
     arrivals_[indexOf(side)].note(stamp);
-    silent_.note(indexOf(side), stamp);
+    silent_.add(indexOf(side), toStamp(stamp));
   }
 
   /// @return the topic that is silent while the other goes on, if one is.
-  std::vector<std::string> silentTopics() const { return silent_.names(); }
+  std::vector<std::string> silentTopics() const { return silent_.now(); }
 
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
@@ -45,7 +47,7 @@ class InputDiagnostics {
 
   ShellOptions options_;
   std::array<ImuArrivals, 2> arrivals_;
-  SilentTopics silent_;
+  SilentSensors silent_;
   std::string refusal_;
   SeriesHistory series_;
   RejectHistory rejected_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "conversions.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kShownLag = 0.0005;    // [s] half of the last digit that is shown
+constexpr std::size_t kMostOthers = 6;  // topics that a person reads through
 constexpr double kRateTolerance = 0.1;  // share of the expected rate: drivers keep theirs to a few percent
 
 }  // namespace
@@ -39,7 +41,7 @@ bool ImuArrivals::isSilentByWall() const { return last_ && (ros::WallTime::now()
 // still while a simulation is paused; the second alone would call a replay silent that is slower than life.
 void ImuArrivals::describeSilence(Status& status) const {
   if (!last_) {
-    status.mergeSummary(DiagnosticStatus::ERROR, "no message yet on " + topic_);
+    status.mergeSummary(DiagnosticStatus::ERROR, "no message yet on " + topic_ + whatElseThereIs());
     return;
   }
   const double by_wall = (ros::WallTime::now() - last_->by_wall).toSec();
@@ -50,13 +52,20 @@ void ImuArrivals::describeSilence(Status& status) const {
                          clock_went_back ? by_wall : by_clock);
 }
 
-void SilentTopics::note(std::size_t topic, const ros::Time& stamp) { silence_.add(topic, toStamp(stamp)); }
-
-std::vector<std::string> SilentTopics::names() const {
-  std::vector<std::string> silent;
-  for (std::size_t i = 0; i < topics_.size(); ++i)
-    if (silence_.lasting(i) > Stamp::zero()) silent.push_back(topics_[i]);
-  return silent;
+// Somebody has mistyped a name, or forgotten to remap it.
+std::string ImuArrivals::whatElseThereIs() const {
+  ros::master::V_TopicInfo published;
+  if ((ros::WallTime::now() - begun_).toSec() < timeout_ || !ros::master::getTopics(published)) return "";
+  std::vector<std::string> others;
+  for (const ros::master::TopicInfo& topic : published)
+    if (topic.datatype == type_ && topic.name != topic_) others.push_back(topic.name);
+  if (others.empty()) return "";
+  std::sort(others.begin(), others.end());
+  if (others.size() > kMostOthers) {
+    others.resize(kMostOthers);
+    others.emplace_back("...");
+  }
+  return " (" + type_ + " is on " + join(others, ", ") + ")";
 }
 
 void describeTiming(const StreamTiming& timing, const std::string& name, const std::optional<double>& expected_rate,

@@ -11,7 +11,6 @@
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/signal/stream_silence.h"
 #include "suspension_health_monitor/internal/signal/stream_timing.h"
 
 namespace suspension_health_monitor {
@@ -19,13 +18,17 @@ namespace suspension_health_monitor {
 /// What the task Input of /diagnostics is made of: each remembers what the last report has said, as a warning is about
 /// what came since.
 
+inline constexpr const char* kImuType = "sensor_msgs/Imu";
+
 /// When the messages of one IMU came.
 class ImuArrivals {
  public:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
   /// @param timeout  [s] silence, by the clock and by the wall clock, that is an error.
-  ImuArrivals(const std::string& topic, double timeout) : topic_(topic), timeout_(timeout) {}
+  /// @param type  of its messages, as sensor_msgs/Imu: what else has such is named while nothing comes.
+  ImuArrivals(const std::string& topic, double timeout, const std::string& type)
+      : topic_(topic), timeout_(timeout), type_(type), begun_(ros::WallTime::now()) {}
 
   void note(const ros::Time& stamp);
 
@@ -44,26 +47,13 @@ class ImuArrivals {
     RunningMean lag{0.99};
   };
 
+  std::string whatElseThereIs() const;
+
   std::string topic_;
   double timeout_;
+  std::string type_;
+  ros::WallTime begun_;
   std::optional<Last> last_;
-};
-
-/// Which topics are silent while others go on, by the stamps of what comes.
-class SilentTopics {
- public:
-  /// @param timeout  [s] a longer silence is one.
-  SilentTopics(const std::vector<std::string>& topics, double timeout)
-      : topics_(topics), silence_(topics.size(), fromSeconds(timeout)) {}
-
-  void note(std::size_t topic, const ros::Time& stamp);
-
-  /// @return those that are silent now.
-  std::vector<std::string> names() const;
-
- private:
-  std::vector<std::string> topics_;
-  StreamSilence silence_;
 };
 
 /// The rate of one IMU as its stamps tell it.

@@ -119,6 +119,12 @@ LiveBaseline::LiveBaseline(const PipelineOptions& options) : path_(options.shell
   if (std::filesystem::exists(path_)) known_ = readBaselineFile(path_);
 }
 
+std::string LiveBaseline::reference(const MonitorOptions& options) const {
+  if (known_) return "the baseline of " + path_;
+  if (options.nominal_damping_to_mass || options.nominal_stiffness_to_mass) return "nominal values";
+  return options.learn_time > 0.0 ? formatted("a baseline that %g s of driving make", options.learn_time) : "nothing";
+}
+
 std::string LiveBaseline::keepLearned(const SuspensionMonitor& monitor) {
   if (known_ || !monitor.baseline().learned) return {};
   known_ = monitor.baseline();

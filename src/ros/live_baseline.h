@@ -19,6 +19,9 @@ class LiveBaseline {
   /// @return the baseline to judge by; empty: nominal values, or none is known yet.
   const std::optional<Baseline>& known() const { return known_; }
 
+  /// @return what health is judged by, in words.
+  std::string reference(const MonitorOptions& options) const;
+
   /// Keeps what the monitor has learned, if it is new, and writes it to the file if there is one.
   /// @return what to tell a person; empty: nothing is new.
   /// @throws std::runtime_error  naming the file that cannot be written; it is not tried again.

@@ -17,12 +17,7 @@ LiveStrut::LiveStrut(const std::string& name, std::size_t place, const PipelineO
       vehicle_(std::move(vehicle)),
       model_(prefixed("struts/" + name + ": ", [&] { return LiveModel(options.shell, model_of); })),
       baseline_(prefixed("struts/" + name + ": ", [&] { return LiveBaseline(options); })),
-      diagnostics_(options.shell.input_timeout, model_, vehicle_.silent_topics) {}
-
-LiveStrut::~LiveStrut() {
-  diagnose_.reset();
-  reset_.shutdown();
-}
+      diagnostics_(name, options.shell.input_timeout, model_, vehicle_.silent_topics) {}
 
 void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   for (const std::string& remark : model_.remarks()) ROS_WARN("%s: %s", name_.c_str(), remark.c_str());
@@ -51,15 +46,9 @@ void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& privat
                                          [this] {
                                            publishModel();
                                            publishDiagnostics();
-                                         }});
+                                         },
+                                         vehicle_.reset});
   diagnose_.emplace(own, *vehicle_.queue, vehicle_.search);
-  reset_ = own.advertiseService("reset", &LiveStrut::onReset, this);
-}
-
-bool LiveStrut::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  response.success = true;
-  response.message = vehicle_.reset();
-  return true;
 }
 
 void LiveStrut::begin(VehicleMonitor& monitor) const {

@@ -2,7 +2,6 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-#include <std_srvs/Trigger.h>
 #include <suspension_health_monitor/Diagnose.h>
 
 #include <functional>
@@ -40,7 +39,6 @@ class LiveStrut {
   /// @throws std::invalid_argument  as LiveModel and LiveBaseline, with the strut's name in front.
   LiveStrut(const std::string& name, std::size_t place, const PipelineOptions& options, const std::string& model_of,
             Vehicle vehicle);
-  ~LiveStrut();
   LiveStrut(const LiveStrut&) = delete;
   LiveStrut& operator=(const LiveStrut&) = delete;
 
@@ -62,7 +60,6 @@ class LiveStrut {
   const std::string& name() const { return name_; }
 
  private:
-  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   const SuspensionMonitor* monitor() const;
   void keepBaseline();
 
@@ -76,7 +73,6 @@ class LiveStrut {
   std::optional<ReportTopics> reports_;
   std::optional<StrutServices> services_;
   std::optional<DiagnoseService<Diagnose>> diagnose_;
-  ros::ServiceServer reset_;
   std::optional<diagnostic_updater::Updater> updater_;
 };
 

@@ -8,10 +8,14 @@ MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::N
                                        const std::string& name, const PipelineOptions& options,
                                        const std::array<std::string, 2>& topics, const LiveModel& model)
     : input_(options.shell, topics),
-      strut_(options.shell.input_timeout, model, [this] { return input_.silentTopics(); }),
+      input_log_(name + " input", Status::ERROR, options.shell.input_timeout),
+      strut_(name, options.shell.input_timeout, model, [this] { return input_.silentTopics(); }),
       updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
-  updater_.add("Input", [this](Status& status) { input_.describe(*pipeline_, status); });
+  updater_.add("Input", [this](Status& status) {
+    input_.describe(*pipeline_, status);
+    input_log_.note(status);
+  });
   strut_.addTo(updater_, [this](std::string& why_none) {
     why_none = kMeasuringPeriod;
     return pipeline_->monitor();

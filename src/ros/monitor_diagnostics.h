@@ -31,6 +31,7 @@ class MonitorDiagnostics {
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
   InputDiagnostics input_;
+  TaskLog input_log_;
   StrutDiagnostics strut_;
   const ImuPipeline* pipeline_ = nullptr;  // during publish() only
   diagnostic_updater::Updater updater_;

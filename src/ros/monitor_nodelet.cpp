@@ -3,6 +3,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "parameters.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 
@@ -13,7 +14,6 @@ MonitorNodelet::~MonitorNodelet() {
   tick_.stop();
   imus_.reset();
   services_.reset();
-  reset_.shutdown();
 }
 
 void MonitorNodelet::onInit() {
@@ -36,11 +36,21 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   reports_.emplace(private_node, options_);
   publishModel();
   imus_->listen();
+  tellStart();
   diagnostics_.emplace(node, private_node, getName(), options_,
                        std::array{imus_->topic(indexOf(Side::kSprung)), imus_->topic(indexOf(Side::kUnsprung))},
                        *model_);
   advertiseServices(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
+}
+
+void MonitorNodelet::tellStart() const {
+  const MonitorOptions& options = options_.monitor;
+  NODELET_INFO("listens to %s (body) and %s (wheel); sample period %s, horizon %g s, memory %g s; health against %s",
+               imus_->topic(indexOf(Side::kSprung)).c_str(), imus_->topic(indexOf(Side::kUnsprung)).c_str(),
+               options.sample_period ? formatted("%g s", *options.sample_period).c_str() : "measured",
+               MonitorSettings(options).presentHorizon(), MonitorSettings(options).presentMemory(),
+               baseline_->reference(options).c_str());
 }
 
 void MonitorNodelet::makePipeline() {
@@ -51,7 +61,6 @@ void MonitorNodelet::makePipeline() {
 }
 
 void MonitorNodelet::advertiseServices(ros::NodeHandle& private_node) {
-  reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
   services_.emplace(private_node, options_.shell, *model_, *baseline_,
                     StrutServices::Strut{[this] { return pipeline_->monitor(); },
                                          [this](const auto& effects, const auto& strut) {
@@ -62,7 +71,8 @@ void MonitorNodelet::advertiseServices(ros::NodeHandle& private_node) {
                                          [this] {
                                            publishModel();
                                            onTick();
-                                         }});
+                                         },
+                                         [this] { return reset(); }});
   diagnose_.emplace(private_node, thread_->queue(), [this](double window) {
     return searchOf(giveSamples(window), [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); });
   });
@@ -111,14 +121,12 @@ void MonitorNodelet::publish(const MonitorReport& report) {
 
 void MonitorNodelet::onTick() { diagnostics_->publish(*pipeline_); }
 
-bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+std::string MonitorNodelet::reset() {
   makePipeline();
   publishModel();
   diagnostics_->input().restart();
   imus_->listen();
-  response.success = true;
-  response.message = "estimates, filters and counters start anew";
-  return true;
+  return "estimates, filters and counters start anew";
 }
 
 void MonitorNodelet::keepBaseline() {

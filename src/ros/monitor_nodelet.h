@@ -4,7 +4,6 @@
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
-#include <std_srvs/Trigger.h>
 
 #include <memory>
 #include <optional>
@@ -35,12 +34,13 @@ class MonitorNodelet : public nodelet::Nodelet {
   void onInit() override;
 
   void start(ros::NodeHandle node, ros::NodeHandle private_node);
+  void tellStart() const;
 
   void onImu(Side side, const sensor_msgs::Imu& imu);
   void publish(const MonitorReport& report);
   void onTick();
   void onReconfigure(LiveSettings& settings);
-  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  std::string reset();
   void keepBaseline();
   SearchTask giveSamples(double window) const;
   void takeDiagnosis(const Diagnosis& diagnosis);
@@ -57,7 +57,6 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::optional<ImuPipeline> pipeline_;
   std::optional<ReportTopics> reports_;
   std::optional<MonitorDiagnostics> diagnostics_;
-  ros::ServiceServer reset_;
   std::optional<StrutServices> services_;
   std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
   std::optional<DiagnoseService<Diagnose>> diagnose_;

@@ -53,6 +53,7 @@ void StrutDiagnostics::describeHealth(const SuspensionMonitor& monitor, Status& 
   const MonitorReport& report = monitor.report();
   status.summary(static_cast<unsigned char>(report.health.level), describe(report.health));
   describeSilence(monitor, status);
+  log_.note(status);
   addEstimate(status, "la", report.la);
   addEstimate(status, "ls", report.ls);
   if (monitor.options().fastest_memory)

@@ -12,6 +12,7 @@
 
 #include "live_model.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "task_log.h"
 
 namespace suspension_health_monitor {
 
@@ -24,9 +25,10 @@ class StrutDiagnostics {
   /// @return topics that the strut needs and that are silent while others go on.
   using FindSilent = std::function<std::vector<std::string>()>;
 
+  /// @param name  of the strut, for the terminal.
   /// @param input_timeout  [s] as the option.  @param model  outlives this object.
-  StrutDiagnostics(double input_timeout, const LiveModel& model, FindSilent silent)
-      : input_timeout_(input_timeout), silent_(std::move(silent)), model_(model) {}
+  StrutDiagnostics(const std::string& name, double input_timeout, const LiveModel& model, FindSilent silent)
+      : input_timeout_(input_timeout), silent_(std::move(silent)), model_(model), log_(name) {}
 
   /// Adds the tasks to an updater that does not outlive this object.
   void addTo(diagnostic_updater::Updater& updater, const Find& find);
@@ -52,6 +54,7 @@ class StrutDiagnostics {
   FindSilent silent_;
   Accepted accepted_;
   const LiveModel& model_;
+  TaskLog log_;  // of Health
   std::optional<HealthLevel> level_;
 };
 

@@ -25,7 +25,8 @@ StrutServices::StrutServices(ros::NodeHandle& node, const ShellOptions& options,
     : options_(options), model_(model), baseline_(baseline), strut_(std::move(strut)) {
   services_ = {node.advertiseService("set_effects", &StrutServices::onSetEffects, this),
                node.advertiseService("save_model", &StrutServices::onSaveModel, this),
-               node.advertiseService("save_baseline", &StrutServices::onSaveBaseline, this)};
+               node.advertiseService("save_baseline", &StrutServices::onSaveBaseline, this),
+               node.advertiseService("reset", &StrutServices::onReset, this)};
 }
 
 StrutServices::~StrutServices() {  // nothing may call back into members that are already gone
@@ -78,6 +79,12 @@ bool StrutServices::onSaveBaseline(std_srvs::Trigger::Request&, std_srvs::Trigge
   } catch (const std::runtime_error& error) {
     response.message = error.what();
   }
+  return true;
+}
+
+bool StrutServices::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  response.success = true;
+  response.message = strut_.reset();
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "live_baseline.h"
@@ -16,7 +17,8 @@
 
 namespace suspension_health_monitor {
 
-/// The services of one live strut that change or keep what is known of it: set_effects, save_model, save_baseline.
+/// The services of one live strut that change or keep what is known of it: set_effects, save_model, save_baseline,
+/// reset.
 class StrutServices {
  public:
   /// What they work on, called in the queue of the services.
@@ -26,6 +28,7 @@ class StrutServices {
     std::function<void(const Baseline& baseline)> set_baseline;
     std::function<std::vector<CornerSample>()> newest_samples;
     std::function<void()> model_changed;
+    std::function<std::string()> reset;  ///< tells what it has done
   };
 
   /// @param model, baseline  of the strut; they outlive this object.
@@ -39,13 +42,14 @@ class StrutServices {
   bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
   bool onSaveModel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool onSaveBaseline(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   std::optional<MotionScale> motionScaleNow() const;
 
   ShellOptions options_;
   LiveModel& model_;
   LiveBaseline& baseline_;
   Strut strut_;
-  std::array<ros::ServiceServer, 3> services_;
+  std::array<ros::ServiceServer, 4> services_;
 };
 
 }  // namespace suspension_health_monitor

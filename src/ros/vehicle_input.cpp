@@ -8,6 +8,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr const char* kWrenchType = "geometry_msgs/WrenchStamped";
+
 using diagnostic_msgs::DiagnosticStatus;
 using Place = VehicleStreams::Place;
 
@@ -21,11 +23,12 @@ std::optional<double> expectedRate(Place place, const ShellOptions& options) {
 
 VehicleInput::VehicleInput(const ShellOptions& options, const VehicleStreams& streams,
                            const std::vector<std::string>& topics)
-    : max_lag_(options.max_lag), silent_(topics, options.input_timeout) {
+    : max_lag_(options.max_lag), silent_(topics, fromSeconds(options.input_timeout)) {
   for (std::size_t i = 0; i < streams.sensors.size(); ++i)
     sensors_.push_back({topics[i],
                         expectedRate(streams.sensors[i].place, options),
-                        ImuArrivals(topics[i], options.input_timeout),
+                        ImuArrivals(topics[i], options.input_timeout,
+                                    streams.sensors[i].place == VehicleStreams::Place::kForce ? kWrenchType : kImuType),
                         {},
                         {}});
   for (std::size_t i = 0; i < sensors_.size(); ++i) all_sensors_.push_back(i);

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "conversions.h"
 #include "input_history.h"
 #include "shell_options.h"
+#include "suspension_health_monitor/internal/signal/silent_sensors.h"
 #include "vehicle_pipeline.h"
 
 namespace suspension_health_monitor {
@@ -21,11 +23,11 @@ class VehicleInput {
 
   void noteMessage(std::size_t sensor, const ros::Time& stamp) {
     sensors_[sensor].arrivals.note(stamp);
-    silent_.note(sensor, stamp);
+    silent_.add(sensor, toStamp(stamp));
   }
 
   /// @return the topics that are silent while others go on.
-  std::vector<std::string> silentTopics() const { return silent_.names(); }
+  std::vector<std::string> silentTopics() const { return silent_.now(); }
 
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
@@ -60,7 +62,7 @@ class VehicleInput {
   std::vector<Sensor> sensors_;
   std::vector<std::size_t> all_sensors_;
   std::vector<std::vector<std::size_t>> own_sensors_;  // by strut
-  SilentTopics silent_;
+  SilentSensors silent_;
   std::string refusal_;
   SeriesHistory series_;
   ClockHistory clock_;

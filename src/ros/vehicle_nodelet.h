@@ -1,6 +1,5 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
@@ -12,15 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "coupling_output.h"
 #include "imu_topics.h"
 #include "live_strut.h"
 #include "message_topics.h"
 #include "monitor_thread.h"
-#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
-#include "vehicle_input.h"
+#include "vehicle_diagnostics.h"
 #include "vehicle_options.h"
 #include "vehicle_pipeline.h"
+#include "vehicle_placement.h"
 #include "vehicle_search.h"
 
 namespace suspension_health_monitor {
@@ -40,8 +38,8 @@ class VehicleNodelet : public nodelet::Nodelet {
   void start(ros::NodeHandle node, ros::NodeHandle private_node);
   void addStruts();
   LiveStrut::Vehicle servedStrut(std::size_t i);
+  std::vector<std::string> topics() const;
   void makePipeline();
-  void placeStruts();
   VehiclePipeline::Sinks pipelineSinks();
 
   void onImu(std::size_t imu, const sensor_msgs::Imu& message);
@@ -55,24 +53,16 @@ class VehicleNodelet : public nodelet::Nodelet {
   void stopListening(const std::string& reason);
 
   VehicleMonitor* monitor() { return pipeline_ ? pipeline_->monitor() : nullptr; }
-  std::string whyNoMonitor() const;
-  const std::string& frameOf(std::size_t strut) const { return imus_->frame(body_imus_[strut]); }
+  const VehiclePipeline* pipeline() const { return pipeline_ ? &*pipeline_ : nullptr; }
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   VehicleOptions options_;
-  std::optional<VehicleStreams> streams_;  // whose positions may not be known yet
-  std::vector<std::size_t> body_imus_;     // by strut its body's IMU, in streams_->sensors
-  std::string missing_position_;           // why there is no pipeline
-  StrutPlaces places_;                     // empty while they are not known
-  std::optional<sensor_msgs::Imu> body_message_;
+  std::optional<VehiclePlacement> placement_;
   std::optional<ImuTopics> imus_;
   std::optional<MessageTopics<geometry_msgs::WrenchStamped>> forces_;
-  std::optional<VehiclePipeline> pipeline_;
-  ros::Publisher diagnostics_;  // of all updaters
+  std::optional<VehiclePipeline> pipeline_;  // none while the struts have no places
   std::vector<std::unique_ptr<LiveStrut>> struts_;
-  std::optional<CouplingOutput> coupling_;
-  std::optional<VehicleInput> input_;
-  std::optional<diagnostic_updater::Updater> updater_;
+  std::optional<VehicleDiagnostics> diagnostics_;
   ros::ServiceServer reset_;
   std::optional<DiagnoseService<DiagnoseVehicle>> diagnose_;
   ros::WallTimer tick_;

@@ -1,4 +1,4 @@
-"""What a person reads: help, tables, the progress bar, and the tables of the README."""
+"""What a person reads: help, tables, the progress bar, and the tables of the documents."""
 import math
 import os
 import pty
@@ -23,7 +23,7 @@ OPTIONS = {
     "horizon": ["--damping-to-mass", "--stiffness-to-mass", "--json"],
     "options": ["monitor", "simulator", "vehicle", "corners"],
 }
-README = imu_bag.REPOSITORY / "README.md"
+DOCUMENTS = imu_bag.REPOSITORY / "doc"
 
 
 @pytest.mark.parametrize("flag", ["-h", "--help"])
@@ -47,12 +47,10 @@ def test_help_comes_before_complaints(program):
     assert "usage" in program.succeed("identify", "--start", "-1", "-h")
 
 
-@pytest.mark.parametrize("of", ["monitor", "simulator", "vehicle", "corners"])
-def test_readme_has_the_table_of_settings(program, of):
-    found = re.search(rf"<!-- options {of} -->\n(.*?)<!-- end -->", README.read_text(), re.DOTALL)
-    if found is None:
-        pytest.skip("README.md has no such table")
-    assert found.group(1) == program.succeed("options", of)
+@pytest.mark.parametrize("document, command", [
+    *(("settings.md", f"options {of}") for of in ("monitor", "simulator", "vehicle", "corners")), ("effects.md", "effects")])
+def test_tables_of_the_documents_are_those_of_the_program(program, document, command):
+    assert f"<!-- {command} -->\n{program.succeed(*command.split())}<!-- end -->" in (DOCUMENTS / document).read_text()
 
 
 def flat(settings, prefix=""):

@@ -45,17 +45,17 @@ def plotjuggler_curves():
 
 
 @pytest.mark.parametrize("curve", [*rqt_curves(), *plotjuggler_curves()])
-def test_curve_is_a_number_that_the_monitor_publishes(curve):
+def test_curve_is_a_number_that_is_published(curve):
     node, topic, field = curve.strip("/").split("/")
-    assert node == "monitor"
-    assert field in numeric_fields(topics_of_the_monitor()[topic])
+    messages = {"monitor": topics_of_the_monitor(), "simulator": {"truth": "SimulationTruth"}}
+    assert field in numeric_fields(messages[node][topic])
 
 
 def test_perspective_has_the_settings_of_every_running_plugin_and_no_others():
     running = {f"plugin__{plugin.replace('/', '__')}__{number}"
                for plugin, numbers in plugins().items() for number in numbers}
     assert running == set(PERSPECTIVE["groups"]["pluginmanager"]["groups"])
-    assert set(plugins()) == {"rqt_plot/Plot", "rqt_robot_monitor/RobotMonitor", "rqt_reconfigure/Param"}
+    assert set(plugins()) == {"rqt_plot/Plot", "rqt_runtime_monitor/RuntimeMonitor", "rqt_reconfigure/Param"}
 
 
 def test_every_value_of_the_perspective_can_be_read_back():

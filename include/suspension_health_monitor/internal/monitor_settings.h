@@ -65,6 +65,9 @@ struct MonitorSettings : MonitorOptions {
   /// @return lambda: forgetting_factor, or that of memory.
   double forgettingFactor(double period) const { return forgetting_factor.value_or(1.0 - period / presentMemory()); }
 
+  /// @return integration_horizon [s], or what it is if it is left out.
+  double presentHorizon() const;
+
   /// @return memory [s], or what it is if it is left out.
   double presentMemory() const;
 

@@ -30,10 +30,6 @@ EarlyWarning earlyWarning(const HealthOptions& options) {
           FollowedParameter::varianceOfMeans(memoryOf(options), horizonOf(options), spacingOfEarly(options))};
 }
 
-bool apart(double ls, double la, double ls_stddev, double la_stddev, double most, double tails) {
-  return std::abs(ls - la) > most * la_stddev || ls_stddev > tails * la_stddev;
-}
-
 // |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.
 double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); }
 
@@ -116,7 +112,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
   now.sensor = sensor_;
   if (la.valid()) {
     follow(ls, la);
-    if (learner_ && agree_)
+    if (learner_ && agreement_.holds())
       if (const std::optional<Baseline> learned = learner_->add(stamp, ls, options_.rows_per_update))
         setBaseline(*learned);
     const StrutChange changed = change();
@@ -125,7 +121,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
     warnEarly(changed);
   }
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
-  now.outliers = disagreement_ > kOutlierShare;
+  now.outliers = agreement_.fails();
   now.learned = baseline_.learned;
   if (learner_) {
     now.learning = learner_->progress();
@@ -138,12 +134,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
 }
 
 void HealthAssessment::follow(const StrutEstimate& ls, const StrutEstimate& la) {
-  agree_ = ls.valid() &&
-           !apart(ls.damping_to_mass, la.damping_to_mass, ls.damping_to_mass_stddev, la.damping_to_mass_stddev,
-                  kAgreement, kTails) &&
-           !apart(ls.stiffness_to_mass, la.stiffness_to_mass, ls.stiffness_to_mass_stddev, la.stiffness_to_mass_stddev,
-                  kAgreement, kTails);
-  disagreement_ += ((agree_ ? 0.0 : 1.0) - disagreement_) / (kOutlierMemories * memory_);
+  agreement_.update(ls, la, memory_);
   const auto if_valid = [&](double value, double stddev) {
     return ls.valid() ? std::optional<UncertainValue>({value, stddev}) : std::nullopt;
   };

@@ -10,53 +10,41 @@ namespace suspension_health_monitor {
 
 void HealthLog::addReading(std::size_t sensor, Stamp stamp, Stamp recorded) {
   if (stamp <= Stamp::zero()) return;  // no stamp at all
-  noteSilence(sensor);
-  silence_.add(sensor, stamp);
-  newest_reading_ = stamp;
-  newest_recorded_ = recorded;
+  sensors_.add(sensor, stamp);
+  newest_reading_ = {stamp, recorded};
   if (in_recording_) return;
   in_recording_ = true;
-  now_ = stamp;
-  recorded_ = recorded;
-  if (events_.empty()) changeTo(HealthLevel::kStale, describe(health_));
+  now_ = newest_reading_;
+  if (events_.empty()) changeTo(HealthLevel::kStale, describe(newest_.health));
 }
 
 void HealthLog::addReport(const MonitorReport& report) {
   // One that is newer than all readings of this recording is about the end of the one before.
-  goTo(std::min(report.stamp, newest_reading_));
-  reported_ = elapsed_;
-  std::fill(was_silent_.begin(), was_silent_.end(), false);
-  const bool begins_early = report.health.early_warning && !health_.early_warning;
-  health_ = report.health;
-  la_ = report.la;
-  if (begins_early) early_warnings_.push_back(momentOf(describe(health_)));
-  if (health_.level != level_)
-    changeTo(health_.level, describe(health_));
-  else if (elapsed_ >= due_)
-    write(momentOf(describe(health_)));
+  goTo(std::min(report.stamp, newest_reading_.stamp));
+  reported_ = elapsed();
+  sensors_.forget();
+  const HealthReport& health = report.health;
+  const bool begins_early = health.early_warning && !newest_.health.early_warning;
+  newest_ = report;
+  if (begins_early) early_warnings_.push_back(momentOf(describe(health)));
+  if (health.level != level_)
+    changeTo(health.level, describe(health));
+  else if (reported_ >= due_)
+    write(momentOf(describe(health)));
 }
 
 void HealthLog::finishRecording() {
-  for (std::size_t i = 0; i < sensors_.size(); ++i) noteSilence(i);
-  silence_.finish();
-  if (in_recording_) goTo(newest_reading_);
+  sensors_.finish();
+  if (in_recording_) goTo(newest_reading_.stamp);
   in_recording_ = false;
 }
 
-// Its next reading ends a silence.
-void HealthLog::noteSilence(std::size_t sensor) {
-  if (silence_.lasting(sensor) > Stamp::zero()) was_silent_[sensor] = true;
-}
-
 HealthMoment HealthLog::latest() const {
-  return momentOf(elapsed_ > reported_ + timeout_ ? silence(elapsed_) : describe(health_));
+  return momentOf(elapsed() > reported_ + timeout_ ? silence(elapsed()) : describe(newest_.health));
 }
 
 std::string HealthLog::silence(Stamp until) const {
-  std::vector<std::string> silent;
-  for (std::size_t i = 0; i < sensors_.size(); ++i)
-    if (was_silent_[i] || silence_.lasting(i) > Stamp::zero()) silent.push_back(sensors_[i]);
-  return describeNoReading(toSeconds(until - reported_), silent, describe(health_));
+  return describeNoReading(toSeconds(until - reported_), sensors_.ofLate(), describe(newest_.health));
 }
 
 std::size_t HealthLog::count(HealthLevel level) const {
@@ -65,29 +53,29 @@ std::size_t HealthLog::count(HealthLevel level) const {
 }
 
 void HealthLog::goTo(Stamp stamp) {
-  if (stamp < now_ && newest_reading_ < now_) now_ = stamp;  // the clock went back, not a report that comes late
-  if (stamp > now_) advance(stamp);
+  // The clock went back; else it is a report that comes late.
+  if (stamp < now_.stamp && newest_reading_.stamp < now_.stamp) now_.stamp = stamp;
+  if (stamp > now_.stamp) advance(stamp);
   // A report may be late behind the readings; a wrong stamp is not.
-  recorded_ = newest_recorded_ - std::clamp(newest_reading_ - now_, Stamp::zero(), timeout_);
+  now_.recorded = newest_reading_.recorded - std::clamp(newest_reading_.stamp - now_.stamp, Stamp::zero(), timeout_);
 }
 
 void HealthLog::advance(Stamp stamp) {
-  const Stamp recorded = newest_recorded_ - recorded_;
-  Stamp step = stamp - now_;
+  const Stamp recorded = newest_reading_.recorded - now_.recorded;
+  Stamp step = stamp - now_.stamp;
   if (step > timeout_) step = std::clamp(recorded, Stamp::zero(), step);
-  const Stamp until = elapsed_ + step, old_at = std::max(elapsed_, reported_ + timeout_);
+  const Stamp until = elapsed() + step, old_at = std::max(elapsed(), reported_ + timeout_);
   if (until > old_at && level_ != HealthLevel::kStale) {
-    pass(old_at - elapsed_);
+    pass(old_at - elapsed());
     changeTo(HealthLevel::kStale, silence(until));
   }
-  pass(until - elapsed_);
-  now_ = stamp;
+  pass(until - elapsed());
+  now_.stamp = stamp;
 }
 
 void HealthLog::pass(Stamp duration) {
   durations_[static_cast<std::size_t>(level_)] += duration;
-  elapsed_ += duration;
-  now_ += duration;
+  now_.stamp += duration;
 }
 
 void HealthLog::changeTo(HealthLevel level, const std::string& message) {
@@ -98,7 +86,7 @@ void HealthLog::changeTo(HealthLevel level, const std::string& message) {
 
 void HealthLog::write(const HealthMoment& moment) {
   constexpr Stamp second = std::chrono::seconds(1);
-  due_ = elapsed_ - elapsed_ % second + second;
+  due_ = elapsed() - elapsed() % second + second;
   if (sink_) sink_(moment);
 }
 

@@ -11,8 +11,6 @@ constexpr double kMostOfAVehicle = 1000.0;  // [m/s^2]
 constexpr double kMostTimesUsual = 100.0;   // beyond that, whatever the unit
 constexpr double kMostInAnyUnit = 1e9;      // [m/s^2]: a vehicle's in micro-g
 
-constexpr double kFewestForUsual = 100.0;
-
 }  // namespace
 
 StreamGate::Verdict StreamGate::judge(Stamp stamp, double acceleration) {
@@ -28,7 +26,6 @@ StreamGate::Verdict StreamGate::judge(Stamp stamp, double acceleration) {
   last_ = stamp;
   timing_.add(stamp);
   if (is_force_) return passes;
-  noteValue(acceleration);
   if (isClipped(acceleration)) return reject(RejectReason::kClipped);
   return passes;
 }
@@ -55,29 +52,17 @@ bool StreamGate::isAbsurd(double acceleration) {
   return believed_ < kBelievedAgain;
 }
 
-void StreamGate::noteValue(double acceleration) {
-  const double step = value_ ? std::abs(acceleration - *value_) : 0.0;
-  equal_in_a_row_ = value_ && step == 0.0 ? std::min(equal_in_a_row_ + 1, RangeEnd::kStuck) : 1;
-  if (step > 0.0) finest_step_ = finest_step_ > 0.0 ? std::min(finest_step_, step) : step;
-  value_ = acceleration;
-  mean_.add(acceleration);
-  deviation_.add(std::abs(acceleration - mean_.mean()));
-  const bool inside = acceleration != upper_.extreme() && acceleration != lower_.extreme();
-  if (inside) repeated_.add(step == 0.0 ? 1.0 : 0.0);
-}
-
 bool StreamGate::isClipped(double acceleration) {
-  const double span = upper_.extreme() ? *upper_.extreme() - *lower_.extreme() : 0.0;
-  const bool known = std::min(mean_.weight(), repeated_.weight()) >= kFewestForUsual;
-  const UsualReadings usual{mean_.mean(), deviation_.mean(), finest_step_, span, repeated_.mean(), known};
-  upper_.add(acceleration, equal_in_a_row_, usual);
-  lower_.add(acceleration, equal_in_a_row_, usual);
+  statistics_.add(acceleration, acceleration == upper_.extreme() || acceleration == lower_.extreme());
+  const UsualReadings usual = statistics_.usual(upper_.extreme() ? *upper_.extreme() - *lower_.extreme() : 0.0);
+  upper_.add(acceleration, statistics_.equalInARow(), usual);
+  lower_.add(acceleration, statistics_.equalInARow(), usual);
   return acceleration == upper_.limit() || acceleration == lower_.limit();
 }
 
 double StreamGate::farthest() const {
   if (!upper_.extreme()) return 0.0;
-  return std::max(*upper_.extreme() - mean_.mean(), mean_.mean() - *lower_.extreme());
+  return std::max(*upper_.extreme() - statistics_.mean(), statistics_.mean() - *lower_.extreme());
 }
 
 StreamGate::Verdict StreamGate::reject(RejectReason reason) {

@@ -25,46 +25,43 @@ double longestStep(const Scenario& scenario) {
 }  // namespace
 
 DriveSimulator::DriveSimulator(const SimulationOptions& options)
-    : options_(options),
-      scenario_(makeScenario(options)),
-      sprung_(options, Accelerometer::Place::kSprung),
-      unsprung_(options, Accelerometer::Place::kUnsprung),
-      sprung_schedule_(options.rate, 0.0, options, RandomPurpose::kSprungTiming),
-      unsprung_schedule_(options.unsprung_rate.value_or(options.rate), options.unsprung_phase, options,
-                         RandomPurpose::kUnsprungTiming),
+    : scenario_(makeScenario(options)),
+      sprung_{{options, Accelerometer::Place::kSprung}, {options.rate, 0.0, options, RandomPurpose::kSprungTiming}},
+      unsprung_{{options, Accelerometer::Place::kUnsprung},
+                {options.unsprung_rate.value_or(options.rate), options.unsprung_phase, options,
+                 RandomPurpose::kUnsprungTiming}},
       road_(options, Accelerometer::Place::kRoad),
       sway_(options),
+      sway_sensor_(options),
       faults_(SensorFaults::from(options.hidden_faults)),
-      sway_noise_(options.seed, RandomPurpose::kSwayNoise),
       max_step_(longestStep(scenario_)),
       guard_(options.hidden, std::min(max_step_, 1.0 / fasterRate(options))) {
   const RoadPoint start = scenario_.road(0.0);
-  state_ = {start.height, start.rate, start.height, start.rate};
-  delayed_state_ = state_;
+  now_.state = {start.height, start.rate, start.height, start.rate};
+  delayed_ = now_;
 }
 
 std::optional<DriveSample> DriveSimulator::next() {
-  const std::optional<double> body_time = sprung_schedule_.next(), wheel_time = unsprung_schedule_.next();
+  const std::optional<double> body_time = sprung_.schedule.next(), wheel_time = unsprung_.schedule.next();
   if (!body_time && !wheel_time) return std::nullopt;
   const bool body_reads = body_time && (!wheel_time || *body_time <= *wheel_time);
   const bool wheel_reads = wheel_time && (!body_time || *wheel_time <= *body_time);
   const double t = body_reads ? *body_time : *wheel_time;
-  if (t > time_) integrate(state_, time_, t);
-  time_ = t;
+  integrate(now_, t);
 
   DriveSample sample;
   sample.stamp = fromSeconds(t);
-  sample.truth = motionAt(state_, t).truth;
+  sample.truth = motionAt(now_).truth;
   if (body_reads) {
     const Sway sway = sway_.at(t);
-    sample.sprung = sprung_.read(t, readBody(t, sway));
-    sample.body = readSway(sway);
-    sprung_schedule_.advance();
+    sample.sprung = sprung_.accelerometer.read(t, readBody(sway));
+    sample.body = sway_sensor_.read(sway);
+    sprung_.schedule.advance();
   }
   if (wheel_reads) {
-    sample.unsprung = unsprung_.read(t, sample.truth.unsprung_acceleration);
+    sample.unsprung = unsprung_.accelerometer.read(t, sample.truth.unsprung_acceleration);
     sample.road = road_.read(t, sample.truth.road_acceleration);
-    unsprung_schedule_.advance();
+    unsprung_.schedule.advance();
   }
   for (const TimeWindow& window : scenario_.zero_readings) {
     if (!window.contains(t)) continue;
@@ -108,26 +105,16 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
   return motion;
 }
 
-double DriveSimulator::readBody(double t, const Sway& sway) {
-  if (faults_.delay == 0.0) return faults_.read(motionAt(state_, t).truth.sprung_acceleration, sway);
-  const double then = std::max(0.0, t - faults_.delay);  // nothing was before the drive
-  if (then > delayed_time_) integrate(delayed_state_, delayed_time_, then);
-  delayed_time_ = then;
-  return faults_.read(motionAt(delayed_state_, then).truth.sprung_acceleration, sway);
+double DriveSimulator::readBody(const Sway& sway) {
+  if (faults_.delay == 0.0) return faults_.read(motionAt(now_).truth.sprung_acceleration, sway);
+  integrate(delayed_, std::max(0.0, now_.time - faults_.delay));  // nothing was before the drive
+  return faults_.read(motionAt(delayed_).truth.sprung_acceleration, sway);
 }
 
-Sway DriveSimulator::readSway(Sway sway) {
-  const auto add = [this](std::array<double, 2>& values, double noise) {
-    for (double& value : values) value += noise * sway_noise_.gaussian();
-  };
-  if (options_.body_acceleration > 0.0) add(sway.acceleration, options_.noise);
-  if (options_.body_rate > 0.0) add(sway.angular_rate, options_.gyro_noise);
-  return sway;
-}
-
-void DriveSimulator::integrate(State& state, double from, double to) {
+void DriveSimulator::integrate(Course& course, double to) {
+  if (to <= course.time) return;
   namespace odeint = boost::numeric::odeint;
-  const double first_step = std::min(max_step_, to - from);
+  const double first_step = std::min(max_step_, to - course.time);
   const auto stepper = odeint::make_controlled(kTolerance, kTolerance, max_step_, odeint::runge_kutta_dopri5<State>());
   const auto system = [this](const State& x, State& derivative, double t) {
     guard_.countEvaluation(t);
@@ -137,7 +124,8 @@ void DriveSimulator::integrate(State& state, double from, double to) {
     guard_.checkMotion(x[0], x[1], t);
     guard_.checkMotion(x[2], x[3], t);
   };
-  odeint::integrate_adaptive(stepper, system, state, from, to, first_step, check);
+  odeint::integrate_adaptive(stepper, system, course.state, course.time, to, first_step, check);
+  course.time = to;
 }
 
 }  // namespace suspension_health_monitor

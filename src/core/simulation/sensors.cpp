@@ -55,6 +55,21 @@ double Accelerometer::drawNoise() {
   return noise_ * std::sqrt(3.0) * (2.0 * noise_random_.uniform() - 1.0);
 }
 
+SwaySensor::SwaySensor(const SimulationOptions& options)
+    : acceleration_noise_(options.body_acceleration > 0.0 ? options.noise : 0.0),
+      rate_noise_(options.body_rate > 0.0 ? options.gyro_noise : 0.0),
+      random_(options.seed, RandomPurpose::kSwayNoise) {}
+
+Sway SwaySensor::read(Sway sway) {
+  const auto add = [this](std::array<double, 2>& values, double noise) {
+    if (noise == 0.0) return;  // no number is drawn, so that other settings keep theirs
+    for (double& value : values) value += noise * random_.gaussian();
+  };
+  add(sway.acceleration, acceleration_noise_);
+  add(sway.angular_rate, rate_noise_);
+  return sway;
+}
+
 SensorFaults SensorFaults::from(const std::vector<ActiveMeasurementEffect>& hidden) {
   SensorFaults faults;
   for (const ActiveMeasurementEffect& active : hidden) {

@@ -19,7 +19,7 @@ constexpr double kCouplingMemory = 60.0;  // [s]: a body and where its struts st
 constexpr double kCouplingEvery = 1.0;    // [s]
 constexpr double kModelsEvery = 0.1;      // [s]
 
-const std::vector<MonitorSettings>& checked(const std::vector<MonitorSettings>& settings) {
+Stamp periodOf(const std::vector<MonitorSettings>& settings) {
   requireNumStruts(settings.size());
   for (const MonitorSettings& each : settings) {
     if (!each.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
@@ -27,7 +27,7 @@ const std::vector<MonitorSettings>& checked(const std::vector<MonitorSettings>& 
       throw std::invalid_argument("sample_period differs between struts, must be the same for all of a vehicle");
     each.validate();
   }
-  return settings;
+  return fromSeconds(*settings.front().sample_period);
 }
 
 int samplesOf(double seconds, double period) { return std::max(1, static_cast<int>(std::lround(seconds / period))); }
@@ -36,15 +36,14 @@ int samplesOf(double seconds, double period) { return std::max(1, static_cast<in
 
 VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces,
                                const SensorNoise& noise)
-    : settings_(checked(settings)),
-      period_(fromSeconds(*settings.front().sample_period)),
+    : period_(periodOf(settings)),
       sink_(std::move(sink)),
-      starts_(settings.size()),
       noise_(knownNoise(noise, settings.size())),
       survey_({static_cast<int>(settings.size()), num_forces}, toSeconds(period_), kCouplingMemory, noise_),
       coupling_due_(samplesOf(kCouplingEvery, toSeconds(period_))),
       models_due_(samplesOf(kModelsEvery, toSeconds(period_))),
       is_alone_(settings.size() == 1 && num_forces == 0) {
+  for (const MonitorSettings& each : settings) starts_.push_back({each, {}, {}, {}});
   if (!is_alone_) return;
   coupling_ = survey_.estimate();
   coupling_->stddevs.setZero();
@@ -58,10 +57,10 @@ void VehicleMonitor::setNoise(const SensorNoise& noise) {
 }
 
 void VehicleMonitor::beginStruts() {
-  for (std::size_t i = 0; i < settings_.size(); ++i) {
-    struts_.emplace_back(settings_[i]);
-    if (!starts_[i].effects.empty()) struts_[i].setEffects(starts_[i].effects, starts_[i].strut);
-    if (starts_[i].baseline) struts_[i].setBaseline(*starts_[i].baseline);
+  for (const Start& start : starts_) {
+    SuspensionMonitor& strut = struts_.emplace_back(start.settings);
+    if (!start.effects.empty()) strut.setEffects(start.effects, start.strut);
+    if (start.baseline) strut.setBaseline(*start.baseline);
   }
 }
 
@@ -111,12 +110,13 @@ void VehicleMonitor::learnCoupling() {
 void VehicleMonitor::begin(const CouplingEstimate& estimate) {
   const std::vector<StrutModel> models = estimate.models();
   decoupler_.emplace(toSeconds(period_), estimate.coupling, models);
-  for (std::size_t i = 0; i < settings_.size(); ++i)
-    if (!settings_[i].integration_horizon)
-      settings_[i].integration_horizon = proposeHorizon(models[i].damping_to_mass, models[i].stiffness_to_mass).horizon;
   StrutDrives noise = separateNoise(noise_, toSeconds(period_), estimate);
-  for (std::size_t i = 0; i < settings_.size(); ++i)
-    settings_[i].estimators.noise = std::make_shared<const std::vector<CornerSample>>(std::move(noise[i].samples));
+  for (std::size_t i = 0; i < starts_.size(); ++i) {
+    MonitorSettings& settings = starts_[i].settings;
+    if (!settings.integration_horizon)
+      settings.integration_horizon = proposeHorizon(models[i].damping_to_mass, models[i].stiffness_to_mass).horizon;
+    settings.estimators.noise = std::make_shared<const std::vector<CornerSample>>(std::move(noise[i].samples));
+  }
   beginStruts();
 }
 

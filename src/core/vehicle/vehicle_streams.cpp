@@ -67,6 +67,11 @@ std::vector<std::string> VehicleStreams::topicsOfImus() const {
   return topics;
 }
 
+std::size_t VehicleStreams::bodyImuOf(std::size_t strut) const {
+  const std::optional<std::size_t>& own = channels.struts[strut].sprung;
+  return options[own ? *own : *channels.body_imu].sensor;
+}
+
 std::vector<std::string> VehicleStreams::topicsOfForces() const {
   std::vector<std::string> topics;
   for (const Sensor& sensor : sensors)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "suspension_health_monitor/internal/health/agreement.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/early_warning.h"
 #include "suspension_health_monitor/internal/health/level_confirmation.h"
@@ -31,8 +32,7 @@ struct HealthOptions : HealthThresholds {
 /// Judges damping and stiffness by their change from the healthy strut: nominal values, or a baseline that it learns.
 ///
 /// - What is judged: the trend of LS or of LA, which have no lag behind a steady change (FollowedParameter).
-/// - LS and LA that are more than kAgreement standard deviations of LA apart, or of which LS is more than kTails times
-///   as uncertain, disagree: there are outliers, or was a step. If they do for long, that is reported.
+/// - LS and LA that disagree for long (Agreement) are reported: there are outliers.
 /// - Payload moves both parameters, damage one (splitChange()).
 /// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation). It ends when
 ///   the change is below the threshold by the hysteresis, or a standard deviation if that is more, or has lost half of
@@ -66,9 +66,7 @@ class HealthAssessment {
   const HealthOptions& options() const { return options_; }
 
  private:
-  static constexpr double kAgreement = 3.0, kTails = 2.5;
   static constexpr double kLoadCertain = 2.0, kLoadShare = 0.5;  // standard deviations; of a change that warns
-  static constexpr double kOutlierShare = 0.4, kOutlierMemories = 10.0;
 
   /// What is followed of damping or of stiffness.
   struct Parameter {
@@ -90,10 +88,9 @@ class HealthAssessment {
   Baseline baseline_;
   std::optional<BaselineLearner> learner_;
   Parameter damping_, stiffness_;
-  bool agree_ = false;         // LS and LA
-  double disagreement_ = 0.0;  // share of the updates
-  double known_load_ = 0.0;    // ln of the body's mass over the healthy vehicle's, when last nothing else had changed
-  double since_early_ = 0.0;   // updates since the early warning saw the newest change
+  Agreement agreement_;       // of LS and LA
+  double known_load_ = 0.0;   // ln of the body's mass over the healthy vehicle's, when last nothing else had changed
+  double since_early_ = 0.0;  // updates since the early warning saw the newest change
   SensorReport sensor_;
   HealthReport report_;
 };

@@ -3,11 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/internal/signal/stream_silence.h"
+#include "suspension_health_monitor/internal/signal/silent_sensors.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -37,11 +38,7 @@ class HealthLog {
   /// @param sensors  names, topics, of all whose readings the strut needs.
   /// @param sink  called with every change of level and with the first report of every second between.
   HealthLog(Stamp timeout, const std::vector<std::string>& sensors, Sink sink = {})
-      : timeout_(timeout),
-        sink_(std::move(sink)),
-        sensors_(sensors),
-        silence_(sensors.size(), timeout),
-        was_silent_(sensors.size()) {}
+      : timeout_(timeout), sink_(std::move(sink)), sensors_(sensors, timeout) {}
 
   /// Notes that a sensor of the strut has given a reading, whether or not it will be accepted.
   /// @param sensor  its place.  @param recorded  when it was recorded, by any clock.
@@ -66,7 +63,7 @@ class HealthLog {
   Stamp duration(HealthLevel level) const { return durations_[static_cast<std::size_t>(level)]; }
 
   /// @return the time covered.
-  Stamp elapsed() const { return elapsed_; }
+  Stamp elapsed() const { return std::accumulate(durations_.begin(), durations_.end(), Stamp::zero()); }
 
   /// @return how many of the events are changes to a level.
   std::size_t count(HealthLevel level) const;
@@ -77,22 +74,23 @@ class HealthLog {
   void pass(Stamp duration);
   void changeTo(HealthLevel level, const std::string& message);
   void write(const HealthMoment& moment);
-  void noteSilence(std::size_t sensor);
   std::string silence(Stamp until) const;
-  HealthMoment momentOf(const std::string& message) const { return {now_, elapsed_, level_, message, la_}; }
+  HealthMoment momentOf(const std::string& message) const {
+    return {now_.stamp, elapsed(), level_, message, newest_.la};
+  }
+
+  struct Instant {
+    Stamp stamp{}, recorded{};
+  };
 
   Stamp timeout_;
   Sink sink_;
-  std::vector<std::string> sensors_;
-  StreamSilence silence_;
-  std::vector<bool> was_silent_;  // by sensor, since the newest report
+  SilentSensors sensors_;  // of late: since the newest report
   bool in_recording_ = false;
-  Stamp now_{}, newest_reading_{};        // stamps
-  Stamp recorded_{}, newest_recorded_{};  // when what they belong to was recorded
-  Stamp elapsed_{}, reported_{}, due_{};  // reported_: elapsed at the newest report; due_: at the next second
+  Instant now_, newest_reading_;
+  Stamp reported_{}, due_{};  // elapsed() at the newest report; at the next second
   HealthLevel level_ = HealthLevel::kStale;
-  HealthReport health_;  // the newest, as the estimate
-  StrutEstimate la_;
+  MonitorReport newest_;
   std::array<Stamp, 4> durations_{};  // by level
   std::vector<HealthMoment> events_, early_warnings_;
 };

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/signal/range_end.h"
+#include "suspension_health_monitor/internal/signal/reading_statistics.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/signal/stream_timing.h"
 #include "suspension_health_monitor/internal/signal/usual_size.h"
@@ -43,10 +43,10 @@ class StreamGate {
 
   /// @return true if the last RangeEnd::kStuck readings were all the same: a sensor that is stuck, or a vehicle at rest
   /// and a sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
-  bool isStill() const { return equal_in_a_row_ == RangeEnd::kStuck; }
+  bool isStill() const { return statistics_.equalInARow() == RangeEnd::kStuck; }
 
   /// @return the mean distance of the newest thousand readings from their mean [m/s^2].
-  double deviation() const { return deviation_.mean(); }
+  double deviation() const { return statistics_.deviation(); }
 
   /// @return how far from that mean any reading has been [m/s^2], those that were kept out as absurd left out.
   double farthest() const;
@@ -60,21 +60,15 @@ class StreamGate {
   std::optional<RejectReason> faultOfStamp(Stamp stamp) const;
   bool isAbsurd(double acceleration);
   bool isClipped(double acceleration);
-  void noteValue(double acceleration);
   Verdict reject(RejectReason reason);
 
   Stamp longest_overtaking_;
   bool is_force_;
   std::optional<Stamp> last_;
-  std::optional<double> value_;  // of the last reading
-  int equal_in_a_row_ = 0;
-  int believed_ = kBelievedAgain;                // readings in a row that are not absurd, up to kBelievedAgain
-  double finest_step_ = 0.0;                     // other than 0
-  RangeEnd upper_{1.0}, lower_{-1.0};            // of all readings that passed, the clipped ones included
-  RunningMean repeated_{StreamTiming::kMemory};  // 1 for a reading that equals the one before, both extremes left out
-  UsualSize usual_size_;                         // |acceleration|, of all that are numbers
-  RunningMean mean_{StreamTiming::kMemory},
-      deviation_{StreamTiming::kMemory};  // of the acceleration; |acceleration - mean|
+  int believed_ = kBelievedAgain;      // readings in a row that are not absurd, up to kBelievedAgain
+  UsualSize usual_size_;               // |acceleration|, of all that are numbers
+  ReadingStatistics statistics_;       // of all readings that passed, the clipped ones included
+  RangeEnd upper_{1.0}, lower_{-1.0};  // likewise
   RejectCounts rejected_;
   StreamTiming timing_;
 };

@@ -58,26 +58,32 @@ class DriveSimulator {
     DriveTruth truth;
     State derivative;
   };
-  Motion motionAt(const State& state, double t);
-  void integrate(State& state, double from, double to);
-  double readBody(double t, const Sway& sway);
-  Sway readSway(Sway sway);
 
-  SimulationOptions options_;
+  /// The vehicle at one time, from where it is integrated on.
+  struct Course {
+    State state{};
+    double time = 0.0;  // [s]
+  };
+
+  struct ScheduledSensor {
+    Accelerometer accelerometer;
+    SensorSchedule schedule;
+  };
+
+  Motion motionAt(const State& state, double t);
+  Motion motionAt(const Course& course) { return motionAt(course.state, course.time); }
+  void integrate(Course& course, double to);
+  double readBody(const Sway& sway);
+
   Scenario scenario_;
-  Accelerometer sprung_;
-  Accelerometer unsprung_;
-  SensorSchedule sprung_schedule_, unsprung_schedule_;
+  ScheduledSensor sprung_, unsprung_;
   Accelerometer road_;
   BodySway sway_;
+  SwaySensor sway_sensor_;
   SensorFaults faults_;
-  RandomStream sway_noise_;
-  State state_{};
-  State delayed_state_{};  // as the body's IMU sees it, faults_.delay ago
-  double delayed_time_ = 0.0;
-  double max_step_;  // [s]
+  Course now_, delayed_;  // delayed: as the body's IMU sees it, faults_.delay ago
+  double max_step_;       // [s]
   IntegrationGuard guard_;
-  double time_ = 0.0;  // of state_ [s]
 };
 
 }  // namespace suspension_health_monitor

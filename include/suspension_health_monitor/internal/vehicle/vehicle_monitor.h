@@ -46,7 +46,7 @@ class VehicleMonitor {
 
   /// @return nullptr while the coupling is not known.
   const SuspensionMonitor* strut(std::size_t i) const { return struts_.empty() ? nullptr : &struts_[i]; }
-  std::size_t numStruts() const { return settings_.size(); }
+  std::size_t numStruts() const { return starts_.size(); }
 
   /// @return true once the coupling is known.
   bool isCoupled() const { return !struts_.empty(); }
@@ -60,6 +60,7 @@ class VehicleMonitor {
  private:
   /// What a strut is to be begun with.
   struct Start {
+    MonitorSettings settings;
     std::vector<ActiveEffect> effects;
     std::optional<LinearStrut> strut;
     std::optional<Baseline> baseline;
@@ -71,11 +72,10 @@ class VehicleMonitor {
   void beginStruts();
   void takeModels();
 
-  std::vector<MonitorSettings> settings_;
   Stamp period_;
   Sink sink_;
-  std::vector<Start> starts_;
-  SensorNoise noise_;  // until there are struts
+  std::vector<Start> starts_;  // by strut
+  SensorNoise noise_;          // until there are struts
   CouplingSurvey survey_;
   std::optional<CouplingEstimate> coupling_;
   std::optional<Decoupler> decoupler_;

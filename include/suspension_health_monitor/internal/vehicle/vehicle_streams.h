@@ -37,6 +37,9 @@ struct VehicleStreams {
   std::vector<std::string> topicsOfImus() const;
   std::vector<std::string> topicsOfForces() const;
 
+  /// @return the sensor that is a strut's body IMU: its own, or that of the body.
+  std::size_t bodyImuOf(std::size_t strut) const;
+
  private:
   void addForces(const std::vector<VehicleLayout::KnownForce>& forces);
 };

@@ -1,0 +1,55 @@
+#include "vehicle_diagnostics.h"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+
+#include "conversions.h"
+#include "strut_diagnostics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+const VehicleMonitor* monitorOf(const VehiclePipeline* pipeline) {
+  return pipeline != nullptr ? pipeline->monitor() : nullptr;
+}
+
+}  // namespace
+
+// Who advertises first decides how long the queue is: an Updater's own holds one message, and all of them publish at
+// once, so that the status of a strut would be lost behind that of the next.
+VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
+                                       const VehicleOptions& options, const VehiclePlacement& placement,
+                                       const std::vector<std::string>& topics)
+    : placement_(placement),
+      struts_(options.strutNames()),
+      publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (struts_.size() + 1))),
+      input_(options.common.shell, placement.streams(), topics),
+      input_log_(name + " input", Status::ERROR, options.common.shell.input_timeout),
+      coupling_log_(name + " coupling"),
+      coupling_(private_node, struts_, options.forceNames()),
+      updater_(node, private_node, name) {
+  updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
+  updater_.add("Coupling", [this](Status& status) {
+    coupling_.describe(monitorOf(pipeline_), whyNoMonitor(pipeline_), placement_.places(), status);
+    coupling_log_.note(status);
+  });
+  updater_.add("Input", [this](Status& status) {
+    input_.describe(pipeline_, placement_.missing(), status);
+    input_log_.note(status);
+  });
+}
+
+void VehicleDiagnostics::publish(const VehiclePipeline* pipeline) {
+  coupling_.publish(monitorOf(pipeline), whyNoMonitor(pipeline), placement_.places(),
+                    pipeline != nullptr ? toRosTime(pipeline->newest()) : ros::Time());
+  pipeline_ = pipeline;
+  updater_.force_update();
+  pipeline_ = nullptr;
+}
+
+std::string VehicleDiagnostics::whyNoMonitor(const VehiclePipeline* pipeline) const {
+  if (pipeline == nullptr) return placement_.missing();
+  const VehicleMonitor* monitor = pipeline->monitor();
+  return monitor == nullptr ? kMeasuringPeriod : whyNotCoupled(*monitor, struts_);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "coupling_output.h"
+#include "task_log.h"
+#include "vehicle_input.h"
+#include "vehicle_options.h"
+#include "vehicle_pipeline.h"
+#include "vehicle_placement.h"
+
+namespace suspension_health_monitor {
+
+/// What is told of a live vehicle as a whole: the tasks Coupling and Input of /diagnostics, and ~coupling.
+class VehicleDiagnostics {
+ public:
+  /// @param topics  by VehicleStreams::sensors.  @param placement  outlives this object.
+  VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
+                     const VehicleOptions& options, const VehiclePlacement& placement,
+                     const std::vector<std::string>& topics);
+
+  VehicleInput& input() { return input_; }
+
+  /// @param pipeline  nullptr: none, as the struts have no places yet.
+  void publish(const VehiclePipeline* pipeline);
+
+  /// @return why the struts have no monitors.
+  std::string whyNoMonitor(const VehiclePipeline* pipeline) const;
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  const VehiclePlacement& placement_;
+  std::vector<std::string> struts_;  // their names
+  ros::Publisher publisher_;         // of all updaters, also of those of the struts
+  VehicleInput input_;
+  TaskLog input_log_, coupling_log_;
+  CouplingOutput coupling_;
+  const VehiclePipeline* pipeline_ = nullptr;  // during publish() only
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace suspension_health_monitor
