@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "conversions.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -46,6 +47,8 @@ Diagnosis searchEffects(const SearchTask& task) {
 DiagnoseResponse toResponse(const Diagnosis& found) {
   DiagnoseResponse response;
   response.success = true;
+  response.extended_held_out_rmse = response.extended_fit_percent = kUnknown;
+  response.damping_to_mass = response.stiffness_to_mass = kUnknown;
   response.message = found.remainder.empty() ? found.summary : found.summary + ' ' + found.remainder;
   response.verdict = nameOf(found.verdict);
   response.base_held_out_rmse = found.base.held_out_rmse;

@@ -7,13 +7,21 @@
 namespace suspension_health_monitor {
 namespace {
 
+// More standard deviations than that nobody needs to count.
+constexpr long kBeyondDoubt = 10;
+
+std::string describeSignificance(long sigmas) {
+  if (sigmas == 0) return {};
+  return sigmas > kBeyondDoubt ? " (beyond doubt)" : formatted(" (%ld sigma)", sigmas);
+}
+
 std::string describeChange(const std::string& parameter, const std::optional<double>& change, double significance,
                            const std::string& reference) {
   if (!change) return {};
   if (std::lround(100.0 * *change) == 0) return parameter + " at " + reference;
   const std::string text =
       parameter + " " + sizeInPercent(*change) + (*change < 0.0 ? " below " : " above ") + reference;
-  return std::isfinite(significance) ? text + formatted(" (%ld sigma)", std::lround(significance)) : text;
+  return std::isfinite(significance) ? text + describeSignificance(std::lround(significance)) : text;
 }
 
 std::string describeChanges(const HealthReport& report) {
@@ -176,7 +184,7 @@ std::string describe(const SensorReport& report) {
 
 std::string describe(const HealthReport& report) {
   return join({describe(report.sensor), describeJudgement(report),
-               report.early_warning ? "early warning: a small change is certain" : "",
+               report.early_warning && report.level == HealthLevel::kOk ? "early warning: a small change is certain" : "",
                report.outliers ? "outliers or saturation present (LS and LA disagree)" : ""},
               "; ");
 }
