@@ -1,10 +1,12 @@
 #include "suspension_health_monitor/internal/option_table.h"
 
+#include <algorithm>
 #include <boost/lexical_cast/try_lexical_convert.hpp>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/nearest_name.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
@@ -115,21 +117,6 @@ struct Assigner {
   }
 };
 
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 namespace option_table {
@@ -182,15 +169,10 @@ void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>
     if (isChoice(former.names, name))
       throw std::invalid_argument(name + " is no option any more: " + std::string(former.instead));
   requireNameLength(name);
-  std::string message = "unknown option " + shortened(name) + " = " + format(values.begin()->second);
-  const auto difference = [&](const OptionDescription& other) {  // share of the letters
-    return static_cast<double>(editDistance(name, other.name)) /
-           static_cast<double>(std::max(name.size(), other.name.size()));
-  };
-  const auto nearest = std::min_element(known.begin(), known.end(),
-                                        [&](const auto& a, const auto& b) { return difference(a) < difference(b); });
-  if (nearest != known.end() && difference(*nearest) <= 0.5) message += "; the nearest known name is " + nearest->name;
-  throw std::invalid_argument(message);
+  std::vector<std::string> names;
+  for (const OptionDescription& option : known) names.push_back(option.name);
+  throw std::invalid_argument("unknown option " + shortened(name) + " = " + format(values.begin()->second) +
+                              suggestNearest(name, names));
 }
 
 std::vector<OptionDescription> inGroups(const std::vector<std::string>& groups, std::vector<OptionDescription> first,

@@ -2,10 +2,13 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "command.h"
 #include "errors.h"
 #include "long_work.h"
+#include "suspension_health_monitor/internal/nearest_name.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -20,14 +23,15 @@ constexpr std::array kCommands{
     Command{"diagnose", "which physical effect the model misses, and how sure that is", &diagnose},
     Command{"effects", "the effects that diagnose and simulate know", &effects},
     Command{"horizon", "propose the filter's horizon for a strut and show why", &horizon},
-    Command{"options", "all settings of the monitor, the simulator of a strut or vehicle, or the comparison of corners", &options},
+    Command{"options", "all settings of the monitor, the simulator of a strut or vehicle, or the comparison of corners",
+            &options},
 };
 
 void printHelp(std::FILE* out) {
-  std::fputs("usage: suspension_bag COMMAND [ARGUMENT]...\n\n", out);
+  std::fputs("usage: suspension_bag COMMAND [ARGUMENT]...\n       suspension_bag help COMMAND | --version\n\n", out);
   for (const Command& command : kCommands) std::fprintf(out, "  %-10s %s\n", command.name, command.summary);
   std::fputs(
-      "\nsuspension_bag COMMAND -h tells more. Tables go to standard output, messages to standard error.\n"
+      "\nsuspension_bag help COMMAND tells more. Tables go to standard output, messages to standard error.\n"
       "Exit status: 0 done, 2 wrong usage, 3 unreadable or wrong input, 4 too little or too poor input.\n",
       out);
 }
@@ -59,20 +63,32 @@ int run(const Command& command, const Arguments& arguments) {
   }
 }
 
+int refuseCommand(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) names.emplace_back(command.name);
+  std::fprintf(stderr, "suspension_bag: unknown command %s%s\n", shortened(name).c_str(),
+               suggestNearest(name, names).c_str());
+  printHelp(stderr);
+  return kWrongUsage;
+}
+
 }  // namespace
 
 }  // namespace suspension_health_monitor
 
 int main(int argc, char** argv) {
   using namespace suspension_health_monitor;
-  const Arguments arguments(argv + 1, argv + argc);
-  if (arguments.empty() || arguments.front() == "-h" || arguments.front() == "--help") {
+  Arguments arguments(argv + 1, argv + argc);
+  if (arguments.size() > 1 && arguments.front() == "help") arguments = {arguments[1], "--help"};
+  if (!arguments.empty() && arguments.front() == "--version") {
+    std::puts("suspension_bag " PACKAGE_VERSION);
+    return kDone;
+  }
+  if (arguments.empty() || arguments.front() == "help" || arguments.front() == "-h" || arguments.front() == "--help") {
     printHelp(arguments.empty() ? stderr : stdout);
     return arguments.empty() ? kWrongUsage : kDone;
   }
   for (const Command& command : kCommands)
     if (arguments.front() == command.name) return run(command, {arguments.begin() + 1, arguments.end()});
-  std::fprintf(stderr, "suspension_bag: unknown command %s\n", arguments.front().c_str());
-  printHelp(stderr);
-  return kWrongUsage;
+  return refuseCommand(arguments.front());
 }

@@ -43,6 +43,16 @@ def test_help_names_commands_and_exit_statuses(program, flag):
         assert word in text
 
 
+@pytest.mark.parametrize("command", OPTIONS)
+def test_help_of_a_command_by_its_name(program, command):
+    assert program.succeed("help", command) == program.succeed(command, "--help")
+
+
+def test_version_is_that_of_the_package(program):
+    version = re.search("<version>(.*)</version>", (imu_bag.REPOSITORY / "package.xml").read_text())[1]
+    assert program.succeed("--version") == f"suspension_bag {version}\n"
+
+
 def test_help_comes_before_complaints(program):
     assert "usage" in program.succeed("identify", "--start", "-1", "-h")
 

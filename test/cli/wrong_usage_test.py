@@ -126,10 +126,17 @@ def test_horizon_of_no_strut(program, tmp_path, b1, b0, word):
     program.refuse(2, ["horizon", "--damping-to-mass", b1, "--stiffness-to-mass", b0], [word], tmp_path)
 
 
-def test_unknown_command(program):
-    result = program("analyse")
+@pytest.mark.parametrize("given, nearest", [("analyse", None), ("diagnos", "diagnose"), ("indentify", "identify")])
+def test_unknown_command(program, given, nearest):
+    result = program(given)
     assert (result.returncode, result.stdout) == (2, "")
-    assert "unknown command analyse" in result.stderr and "identify" in result.stderr
+    assert f"unknown command {given}" in result.stderr and "identify" in result.stderr
+    assert (f"nearest known name is {nearest}" in result.stderr) == (nearest is not None)
+
+
+def test_unknown_effect(program, tmp_path):
+    program.refuse(2, ["simulate", "--scenario", "iso_road", "--effect", "quadratic=1", "-o", tmp_path / "drive.bag"],
+                   ["effect quadratic, must be one of", "nearest known name is quadratic_damping"], tmp_path)
 
 
 def test_no_command(program):

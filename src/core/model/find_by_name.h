@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "suspension_health_monitor/internal/nearest_name.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
 namespace suspension_health_monitor {
 
 /// @param besides  what else the message has to say.
@@ -14,9 +17,10 @@ template <class Record>
 const Record& findByName(const std::vector<Record>& records, std::string_view name, const std::string& besides = {}) {
   const auto found = std::find_if(records.begin(), records.end(), [&](const Record& r) { return r.name == name; });
   if (found != records.end()) return *found;
-  std::string known;
-  for (const Record& record : records) known += (known.empty() ? "" : ", ") + record.name;
-  throw std::invalid_argument("effect " + std::string(name) + ", must be one of " + known + besides);
+  std::vector<std::string> known;
+  for (const Record& record : records) known.push_back(record.name);
+  throw std::invalid_argument("effect " + std::string(name) + ", must be one of " + join(known) + besides +
+                              suggestNearest(std::string(name), known));
 }
 
 }  // namespace suspension_health_monitor

@@ -1,0 +1,35 @@
+#include "suspension_health_monitor/internal/nearest_name.h"
+
+#include <algorithm>
+
+namespace suspension_health_monitor {
+namespace {
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string suggestNearest(const std::string& name, const std::vector<std::string>& known) {
+  const auto difference = [&](const std::string& other) {  // share of the letters
+    return static_cast<double>(editDistance(name, other)) / static_cast<double>(std::max(name.size(), other.size()));
+  };
+  const auto nearest = std::min_element(known.begin(), known.end(),
+                                        [&](const auto& a, const auto& b) { return difference(a) < difference(b); });
+  if (nearest == known.end() || difference(*nearest) > 0.5) return {};
+  return "; the nearest known name is " + *nearest;
+}
+
+}  // namespace suspension_health_monitor
