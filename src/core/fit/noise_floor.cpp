@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numeric>
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/hat_functions.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/periodogram.h"
 #include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
 
 namespace suspension_health_monitor {
@@ -175,21 +177,16 @@ class FreeFormLaws {
   double travel_ = 0.0, travel_rate_ = 0.0;  // rms
 };
 
-/// What an interpolation cannot tell.
-struct Untold {
-  double deviation = 0.0;         ///< 0 if there are too few samples
-  Eigen::VectorXd interpolation;  ///< that was fitted
-};
-
-Untold untold(const Segments& segments, const StrutModel& model, bool without_laws) {
+/// @return standard deviation of what an interpolation cannot tell; 0 if there are too few samples.
+double untold(const Segments& segments, const StrutModel& model, bool without_laws) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());
-  if (count <= 2.0 * kTerms) return {};
+  if (count <= 2.0 * kTerms) return 0.0;
   Series series = sprungOf(segments);
   Regression interpolation(interpolationRows(segments, places, series));
   const double plain = interpolation.deviation() * std::sqrt(count / (count - kTerms));
   FreeFormLaws laws(segments);
-  if (!without_laws || count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return {plain, interpolation.solution};
+  if (!without_laws || count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return plain;
   double deviation = 0.0;
   for (int round = 1;; ++round) {
     const Regression fit(laws.interpolated(places, interpolation.solution), interpolation.error);
@@ -198,7 +195,7 @@ Untold untold(const Segments& segments, const StrutModel& model, bool without_la
     laws.takeOff(fit.solution, series);
     interpolation = Regression(interpolationRows(segments, places, series));
   }
-  return {std::min(plain, deviation), interpolation.solution};
+  return std::min(plain, deviation);
 }
 
 /// White noise on w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): its variance grows by T (b1^2 + b0) / (2 b1).
@@ -207,30 +204,57 @@ double ofBothSensors(double body_noise, double period, const StrutModel& model) 
   return body_noise * std::sqrt(1.0 + period * (square(b1) + b0) / (2.0 * b1));
 }
 
-/// What is left of noise by the model's free run, over what is left of it by the interpolation.
-double gainOfNoise(const std::vector<CornerSample>& samples, double period, const Eigen::VectorXd& interpolation,
-                   const StrutModel& model) {
-  const std::deque<DriveRecord> records = makeRecords({Drive{samples}}, period, model);
-  const Segments noise = segmentsOf(pointersTo(records));
-  const auto [rows, measured] = interpolationRows(noise, choosePlaces(noise), sprungOf(noise));
-  const double untold = (measured - rows * interpolation).norm() / std::sqrt(static_cast<double>(measured.size()));
+constexpr std::size_t kWindow = 128;  // samples
+constexpr double kNone = 0.01;        // of the mean: where a filter leaves less of the noise it tells nothing
+
+/// Mean power by frequency, without that of a constant.
+std::vector<double> powerOf(const Residuals& residuals) {
+  Periodogram periodogram(kWindow);
+  Spectrum spectrum;
+  std::vector<double> power(kWindow / 2, 0.0);
+  double windows = 0.0;
+  for (const std::vector<double>& segment : residuals)
+    for (std::size_t i = 0; i < Periodogram::windowsIn(segment.size(), kWindow); ++i) {
+      periodogram.of(&segment[i * (kWindow / 2)], spectrum);
+      for (std::size_t f = 1; f <= power.size(); ++f) power[f - 1] += std::norm(spectrum[f]);
+      windows += 1.0;
+    }
+  for (double& each : power) each /= std::max(1.0, windows);
+  return power;
+}
+
+/// What the noise of all sensors leaves of a linear model's free run.
+FitOutcome leftOfNoise(const std::vector<CornerSample>& noise, double period, const StrutModel& model) {
   const StrutModel linear{model.damping_to_mass, model.stiffness_to_mass, {}, {}};
+  const std::deque<DriveRecord> records = makeRecords({Drive{noise}}, period, linear);
+  return withoutFit(pointersTo(records), linear);
+}
+
+double rmsOf(const Residuals& residuals) {
   double squares = 0.0, count = 0.0;
-  std::vector<double> predicted;
-  for (const DriveSegment* segment : noise) {
-    if (!runFree(linear, *segment, {}, predicted)) return 0.0;
-    for (std::size_t k = 0; k < predicted.size(); ++k) squares += square(segment->sprung[k] - predicted[k]);
-    count += static_cast<double>(predicted.size());
+  for (const std::vector<double>& segment : residuals) {
+    for (const double r : segment) squares += square(r);
+    count += static_cast<double>(segment.size());
   }
-  return std::sqrt(squares / count) / untold;
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+/// Of noise whose spectrum is known: at half of all frequencies there is no more in what the model leaves.
+double floorOfKnownNoise(const Records& records, const StrutModel& model) {
+  const FitOutcome fit = withoutFit(records, model);
+  const FitOutcome noise = leftOfNoise(records.front()->noise(), records.front()->period(), model);
+  if (!fit || !noise) return 0.0;
+  const std::vector<double> left = powerOf(fit->residuals), known = powerOf(noise->residuals);
+  const double mean = std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
+  std::vector<double> levels;
+  for (std::size_t f = 0; f < known.size(); ++f)
+    if (known[f] > kNone * mean) levels.push_back(left[f] / known[f]);
+  return std::sqrt(median(levels)) * rmsOf(noise->residuals);
 }
 
 double floorOfNoise(const Records& records, const StrutModel& model, bool without_laws) {
-  const Untold left = untold(segmentsOf(records), model, without_laws);
-  const double period = records.front()->period();
-  const std::vector<CornerSample>& noise = records.front()->noise();
-  if (noise.empty() || left.deviation == 0.0) return ofBothSensors(left.deviation, period, model);
-  return left.deviation * gainOfNoise(noise, period, left.interpolation, model);
+  if (!records.front()->noise().empty()) return floorOfKnownNoise(records, model);
+  return ofBothSensors(untold(segmentsOf(records), model, without_laws), records.front()->period(), model);
 }
 
 }  // namespace

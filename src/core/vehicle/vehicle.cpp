@@ -9,6 +9,7 @@
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/vehicle/shared_noise.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -77,12 +78,16 @@ class Separator {
   void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
 
   std::vector<std::vector<Drive>> separate() const {
+    std::vector<StrutDrives> separated;
+    for (const VehicleDrive& drive : drives_)
+      separated.push_back(separateStruts(drive, period_, estimate_.coupling, models_));
+    StrutDrives noise = noise_;
+    if (sharesSensors(drives_.front().noise)) takeSharedNoise(separated, noise, period_, models_);
     std::vector<std::vector<Drive>> struts(models_.size());
-    for (const VehicleDrive& drive : drives_) {
-      StrutDrives separated = separateStruts(drive, period_, estimate_.coupling, models_);
-      for (std::size_t i = 0; i < struts.size(); ++i) struts[i].push_back(std::move(separated[i]));
+    for (std::size_t i = 0; i < struts.size(); ++i) {
+      for (StrutDrives& drive : separated) struts[i].push_back(std::move(drive[i]));
+      struts[i].front().noise = std::move(noise[i].samples);
     }
-    for (std::size_t i = 0; i < struts.size(); ++i) struts[i].front().noise = noise_[i].samples;
     return struts;
   }
 
