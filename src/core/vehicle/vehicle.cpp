@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <stdexcept>
 #include <utility>
 
 #include "suspension_health_monitor/internal/fit/folded_motion.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
@@ -77,21 +79,46 @@ class Separator {
 
   void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
 
-  std::vector<std::vector<Drive>> separate() const {
+  /// By strut and drive, as an estimator sees them.
+  std::vector<std::vector<Drive>> separate() const { return byStrut(separateAll(), noise_); }
+
+  /// The same without what the models as they are now tell of the noise of shared sensors, for a search. Their errors
+  /// are in there instead, of which an estimator's standard deviations would know nothing.
+  std::vector<std::vector<Drive>> separateForSearch() const {
+    std::vector<StrutDrives> drives = separateAll();
+    StrutDrives noise = noise_;
+    if (sharesSensors(drives_.front().noise)) takeSharedNoise(drives, noise, period_, models_);
+    return byStrut(std::move(drives), std::move(noise));
+  }
+
+  /// Fits models that were given: what they leave tells of noise only as far as they are those of these drives.
+  void fitGiven(const KnownModels& given) {
+    if (!sharesSensors(drives_.front().noise)) return;
+    const std::vector<std::vector<Drive>> struts = separate();
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (!given[i]) continue;
+      const std::deque<DriveRecord> records = makeRecords(struts[i], period_, models_[i]);
+      if (const FitOutcome fit = fitOutputError(pointersTo(records), {}, models_[i])) models_[i] = fit->model;
+    }
+  }
+
+ private:
+  std::vector<StrutDrives> separateAll() const {
     std::vector<StrutDrives> separated;
     for (const VehicleDrive& drive : drives_)
       separated.push_back(separateStruts(drive, period_, estimate_.coupling, models_));
-    StrutDrives noise = noise_;
-    if (sharesSensors(drives_.front().noise)) takeSharedNoise(separated, noise, period_, models_);
-    std::vector<std::vector<Drive>> struts(models_.size());
+    return separated;
+  }
+
+  static std::vector<std::vector<Drive>> byStrut(std::vector<StrutDrives> drives, StrutDrives noise) {
+    std::vector<std::vector<Drive>> struts(noise.size());
     for (std::size_t i = 0; i < struts.size(); ++i) {
-      for (StrutDrives& drive : separated) struts[i].push_back(std::move(drive[i]));
+      for (StrutDrives& drive : drives) struts[i].push_back(std::move(drive[i]));
       struts[i].front().noise = std::move(noise[i].samples);
     }
     return struts;
   }
 
- private:
   bool isUndersampled() const {
     return std::any_of(drives_.begin(), drives_.end(), [&](const VehicleDrive& drive) {
       return std::any_of(drive.struts.begin(), drive.struts.end(), [&](const Drive& strut) {
@@ -184,13 +211,14 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const 
     result.summary = "The drives " + result.coupling.reason + ".";
     return result;
   }
+  separator.fitGiven(models);
   const std::size_t n = strut_names.size();
   result.struts.resize(n);
   result.drives.resize(n);
   std::vector<bool> settled(n, false);
   double done = 0.0;
   for (auto open = n; open > 0; --open) {
-    auto separated = separator.separate();
+    auto separated = separator.separateForSearch();
     const double step = (1.0 - done) / (static_cast<double>(open) + 1.0);  // what another round takes is not known
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < n; ++i) {
