@@ -3,14 +3,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <numeric>
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/hat_functions.h"
+#include "suspension_health_monitor/internal/fit/known_noise.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/periodogram.h"
 #include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
 
 namespace suspension_health_monitor {
@@ -202,54 +200,6 @@ double untold(const Segments& segments, const StrutModel& model, bool without_la
 double ofBothSensors(double body_noise, double period, const StrutModel& model) {
   const double b1 = model.damping_to_mass, b0 = model.stiffness_to_mass;
   return body_noise * std::sqrt(1.0 + period * (square(b1) + b0) / (2.0 * b1));
-}
-
-constexpr std::size_t kWindow = 128;  // samples
-constexpr double kNone = 0.01;        // of the mean: where a filter leaves less of the noise it tells nothing
-
-/// Mean power by frequency, without that of a constant.
-std::vector<double> powerOf(const Residuals& residuals) {
-  Periodogram periodogram(kWindow);
-  Spectrum spectrum;
-  std::vector<double> power(kWindow / 2, 0.0);
-  double windows = 0.0;
-  for (const std::vector<double>& segment : residuals)
-    for (std::size_t i = 0; i < Periodogram::windowsIn(segment.size(), kWindow); ++i) {
-      periodogram.of(&segment[i * (kWindow / 2)], spectrum);
-      for (std::size_t f = 1; f <= power.size(); ++f) power[f - 1] += std::norm(spectrum[f]);
-      windows += 1.0;
-    }
-  for (double& each : power) each /= std::max(1.0, windows);
-  return power;
-}
-
-/// What the noise of all sensors leaves of a linear model's free run.
-FitOutcome leftOfNoise(const std::vector<CornerSample>& noise, double period, const StrutModel& model) {
-  const StrutModel linear{model.damping_to_mass, model.stiffness_to_mass, {}, {}};
-  const std::deque<DriveRecord> records = makeRecords({Drive{noise}}, period, linear);
-  return withoutFit(pointersTo(records), linear);
-}
-
-double rmsOf(const Residuals& residuals) {
-  double squares = 0.0, count = 0.0;
-  for (const std::vector<double>& segment : residuals) {
-    for (const double r : segment) squares += square(r);
-    count += static_cast<double>(segment.size());
-  }
-  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
-}
-
-/// Of noise whose spectrum is known: at half of all frequencies there is no more in what the model leaves.
-double floorOfKnownNoise(const Records& records, const StrutModel& model) {
-  const FitOutcome fit = withoutFit(records, model);
-  const FitOutcome noise = leftOfNoise(records.front()->noise(), records.front()->period(), model);
-  if (!fit || !noise) return 0.0;
-  const std::vector<double> left = powerOf(fit->residuals), known = powerOf(noise->residuals);
-  const double mean = std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
-  std::vector<double> levels;
-  for (std::size_t f = 0; f < known.size(); ++f)
-    if (known[f] > kNone * mean) levels.push_back(left[f] / known[f]);
-  return std::sqrt(median(levels)) * rmsOf(noise->residuals);
 }
 
 double floorOfNoise(const Records& records, const StrutModel& model, bool without_laws) {
