@@ -101,6 +101,33 @@ TEST(DiagnosedVehicle, NamesAnEffectInTheStrutThatHasItAndInNoOther) {
   EXPECT_NE(found.summary.find("quadratic_damping in " + vehicle.struts[2].name), std::string::npos) << found.summary;
 }
 
+// A sedan's gyro hides it where the struts are judged one by one: what it reads wrong is ten times as large.
+TEST(DiagnosedVehicle, NamesAnEffectThatOneBodyImuTells) {
+  Vehicle vehicle = namedVehicle("sedan");
+  const EffectLibrary library = builtInEffects();
+  vehicle.struts[2].hidden = {{findEffect(library.forces, "quadratic_damping"), 12.0, {}}};
+  const VehicleDrive drive = bodyImuDrive(vehicle, vehicleDrive(120.0));
+  const VehicleDiagnosis found = diagnoseVehicle({drive}, strutNames(vehicle));
+  ASSERT_TRUE(found) << found.coupling.reason;
+  for (std::size_t i = 0; i < found.struts.size(); ++i) {
+    const std::vector<std::string> expected =
+        i == 2 ? std::vector<std::string>{"quadratic_damping"} : std::vector<std::string>{};
+    EXPECT_EQ(found.struts[i].selected, expected) << found.summary;
+  }
+}
+
+// A model of another day, of a damper that has lost a third since: its strut's neighbours lack nothing.
+TEST(DiagnosedVehicle, TakesNothingFromAGivenModelThatIsNoLongerTrue) {
+  const Vehicle vehicle = namedVehicle("half_sedan");
+  const VehicleDrive drive = bodyImuDrive(vehicle, vehicleDrive(120.0));
+  const double own = vehicle.mobility(vehicle.struts[0], vehicle.struts[0]);
+  const StrutModel stale{1.5 * own * vehicle.struts[0].damping, own * vehicle.struts[0].stiffness, {}, {}};
+  const VehicleDiagnosis found = diagnoseVehicle({drive}, strutNames(vehicle), {}, {stale, std::nullopt});
+  ASSERT_TRUE(found) << found.coupling.reason;
+  EXPECT_EQ(found.verdict, Verdict::kNothingMissing) << found.summary;
+  for (const Diagnosis& strut : found.struts) EXPECT_LT(strut.base.held_out_rmse, 1.1 * strut.noise_floor);
+}
+
 TEST(DiagnosedVehicle, IsSearchedFromTheModelsThatAreKnown) {
   Vehicle vehicle = namedVehicle("half_sedan");
   const EffectLibrary library = builtInEffects();
@@ -120,7 +147,7 @@ TEST(DiagnosedVehicle, IsSearchedFromTheModelsThatAreKnown) {
 TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
   const Vehicle vehicle = namedVehicle("half_sedan");
   const std::vector<VehicleDrive> drives{strutDrives(vehicle, vehicleDrive(60.0)),
-                                        strutDrives(vehicle, vehicleDrive(30.0))};
+                                         strutDrives(vehicle, vehicleDrive(30.0))};
   const VehicleDiagnosis found = diagnoseVehicle(drives, strutNames(vehicle));
   ASSERT_TRUE(found) << found.coupling.reason;
   ASSERT_EQ(found.drives.size(), 2U);
