@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -156,6 +157,29 @@ TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
     const Diagnosis alone = diagnose(found.drives[i]);
     EXPECT_DOUBLE_EQ(alone.base.held_out_rmse, found.struts[i].base.held_out_rmse) << i;
   }
+}
+
+// On a smooth road the gyro of a sedan reads more noise than motion, and no strut explains half of that.
+TEST(IdentifiedVehicle, IsValidBehindAGyroThatIsAsLoudAsTheMotion) {
+  const Vehicle vehicle = quiet("sedan");
+  VehicleDriveOptions options = vehicleDrive(120.0);
+  options.gyro_noise = 0.003;
+  const VehicleDrive drive = bodyImuDrive(vehicle, options);
+  double reports = 0.0, valid = 0.0, inside = 0.0, least_explained = 1.0;
+  const VehicleIdentification found =
+      identifyVehicle({drive}, strutNames(vehicle), {}, [&](std::size_t i, const MonitorReport& report) {
+        if (toSeconds(report.stamp) < 60.0) return;
+        const double own = vehicle.mobility(vehicle.struts[i], vehicle.struts[i]) * vehicle.struts[i].damping;
+        reports += 1.0;
+        least_explained = std::min(least_explained, report.la.explained);
+        if (!report.la.valid()) return;
+        valid += 1.0;
+        inside += std::abs(report.la.damping_to_mass - own) < 3.0 * report.la.damping_to_mass_stddev ? 1.0 : 0.0;
+      });
+  ASSERT_TRUE(found) << found.coupling.reason;
+  EXPECT_LT(least_explained, 0.5);
+  EXPECT_GT(valid, 0.9 * reports);
+  EXPECT_GT(inside, 0.99 * valid);
 }
 
 TEST(IdentifiedVehicle, ReportsTheRowsOfOneStrutAfterTheOther) {
