@@ -163,7 +163,7 @@ TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
 TEST(IdentifiedVehicle, IsValidBehindAGyroThatIsAsLoudAsTheMotion) {
   const Vehicle vehicle = quiet("sedan");
   VehicleDriveOptions options = vehicleDrive(120.0);
-  options.gyro_noise = 0.003;
+  options.gyro_noise = 0.005;
   const VehicleDrive drive = bodyImuDrive(vehicle, options);
   double reports = 0.0, valid = 0.0, inside = 0.0, least_explained = 1.0;
   const VehicleIdentification found =
