@@ -2,157 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <stdexcept>
-#include <utility>
 
-#include "suspension_health_monitor/internal/fit/folded_motion.h"
-#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "separator.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
-#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
-#include "suspension_health_monitor/internal/vehicle/separation.h"
-#include "suspension_health_monitor/internal/vehicle/shared_noise.h"
-#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-std::vector<Drive> flattened(const std::vector<VehicleDrive>& drives) {
-  std::vector<Drive> all;
-  for (const VehicleDrive& drive : drives) all.push_back(drive.struts.front());
-  return all;
-}
-
-const std::vector<VehicleDrive>& checked(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
-                                         const KnownModels& known) {
-  if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
-  requireNumStruts(names.size());
-  requireNumKnownForces(drives.front().forces.size());
-  for (const VehicleDrive& drive : drives) {
-    if (drive.struts.size() != names.size())
-      throw std::invalid_argument("a drive of " + std::to_string(drive.struts.size()) + " struts, must be " +
-                                  std::to_string(names.size()));
-    if (forceNames(drive) != forceNames(drives.front()))
-      throw std::invalid_argument("a drive with the known forces [" + join(forceNames(drive)) + "], must be [" +
-                                  join(forceNames(drives.front())) + "] as in the first");
-  }
-  if (!known.empty() && known.size() != names.size())
-    throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
-                                std::to_string(names.size()) + " or of none");
-  return drives;
-}
 
 int horizonFor(const StrutModel& model, double period) {
   const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass).horizon;
   return horizonSamples(horizon, period, IntegrationRule::kBandLimited);
 }
 
-/// Struts with what is known of them, to be separated again as more is known.
-class Separator {
- public:
-  Separator(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
-            const std::optional<double>& sample_period, const KnownModels& known = {})
-      : drives_(checked(drives, names, known)),
-        period_(sample_period ? *sample_period : medianPeriod(flattened(drives))),
-        estimate_(coupleStruts(drives, period_)),
-        coupling_(describe(estimate_, names, forceNames(drives.front()))),
-        models_(estimate_.models()) {
-    for (std::size_t i = 0; i < known.size(); ++i)
-      if (known[i]) models_[i] = *known[i];
-    if (coupling_)
-      noise_ = separateNoise(knownNoise(drives.front().noise, names.size()), period_, estimate_);
-    else if (isUndersampled())
-      coupling_.reason += kWheelsFolded;
-  }
-
-  const VehicleCoupling& coupling() const { return coupling_; }
-  const std::vector<StrutModel>& models() const { return models_; }
-  double period() const { return period_; }
-
-  std::vector<LinearStrut> modelStddevs() const {
-    std::vector<LinearStrut> stddevs;
-    for (Eigen::Index i = 0; i < estimate_.own_stddevs.rows(); ++i)
-      stddevs.push_back({estimate_.own_stddevs(i, 0), estimate_.own_stddevs(i, 1)});
-    return stddevs;
-  }
-
-  void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
-
-  /// By strut and drive, as an estimator sees them.
-  std::vector<std::vector<Drive>> separate() const { return byStrut(separateAll(), noise_); }
-
-  /// The same without what the models as they are now tell of the noise of shared sensors, for a search. Their errors
-  /// are in there instead, of which an estimator's standard deviations would know nothing.
-  std::vector<std::vector<Drive>> separateForSearch() const {
-    std::vector<StrutDrives> drives = separateAll();
-    StrutDrives noise = noise_;
-    if (sharesSensors(drives_.front().noise)) takeSharedNoise(drives, noise, period_, models_);
-    return byStrut(std::move(drives), std::move(noise));
-  }
-
-  /// Fits models that were given: what they leave tells of noise only as far as they are those of these drives.
-  void fitGiven(const KnownModels& given) {
-    if (!sharesSensors(drives_.front().noise)) return;
-    const std::vector<std::vector<Drive>> struts = separate();
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      if (!given[i]) continue;
-      const std::deque<DriveRecord> records = makeRecords(struts[i], period_, models_[i]);
-      if (const FitOutcome fit = fitOutputError(pointersTo(records), {}, models_[i])) models_[i] = fit->model;
-    }
-  }
-
- private:
-  std::vector<StrutDrives> separateAll() const {
-    std::vector<StrutDrives> separated;
-    for (const VehicleDrive& drive : drives_)
-      separated.push_back(separateStruts(drive, period_, estimate_.coupling, models_));
-    return separated;
-  }
-
-  static std::vector<std::vector<Drive>> byStrut(std::vector<StrutDrives> drives, StrutDrives noise) {
-    std::vector<std::vector<Drive>> struts(noise.size());
-    for (std::size_t i = 0; i < struts.size(); ++i) {
-      for (StrutDrives& drive : drives) struts[i].push_back(std::move(drive[i]));
-      struts[i].front().noise = std::move(noise[i].samples);
-    }
-    return struts;
-  }
-
-  bool isUndersampled() const {
-    return std::any_of(drives_.begin(), drives_.end(), [&](const VehicleDrive& drive) {
-      return std::any_of(drive.struts.begin(), drive.struts.end(), [&](const Drive& strut) {
-        const DriveRecord record(strut, period_);
-        return shareAtSamplingLimit({&record}) > kUndersampled;
-      });
-    });
-  }
-
-  const std::vector<VehicleDrive>& drives_;
-  double period_;
-  CouplingEstimate estimate_;
-  VehicleCoupling coupling_;
-  std::vector<StrutModel> models_;
-  StrutDrives noise_;  // empty without a coupling
-};
-
-bool names(const Diagnosis& strut) {
-  return strut && (strut.verdict == Verdict::kEffectFound || strut.verdict == Verdict::kSuspect);
-}
-
-// @return mean square that what was found explains [(m/s^2)^2].
-double explainedPower(const Diagnosis& strut) {
-  return strut.explained_share * strut.structured_share * strut.base.held_out_rmse * strut.base.held_out_rmse;
-}
-
 bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == strut || bar.second == strut; }
-
-Verdict worstOf(const VehicleDiagnosis& found) {
-  for (const Verdict verdict : {Verdict::kEffectFound, Verdict::kSuspect, Verdict::kUnexplained})
-    for (std::size_t i = 0; i < found.struts.size(); ++i)
-      if (found.verdictOn(i) == verdict) return verdict;
-  return Verdict::kNothingMissing;
-}
 
 }  // namespace
 
@@ -199,49 +61,6 @@ VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, c
       estimate->stiffness_to_mass_stddev = std::hypot(estimate->stiffness_to_mass_stddev, stiffness);
     }
   }
-  return result;
-}
-
-VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& strut_names,
-                                 const DiagnoseOptions& options, const KnownModels& models) {
-  Separator separator(drives, strut_names, options.sample_period, models);
-  VehicleDiagnosis result;
-  result.coupling = separator.coupling();
-  if (!result) {
-    result.summary = "The drives " + result.coupling.reason + ".";
-    return result;
-  }
-  separator.fitGiven(models);
-  const std::size_t n = strut_names.size();
-  result.struts.resize(n);
-  result.drives.resize(n);
-  std::vector<bool> settled(n, false);
-  double done = 0.0;
-  for (auto open = n; open > 0; --open) {
-    auto separated = separator.separateForSearch();
-    const double step = (1.0 - done) / (static_cast<double>(open) + 1.0);  // what another round takes is not known
-    std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (settled[i]) continue;
-      DiagnoseOptions strut = options;
-      strut.sample_period = separator.period();
-      strut.model = models.empty() ? std::nullopt : models[i];
-      if (options.progress) strut.progress = [&](double share) { options.progress(done + share * step); };
-      result.struts[i] = diagnose(separated[i], strut);
-      result.drives[i] = std::move(separated[i]);
-      done += step;
-      const Diagnosis& found = result.struts[i];
-      if (found) separator.setModel(i, found.base.model);
-      if (names(found) && (!best || explainedPower(found) > explainedPower(result.struts[*best]))) best = i;
-    }
-    if (!best) break;
-    // What the others seem to lack may be this effect: they are judged anew without it.
-    settled[*best] = true;
-    separator.setModel(*best, result.struts[*best].model());
-  }
-  result.verdict = worstOf(result);
-  result.summary = summaryOf(result, strut_names);
-  if (options.progress) options.progress(1.0);
   return result;
 }
 
