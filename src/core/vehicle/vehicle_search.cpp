@@ -9,6 +9,9 @@
 namespace suspension_health_monitor {
 namespace {
 
+// A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
+constexpr double kWorthNaming = 0.02;
+
 bool names(const Diagnosis& strut) {
   return strut && (strut.verdict == Verdict::kEffectFound || strut.verdict == Verdict::kSuspect);
 }
@@ -43,9 +46,10 @@ class VehicleSearch {
   bool isSettled(std::size_t strut) const {
     return std::find(settled_.begin(), settled_.end(), strut) != settled_.end();
   }
-  void judge(std::size_t strut, std::vector<Drive> drives, double step);
+  void judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects);
   void settleOpen();
   void reconsider();
+  void dropMarginal();
 
   Separator separator_;
   const DiagnoseOptions& options_;
@@ -55,8 +59,9 @@ class VehicleSearch {
   double done_ = 0.0;                 // of the progress
 };
 
-void VehicleSearch::judge(std::size_t strut, std::vector<Drive> drives, double step) {
+void VehicleSearch::judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects) {
   DiagnoseOptions options = options_;
+  options.most_effects = most_effects;
   options.sample_period = separator_.period();
   options.model = models_.empty() ? std::nullopt : models_[strut];
   if (options_.progress) options.progress = [&](double share) { options_.progress(done_ + share * step); };
@@ -75,7 +80,7 @@ void VehicleSearch::settleOpen() {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < size(); ++i) {
       if (isSettled(i)) continue;
-      judge(i, std::move(separated[i]), step);
+      judge(i, std::move(separated[i]), step, options_.most_effects);
       const Diagnosis& found = result_.struts[i];
       if (names(found) && (!best || explainedPower(found) > explainedPower(result_.struts[*best]))) best = i;
     }
@@ -91,7 +96,7 @@ void VehicleSearch::reconsider() {
   const std::vector<std::size_t> before = std::exchange(settled_, {});
   const double step = (1.0 - done_) / (static_cast<double>(before.size()) + 1.0);
   for (const std::size_t strut : before) {
-    judge(strut, std::move(separator_.separateForSearch()[strut]), step);
+    judge(strut, std::move(separator_.separateForSearch()[strut]), step, options_.most_effects);
     if (!names(result_.struts[strut])) continue;
     settled_.push_back(strut);
     separator_.setModel(strut, result_.struts[strut].model());
@@ -99,9 +104,17 @@ void VehicleSearch::reconsider() {
   if (settled_.size() < before.size()) settleOpen();
 }
 
+void VehicleSearch::dropMarginal() {
+  double most = 0.0;
+  for (const std::size_t strut : settled_) most = std::max(most, explainedPower(result_.struts[strut]));
+  for (const std::size_t strut : settled_)
+    if (explainedPower(result_.struts[strut]) < kWorthNaming * most) judge(strut, result_.drives[strut], 0.0, 0);
+}
+
 VehicleDiagnosis VehicleSearch::run(const std::vector<std::string>& strut_names) {
   settleOpen();
   if (settled_.size() > 1) reconsider();
+  dropMarginal();
   result_.verdict = worstOf(result_);
   result_.summary = summaryOf(result_, strut_names);
   if (options_.progress) options_.progress(1.0);
