@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simulated_vehicle.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
@@ -30,6 +31,29 @@ inline std::vector<std::string> strutNames(const Vehicle& vehicle) {
   std::vector<std::string> names;
   for (const VehicleStrut& strut : vehicle.struts) names.push_back(strut.name);
   return names;
+}
+
+/// The same drive with one six-axis IMU on the body instead of those at the strut tops, through the grid.
+inline VehicleDrive bodyImuDrive(const Vehicle& vehicle, const VehicleDriveOptions& options) {
+  VehicleLayout layout;
+  layout.body_imu = "/imu";
+  const VehicleImu& imu = vehicle.body_imu;
+  for (const VehicleStrut& strut : vehicle.struts)
+    layout.struts.push_back(
+        {strut.name, "/" + strut.name, {}, {{strut.x - imu.x, strut.y - imu.y, strut.z - imu.z}}, {}});
+  VehicleDrive drive{StrutDrives(vehicle.struts.size())};
+  VehicleGrid grid(1.0 / options.rate, VehicleStreams(layout), {}, [&](const VehicleSample& sample) {
+    for (std::size_t i = 0; i < drive.struts.size(); ++i) drive.struts[i].samples.push_back(sample.ofStrut(i));
+  });
+  for (const VehicleInstant& instant : driveVehicle(vehicle, options)) {
+    const Eigen::Vector3d &a = instant.body->acceleration, &w = instant.body->angular_rate;
+    grid.push(0, instant.stamp, {a[0], a[1], a[2], w[0], w[1], w[2]});
+    for (std::size_t i = 0; i < drive.struts.size(); ++i)
+      grid.push(1 + i, instant.stamp, {instant.struts[i].unsprung->acceleration + options.gravity});
+  }
+  grid.finish();
+  drive.noise = grid.noise();
+  return drive;
 }
 
 /// rho_ij of a vehicle, by Newton's law of its body.

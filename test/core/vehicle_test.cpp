@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -101,6 +102,33 @@ TEST(DiagnosedVehicle, NamesAnEffectInTheStrutThatHasItAndInNoOther) {
   EXPECT_NE(found.summary.find("quadratic_damping in " + vehicle.struts[2].name), std::string::npos) << found.summary;
 }
 
+// A sedan's gyro hides it where the struts are judged one by one: what it reads wrong is ten times as large.
+TEST(DiagnosedVehicle, NamesAnEffectThatOneBodyImuTells) {
+  Vehicle vehicle = namedVehicle("sedan");
+  const EffectLibrary library = builtInEffects();
+  vehicle.struts[2].hidden = {{findEffect(library.forces, "quadratic_damping"), 12.0, {}}};
+  const VehicleDrive drive = bodyImuDrive(vehicle, vehicleDrive(120.0));
+  const VehicleDiagnosis found = diagnoseVehicle({drive}, strutNames(vehicle));
+  ASSERT_TRUE(found) << found.coupling.reason;
+  for (std::size_t i = 0; i < found.struts.size(); ++i) {
+    const std::vector<std::string> expected =
+        i == 2 ? std::vector<std::string>{"quadratic_damping"} : std::vector<std::string>{};
+    EXPECT_EQ(found.struts[i].selected, expected) << found.summary;
+  }
+}
+
+// A model of another day, of a damper that has lost a third since: its strut's neighbours lack nothing.
+TEST(DiagnosedVehicle, TakesNothingFromAGivenModelThatIsNoLongerTrue) {
+  const Vehicle vehicle = namedVehicle("half_sedan");
+  const VehicleDrive drive = bodyImuDrive(vehicle, vehicleDrive(120.0));
+  const double own = vehicle.mobility(vehicle.struts[0], vehicle.struts[0]);
+  const StrutModel stale{1.5 * own * vehicle.struts[0].damping, own * vehicle.struts[0].stiffness, {}, {}};
+  const VehicleDiagnosis found = diagnoseVehicle({drive}, strutNames(vehicle), {}, {stale, std::nullopt});
+  ASSERT_TRUE(found) << found.coupling.reason;
+  EXPECT_EQ(found.verdict, Verdict::kNothingMissing) << found.summary;
+  for (const Diagnosis& strut : found.struts) EXPECT_LT(strut.base.held_out_rmse, 1.1 * strut.noise_floor);
+}
+
 TEST(DiagnosedVehicle, IsSearchedFromTheModelsThatAreKnown) {
   Vehicle vehicle = namedVehicle("half_sedan");
   const EffectLibrary library = builtInEffects();
@@ -120,7 +148,7 @@ TEST(DiagnosedVehicle, IsSearchedFromTheModelsThatAreKnown) {
 TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
   const Vehicle vehicle = namedVehicle("half_sedan");
   const std::vector<VehicleDrive> drives{strutDrives(vehicle, vehicleDrive(60.0)),
-                                        strutDrives(vehicle, vehicleDrive(30.0))};
+                                         strutDrives(vehicle, vehicleDrive(30.0))};
   const VehicleDiagnosis found = diagnoseVehicle(drives, strutNames(vehicle));
   ASSERT_TRUE(found) << found.coupling.reason;
   ASSERT_EQ(found.drives.size(), 2U);
@@ -129,6 +157,29 @@ TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
     const Diagnosis alone = diagnose(found.drives[i]);
     EXPECT_DOUBLE_EQ(alone.base.held_out_rmse, found.struts[i].base.held_out_rmse) << i;
   }
+}
+
+// On a smooth road the gyro of a sedan reads more noise than motion, and no strut explains half of that.
+TEST(IdentifiedVehicle, IsValidBehindAGyroThatIsAsLoudAsTheMotion) {
+  const Vehicle vehicle = quiet("sedan");
+  VehicleDriveOptions options = vehicleDrive(120.0);
+  options.gyro_noise = 0.005;
+  const VehicleDrive drive = bodyImuDrive(vehicle, options);
+  double reports = 0.0, valid = 0.0, inside = 0.0, least_explained = 1.0;
+  const VehicleIdentification found =
+      identifyVehicle({drive}, strutNames(vehicle), {}, [&](std::size_t i, const MonitorReport& report) {
+        if (toSeconds(report.stamp) < 60.0) return;
+        const double own = vehicle.mobility(vehicle.struts[i], vehicle.struts[i]) * vehicle.struts[i].damping;
+        reports += 1.0;
+        least_explained = std::min(least_explained, report.la.explained);
+        if (!report.la.valid()) return;
+        valid += 1.0;
+        inside += std::abs(report.la.damping_to_mass - own) < 3.0 * report.la.damping_to_mass_stddev ? 1.0 : 0.0;
+      });
+  ASSERT_TRUE(found) << found.coupling.reason;
+  EXPECT_LT(least_explained, 0.5);
+  EXPECT_GT(valid, 0.9 * reports);
+  EXPECT_GT(inside, 0.99 * valid);
 }
 
 TEST(IdentifiedVehicle, ReportsTheRowsOfOneStrutAfterTheOther) {

@@ -3,10 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/hat_functions.h"
+#include "suspension_health_monitor/internal/fit/known_noise.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
@@ -175,21 +175,16 @@ class FreeFormLaws {
   double travel_ = 0.0, travel_rate_ = 0.0;  // rms
 };
 
-/// What an interpolation cannot tell.
-struct Untold {
-  double deviation = 0.0;         ///< 0 if there are too few samples
-  Eigen::VectorXd interpolation;  ///< that was fitted
-};
-
-Untold untold(const Segments& segments, const StrutModel& model, bool without_laws) {
+/// @return standard deviation of what an interpolation cannot tell; 0 if there are too few samples.
+double untold(const Segments& segments, const StrutModel& model, bool without_laws) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());
-  if (count <= 2.0 * kTerms) return {};
+  if (count <= 2.0 * kTerms) return 0.0;
   Series series = sprungOf(segments);
   Regression interpolation(interpolationRows(segments, places, series));
   const double plain = interpolation.deviation() * std::sqrt(count / (count - kTerms));
   FreeFormLaws laws(segments);
-  if (!without_laws || count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return {plain, interpolation.solution};
+  if (!without_laws || count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return plain;
   double deviation = 0.0;
   for (int round = 1;; ++round) {
     const Regression fit(laws.interpolated(places, interpolation.solution), interpolation.error);
@@ -198,7 +193,7 @@ Untold untold(const Segments& segments, const StrutModel& model, bool without_la
     laws.takeOff(fit.solution, series);
     interpolation = Regression(interpolationRows(segments, places, series));
   }
-  return {std::min(plain, deviation), interpolation.solution};
+  return std::min(plain, deviation);
 }
 
 /// White noise on w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): its variance grows by T (b1^2 + b0) / (2 b1).
@@ -207,30 +202,9 @@ double ofBothSensors(double body_noise, double period, const StrutModel& model) 
   return body_noise * std::sqrt(1.0 + period * (square(b1) + b0) / (2.0 * b1));
 }
 
-/// What is left of noise by the model's free run, over what is left of it by the interpolation.
-double gainOfNoise(const std::vector<CornerSample>& samples, double period, const Eigen::VectorXd& interpolation,
-                   const StrutModel& model) {
-  const std::deque<DriveRecord> records = makeRecords({Drive{samples}}, period, model);
-  const Segments noise = segmentsOf(pointersTo(records));
-  const auto [rows, measured] = interpolationRows(noise, choosePlaces(noise), sprungOf(noise));
-  const double untold = (measured - rows * interpolation).norm() / std::sqrt(static_cast<double>(measured.size()));
-  const StrutModel linear{model.damping_to_mass, model.stiffness_to_mass, {}, {}};
-  double squares = 0.0, count = 0.0;
-  std::vector<double> predicted;
-  for (const DriveSegment* segment : noise) {
-    if (!runFree(linear, *segment, {}, predicted)) return 0.0;
-    for (std::size_t k = 0; k < predicted.size(); ++k) squares += square(segment->sprung[k] - predicted[k]);
-    count += static_cast<double>(predicted.size());
-  }
-  return std::sqrt(squares / count) / untold;
-}
-
 double floorOfNoise(const Records& records, const StrutModel& model, bool without_laws) {
-  const Untold left = untold(segmentsOf(records), model, without_laws);
-  const double period = records.front()->period();
-  const std::vector<CornerSample>& noise = records.front()->noise();
-  if (noise.empty() || left.deviation == 0.0) return ofBothSensors(left.deviation, period, model);
-  return left.deviation * gainOfNoise(noise, period, left.interpolation, model);
+  if (!records.front()->noise().empty()) return floorOfKnownNoise(records, model);
+  return ofBothSensors(untold(segmentsOf(records), model, without_laws), records.front()->period(), model);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ constexpr double kMostLost = 10.0;         // memories
 constexpr double kMemoriesToSettle = 3.0;  // so slow is LA
 constexpr double kSkewMemories = 10.0;     // that the clocks' skew is learned over
 constexpr double kCertain = 4.0;           // standard deviations
+constexpr double kMostNoise = 0.8;         // of a residual: no level of noise is known better than within a tenth
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
 RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
@@ -139,7 +140,7 @@ void StrutIdentifier::update(const RegressionRow& row) {
   skew_sizes_.add({now.column * now.column, now.step * now.step});
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
-  if (la_is_valid_ && noise_level_) noise_level_->add(innovation);
+  if (hears_noise_ && noise_level_) noise_level_->add(innovation);
   const bool is_lost = kLost * least_squares_.meanAbsoluteResidual() < least_absolute_.meanAbsoluteResidual();
   lost_memories_ = is_lost ? lost_memories_ + 1.0 - forgettingFactor() : 0.0;
   if (lost_memories_ > kMostLost) least_absolute_.beginAgain(least_squares_);
@@ -200,6 +201,8 @@ void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate&
     restSkew();
   if (forgetting_.variable && la_is_valid_ && !la.valid()) forgetBy(forgetting_.variable->slow());
   la_is_valid_ = la.valid();
+  // Noise that is as large as the motion is to be known before an estimate can be valid.
+  hears_noise_ = la.valid() || (excitation_.noise().isOfVehicle() && la.doubt == EstimateDoubt::kNotExplained);
 }
 
 // What made LA doubtful may have moved LS, which would remember it in the skew for ten memories: LS goes on with LA's.
@@ -230,6 +233,7 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   const double present = 0.5 * kPi * size * size / noise.residualGain(strut);
   const std::optional<double> lasting = noise_level_ ? noise_level_->sensorVariance(noise, strut) : std::nullopt;
   const double variance = std::min(lasting.value_or(present), present);
+  noise_share_ = lasting ? variance / present : 0.0;
   const Eigen::Vector2d moment = noise.moment(strut, variance);
   // Beside a parameter that is held P is not that of the rows.
   const bool removes = lasting && !isHeld(kDampingToMass) && !isHeld(kStiffnessToMass);
@@ -291,6 +295,17 @@ void StrutIdentifier::removeShift(const Eigen::Vector2d& moment) {
   }
 }
 
+// One gyro tells the tops of a vehicle's struts with more noise than they may have of motion: what is left of psi and
+// of the residual without it.
+double StrutIdentifier::explainedBesideNoise(const StrutEstimate& estimate) const {
+  const RegressorNoise& noise = excitation_.noise();
+  if (!noise.isOfVehicle()) return estimate.explained;
+  const double share = std::min(noise_share_, kMostNoise), left = std::pow(1.0 - estimate.explained, 2);
+  const Eigen::Vector2d strut(estimate.damping_to_mass, estimate.stiffness_to_mass);
+  const double of_output = 1.0 - share * left * noise.outputGain() / noise.residualGain(strut);
+  return of_output > 0.0 ? 1.0 - std::sqrt((1.0 - share) * left / of_output) : 0.0;
+}
+
 EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
   EstimateFacts facts;
   facts.has_row = has_row_;
@@ -300,7 +315,7 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
   facts.excites_damping = !isHeld(kDampingToMass);
   facts.excites_stiffness = !isHeld(kStiffnessToMass);
   facts.outside_force = rows_to_forget_ > 0.0;
-  facts.explained = estimate.explained;
+  facts.explained = explainedBesideNoise(estimate);
   facts.is_physical = estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
   if (sensors_ != SensorColumns::kNone) {
     const double variance = least_absolute_.parameterVariance(numModelColumns());

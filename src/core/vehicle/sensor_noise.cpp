@@ -65,6 +65,17 @@ SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, doub
   return noise;
 }
 
+bool sharesSensors(const SensorNoise& noise) {
+  const auto shows = [](const Drive& strut) {
+    return std::any_of(strut.samples.begin(), strut.samples.end(), [](const CornerSample& sample) {
+      return sample.sprung_acceleration != 0.0 || sample.unsprung_acceleration != 0.0;
+    });
+  };
+  return std::any_of(noise.begin(), noise.end(), [&](const StrutDrives& response) {
+    return std::count_if(response.begin(), response.end(), shows) > 1;
+  });
+}
+
 StrutDrives makeNoiseDrive(const SensorNoise& noise, double period) {
   StrutDrives drive(noise.front().size());
   for (Drive& strut : drive)

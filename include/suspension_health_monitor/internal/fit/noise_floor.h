@@ -15,8 +15,8 @@ namespace suspension_health_monitor {
 /// are interpolated, white noise is not. Those that change quickly (friction turns within a sample) are taken out: a
 /// free-form force over the travel and rate of the model's free run is fitted to what the interpolation leaves. From
 /// the median, so that a blow into an end stop is no noise, and with such blows kept out of the fits. The wheel's
-/// sensor is taken to be as noisy; its noise comes through the model. Where the records have the noise of the sensors
-/// alone, what the interpolation and the linear part of the model leave of that tells what they leave of theirs.
+/// sensor is taken to be as noisy; its noise comes through the model. Where the records have what the noise looks like,
+/// that tells it (known_noise.h).
 /// @return 0 if there are too few samples to tell; not below accuracyOfFreeRuns().
 double estimateNoiseFloor(const Records& records, const StrutModel& model);
 

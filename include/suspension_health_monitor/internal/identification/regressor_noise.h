@@ -54,6 +54,12 @@ class RegressorNoise {
     return {options.horizon_samples, 1.0 / options.horizon_samples, IntegrationRule::kTrapezoid};
   }
 
+  /// @return variance of psi of it, over that of a sensor [-].
+  double outputGain() const { return rows_.outputs; }
+
+  /// @return true if the noise is that of a vehicle's sensors, whose spectrum tells it from motion.
+  bool isOfVehicle() const { return !of_two_sensors_; }
+
   /// @return variance that phi_i has of the noise, over that of a sensor [s^2] (damping), [s^4] (stiffness).
   double regressorGain(int i) const { return rows_.regressors(i, i); }
 

@@ -103,6 +103,7 @@ class StrutIdentifier {
   void forgetBy(double factor);
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
   void removeShift(const Eigen::Vector2d& moment);
+  double explainedBesideNoise(const StrutEstimate& estimate) const;
   double wheelFrequency() const;
   double skewLeftOut() const;
   double knownSkew() const;
@@ -133,8 +134,10 @@ class StrutIdentifier {
   double rows_to_forget_ = 0.0;            // until what a force from outside did is forgotten
   double lost_memories_ = 0.0;             // that LS has explained far more than LA for
   std::optional<NoiseLevel> noise_level_;  // none: what the noise shifts is left in the estimates
+  double noise_share_ = 0.0;               // of the residuals' variance
   SilentRows silent_rows_;
   bool la_is_valid_ = false;
+  bool hears_noise_ = false;     // in what LA leaves
   double valid_memories_ = 0.0;  // that LA has been valid for
 };
 

@@ -1,0 +1,65 @@
+#include "suspension_health_monitor/internal/fit/known_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numeric>
+#include <vector>
+
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/periodogram.h"
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::size_t kWindow = 128;  // samples
+constexpr double kNone = 0.01;        // of the mean: where a filter leaves less of the noise it tells nothing
+
+/// Mean power by frequency, without that of a constant.
+std::vector<double> powerOf(const Residuals& residuals) {
+  Periodogram periodogram(kWindow);
+  Spectrum spectrum;
+  std::vector<double> power(kWindow / 2, 0.0);
+  double windows = 0.0;
+  for (const std::vector<double>& segment : residuals)
+    for (std::size_t i = 0; i < Periodogram::windowsIn(segment.size(), kWindow); ++i) {
+      periodogram.of(&segment[i * (kWindow / 2)], spectrum);
+      for (std::size_t f = 1; f <= power.size(); ++f) power[f - 1] += std::norm(spectrum[f]);
+      windows += 1.0;
+    }
+  for (double& each : power) each /= std::max(1.0, windows);
+  return power;
+}
+
+/// What the noise of all sensors leaves of a linear model's free run.
+FitOutcome leftOfNoise(const std::vector<CornerSample>& noise, double period, const StrutModel& model) {
+  const StrutModel linear{model.damping_to_mass, model.stiffness_to_mass, {}, {}};
+  const std::deque<DriveRecord> records = makeRecords({Drive{noise}}, period, linear);
+  return withoutFit(pointersTo(records), linear);
+}
+
+double rmsOf(const Residuals& residuals) {
+  double squares = 0.0, count = 0.0;
+  for (const std::vector<double>& segment : residuals) {
+    for (const double r : segment) squares += square(r);
+    count += static_cast<double>(segment.size());
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+}  // namespace
+
+double floorOfKnownNoise(const Records& records, const StrutModel& model) {
+  const FitOutcome fit = withoutFit(records, model);
+  const FitOutcome noise = leftOfNoise(records.front()->noise(), records.front()->period(), model);
+  if (!fit || !noise) return 0.0;
+  const std::vector<double> left = powerOf(fit->residuals), known = powerOf(noise->residuals);
+  const double mean = std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
+  std::vector<double> levels;
+  for (std::size_t f = 0; f < known.size(); ++f)
+    if (known[f] > kNone * mean) levels.push_back(left[f] / known[f]);
+  return std::sqrt(median(levels)) * rmsOf(noise->residuals);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "separator.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "suspension_health_monitor/vehicle.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+// A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
+constexpr double kWorthNaming = 0.02;
+
+bool names(const Diagnosis& strut) {
+  return strut && (strut.verdict == Verdict::kEffectFound || strut.verdict == Verdict::kSuspect);
+}
+
+// @return mean square that what was found explains [(m/s^2)^2].
+double explainedPower(const Diagnosis& strut) {
+  return strut.explained_share * strut.structured_share * strut.base.held_out_rmse * strut.base.held_out_rmse;
+}
+
+Verdict worstOf(const VehicleDiagnosis& found) {
+  for (const Verdict verdict : {Verdict::kEffectFound, Verdict::kSuspect, Verdict::kUnexplained})
+    for (std::size_t i = 0; i < found.struts.size(); ++i)
+      if (found.verdictOn(i) == verdict) return verdict;
+  return Verdict::kNothingMissing;
+}
+
+/// The search in all struts: what one lacks is named where it explains most, and the others are judged anew without it.
+class VehicleSearch {
+ public:
+  VehicleSearch(Separator separator, const DiagnoseOptions& options, const KnownModels& models)
+      : separator_(std::move(separator)), options_(options), models_(models) {
+    separator_.fitGiven(models_);
+    result_.coupling = separator_.coupling();
+    result_.struts.resize(size());
+    result_.drives.resize(size());
+  }
+
+  VehicleDiagnosis run(const std::vector<std::string>& strut_names);
+
+ private:
+  std::size_t size() const { return separator_.models().size(); }
+  bool isSettled(std::size_t strut) const {
+    return std::find(settled_.begin(), settled_.end(), strut) != settled_.end();
+  }
+  void judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects);
+  void settleOpen();
+  void reconsider();
+  void dropMarginal();
+
+  Separator separator_;
+  const DiagnoseOptions& options_;
+  const KnownModels& models_;
+  VehicleDiagnosis result_;
+  std::vector<std::size_t> settled_;  // struts that lack something, in the order in which it was found
+  double done_ = 0.0;                 // of the progress
+};
+
+void VehicleSearch::judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects) {
+  DiagnoseOptions options = options_;
+  options.most_effects = most_effects;
+  options.sample_period = separator_.period();
+  options.model = models_.empty() ? std::nullopt : models_[strut];
+  if (options_.progress) options.progress = [&](double share) { options_.progress(done_ + share * step); };
+  Diagnosis& found = result_.struts[strut];
+  found = diagnose(drives, options);
+  result_.drives[strut] = std::move(drives);
+  if (found) separator_.setModel(strut, found.base.model);
+  done_ += step;
+}
+
+void VehicleSearch::settleOpen() {
+  while (settled_.size() < size()) {
+    auto separated = separator_.separateForSearch();
+    // What another round takes is not known.
+    const double step = (1.0 - done_) / (static_cast<double>(size() - settled_.size()) + 1.0);
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (isSettled(i)) continue;
+      judge(i, std::move(separated[i]), step, options_.most_effects);
+      const Diagnosis& found = result_.struts[i];
+      if (names(found) && (!best || explainedPower(found) > explainedPower(result_.struts[*best]))) best = i;
+    }
+    if (!best) return;
+    // What the others seem to lack may be this effect: they are judged anew without it.
+    settled_.push_back(*best);
+    separator_.setModel(*best, result_.struts[*best].model());
+  }
+}
+
+// What was named first may have been that of a strut which was named later.
+void VehicleSearch::reconsider() {
+  const std::vector<std::size_t> before = std::exchange(settled_, {});
+  const double step = (1.0 - done_) / (static_cast<double>(before.size()) + 1.0);
+  for (const std::size_t strut : before) {
+    judge(strut, std::move(separator_.separateForSearch()[strut]), step, options_.most_effects);
+    if (!names(result_.struts[strut])) continue;
+    settled_.push_back(strut);
+    separator_.setModel(strut, result_.struts[strut].model());
+  }
+  if (settled_.size() < before.size()) settleOpen();
+}
+
+void VehicleSearch::dropMarginal() {
+  double most = 0.0;
+  for (const std::size_t strut : settled_) most = std::max(most, explainedPower(result_.struts[strut]));
+  for (const std::size_t strut : settled_)
+    if (explainedPower(result_.struts[strut]) < kWorthNaming * most) judge(strut, result_.drives[strut], 0.0, 0);
+}
+
+VehicleDiagnosis VehicleSearch::run(const std::vector<std::string>& strut_names) {
+  settleOpen();
+  if (settled_.size() > 1) reconsider();
+  dropMarginal();
+  result_.verdict = worstOf(result_);
+  result_.summary = summaryOf(result_, strut_names);
+  if (options_.progress) options_.progress(1.0);
+  return result_;
+}
+
+}  // namespace
+
+VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& strut_names,
+                                 const DiagnoseOptions& options, const KnownModels& models) {
+  Separator separator(drives, strut_names, options.sample_period, models);
+  if (separator.coupling()) return VehicleSearch(std::move(separator), options, models).run(strut_names);
+  VehicleDiagnosis nothing;
+  nothing.coupling = separator.coupling();
+  nothing.summary = "The drives " + nothing.coupling.reason + ".";
+  return nothing;
+}
+
+}  // namespace suspension_health_monitor
