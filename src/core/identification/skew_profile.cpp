@@ -7,7 +7,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kRowsOfHorizon = 64, kFewestRows = 32;
-constexpr double kAlike = 8.0;       // rows that count as one
+constexpr double kAlike = 4.0;       // rows that count as one
 constexpr double kFitted = 3.0;      // parameters of every horizon
 constexpr double kMemories = 10.0;   // of the estimator: clocks differ by as much for long
 constexpr double kRounding = 1e-12;  // of squares

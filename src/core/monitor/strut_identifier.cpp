@@ -17,7 +17,6 @@ constexpr int kStddevsEvery = 8;  // rows
 // come back from.
 constexpr double kLost = 2.0;
 constexpr double kMostLost = 10.0;         // memories
-constexpr double kMemoriesOfLa = 3.0;      // so slow is LA
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
 RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
@@ -25,9 +24,6 @@ RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples
   if (options.estimators.sensors == SensorColumns::kDriftingOffset) recursive.drifting = kStiffnessToMass;
   return recursive;
 }
-
-// Of what both estimates remember.
-double lambdaOfLa(double forgetting_factor) { return 1.0 - (1.0 - forgetting_factor) / kMemoriesOfLa; }
 
 // @param num_model  columns of the strut and of its effects, before those of the sensors.
 // @param shift  by the sensors' noise, of each parameter.
@@ -68,7 +64,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       past_{present(), present()},
       stddevs_due_(kStddevsEvery),
       rule_error_(filter_),
-      skew_effect_{RunningMeans<SkewEffect::kNumMeans>(lambdaOfLa(options.forgettingFactor(filter_.period)))},
+      skew_effect_{RunningMeans<SkewEffect::kNumMeans>(options.forgettingFactor(filter_.period))},
       silent_rows_(filter_.horizon_samples) {
   if (options.estimators.removes_noise_shift) noise_level_.emplace(filter_);
   noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
@@ -303,7 +299,7 @@ void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   least_squares_.setForgettingFactor(slow);
   least_absolute_.setForgettingFactor(slow);
   regression_.setForgettingFactor(slow);
-  skew_effect_.means.setForgettingFactor(lambdaOfLa(slow));
+  skew_effect_.means.setForgettingFactor(slow);
   forgetting_.fewest_rows = options.fewestRows(kFewestHorizons, filter_.period);
   if (!options.fastest_memory) {
     forgetting_.variable.reset();

@@ -23,9 +23,9 @@ namespace suspension_health_monitor {
 /// Cost per row: O(1), as rows a 64th of a horizon apart tell all; no allocation.
 class SkewProfile {
  public:
-  static constexpr double kMostSkew = 0.025;   ///< that is looked for [s]
+  static constexpr double kMostSkew = 0.015;   ///< that is looked for [s]
   static constexpr double kStep = 0.001;       ///< [s]: a wheel that hops turns by a tenth of a radian in it
-  static constexpr double kUsualSkew = 0.012;  ///< [s]: beyond kMostSkew once in twenty times
+  static constexpr double kUsualSkew = 0.0075; ///< [s]: beyond kMostSkew once in twenty times
 
   /// @param horizon_samples  L of the filter.  @param forgetting_factor  of the estimator.
   SkewProfile(const WheelHistory& wheel, int horizon_samples, double forgetting_factor);
