@@ -53,7 +53,7 @@ TEST(ClockSkew, IsEstimatedAndChangesNoEstimate) {
         EXPECT_NEAR(estimate->damping_to_mass, kB1, std::max(0.02 * kB1, 2.6 * estimate->damping_to_mass_stddev));
         EXPECT_NEAR(estimate->stiffness_to_mass, kB0, std::max(0.02 * kB0, 2.6 * estimate->stiffness_to_mass_stddev));
         EXPECT_LT(estimate->stiffness_to_mass_stddev, 0.1 * kB0);
-        EXPECT_NEAR(estimate->clock_skew, 1e-3 * late, 0.5e-3);
+        EXPECT_NEAR(estimate->clock_skew, 1e-3 * late, 0.2e-3);
       }
     }
 }

@@ -73,7 +73,7 @@ TEST(SynchronousRegression, TheSkewIsKnownWithinItsStandardDeviation) {
     const double stddev = std::sqrt(rows.skew()->variance());
     EXPECT_NEAR(rows.skew()->skew(), sines.late, 3.0 * stddev);
     EXPECT_LT(stddev, 0.5 * early);
-    EXPECT_LT(stddev, 1e-3);
+    EXPECT_LT(stddev, 3e-3);
   }
 }
 
@@ -97,7 +97,7 @@ TEST(SynchronousRegression, OneSineTellsNoSkew) {
     const CornerSample sample{Stamp{}, body + noise(random), std::real(wave) + noise(random)};
     if (const RegressionRow* row = rows.push(sample, nullptr)) rows.learnSkew(row->output);
   }
-  EXPECT_GT(std::sqrt(rows.skew()->variance()), 0.3 * SkewProfile::kUsualSkew);
+  EXPECT_GT(std::sqrt(rows.skew()->variance()), 1.5e-3);  // 3 ms are assumed beforehand
 }
 
 TEST(SynchronousRegression, ALargerSkewIsNotWithin) {
@@ -110,18 +110,16 @@ TEST(SynchronousRegression, ALargerSkewIsNotWithin) {
   }
 }
 
-// Clocks that jump: what was certain is in doubt at once, and right again before long.
-TEST(SynchronousRegression, ClocksThatJumpAreInDoubt) {
+// Clocks that are set: what was learned before is not averaged with what comes.
+TEST(SynchronousRegression, ASkewThatJumpsIsFollowed) {
   Sines sines;
   sines.noise = 0.03;
   SynchronousRegression rows = regression();
   drive(rows, sines, 0.0, 30.0);
-  EXPECT_LT(std::sqrt(rows.skew()->variance()), 2e-4);
+  EXPECT_LT(std::sqrt(rows.skew()->variance()), 3e-4);
   sines.late = 0.004;
-  for (double end = 33.0; end < 60.0; end += 0.5) {
-    drive(rows, sines, end - 0.5, end);
-    EXPECT_NEAR(rows.skew()->skew(), sines.late, 4.0 * std::sqrt(rows.skew()->variance())) << end;
-  }
+  drive(rows, sines, 30.0, 42.0);  // a filter's window, and two blocks
+  EXPECT_NEAR(rows.skew()->skew(), sines.late, 3.0 * std::sqrt(rows.skew()->variance()));
 }
 
 TEST(SynchronousRegression, KeepsTheSkewOverAGapButNotOverADrive) {
@@ -153,7 +151,7 @@ TEST(SynchronousRegression, EffectsAreThoseOfTheRow) {
     if (const RegressionRow* row = prompt.push(sample, forces)) expected.push_back(*row);
     const RegressionRow* row = late.push(sample, forces);
     if (row == nullptr) continue;
-    if (next == 0) next = expected.size() - 1 - WheelHistory(kFilter, SkewProfile::kMostSkew).delay();
+    if (next == 0) next = expected.size() - 1 - WheelHistory(kFilter, SkewProfile::mostSkew(kFilter)).delay();
     EXPECT_NEAR(row->output, expected[next].output, 1e-9);
     EXPECT_NEAR((row->regressor - expected[next].regressor).norm(), 0.0, 1e-9);
     ++next;

@@ -7,32 +7,36 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kRowsOfHorizon = 64, kFewestRows = 32;
-constexpr double kAlike = 4.0;       // rows that count as one
-constexpr double kFitted = 3.0;      // parameters of every horizon
-constexpr double kMemories = 10.0;   // of the estimator: clocks differ by as much for long
+constexpr int kHorizonsOfBlock = 8;
+constexpr double kAlike = 3.0;       // rows that count as one
+constexpr double kFitted = 3.0;      // parameters of every block
+constexpr double kUsualSteps = 3.0;  // standard deviation beforehand
+constexpr double kMemories = 30.0;   // of the estimator: clocks differ by as much for long
+constexpr double kCertain = 4.0;     // standard deviations
 constexpr double kRounding = 1e-12;  // of squares
 
-double skewAt(std::size_t j) { return static_cast<double>(j) * SkewProfile::kStep - SkewProfile::kMostSkew; }
-
-/// A parabola through three values kStep apart.
+/// The parabola through three values a step apart; x in steps.
 struct Parabola {
-  double slope, curvature;  // in the middle
+  double value, slope, curvature;  // in the middle
 
   Parabola(double before, double here, double after)
-      : slope((after - before) / (2.0 * SkewProfile::kStep)),
-        curvature((after - 2.0 * here + before) / (SkewProfile::kStep * SkewProfile::kStep)) {}
+      : value(here), slope((after - before) / 2.0), curvature(after - 2.0 * here + before) {}
+
+  double at(double x) const { return value + x * (slope + 0.5 * x * curvature); }
 };
 
 }  // namespace
 
-SkewProfile::SkewProfile(const WheelHistory& wheel, int horizon_samples, double forgetting_factor)
-    : every_(std::max(1, horizon_samples / kRowsOfHorizon)), horizon_rows_(std::max(kFewestRows, horizon_samples)) {
+SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions& filter, double forgetting_factor)
+    : step_(mostSkew(filter) / kSteps),
+      every_(std::max(1, filter.horizon_samples / kRowsOfHorizon)),
+      horizon_rows_(std::max(kFewestRows, filter.horizon_samples)) {
   for (std::size_t j = 0; j < kNumSkews; ++j) places_.push_back(wheel.place(skewAt(j)));
   setForgettingFactor(forgetting_factor);
 }
 
 void SkewProfile::setForgettingFactor(double forgetting_factor) {
-  share_ = std::pow(forgetting_factor, horizon_rows_ / kMemories);
+  share_ = std::pow(forgetting_factor, kHorizonsOfBlock * horizon_rows_ / kMemories);
 }
 
 bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, double output) {
@@ -53,9 +57,9 @@ bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, do
       sums.stiffness_output += stiffness * output;
     }
   }
-  if (rows_ < horizon_rows_) return false;
+  if (rows_ % horizon_rows_ != 0) return false;
   closeHorizon();
-  clear();
+  if (rows_ >= kHorizonsOfBlock * horizon_rows_) interrupt();
   return true;
 }
 
@@ -77,43 +81,48 @@ void SkewProfile::closeHorizon() {
   const double most = *std::max_element(rests.begin(), rests.end());
   if (!(least > 0.0 && std::isfinite(most))) return;
   const double unit = (num_ - kFitted) / kAlike / least;
-  if (isKnown()) {
-    const double place = std::round((skew_ + kMostSkew) / kStep);
-    const auto j = static_cast<std::size_t>(std::clamp(place, 1.0, static_cast<double>(kNumSkews - 2)));
-    const Parabola here(rests[j - 1], rests[j], rests[j + 1]);
-    scatter_ = share_ * scatter_ + std::pow(unit * (here.slope + here.curvature * (skew_ - skewAt(j))), 2);
-  }
-  for (std::size_t j = 0; j < kNumSkews; ++j) misfit_[j] = share_ * misfit_[j] + unit * rests[j];
-  ++horizons_;
+  std::transform(rests.begin(), rests.end(), newest_.begin(), [&](double left) { return unit * left; });
+  if (is_known_ && !newestAgrees()) older_.fill(0.0);
+  is_known_ = true;
   locate();
+}
+
+bool SkewProfile::newestAgrees() const {
+  const long j = std::lround(skew_ / step_) + kSteps;
+  if (j < 1 || j >= 2 * kSteps) return true;
+  const auto here = static_cast<std::size_t>(j);
+  const Parabola parabola(newest_[here - 1], newest_[here], newest_[here + 1]);
+  const double at_skew = parabola.at((skew_ - skewAt(here)) / step_);
+  return at_skew - *std::min_element(newest_.begin(), newest_.end()) < kCertain * kCertain;
 }
 
 void SkewProfile::locate() {
   Profile total;
-  for (std::size_t j = 0; j < kNumSkews; ++j) total[j] = misfit_[j] + std::pow(skewAt(j) / kUsualSkew, 2);
+  for (std::size_t j = 0; j < kNumSkews; ++j)
+    total[j] = older_[j] + newest_[j] + std::pow(skewAt(j) / (kUsualSteps * step_), 2);
   const auto best = static_cast<std::size_t>(std::min_element(total.begin(), total.end()) - total.begin());
   is_within_ = best > 0 && best + 1 < kNumSkews;
   if (!is_within_) return;
   const Parabola here(total[best - 1], total[best], total[best + 1]);
   if (!(here.curvature > 0.0)) return;
-  skew_ = skewAt(best) - here.slope / here.curvature;
-  variance_ = (2.0 * here.curvature + scatter_) / (here.curvature * here.curvature);
+  skew_ = skewAt(best) - here.slope / here.curvature * step_;
+  variance_ = 2.0 / here.curvature * step_ * step_;
 }
 
-void SkewProfile::clear() {
+void SkewProfile::interrupt() {
+  for (std::size_t j = 0; j < kNumSkews; ++j) older_[j] = share_ * older_[j] + newest_[j];
+  newest_.fill(0.0);
   sums_.fill({});
   output_ = output_square_ = num_ = 0.0;
   rows_ = 0;
 }
 
 void SkewProfile::restart() {
-  clear();
-  misfit_.fill(0.0);
-  scatter_ = 0.0;
-  horizons_ = 0;
-  skew_ = 0.0;
-  variance_ = kUsualSkew * kUsualSkew;
+  interrupt();
+  older_.fill(0.0);
+  is_known_ = false;
   is_within_ = true;
+  skew_ = variance_ = 0.0;
 }
 
 }  // namespace suspension_health_monitor

@@ -9,8 +9,8 @@ constexpr std::size_t kBodyColumns = 3;
 
 SynchronousRegression::Late::Late(const IntegralFilterOptions& options, std::size_t num_effects,
                                   double forgetting_factor)
-    : wheel(options, SkewProfile::kMostSkew),
-      skew(wheel, options.horizon_samples, forgetting_factor),
+    : wheel(options, SkewProfile::mostSkew(options)),
+      skew(wheel, options, forgetting_factor),
       place(wheel.place(0.0)) {
   setEffects(num_effects);
 }
