@@ -27,7 +27,7 @@ TEST(WheelHistory, GivesTheRowsOfASineBetweenSamples) {
         SCOPED_TRACE(testing::Message() << period << " s, " << omega << " rad/s, " << shift << " s");
         const WheelRow found = history.at(history.place(shift));
         const Complex expected = ends * std::exp(s * (row + shift));
-        const double most = 0.008 * std::abs(ends);
+        const double most = 0.012 * std::abs(ends);
         EXPECT_NEAR(found.stiffness, std::real(expected / s / s), most / omega / omega);
         EXPECT_NEAR(found.damping, std::real(expected / s), most / omega);
         EXPECT_NEAR(found.output, std::real(expected), std::pow(omega * period, 2) / 8.0 * std::abs(ends) + 1e-12);

@@ -1,14 +1,17 @@
 #include "suspension_health_monitor/internal/identification/skew_profile.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "suspension_health_monitor/internal/identification/regressor_noise.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr int kRowsOfHorizon = 64, kFewestRows = 32;
 constexpr int kHorizonsOfBlock = 8;
-constexpr double kAlike = 3.0;       // rows that count as one
+constexpr double kAlike = 10.0;      // rows that count as one
 constexpr double kFitted = 3.0;      // parameters of every block
 constexpr double kUsualSteps = 3.0;  // standard deviation beforehand
 constexpr double kMemories = 30.0;   // of the estimator: clocks differ by as much for long
@@ -30,7 +33,8 @@ struct Parabola {
 SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions& filter, double forgetting_factor)
     : step_(mostSkew(filter) / kSteps),
       every_(std::max(1, filter.horizon_samples / kRowsOfHorizon)),
-      horizon_rows_(std::max(kFewestRows, filter.horizon_samples)) {
+      horizon_rows_(std::max(kFewestRows, filter.horizon_samples)),
+      noise_(RegressorNoise(filter).covariance()) {
   for (std::size_t j = 0; j < kNumSkews; ++j) places_.push_back(wheel.place(skewAt(j)));
   setForgettingFactor(forgetting_factor);
 }
@@ -63,15 +67,18 @@ bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, do
   return true;
 }
 
-// What is left of psi by the best strut and offset: least squares about the means.
+// The least v' M v / v' N v over the struts v = (1, -b1, -b0), M the moments about the means, N those of the noise.
 double SkewProfile::rest(const Sums& sums) const {
-  const double damping = sums.damping / num_, stiffness = sums.stiffness / num_;
-  const double a = sums.damping_square - damping * sums.damping, b = sums.both - damping * sums.stiffness;
-  const double c = sums.stiffness_square - stiffness * sums.stiffness;
-  const double p = sums.damping_output - damping * output_, q = sums.stiffness_output - stiffness * output_;
-  const double determinant = a * c - b * b, square = output_square_ - output_ * output_ / num_;
-  const double explained = determinant > 0.0 ? (p * (c * p - b * q) + q * (a * q - b * p)) / determinant : 0.0;
-  return std::max(square - explained, kRounding * output_square_);
+  Eigen::Matrix3d moments;  // the lower triangle
+  moments(0, 0) = output_square_ - output_ * output_ / num_;
+  moments(1, 0) = sums.damping_output - sums.damping * output_ / num_;
+  moments(2, 0) = sums.stiffness_output - sums.stiffness * output_ / num_;
+  moments(1, 1) = sums.damping_square - sums.damping * sums.damping / num_;
+  moments(2, 1) = sums.both - sums.damping * sums.stiffness / num_;
+  moments(2, 2) = sums.stiffness_square - sums.stiffness * sums.stiffness / num_;
+  if (!moments.triangularView<Eigen::Lower>().toDenseMatrix().allFinite()) return 0.0;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments, noise_, Eigen::EigenvaluesOnly);
+  return std::max(solver.eigenvalues()[0], kRounding * output_square_ / noise_(0, 0));
 }
 
 void SkewProfile::closeHorizon() {

@@ -10,12 +10,13 @@
 namespace suspension_health_monitor {
 
 /// By how much the clocks of the two IMUs differ, whatever the strut is: the wheel's readings are moved by step after
-/// step, and where the best strut leaves least of psi they are in time.
+/// step, and where the best strut leaves least they are in time. What it leaves is counted against what noise of equal
+/// size on both sensors would leave of that strut, as the noise is in the regressors, too (total least squares).
 ///
 /// Every block of rows has a strut of its own and an offset between the sensors, so that a strut that changes teaches
-/// no skew; what the strut leaves at a skew tau is J(tau). Its likelihood, exp(-D / 2) with D the sum of n J(tau) / J
-/// of the best tau, is multiplied over blocks and forgotten slowly. Residuals are correlated by the filter: three of n
-/// rows count as one, so that on simulated cars tau scatters by 0.7 to 1.3 standard deviations. The variance of the
+/// no skew; what the strut leaves so at a skew tau is J(tau). Its likelihood, exp(-D / 2) with D the sum of n J(tau) /
+/// J of the best tau, is multiplied over blocks and forgotten slowly. Residuals are correlated by the filter: three of
+/// n rows count as one, so that on simulated cars tau scatters by 0.7 to 1.3 standard deviations. The variance of the
 /// estimate is 2 / D''. Rows in which no strut shows have a flat J and tell nothing. Clocks may be set: where the D of
 /// the newest block is worse at the estimate than at its own best by 4^2, what is older is forgotten.
 ///
@@ -71,7 +72,8 @@ class SkewProfile {
 
   double step_;  // [s]
   int every_, horizon_rows_;
-  double share_ = 1.0;  // of a block, that is left at the end of the next one
+  Eigen::Matrix3d noise_;  // what it adds to the moments of psi, phi_1, phi_0 of a row [1 / variance of a sensor]
+  double share_ = 1.0;     // of a block, that is left at the end of the next one
   std::vector<WheelHistory::Place> places_;
   std::array<Sums, kNumSkews> sums_;  // of the block
   double output_ = 0.0, output_square_ = 0.0, num_ = 0.0;
