@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kRowsOfHorizon = 64, kFewestRows = 32;
 constexpr int kHorizonsOfBlock = 8;
-constexpr double kAlike = 10.0;      // rows that count as one
+constexpr double kAlike = 6.0;       // rows that count as one
 constexpr double kFitted = 3.0;      // parameters of every block
 constexpr double kUsualSteps = 3.0;  // standard deviation beforehand
 constexpr double kMemories = 30.0;   // of the estimator: clocks differ by as much for long

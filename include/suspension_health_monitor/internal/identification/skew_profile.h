@@ -15,10 +15,11 @@ namespace suspension_health_monitor {
 ///
 /// Every block of rows has a strut of its own and an offset between the sensors, so that a strut that changes teaches
 /// no skew; what the strut leaves so at a skew tau is J(tau). Its likelihood, exp(-D / 2) with D the sum of n J(tau) /
-/// J of the best tau, is multiplied over blocks and forgotten slowly. Residuals are correlated by the filter: three of
-/// n rows count as one, so that on simulated cars tau scatters by 0.7 to 1.3 standard deviations. The variance of the
-/// estimate is 2 / D''. Rows in which no strut shows have a flat J and tell nothing. Clocks may be set: where the D of
-/// the newest block is worse at the estimate than at its own best by 4^2, what is older is forgotten.
+/// J of the best tau, is multiplied over blocks and forgotten slowly. Residuals are correlated by the filter, and are
+/// not only the sensors' noise: ten of n rows count as one, so that on simulated cars tau scatters by 0.3 to 1.4
+/// standard deviations. The variance of the estimate is 2 / D''. Rows in which no strut shows have a flat J and tell
+/// nothing. Clocks may be set: where the D of the newest block is worse at the estimate than at its own best by 4^2,
+/// what is older is forgotten.
 ///
 /// Beforehand a skew is 0 with a standard deviation of a 200th of the horizon, 3 ms of 0.6 s. Looked for are five of
 /// that either way, in steps by which a wheel that hops turns by a tenth of a radian.
