@@ -121,7 +121,7 @@ TEST(VaryingSettings, IsTheSlowOneOnceNothingIsExcited) {
   const std::vector<CornerSample> samples = simulate(drive);
   SuspensionMonitor monitor(optionsWith(kSlow, kFastest));
   std::size_t k = 0;
-  while (k < 2003) monitor.addSample(samples[k++]);
+  while (k < 2001) monitor.addSample(samples[k++]);
   ASSERT_LT(monitor.forgettingFactor(), kSlow);
   std::mt19937 generator(1);
   std::normal_distribution<double> noise(0.0, 1e-4);
