@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -46,6 +47,12 @@ enum class Tracks { kCoherent, kIndependent, kIdentical };
 /// Force of a hidden effect of strut i [N], of travel, travel rate and time.
 using Law = std::function<double(double, double, double)>;
 
+/// A six-axis IMU of the body, as high as the struts' tops.
+struct BodyImu {
+  double x, y;          // [m], from the centre of gravity
+  double gyro = 0.002;  // [rad/s], noise
+};
+
 struct Drive {
   double seconds = 120.0, rate = 100.0;
   double noise = 0.03;  // [m/s^2]
@@ -56,10 +63,12 @@ struct Drive {
   double offset = 0.0;                // [m/s^2], largest of a sensor
   double pull = 0.0;                  // [N], rms of a vertical force on the body that is measured
   double pull_x = 0.0, pull_y = 0.0;  // [m], where it acts, from the centre of gravity
+  std::optional<BodyImu> imu;
 };
 
 struct Record {
   std::vector<std::vector<double>> body, wheel;    // by strut [m/s^2]
+  std::vector<std::vector<double>> imu;            // of the body: upward [m/s^2], rates of roll and pitch [rad/s]
   std::vector<double> travel, travel_rate, force;  // rms by strut [m], [m/s], [N]
   std::vector<double> pull;                        // [N], up positive
 };
@@ -147,7 +156,8 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
     const auto late = static_cast<std::size_t>((front - vehicle.struts[i].x) / vehicle.speed * rate);
     return (vehicle.struts[i].y >= 0 ? left : right)[k >= late ? k - late : 0];
   };
-  std::vector<double> accelerations(2 * n);
+  const std::size_t channels = 2 * n + (options.imu ? 3 : 0);
+  std::vector<double> readings(channels);
   const auto slope = [&](const std::vector<double>& s, std::size_t k, double half, double time) {
     std::vector<double> d(2 * dof, 0.0);
     for (std::size_t i = 0; i < dof; ++i) d[i] = s[dof + i];
@@ -179,14 +189,19 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
     }
     for (std::size_t i = 0; i < n; ++i) {
       const Strut& strut = vehicle.struts[i];
-      accelerations[i] = d[dof] + strut.x * d[dof + 1] + strut.y * d[dof + 2];
-      accelerations[n + i] = d[dof + 3 + i];
+      readings[i] = d[dof] + strut.x * d[dof + 1] + strut.y * d[dof + 2];
+      readings[n + i] = d[dof + 3 + i];
+    }
+    if (options.imu) {
+      readings[2 * n] = d[dof] + options.imu->x * d[dof + 1] + options.imu->y * d[dof + 2];
+      readings[2 * n + 1] = s[dof + 2];
+      readings[2 * n + 2] = -s[dof + 1];  // about the axis to the left a positive rate turns the nose down
     }
     return d;
   };
 
   const std::vector<double> taps = lowPass(0.4 * options.rate, rate, 6 * kSub);
-  std::vector<std::vector<double>> raw(2 * n, std::vector<double>(steps - 1));
+  std::vector<std::vector<double>> raw(channels, std::vector<double>(steps - 1));
   Record record;
   record.travel.assign(n, 0.0), record.travel_rate = record.force = record.travel;
   const auto moved = [](const std::vector<double>& s, double by, const std::vector<double>& d) {
@@ -197,7 +212,7 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
   for (std::size_t k = 0; k + 1 < steps; ++k) {
     const double time = static_cast<double>(k) * dt - kLead;
     const std::vector<double> k1 = slope(state, k, 0.0, time);
-    for (std::size_t c = 0; c < 2 * n; ++c) raw[c][k] = accelerations[c];
+    for (std::size_t c = 0; c < channels; ++c) raw[c][k] = readings[c];
     for (std::size_t i = 0; i < n; ++i) {
       const Strut& strut = vehicle.struts[i];
       const double d = state[3 + i] - (state[0] + strut.x * state[1] + strut.y * state[2]);
@@ -218,13 +233,15 @@ inline Record drive(const Vehicle& vehicle, const Drive& options) {
     for (double& each : *squares) each = std::sqrt(each);
   record.body.resize(n);
   record.wheel.resize(n);
+  record.imu.resize(channels - 2 * n);
   const auto samples = static_cast<std::size_t>(options.seconds * options.rate);
   const auto first = static_cast<std::size_t>(kLead * rate), half = taps.size() / 2;
-  for (std::size_t c = 0; c < 2 * n; ++c) {
+  for (std::size_t c = 0; c < channels; ++c) {
     const double offset = options.offset * uniform(random);
-    auto& channel = c < n ? record.body[c] : record.wheel[c - n];
+    auto& channel = c < n ? record.body[c] : c < 2 * n ? record.wheel[c - n] : record.imu[c - 2 * n];
+    const double noise = c > 2 * n ? options.imu->gyro : options.noise;
     for (std::size_t k = 0; k < samples; ++k) {
-      double sum = offset + options.noise * normal(random);
+      double sum = offset + noise * normal(random);
       for (std::size_t i = 0; i < taps.size(); ++i) sum += taps[i] * raw[c][first + k * kSub + i - half];
       channel.push_back(sum);
     }

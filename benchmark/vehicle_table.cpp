@@ -1,5 +1,5 @@
 // Whole vehicles, simulated by vehicle_drive.h, which shares nothing with the package: the tables of doc/vehicle.md.
-//   vehicle_table linear|coupling|effect|bar|force|alone|health [SEEDS [FIRST]]
+//   vehicle_table linear|coupling|effect|two|bar|force|alone|health [SEEDS [FIRST [own|body [RATE]]]]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,62 +11,20 @@
 
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
-#include "suspension_health_monitor/vehicle.h"
-#include "vehicle_drive.h"
+#include "vehicle_case.h"
 
 namespace {
 
 using namespace suspension_health_monitor;
 
-constexpr double kPeriod = 0.01;
 constexpr std::array kKinds{"half", "sedan", "robot", "truck"};
-
-/// A law that is hidden in a strut, as strong as 15 % of the rms of the strut's force.
-struct Hidden {
-  const char* name;
-  double (*shape)(double travel, double rate, double friction);  ///< of travel and rate over their rms
-};
-
-constexpr std::array<Hidden, 5> kHidden{
-    Hidden{"progressive_spring", [](double d, double, double) { return d * d * d; }},
-    Hidden{"friction", [](double, double v, double steep) { return std::tanh(steep * v); }},
-    Hidden{"quadratic_damping", [](double, double v, double) { return v * std::abs(v); }},
-    Hidden{"asymmetric_damping", [](double, double v, double) { return std::max(v, 0.0); }},
-    Hidden{"asymmetric_spring", [](double d, double, double) { return std::max(d, 0.0); }}};
-constexpr double kShare = 0.15, kSlip = 0.005;  // of the force; rate at which friction turns round [m/s]
-
-/// One simulated drive and who drove it.
-struct Driven {
-  vehicle_drive::Vehicle vehicle;
-  vehicle_drive::Drive options;
-  vehicle_drive::Record record;
-  std::vector<std::string> names;
-
-  std::size_t size() const { return vehicle.struts.size(); }
-  StrutDrives struts() const {
-    StrutDrives drive;
-    for (std::size_t i = 0; i < size(); ++i) drive.push_back(makeDrive(kPeriod, record.body[i], record.wheel[i]));
-    return drive;
-  }
-  VehicleDrive withForce() const { return {struts(), {{"pull", record.pull}}}; }
-};
-
-Driven prepared(const char* kind, unsigned seed) {
-  Driven driven{vehicle_drive::made(kind, seed), {}, {}, {}};
-  driven.options.seed = seed;
-  driven.options.tracks = seed % 2 == 1 ? vehicle_drive::Tracks::kCoherent : vehicle_drive::Tracks::kIndependent;
-  for (std::size_t i = 0; i < driven.size(); ++i) driven.names.push_back("strut" + std::to_string(i));
-  return driven;
-}
-
-void drive(Driven& driven) { driven.record = vehicle_drive::drive(driven.vehicle, driven.options); }
 
 double percent(double value, double truth) { return 100.0 * (value / truth - 1.0); }
 
-void printLinear(const char* kind, unsigned seed) {
-  Driven driven = prepared(kind, seed);
+void printLinear(const char* kind, unsigned seed, const Measured& how) {
+  Driven driven = prepared(kind, seed, how);
   drive(driven);
-  const std::vector<VehicleDrive> drives{driven.struts()};
+  const std::vector<VehicleDrive> drives{driven.asMeasured()};
   const VehicleIdentification found = identifyVehicle(drives, driven.names);
   const VehicleDiagnosis diagnosis = diagnoseVehicle(drives, driven.names);
   if (!found) {
@@ -87,30 +45,27 @@ void printLinear(const char* kind, unsigned seed) {
               100.0 * inside / static_cast<double>(driven.size()), floor, diagnosis.summary.c_str());
 }
 
-const Hidden& lawOf(unsigned seed) { return kHidden[seed % kHidden.size()]; }
-std::size_t placeOf(unsigned seed, std::size_t struts) { return seed / kHidden.size() % struts; }
-
-/// Drives again with a law hidden in a strut.
-void driveWith(Driven& driven, const Hidden& law, std::size_t at) {
-  const double travel = driven.record.travel[at], rate = driven.record.travel_rate[at], steep = rate / kSlip;
-  double square = 0.0;
-  constexpr int kDraws = 20000;
-  std::mt19937 random(7);
-  std::normal_distribution<double> normal;
-  for (int i = 0; i < kDraws; ++i) square += std::pow(law.shape(normal(random), normal(random), steep), 2) / kDraws;
-  const double size = kShare * driven.record.force[at] / std::sqrt(square);
-  driven.options.hidden.resize(driven.size());
-  driven.options.hidden[at] = [=](double d, double v, double) { return size * law.shape(d / travel, v / rate, steep); };
+void printTwo(const char* kind, unsigned seed, const Measured& how) {
+  Driven driven = prepared(kind, seed, how);
   drive(driven);
+  const std::size_t first = placeOf(seed, driven.size()), second = (first + 1) % driven.size();
+  const Hidden &one = lawOf(seed), &other = lawOf(seed / 2 + 1);
+  hide(driven, one, first);
+  hide(driven, other, second);
+  drive(driven);
+  const VehicleDiagnosis found = diagnoseVehicle({driven.asMeasured()}, driven.names);
+  std::printf("%-6s %3u  %-18s in %-7s %-18s in %-7s  %s\n", kind, seed, one.name, driven.names[first].c_str(),
+              other.name, driven.names[second].c_str(), found.summary.c_str());
 }
 
-void printEffect(const char* kind, unsigned seed) {
-  Driven driven = prepared(kind, seed);
+void printEffect(const char* kind, unsigned seed, const Measured& how) {
+  Driven driven = prepared(kind, seed, how);
   drive(driven);
   const Hidden& law = lawOf(seed);
   const std::size_t at = placeOf(seed, driven.size());
-  driveWith(driven, law, at);
-  const VehicleDiagnosis found = diagnoseVehicle({driven.struts()}, driven.names);
+  hide(driven, law, at);
+  drive(driven);
+  const VehicleDiagnosis found = diagnoseVehicle({driven.asMeasured()}, driven.names);
   std::printf("%-6s %3u  %-18s in %-7s  %s\n", kind, seed, law.name, driven.names[at].c_str(), found.summary.c_str());
 }
 
@@ -125,8 +80,8 @@ double worstError(const Driven& driven, const VehicleIdentification& found) {
 }
 
 // A force behind the rear axle and to one side, with nothing hidden behind it and then one law.
-void printForce(const char* kind, unsigned seed) {
-  Driven driven = prepared(kind, seed);
+void printForce(const char* kind, unsigned seed, const Measured& how) {
+  Driven driven = prepared(kind, seed, how);
   const vehicle_drive::Strut &front = driven.vehicle.struts.front(), &rear = driven.vehicle.struts.back();
   driven.options.pull = 0.1 * driven.vehicle.mass;
   driven.options.pull_x = 1.6 * rear.x;
@@ -139,20 +94,21 @@ void printForce(const char* kind, unsigned seed) {
     off = std::max(off, 100.0 * driven.vehicle.mass * std::abs(known.coupling.forces[0].values[i] - truth));
   }
   std::printf("%-6s %3u  %8.2f  %9.1f  %11.2f  %-29s  %s\n", kind, seed, worstError(driven, known),
-              worstError(driven, identifyVehicle({driven.struts()}, driven.names)), off, "nothing",
+              worstError(driven, identifyVehicle({driven.asMeasured()}, driven.names)), off, "nothing",
               diagnoseVehicle({driven.withForce()}, driven.names).summary.c_str());
   const std::size_t at = placeOf(seed, driven.size());
-  driveWith(driven, lawOf(seed), at);
+  hide(driven, lawOf(seed), at);
+  drive(driven);
   std::printf("%44s%-18s in %-7s  %s\n", "", lawOf(seed).name, driven.names[at].c_str(),
               diagnoseVehicle({driven.withForce()}, driven.names).summary.c_str());
 }
 
-void printBar(const char* kind, unsigned seed) {
-  Driven driven = prepared(kind, seed);
+void printBar(const char* kind, unsigned seed, const Measured& how) {
+  Driven driven = prepared(kind, seed, how);
   if (driven.size() < 4) return;
   driven.options.anti_roll = 0.4 * driven.vehicle.struts[0].stiffness;
   drive(driven);
-  const VehicleDiagnosis found = diagnoseVehicle({driven.struts()}, driven.names);
+  const VehicleDiagnosis found = diagnoseVehicle({driven.asMeasured()}, driven.names);
   std::printf("%-6s %3u  ", kind, seed);
   for (const AntiRollBarFound& bar : found.coupling.bars) {
     const auto truth = [&](std::size_t i) { return driven.vehicle.mobility(i, i) * driven.options.anti_roll; };
@@ -163,10 +119,10 @@ void printBar(const char* kind, unsigned seed) {
 }
 
 // How far the ratios are off, over their standard deviations.
-void printCoupling(const char* kind, unsigned seed) {
-  Driven driven = prepared(kind, seed);
+void printCoupling(const char* kind, unsigned seed, const Measured& how) {
+  Driven driven = prepared(kind, seed, how);
   drive(driven);
-  const VehicleCoupling coupling = separateVehicle({driven.struts()}, driven.names).coupling;
+  const VehicleCoupling coupling = separateVehicle({driven.asMeasured()}, driven.names).coupling;
   double squares = 0.0, most = 0.0, count = 0.0;
   for (std::size_t i = 0; coupling && i < driven.size(); ++i)
     for (std::size_t j = 0; j < driven.size(); ++j) {
@@ -182,10 +138,10 @@ void printCoupling(const char* kind, unsigned seed) {
 }
 
 // Every strut judged by its own two IMUs: nothing is hidden in any.
-void printAlone(const char* kind, unsigned seed) {
-  Driven driven = prepared(kind, seed);
+void printAlone(const char* kind, unsigned seed, const Measured& how) {
+  Driven driven = prepared(kind, seed, how);
   drive(driven);
-  const StrutDrives struts = driven.struts();
+  const StrutDrives struts = driven.asMeasured().struts;
   for (std::size_t i = 0; i < driven.size(); ++i) {
     const Diagnosis found = diagnose({struts[i]});
     std::printf("%-6s %3u  %zu  structured %.2f explained %.2f rmse/floor %.1f  %s\n", kind, seed, i,
@@ -200,9 +156,9 @@ struct Said {
   double warn = -1.0, error = -1.0;  // first [s]; below 0: never
 };
 
-void printHealth(const char* kind, unsigned seed) {
+void printHealth(const char* kind, unsigned seed, const Measured& how) {
   constexpr double kLoss = 300.0;
-  Driven driven = prepared(kind, seed);
+  Driven driven = prepared(kind, seed, how);
   const std::size_t at = seed % driven.size(), n = driven.size();
   driven.options.seconds = 2.0 * kLoss;
   driven.options.hidden.resize(n);
@@ -211,7 +167,7 @@ void printHealth(const char* kind, unsigned seed) {
   };
   drive(driven);
   MonitorSettings settings;
-  settings.sample_period = kPeriod;
+  settings.sample_period = driven.period();
   std::vector<Said> said(n);
   VehicleMonitor monitor(std::vector<MonitorSettings>(n, settings), [&](std::size_t i, const MonitorReport& report) {
     Said& its = said[i];
@@ -225,11 +181,11 @@ void printHealth(const char* kind, unsigned seed) {
     const double off = report.la.damping_to_mass - driven.vehicle.b1(i);
     its.inside += std::abs(off) < 1.96 * report.la.damping_to_mass_stddev ? 1.0 : 0.0;
   });
-  const StrutDrives drive = driven.struts();
+  const StrutDrives drive = driven.asMeasured().struts;
   double known = -1.0;
   for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
     monitor.addSample(sampleOf(drive, k));
-    if (known < 0.0 && monitor.isCoupled()) known = static_cast<double>(k) * kPeriod;
+    if (known < 0.0 && monitor.isCoupled()) known = static_cast<double>(k) * driven.period();
   }
   double least_ok = 1.0, inside = 0.0;
   int alarms = 0;
@@ -248,13 +204,14 @@ void printHealth(const char* kind, unsigned seed) {
 struct Table {
   const char* name;
   const char* heading;
-  void (*print)(const char* kind, unsigned seed);
+  void (*print)(const char* kind, unsigned seed, const Measured& how);
 };
 
 constexpr std::array kTables{
     Table{"linear", "kind  seed  b1 off %  b0 off %  inside  rmse/floor  verdict", printLinear},
     Table{"coupling", "kind  seed  ratio off  mean square  condition", printCoupling},
     Table{"effect", "kind  seed  hidden                           verdict", printEffect},
+    Table{"two", "kind  seed  hidden                        and                            verdict", printTwo},
     Table{"bar", "kind  seed  stiffness off %  verdict", printBar},
     Table{"force", "kind  seed   known %  unknown %  coeff. off %  hidden                         verdict", printForce},
     Table{"alone", "kind  seed  strut", printAlone},
@@ -266,15 +223,19 @@ int main(int argc, char** argv) {
   const auto table = std::find_if(kTables.begin(), kTables.end(),
                                   [&](const Table& each) { return argc > 1 && std::string(argv[1]) == each.name; });
   if (table == kTables.end()) {
-    std::fprintf(stderr, "vehicle_table linear|coupling|effect|bar|force|alone|health [SEEDS [FIRST]]\n");
+    std::fprintf(stderr,
+                 "vehicle_table linear|coupling|effect|two|bar|force|alone|health [SEEDS [FIRST [own|body [RATE]]]]\n");
     return 2;
   }
   const auto seeds = static_cast<unsigned>(argc > 2 ? std::atoi(argv[2]) : 2);
   const auto first = static_cast<unsigned>(argc > 3 ? std::atoi(argv[3]) : 1);
+  Measured how;
+  how.has_body_imu = argc > 4 && std::string(argv[4]) == "body";
+  if (argc > 5) how.rate = std::atof(argv[5]);
   std::printf("%s\n", table->heading);
   for (const char* kind : kKinds)
     for (unsigned seed = first; seed < first + seeds; ++seed) {
-      table->print(kind, seed);
+      table->print(kind, seed, how);
       std::fflush(stdout);
     }
 }

@@ -53,14 +53,16 @@ struct ForceEffect {
   bool positive = false;  ///< c > 0 by physics: what dissipates or pushes back cannot do the opposite
 };
 
-/// What the body's IMU measures besides z'', in the strut's frame: z up along the strut, x and y across it.
+/// What the body's IMU measures besides the changing part of z'', in the strut's frame: z up along the strut, x and y
+/// across it.
 enum class BodyChannel {
   kAccelerationX,         ///< a_x [m/s^2], less its mean
   kAccelerationY,         ///< a_y [m/s^2], less its mean
   kAngularAccelerationX,  ///< w_x' [rad/s^2]
-  kAngularAccelerationY   ///< w_y' [rad/s^2]
+  kAngularAccelerationY,  ///< w_y' [rad/s^2]
+  kGravity                ///< what the readings have of gravity, the mean of w'' [m/s^2], the same at every sample
 };
-inline constexpr std::size_t kNumBodyChannels = 4;
+inline constexpr std::size_t kNumBodyChannels = 5;
 
 /// By BodyChannel one value per sample; empty where the channel is not known.
 using BodyChannels = std::array<std::vector<double>, kNumBodyChannels>;

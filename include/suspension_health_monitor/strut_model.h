@@ -58,6 +58,7 @@ enum class FitFailure {
   kWrongSign,        ///< its coefficient is not above 0, as physics has it
   kShapeAtEnd,       ///< a shape is at the end of its range, where the law is another one
   kToldByFrequency,  ///< what seems to change with time changes as well with the frequency of the motion
+  kWanders,          ///< the offset that it makes is not larger than what wanders beside it
 };
 
 /// One number of a model as files and tables list it.

@@ -47,9 +47,8 @@ struct AntiRollBarFound {
   double second_stiffness_to_mass;  ///< the same over that of the second
 };
 
-/// What one unit of a known force does to the top of every strut [m/s^2]: of a vertical one in newtons 1/M + x_i x /
-/// Iyy
-/// + y_i y / Ixx [1/kg], with the sign of its direction.
+/// What one unit of a known force does to the top of every strut [m/s^2]: of a vertical one in newtons at (x, y)
+///   1/M + x_i x / Iyy + y_i y / Ixx [1/kg], with the sign of its direction.
 struct KnownForceCoefficients {
   std::string name;
   std::vector<double> values;   ///< by strut

@@ -8,7 +8,34 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-CouplingInUse toMsg(const CouplingEstimate* coupling, const std::string& why_none,
+void setBody(const std::optional<BodyInertia>& body, CouplingInUse& msg) {
+  const Measured unknown{kUnknown, kUnknown};
+  const auto set = [](const Measured& from, double& value, double& stddev) {
+    value = from.value;
+    stddev = from.stddev;
+  };
+  set(body ? body->mass_to_pitch_inertia : unknown, msg.mass_to_pitch_inertia, msg.mass_to_pitch_inertia_stddev);
+  set(body ? body->mass_to_roll_inertia : unknown, msg.mass_to_roll_inertia, msg.mass_to_roll_inertia_stddev);
+  set(body ? body->x : unknown, msg.centre_of_gravity[0], msg.centre_of_gravity_stddev[0]);
+  set(body ? body->y : unknown, msg.centre_of_gravity[1], msg.centre_of_gravity_stddev[1]);
+}
+
+BodyInertiaResult bodyOf(const CouplingEstimate& coupling, const StrutPlaces& places) {
+  return bodyInertia(coupling.coupling.ratios, coupling.stddevs, places);
+}
+
+void describeBody(const BodyInertiaResult& found, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const auto add = [&](const char* name, const Measured& number) {
+    status.addf(name, "%.4g +- %.2g", number.value, number.stddev);
+  };
+  if (!found.body) return status.add("body", suspension_health_monitor::describe(found.doubt));
+  add("M/Iyy [1/m^2]", found.body->mass_to_pitch_inertia);
+  add("M/Ixx [1/m^2]", found.body->mass_to_roll_inertia);
+  add("centre of gravity x [m]", found.body->x);
+  add("centre of gravity y [m]", found.body->y);
+}
+
+CouplingInUse toMsg(const CouplingEstimate* coupling, const std::string& why_none, const StrutPlaces& places,
                     const std::vector<std::string>& struts, const std::vector<std::string>& forces) {
   CouplingInUse msg;
   msg.known = coupling != nullptr;
@@ -22,9 +49,11 @@ CouplingInUse toMsg(const CouplingEstimate* coupling, const std::string& why_non
     msg.stddevs = msg.ratios;
     msg.force_coefficients.assign(struts.size() * forces.size(), kUnknown);
     msg.force_stddevs = msg.force_coefficients;
+    setBody({}, msg);
     return msg;
   }
   msg.condition = coupling->condition;
+  setBody(bodyOf(*coupling, places).body, msg);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       msg.ratios.push_back(coupling->coupling.ratios(i, j));
@@ -46,15 +75,16 @@ bool saysTheSame(const CouplingInUse& a, const CouplingInUse& b) {
 
 }  // namespace
 
-void CouplingOutput::publish(const VehicleMonitor* monitor, const std::string& why_none, const ros::Time& stamp) {
-  CouplingInUse msg = toMsg(monitor != nullptr ? monitor->coupling() : nullptr, why_none, struts_, forces_);
+void CouplingOutput::publish(const VehicleMonitor* monitor, const std::string& why_none, const StrutPlaces& places,
+                             const ros::Time& stamp) {
+  CouplingInUse msg = toMsg(monitor != nullptr ? monitor->coupling() : nullptr, why_none, places, struts_, forces_);
   if (last_ && saysTheSame(*last_, msg)) return;
   msg.header.stamp = stamp;
   publisher_.publish(msg);
   last_ = msg;
 }
 
-void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& why_none,
+void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& why_none, const StrutPlaces& places,
                               diagnostic_updater::DiagnosticStatusWrapper& status) const {
   const CouplingEstimate* coupling = monitor != nullptr ? monitor->coupling() : nullptr;
   if (coupling == nullptr) {
@@ -65,6 +95,7 @@ void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& 
   status.addf("condition", "%.3g", coupling->condition);
   if (const std::string late = reasonOf(monitor->estimate(), struts_); !late.empty() && struts_.size() > 1)
     status.add("not renewed", "the drives of late " + late);
+  if (struts_.size() > 1) describeBody(bodyOf(*coupling, places), status);
   for (std::size_t i = 0; i < struts_.size(); ++i)
     for (std::size_t j = 0; j < struts_.size(); ++j) {
       if (i == j) continue;

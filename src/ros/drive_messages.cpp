@@ -20,6 +20,7 @@ DriveMessageSource::DriveMessageSource(const SimulatorOptions& options, Stamp st
       hidden_(options.drive.hidden),
       hidden_faults_(options.drive.hidden_faults),
       gravity_(options.publishing.gravity),
+      sprung_gravity_(SensorFaults::from(hidden_faults_).readAtRest(gravity_)),
       has_gyro_(options.drive.body_rate > 0.0),
       has_road_(options.publishing.road_imu),
       start_(start) {}
@@ -34,11 +35,11 @@ std::optional<SimulatedInstant> DriveMessageSource::next() {
   const auto add = [&](const char* topic, const std::optional<sensor_msgs::Imu>& imu) {
     if (imu) instant.messages.emplace_back(topic, *imu);
   };
-  std::optional<sensor_msgs::Imu> sprung = toMessage(sample->sprung, "sprung_imu");
+  std::optional<sensor_msgs::Imu> sprung = toMessage(sample->sprung, sprung_gravity_, "sprung_imu");
   if (sprung) addSway(sample->body, *sprung);
   add(kSprungTopic, sprung);
-  add(kUnsprungTopic, toMessage(sample->unsprung, "unsprung_imu"));
-  if (has_road_) add(kRoadTopic, toMessage(sample->road, "road_imu"));
+  add(kUnsprungTopic, toMessage(sample->unsprung, gravity_, "unsprung_imu"));
+  if (has_road_) add(kRoadTopic, toMessage(sample->road, gravity_, "road_imu"));
   instant.messages.emplace_back(kTruthTopic, toMessage(sample->truth, header));
   return instant;
 }
@@ -66,12 +67,12 @@ SimulationTruth DriveMessageSource::toMessage(const DriveTruth& truth, const std
 }
 
 std::optional<sensor_msgs::Imu> DriveMessageSource::toMessage(const std::optional<AccelerometerReading>& reading,
-                                                              const char* frame) const {
+                                                              double gravity, const char* frame) const {
   if (!reading) return std::nullopt;
   std_msgs::Header header;
   header.stamp = stampAt(start_ + reading->stamp);
   header.frame_id = frame;
-  return toImu(reading->acceleration, gravity_, header);
+  return toImu(reading->acceleration, gravity, header);
 }
 
 }  // namespace suspension_health_monitor

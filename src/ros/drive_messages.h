@@ -32,7 +32,7 @@ class DriveMessageSource : public DriveSource {
 
  private:
   SimulationTruth toMessage(const DriveTruth& truth, const std_msgs::Header& header) const;
-  std::optional<sensor_msgs::Imu> toMessage(const std::optional<AccelerometerReading>& reading,
+  std::optional<sensor_msgs::Imu> toMessage(const std::optional<AccelerometerReading>& reading, double gravity,
                                             const char* frame) const;
 
   void addSway(const Sway& sway, sensor_msgs::Imu& imu) const;
@@ -40,7 +40,7 @@ class DriveMessageSource : public DriveSource {
   DriveSimulator simulator_;
   std::vector<ActiveEffect> hidden_;
   std::vector<ActiveMeasurementEffect> hidden_faults_;
-  double gravity_;
+  double gravity_, sprung_gravity_;
   bool has_gyro_;
   bool has_road_;
   Stamp start_;

@@ -13,7 +13,8 @@ constexpr std::array<const char*, 2> kSideNames{"sprung", "unsprung"};
 
 InputDiagnostics::InputDiagnostics(const ShellOptions& options, const std::array<std::string, 2>& topics)
     : options_(options),
-      arrivals_{ImuArrivals(topics[0], options.input_timeout), ImuArrivals(topics[1], options.input_timeout)} {}
+      arrivals_{ImuArrivals(topics[0], options.input_timeout), ImuArrivals(topics[1], options.input_timeout)},
+      silent_({topics.begin(), topics.end()}, options.input_timeout) {}
 
 void InputDiagnostics::restart() {
   series_ = {};

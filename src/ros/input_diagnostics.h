@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "imu_pipeline.h"
 #include "input_history.h"
@@ -19,7 +20,13 @@ class InputDiagnostics {
   /// @param topics  of the sprung and the unsprung IMU.
   InputDiagnostics(const ShellOptions& options, const std::array<std::string, 2>& topics);
 
-  void noteMessage(Side side, const ros::Time& stamp) { arrivals_[indexOf(side)].note(stamp); }
+  void noteMessage(Side side, const ros::Time& stamp) {
+    arrivals_[indexOf(side)].note(stamp);
+    silent_.note(indexOf(side), stamp);
+  }
+
+  /// @return the topic that is silent while the other goes on, if one is.
+  std::vector<std::string> silentTopics() const { return silent_.names(); }
 
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
@@ -38,6 +45,7 @@ class InputDiagnostics {
 
   ShellOptions options_;
   std::array<ImuArrivals, 2> arrivals_;
+  SilentTopics silent_;
   std::string refusal_;
   SeriesHistory series_;
   RejectHistory rejected_;

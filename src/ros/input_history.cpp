@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conversions.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -46,6 +48,15 @@ void ImuArrivals::describeSilence(Status& status) const {
   if (by_wall > timeout_ && (by_clock > timeout_ || clock_went_back))
     status.mergeSummaryf(DiagnosticStatus::ERROR, "no message on %s for %.1f s", topic_.c_str(),
                          clock_went_back ? by_wall : by_clock);
+}
+
+void SilentTopics::note(std::size_t topic, const ros::Time& stamp) { silence_.add(topic, toStamp(stamp)); }
+
+std::vector<std::string> SilentTopics::names() const {
+  std::vector<std::string> silent;
+  for (std::size_t i = 0; i < topics_.size(); ++i)
+    if (silence_.lasting(i) > Stamp::zero()) silent.push_back(topics_[i]);
+  return silent;
 }
 
 void describeTiming(const StreamTiming& timing, const std::string& name, const std::optional<double>& expected_rate,

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/stream_silence.h"
 #include "suspension_health_monitor/internal/signal/stream_timing.h"
 
 namespace suspension_health_monitor {
@@ -45,6 +47,23 @@ class ImuArrivals {
   std::string topic_;
   double timeout_;
   std::optional<Last> last_;
+};
+
+/// Which topics are silent while others go on, by the stamps of what comes.
+class SilentTopics {
+ public:
+  /// @param timeout  [s] a longer silence is one.
+  SilentTopics(const std::vector<std::string>& topics, double timeout)
+      : topics_(topics), silence_(topics.size(), fromSeconds(timeout)) {}
+
+  void note(std::size_t topic, const ros::Time& stamp);
+
+  /// @return those that are silent now.
+  std::vector<std::string> names() const;
+
+ private:
+  std::vector<std::string> topics_;
+  StreamSilence silence_;
 };
 
 /// The rate of one IMU as its stamps tell it.

@@ -58,10 +58,11 @@ double middle(const std::string& name, const ShapeParameter& shape, const LiveMo
 
 }  // namespace
 
-LiveModel::LiveModel(const ShellOptions& options) : model_file_(options.model_file) {
+LiveModel::LiveModel(const ShellOptions& options, const std::string& strut)
+    : model_file_(options.model_file), strut_(strut) {
   prefixed("effects_file = ", [&] { library_ = readEffectsFile(options.effects_file); });
   if (!model_file_.empty() && std::filesystem::exists(model_file_))
-    prefixed("model_file = ", [&] { loaded_ = readModelFile(model_file_, library_); });
+    prefixed("model_file = ", [&] { loaded_ = load(); });
   if (loaded_) effects_ = loaded_->effects;
   std::vector<std::string> names;
   for (const ActiveEffect& active : effects_) names.push_back(active.effect.name);
@@ -69,6 +70,13 @@ LiveModel::LiveModel(const ShellOptions& options) : model_file_(options.model_fi
     if (find(effects_, name) == nullptr) names.push_back(name);
   prefixed("effects = \"" + options.effects + "\": ",
            [&] { effects_ = choose(names, {}, [] { return std::nullopt; }); });
+}
+
+std::optional<StrutModel> LiveModel::load() const {
+  if (strut_.empty()) return readModelFile(model_file_, library_);
+  const ModelsByStrut all = readModelsFile(model_file_, library_);
+  const auto found = all.find(strut_);
+  return found != all.end() ? std::optional<StrutModel>(found->second) : std::nullopt;
 }
 
 const ActiveEffect* LiveModel::known(const std::string& name) const {
@@ -137,7 +145,9 @@ std::string LiveModel::describe() const {
 std::vector<std::string> LiveModel::remarks() const {
   std::vector<std::string> all;
   if (!model_file_.empty() && !loaded_)
-    all.push_back("model_file " + model_file_ + " is not there yet: starting with " + describe());
+    all.push_back("model_file " + model_file_ +
+                  (std::filesystem::exists(model_file_) ? " has no model of " + strut_ : " is not there yet") +
+                  ": starting with " + describe());
   if (loaded_)
     for (const ActiveMeasurementEffect& reading : loaded_->reading)
       all.push_back(model_file_ + ": " + reading.effect.name +
@@ -156,7 +166,11 @@ std::vector<std::string> LiveModel::missing() const {
 void LiveModel::save(StrutModel model) const {
   if (model_file_.empty()) throw std::runtime_error("no file to write to: set the parameter model_file");
   if (loaded_) model.reading = loaded_->reading;
-  TextFile(model_file_).commit(toYaml(model));
+  if (strut_.empty()) return TextFile(model_file_).commit(toYaml(model));
+  ModelsByStrut all;
+  if (std::filesystem::exists(model_file_)) all = readModelsFile(model_file_, library_);
+  all.insert_or_assign(strut_, model);
+  TextFile(model_file_).commit(toYaml(all));
 }
 
 }  // namespace suspension_health_monitor

@@ -19,9 +19,10 @@ class LiveModel {
   using Scale = std::function<std::optional<MotionScale>()>;
 
   /// Reads effects_file and model_file; a model_file that is not there yet holds nothing.
+  /// @param strut  whose model it is in a model_file of all struts of a vehicle; empty: the file has one model.
   /// The model has the file's effects and those of the option `effects`.
   /// @throws std::invalid_argument  naming option or file, the value, and what is allowed.
-  explicit LiveModel(const ShellOptions& options);
+  explicit LiveModel(const ShellOptions& options, const std::string& strut = {});
 
   const EffectLibrary& library() const { return library_; }
 
@@ -50,16 +51,19 @@ class LiveModel {
   /// @return the effects that the last diagnosis found and the model does not have.
   std::vector<std::string> missing() const;
 
-  /// Writes the model to model_file, whole or not at all.
+  /// Writes the model to model_file, whole or not at all; the models of other struts that it has stay.
   /// @param model  as it is now; faults of a reading stay as model_file has them.
   /// @throws std::runtime_error  naming the file that cannot be written, or the option that is not given.
+  /// @throws std::invalid_argument  if the file has become none that readModelsFile() takes.
   void save(StrutModel model) const;
 
  private:
+  std::optional<StrutModel> load() const;
   const ActiveEffect* known(const std::string& name) const;
   ActiveEffect make(const std::string& name, Shapes& given, const Scale& scale) const;
 
   std::string model_file_;
+  std::string strut_;  // in model_file_, if it has several
   EffectLibrary library_;
   std::optional<StrutModel> loaded_;
   std::vector<ActiveEffect> effects_;

@@ -9,14 +9,20 @@
 
 namespace suspension_health_monitor {
 
-LiveStrut::LiveStrut(const std::string& name, std::size_t place, const PipelineOptions& options, Vehicle vehicle)
+LiveStrut::LiveStrut(const std::string& name, std::size_t place, const PipelineOptions& options,
+                     const std::string& model_of, Vehicle vehicle)
     : name_(name),
       place_(place),
       options_(options),
       vehicle_(std::move(vehicle)),
-      model_(prefixed("struts/" + name + ": ", [&] { return LiveModel(options.shell); })),
+      model_(prefixed("struts/" + name + ": ", [&] { return LiveModel(options.shell, model_of); })),
       baseline_(prefixed("struts/" + name + ": ", [&] { return LiveBaseline(options); })),
-      diagnostics_(options.shell.input_timeout, model_) {}
+      diagnostics_(options.shell.input_timeout, model_, vehicle_.silent_topics) {}
+
+LiveStrut::~LiveStrut() {
+  diagnose_.reset();
+  reset_.shutdown();
+}
 
 void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   for (const std::string& remark : model_.remarks()) ROS_WARN("%s: %s", name_.c_str(), remark.c_str());
@@ -25,6 +31,8 @@ void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& privat
   publishModel();
   updater_.emplace(node, private_node, own.getNamespace());
   updater_->setHardwareID(own.getNamespace().substr(1));
+  updater_->add("Input",
+                [this](diagnostic_updater::DiagnosticStatusWrapper& status) { vehicle_.describe_input(status); });
   diagnostics_.addTo(*updater_, [this](std::string& why_none) {
     why_none = vehicle_.why_none();
     return monitor();
@@ -44,6 +52,14 @@ void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& privat
                                            publishModel();
                                            publishDiagnostics();
                                          }});
+  diagnose_.emplace(own, *vehicle_.queue, vehicle_.search);
+  reset_ = own.advertiseService("reset", &LiveStrut::onReset, this);
+}
+
+bool LiveStrut::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  response.success = true;
+  response.message = vehicle_.reset();
+  return true;
 }
 
 void LiveStrut::begin(VehicleMonitor& monitor) const {

@@ -2,12 +2,15 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+#include <suspension_health_monitor/Diagnose.h>
 
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "diagnose_service.h"
 #include "live_baseline.h"
 #include "live_model.h"
 #include "report_topics.h"
@@ -24,13 +27,20 @@ class LiveStrut {
   struct Vehicle {
     std::function<VehicleMonitor*()> monitor;  ///< nullptr: none yet
     std::function<std::vector<CornerSample>()> newest_samples;
-    std::function<std::string()> why_none;      ///< why the strut has no monitor
-    std::function<const std::string&()> frame;  ///< frame_id of the body's IMU
+    std::function<std::string()> why_none;  ///< why the strut has no monitor
+    StrutDiagnostics::FindSilent silent_topics;
+    std::function<const std::string&()> frame;                                         ///< frame_id of the body's IMU
+    std::function<void(diagnostic_updater::DiagnosticStatusWrapper&)> describe_input;  ///< of the strut's own sensors
+    ros::CallbackQueueInterface* queue;  ///< where all callbacks come from
+    DiagnoseService<Diagnose>::Prepare search;
+    std::function<std::string()> reset;  ///< of the whole vehicle; tells what it has done
   };
 
-  /// @param place  of the strut in the vehicle.
+  /// @param place  of the strut in the vehicle.  @param model_of  as VehicleOptions has it.
   /// @throws std::invalid_argument  as LiveModel and LiveBaseline, with the strut's name in front.
-  LiveStrut(const std::string& name, std::size_t place, const PipelineOptions& options, Vehicle vehicle);
+  LiveStrut(const std::string& name, std::size_t place, const PipelineOptions& options, const std::string& model_of,
+            Vehicle vehicle);
+  ~LiveStrut();
   LiveStrut(const LiveStrut&) = delete;
   LiveStrut& operator=(const LiveStrut&) = delete;
 
@@ -52,6 +62,7 @@ class LiveStrut {
   const std::string& name() const { return name_; }
 
  private:
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   const SuspensionMonitor* monitor() const;
   void keepBaseline();
 
@@ -64,6 +75,8 @@ class LiveStrut {
   StrutDiagnostics diagnostics_;
   std::optional<ReportTopics> reports_;
   std::optional<StrutServices> services_;
+  std::optional<DiagnoseService<Diagnose>> diagnose_;
+  ros::ServiceServer reset_;
   std::optional<diagnostic_updater::Updater> updater_;
 };
 

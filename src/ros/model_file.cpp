@@ -1,11 +1,17 @@
 #include "model_file.h"
 
+#include <sstream>
+#include <stdexcept>
+
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/model/user_effects.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr const char* kStruts = "struts";
 
 /// Calls take(settings) with what the file holds; what it leaves is refused.
 template <class Take>
@@ -18,10 +24,36 @@ auto takeFile(const std::string& path, const Take& take) {
   });
 }
 
+std::string indented(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, result;
+  while (std::getline(lines, line)) result += "    " + line + '\n';
+  return result;
+}
+
 }  // namespace
 
 StrutModel readModelFile(const std::string& path, const EffectLibrary& library) {
   return takeFile(path, [&](OptionMap& values) { return takeModel(values, library); });
+}
+
+ModelsByStrut readModelsFile(const std::string& path, const EffectLibrary& library) {
+  return takeFile(path, [&](OptionMap& values) {
+    ModelsByStrut models;
+    for (auto& [name, settings] : takeGroups(values, kStruts))
+      prefixed(name + ": ", [&, &strut = name, &its = settings] {
+        models.emplace(strut, takeModel(its, library));
+        refuseUnknown(its, {});
+      });
+    if (models.empty()) throw std::invalid_argument("struts are missing, must be struts: {NAME: {...}}");
+    return models;
+  });
+}
+
+std::string toYaml(const ModelsByStrut& models) {
+  std::string text = std::string(kStruts) + ":\n";
+  for (const auto& [name, model] : models) text += "  " + name + ":\n" + indented(toYaml(model));
+  return text;
 }
 
 EffectLibrary readEffectsFile(const std::string& path) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "suspension_health_monitor/effects.h"
@@ -11,6 +12,16 @@ namespace suspension_health_monitor {
 /// @param library  what the model may be made of.
 /// @throws std::invalid_argument  naming the file and what is wrong in it.
 StrutModel readModelFile(const std::string& path, const EffectLibrary& library);
+
+/// The models of a vehicle's struts, by name.
+using ModelsByStrut = std::map<std::string, StrutModel>;
+
+/// Reads `struts: {NAME: {a model as above}}`, as `suspension_bag diagnose --vehicle -o` writes it.
+/// @throws std::invalid_argument  likewise.
+ModelsByStrut readModelsFile(const std::string& path, const EffectLibrary& library);
+
+/// @return the text of the file that readModelsFile() takes.
+std::string toYaml(const ModelsByStrut& models);
 
 /// Reads a user's own laws (model/user_effects.h).
 /// @param path  empty: there are none.

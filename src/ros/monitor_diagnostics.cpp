@@ -7,7 +7,9 @@ namespace suspension_health_monitor {
 MonitorDiagnostics::MonitorDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                        const std::string& name, const PipelineOptions& options,
                                        const std::array<std::string, 2>& topics, const LiveModel& model)
-    : input_(options.shell, topics), strut_(options.shell.input_timeout, model), updater_(node, private_node, name) {
+    : input_(options.shell, topics),
+      strut_(options.shell.input_timeout, model, [this] { return input_.silentTopics(); }),
+      updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Input", [this](Status& status) { input_.describe(*pipeline_, status); });
   strut_.addTo(updater_, [this](std::string& why_none) {

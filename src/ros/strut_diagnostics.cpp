@@ -23,6 +23,10 @@ void addJudgement(diagnostic_updater::DiagnosticStatusWrapper& status, const std
   if (change) status.addf(name + " change [%]", "%+.1f", 100.0 * *change);
 }
 
+std::string describeSilent(const std::vector<std::string>& topics) {
+  return topics.empty() ? "" : join(topics) + (topics.size() == 1 ? " is" : " are") + " silent";
+}
+
 }  // namespace
 
 void StrutDiagnostics::addTo(diagnostic_updater::Updater& updater, const Find& find) {
@@ -32,7 +36,7 @@ void StrutDiagnostics::addTo(diagnostic_updater::Updater& updater, const Find& f
       if (const SuspensionMonitor* monitor = find(why_none))
         (this->*describe)(*monitor, status);
       else
-        status.summary(DiagnosticStatus::STALE, why_none);
+        status.summary(DiagnosticStatus::STALE, join({why_none, describeSilent(silent_())}, "; "));
     });
   };
   add("Health", &StrutDiagnostics::describeHealth);
@@ -71,7 +75,7 @@ void StrutDiagnostics::describeSilence(const SuspensionMonitor& monitor, Status&
   if (samples != accepted_.samples || now < accepted_.at) accepted_ = {samples, now};
   const double silent = (now - accepted_.at).toSec();
   if (silent <= input_timeout_) return;
-  status.summary(DiagnosticStatus::STALE, describeNoReading(silent, status.message));
+  status.summary(DiagnosticStatus::STALE, describeNoReading(silent, silent_(), status.message));
 }
 
 void StrutDiagnostics::describeModel(const SuspensionMonitor& monitor, Status& status) {

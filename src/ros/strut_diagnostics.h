@@ -7,6 +7,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "live_model.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
@@ -19,8 +21,12 @@ class StrutDiagnostics {
   /// @return the strut's monitor; nullptr if there is none yet, and then why.
   using Find = std::function<const SuspensionMonitor*(std::string& why_none)>;
 
+  /// @return topics that the strut needs and that are silent while others go on.
+  using FindSilent = std::function<std::vector<std::string>()>;
+
   /// @param input_timeout  [s] as the option.  @param model  outlives this object.
-  StrutDiagnostics(double input_timeout, const LiveModel& model) : input_timeout_(input_timeout), model_(model) {}
+  StrutDiagnostics(double input_timeout, const LiveModel& model, FindSilent silent)
+      : input_timeout_(input_timeout), silent_(std::move(silent)), model_(model) {}
 
   /// Adds the tasks to an updater that does not outlive this object.
   void addTo(diagnostic_updater::Updater& updater, const Find& find);
@@ -43,6 +49,7 @@ class StrutDiagnostics {
   void describeDiagnosis(Status& status) const;
 
   double input_timeout_;
+  FindSilent silent_;
   Accepted accepted_;
   const LiveModel& model_;
   std::optional<HealthLevel> level_;

@@ -41,7 +41,8 @@ Diagnosis searchEffects(const SearchTask& task) {
   throw std::runtime_error(formatted("the last %.3g s ", span) + found.reason + ": drive on");
 }
 
-/// The answer of ~diagnose: the whole result as plain fields.
+}  // namespace
+
 DiagnoseResponse toResponse(const Diagnosis& found) {
   DiagnoseResponse response;
   response.success = true;
@@ -65,8 +66,6 @@ DiagnoseResponse toResponse(const Diagnosis& found) {
   if (found.extended) addExtended(found, response);
   return response;
 }
-
-}  // namespace
 
 double searchSpan(double window, double kept) {
   if (!(window >= 0.0 && window <= kept))

@@ -20,6 +20,9 @@ struct SearchTask {
 /// @throws std::invalid_argument  naming the window and what is allowed.
 double searchSpan(double window, double kept);
 
+/// The answer of ~diagnose: the whole result as plain fields.
+DiagnoseResponse toResponse(const Diagnosis& found);
+
 /// diagnose() as the work of ~diagnose.
 /// @param take  what is done with the result in the nodelet's queue.
 DiagnoseService<Diagnose>::Search searchOf(SearchTask task, std::function<void(const Diagnosis&)> take);

@@ -63,7 +63,7 @@ bool StrutServices::onSaveModel(std_srvs::Trigger::Request&, std_srvs::Trigger::
     model_.save({la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}});
     response.success = true;
     response.message = options_.model_file + ": " + model_.describe();
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     response.message = error.what();
   }
   return true;

@@ -19,7 +19,13 @@ class VehicleInput {
   /// @param topics  by VehicleStreams::sensors.
   VehicleInput(const ShellOptions& options, const VehicleStreams& streams, const std::vector<std::string>& topics);
 
-  void noteMessage(std::size_t sensor, const ros::Time& stamp) { sensors_[sensor].arrivals.note(stamp); }
+  void noteMessage(std::size_t sensor, const ros::Time& stamp) {
+    sensors_[sensor].arrivals.note(stamp);
+    silent_.note(sensor, stamp);
+  }
+
+  /// @return the topics that are silent while others go on.
+  std::vector<std::string> silentTopics() const { return silent_.names(); }
 
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
@@ -30,19 +36,31 @@ class VehicleInput {
   /// @param pipeline  nullptr: the positions of the struts are not known yet, and `missing` says why.
   void describe(const VehiclePipeline* pipeline, const std::string& missing, ImuArrivals::Status& status);
 
+  /// The same of a strut's own sensors alone, for its task Input.
+  void describeStrut(std::size_t strut, const VehiclePipeline* pipeline, const std::string& missing,
+                     ImuArrivals::Status& status);
+
  private:
   struct Sensor {
     std::string topic;
     std::optional<double> expected_rate;  // [Hz]
     ImuArrivals arrivals;
-    RejectHistory rejected;
+    RejectHistory told_of_vehicle, told_of_strut;  // messages that were kept out, by task
   };
 
-  void summarize(const VehiclePipeline* pipeline, const std::string& missing, ImuArrivals::Status& status) const;
-  void describeSensor(Sensor& sensor, const VehiclePipeline& pipeline, std::size_t place, ImuArrivals::Status& status);
+  using Told = RejectHistory Sensor::*;
+
+  void summarize(const std::vector<std::size_t>& sensors, const VehiclePipeline* pipeline, const std::string& missing,
+                 ImuArrivals::Status& status) const;
+  void describeSensors(const std::vector<std::size_t>& sensors, const VehiclePipeline* pipeline, Told told,
+                       ImuArrivals::Status& status);
+  void describeSensor(std::size_t sensor, const VehiclePipeline& pipeline, Told told, ImuArrivals::Status& status);
 
   std::optional<double> max_lag_;  // [s]
   std::vector<Sensor> sensors_;
+  std::vector<std::size_t> all_sensors_;
+  std::vector<std::vector<std::size_t>> own_sensors_;  // by strut
+  SilentTopics silent_;
   std::string refusal_;
   SeriesHistory series_;
   ClockHistory clock_;

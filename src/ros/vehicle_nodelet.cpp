@@ -56,16 +56,30 @@ void VehicleNodelet::addStruts() {
     const std::optional<std::size_t>& sprung = streams_->channels.struts[i].sprung;
     const std::size_t stream = sprung ? *sprung : *streams_->channels.body_imu;
     body_imus_.push_back(streams_->options[stream].sensor);
-    struts_.push_back(std::make_unique<LiveStrut>(
-        options_.layout.struts[i].name, i, options_.struts[i],
-        LiveStrut::Vehicle{
-            [this] { return monitor(); },
-            [this, i] {
-              return pipeline_ ? pipeline_->newestSamples(options_.common.shell.diagnose_window).struts[i].samples
-                               : std::vector<CornerSample>{};
-            },
-            [this] { return whyNoMonitor(); }, [this, i]() -> const std::string& { return frameOf(i); }}));
+    struts_.push_back(std::make_unique<LiveStrut>(options_.layout.struts[i].name, i, options_.struts[i],
+                                                  options_.model_of[i], servedStrut(i)));
   }
+}
+
+LiveStrut::Vehicle VehicleNodelet::servedStrut(std::size_t i) {
+  LiveStrut::Vehicle vehicle;
+  vehicle.monitor = [this] { return monitor(); };
+  vehicle.newest_samples = [this, i] {
+    return pipeline_ ? pipeline_->newestSamples(options_.common.shell.diagnose_window).struts[i].samples
+                     : std::vector<CornerSample>{};
+  };
+  vehicle.why_none = [this] { return whyNoMonitor(); };
+  vehicle.silent_topics = [this] { return input_->silentTopics(); };
+  vehicle.frame = [this, i]() -> const std::string& { return frameOf(i); };
+  vehicle.describe_input = [this, i](ImuArrivals::Status& status) {
+    input_->describeStrut(i, pipeline_ ? &*pipeline_ : nullptr, missing_position_, status);
+  };
+  vehicle.queue = &thread_->queue();
+  vehicle.search = [this, i](double window) {
+    return searchOf(giveSamples(window), i, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
+  };
+  vehicle.reset = [this] { return reset(); };
+  return vehicle;
 }
 
 void VehicleNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
@@ -81,8 +95,9 @@ void VehicleNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   const std::string name = getName().substr(getName().find_first_not_of('/'));
   updater_.emplace(node, private_node, getName());
   updater_->setHardwareID(name);
-  updater_->add("Coupling",
-                [this](ImuArrivals::Status& status) { coupling_->describe(monitor(), whyNoMonitor(), status); });
+  updater_->add("Coupling", [this](ImuArrivals::Status& status) {
+    coupling_->describe(monitor(), whyNoMonitor(), places_, status);
+  });
   updater_->add("Input", [this](ImuArrivals::Status& status) {
     input_->describe(pipeline_ ? &*pipeline_ : nullptr, missing_position_, status);
   });
@@ -101,6 +116,7 @@ void VehicleNodelet::makePipeline() {
     missing_position_ = "waiting for body_imu, whose frame tells the struts' positions";
     return placeStruts();
   }
+  places_ = placesOf(options_.layout);
   pipeline_.emplace(options_, *streams_, &imus_->transforms(), pipelineSinks());
 }
 
@@ -114,6 +130,7 @@ void VehicleNodelet::placeStruts() {
     return;
   }
   for (VehicleLayout::Strut& strut : layout.struts) strut.frame.reset();
+  places_ = placesOf(layout);
   pipeline_.emplace(options_, VehicleStreams(layout), &imus_->transforms(), pipelineSinks());
 }
 
@@ -155,19 +172,23 @@ std::string VehicleNodelet::whyNoMonitor() const {
 
 void VehicleNodelet::onTick() {
   if (!pipeline_) placeStruts();
-  coupling_->publish(monitor(), whyNoMonitor(), pipeline_ ? toRosTime(pipeline_->newest()) : ros::Time());
+  coupling_->publish(monitor(), whyNoMonitor(), places_, pipeline_ ? toRosTime(pipeline_->newest()) : ros::Time());
   updater_->force_update();
   for (const auto& strut : struts_) strut->publishDiagnostics();
 }
 
-bool VehicleNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+std::string VehicleNodelet::reset() {
   makePipeline();
   for (const auto& strut : struts_) strut->publishModel();
   input_->restart();
   imus_->listen();
   forces_->listen();
+  return "estimates, coupling, filters and counters of the whole vehicle start anew";
+}
+
+bool VehicleNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   response.success = true;
-  response.message = "estimates, coupling, filters and counters start anew";
+  response.message = reset();
   return true;
 }
 

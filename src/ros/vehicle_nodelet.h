@@ -17,6 +17,7 @@
 #include "live_strut.h"
 #include "message_topics.h"
 #include "monitor_thread.h"
+#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
 #include "vehicle_input.h"
 #include "vehicle_options.h"
 #include "vehicle_pipeline.h"
@@ -38,6 +39,7 @@ class VehicleNodelet : public nodelet::Nodelet {
 
   void start(ros::NodeHandle node, ros::NodeHandle private_node);
   void addStruts();
+  LiveStrut::Vehicle servedStrut(std::size_t i);
   void makePipeline();
   void placeStruts();
   VehiclePipeline::Sinks pipelineSinks();
@@ -46,6 +48,7 @@ class VehicleNodelet : public nodelet::Nodelet {
   template <class Message>
   void onMessage(std::size_t sensor, const Message& message);
   void onTick();
+  std::string reset();
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   VehicleSearchTask giveSamples(double window) const;
   void takeDiagnosis(const VehicleDiagnosis& found);
@@ -60,6 +63,7 @@ class VehicleNodelet : public nodelet::Nodelet {
   std::optional<VehicleStreams> streams_;  // whose positions may not be known yet
   std::vector<std::size_t> body_imus_;     // by strut its body's IMU, in streams_->sensors
   std::string missing_position_;           // why there is no pipeline
+  StrutPlaces places_;                     // empty while they are not known
   std::optional<sensor_msgs::Imu> body_message_;
   std::optional<ImuTopics> imus_;
   std::optional<MessageTopics<geometry_msgs::WrenchStamped>> forces_;

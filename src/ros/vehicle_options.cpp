@@ -1,10 +1,12 @@
 #include "vehicle_options.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
+#include "model_file.h"
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -21,11 +23,24 @@ constexpr std::array kFileFields{
     FileField{"vehicle", "-", "YAML file that says which sensors the vehicle has", &FileSettings::vehicle},
 };
 
+/// Takes `vehicle/...` out of the settings.
+OptionMap takeSensors(OptionMap& values) {
+  const std::string start = "vehicle/";
+  OptionMap sensors;
+  for (auto entry = values.lower_bound(start);
+       entry != values.end() && entry->first.compare(0, start.size(), start) == 0; entry = values.erase(entry))
+    sensors.emplace(entry->first.substr(start.size()), entry->second);
+  return sensors;
+}
+
 VehicleLayout takeLayout(OptionMap& values) {
+  if (OptionMap sensors = takeSensors(values); !sensors.empty())
+    return prefixed("vehicle: ", [&] { return takeVehicle(sensors); });
   FileSettings file;
   takeOptions(values, kFileFields, file);
   if (file.vehicle.empty())
-    throw std::invalid_argument("vehicle is missing, must be the YAML file that says which sensors the vehicle has");
+    throw std::invalid_argument(
+        "vehicle is missing, must be the YAML file that says which sensors the vehicle has, or what it says");
   return prefixed("vehicle = ", [&] { return readVehicleFile(file.vehicle); });
 }
 
@@ -56,13 +71,25 @@ void requireOwnFiles(const VehicleOptions& options, const char* name, std::strin
   std::map<std::string, std::string> users;
   for (std::size_t i = 0; i < options.struts.size(); ++i) {
     const std::string& path = options.struts[i].shell.*file;
-    if (path.empty()) continue;
+    if (path.empty() || (file == &ShellOptions::model_file && !options.model_of[i].empty())) continue;
     const auto [other, is_first] = users.emplace(path, options.layout.struts[i].name);
     if (!is_first)
       throw std::invalid_argument(std::string(name) + " = \"" + path + "\" is the file of " + other->second +
                                   " and of " + options.layout.struts[i].name + ", must be one for each: struts/NAME/" +
                                   name);
   }
+}
+
+/// A file of all models is not to have one of a strut that is none.
+void requireItsStruts(const VehicleOptions& options) {
+  const ShellOptions& shell = options.common.shell;
+  if (shell.model_file.empty() || !std::filesystem::exists(shell.model_file)) return;
+  const std::vector<std::string> names = options.strutNames();
+  prefixed("model_file = ", [&] {
+    for (const auto& [name, model] : readModelsFile(shell.model_file, readEffectsFile(shell.effects_file)))
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        throw std::invalid_argument(shell.model_file + ": struts/" + name + ", must be one of " + join(names));
+  });
 }
 
 }  // namespace
@@ -79,6 +106,8 @@ VehicleOptions VehicleOptions::fromValues(VehicleLayout layout, OptionMap values
   options.common = PipelineOptions::fromValues(values);
   for (const std::string& strut : options.strutNames()) {
     options.struts.push_back(optionsOf(strut, values, own[strut]));
+    const bool is_of_all = own[strut].count("model_file") == 0 && !options.common.shell.model_file.empty();
+    options.model_of.push_back(is_of_all ? strut : "");
     own.erase(strut);
   }
   if (!own.empty())
@@ -86,6 +115,7 @@ VehicleOptions VehicleOptions::fromValues(VehicleLayout layout, OptionMap values
                                 join(options.strutNames()));
   requireOwnFiles(options, "baseline_file", &ShellOptions::baseline_file);
   requireOwnFiles(options, "model_file", &ShellOptions::model_file);
+  requireItsStruts(options);
   return options;
 }
 

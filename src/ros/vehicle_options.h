@@ -8,12 +8,14 @@
 
 namespace suspension_health_monitor {
 
-/// What VehicleNodelet is set to: `vehicle`, the file that says which sensors the vehicle has; the settings of
-/// config/monitor.yaml for all struts; and `struts/NAME/SETTING` where a strut differs.
+/// What VehicleNodelet is set to: `vehicle`, the file that says which sensors the vehicle has, or `vehicle/...`, what
+/// such a file says; the settings of config/monitor.yaml for all struts; and `struts/NAME/SETTING` where a strut
+/// differs. A `model_file` for all has the models of all, as `suspension_bag diagnose --vehicle -o` writes it.
 struct VehicleOptions {
   VehicleLayout layout;
   PipelineOptions common;
   std::vector<PipelineOptions> struts;  ///< by VehicleLayout::struts
+  std::vector<std::string> model_of;    ///< by strut LiveModel's `strut`: empty if its model_file is its own
 
   /// @throws std::invalid_argument  naming file, strut, option, value and what is allowed.
   static VehicleOptions fromValues(OptionMap values);

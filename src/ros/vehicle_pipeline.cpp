@@ -9,8 +9,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kSpacingsForPeriod = 50;
-constexpr std::uint64_t kInstantsForNoise = 512;
 constexpr double kMostKept = 4000000.0;  // samples of one strut, of 24 bytes each
 
 }  // namespace
@@ -21,8 +19,7 @@ VehiclePipeline::VehiclePipeline(const VehicleOptions& options, const VehicleStr
       streams_(streams),
       sinks_(std::move(sinks)),
       sensors_(streams, options.common.shell, transforms),
-      measurement_(kSpacingsForPeriod, std::vector<bool>(streams.sensors.size(), true)),
-      rejected_(streams.sensors.size()) {
+      early_(std::vector<bool>(streams.sensors.size(), true), StreamGrid::kMostWaiting) {
   if (options_.common.monitor.sample_period) start(*options_.common.monitor.sample_period);
 }
 
@@ -40,7 +37,7 @@ void VehiclePipeline::start(double period) {
   recent_.assign(settings.size(), RecentSamples(capacity));
   const std::size_t forces = streams_.channels.known_forces.size();
   if (forces > 0) recent_forces_.emplace(capacity);
-  monitor_.emplace(settings, sinks_.report, static_cast<int>(forces));
+  monitor_.emplace(settings, sinks_.report, static_cast<int>(forces), grid_->noise());
   sinks_.begin(*monitor_);
 }
 
@@ -54,35 +51,22 @@ void VehiclePipeline::push(std::size_t sensor, const geometry_msgs::WrenchStampe
 
 void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) {
   if (values.empty()) return;
-  if (monitor_)
-    grid_->push(sensor, stamp, values);
-  else
-    measurePeriod({sensor, stamp, values});
-}
-
-void VehiclePipeline::measurePeriod(Reading reading) {
-  RejectCounts& rejected = rejected_[reading.sensor];
-  const bool goes_back = measurement_.goesBack(reading.sensor, reading.stamp);
-  if (!measurement_.add(reading.sensor, reading.stamp))
-    return rejected.add(reading.stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp);
-  if (goes_back) return rejected.add(RejectReason::kTimeWentBack);
-  if (early_.size() == streams_.sensors.size() * StreamGrid::kMostWaiting) {  // one is silent
-    for (const Reading& each : early_) rejected_[each.sensor].add(RejectReason::kMissingPartner);
-    early_.clear();
-    measurement_ = PeriodMeasurement(kSpacingsForPeriod, std::vector<bool>(streams_.sensors.size(), true));
-  }
-  early_.push_back(std::move(reading));
-  const std::optional<double> period = measurement_.period();
+  if (monitor_) return grid_->push(sensor, stamp, values);
+  const std::optional<double> period = early_.add({sensor, stamp, values});
   if (!period) return;
   start(*period);
-  for (const Reading& each : std::exchange(early_, {})) grid_->push(each.sensor, each.stamp, each.values);
+  while (const auto reading = early_.next()) grid_->push(reading->stream, reading->stamp, reading->value);
+}
+
+void VehiclePipeline::finish() {
+  if (grid_) grid_->finish();
 }
 
 void VehiclePipeline::take(const VehicleSample& sample) {
   newest_ = sample.stamp;
-  if (grid_->numInstants() >= kInstantsForNoise && !knows_noise_) {
+  if (!has_heard_noise_ && grid_->hasHeardNoise()) {
     monitor_->setNoise(grid_->noise());
-    knows_noise_ = true;
+    has_heard_noise_ = true;
   }
   for (std::size_t i = 0; i < recent_.size(); ++i) recent_[i].push(sample.ofStrut(i));
   if (recent_forces_) recent_forces_->push({sample.stamp, sample.forces});
@@ -102,7 +86,7 @@ VehicleDrive VehiclePipeline::newestSamples(double span) const {
 
 RejectCounts VehiclePipeline::rejected(std::size_t sensor) const {
   RejectCounts all = sensors_.rejected(sensor);
-  all += rejected_[sensor];
+  all += early_.rejected(sensor);
   if (grid_) all += grid_->rejected(sensor);
   return all;
 }

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/signal/early_readings.h"
 #include "suspension_health_monitor/internal/signal/recent_samples.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
@@ -45,6 +45,9 @@ class VehiclePipeline {
   void push(std::size_t sensor, const sensor_msgs::Imu& message);
   void push(std::size_t sensor, const geometry_msgs::WrenchStamped& message);
 
+  /// After the last message of a recording.
+  void finish();
+
   /// @return nullptr while the sample period is being measured; so with the grid.
   VehicleMonitor* monitor() { return monitor_ ? &*monitor_ : nullptr; }
   const VehicleMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
@@ -62,12 +65,6 @@ class VehiclePipeline {
   RejectCounts rejected(std::size_t sensor) const;
 
  private:
-  struct Reading {
-    std::size_t sensor;
-    Stamp stamp;
-    std::vector<double> values;
-  };
-
   /// The known forces of a sample.
   struct Forces {
     Stamp stamp{};
@@ -75,7 +72,6 @@ class VehiclePipeline {
   };
 
   void push(std::size_t sensor, Stamp stamp, const std::vector<double>& values);
-  void measurePeriod(Reading reading);
   void start(double period);
   void take(const VehicleSample& sample);
 
@@ -83,13 +79,11 @@ class VehiclePipeline {
   VehicleStreams streams_;
   Sinks sinks_;
   VehicleSensors sensors_;
-  PeriodMeasurement measurement_;
-  std::vector<Reading> early_;          // that wait for the sample period
-  std::vector<RejectCounts> rejected_;  // by sensor, while it is being measured
+  EarlyReadings<std::vector<double>> early_;  // by sensor
   std::optional<double> period_;
   Stamp newest_{};
   std::optional<VehicleGrid> grid_;
-  bool knows_noise_ = false;
+  bool has_heard_noise_ = false;
   std::optional<VehicleMonitor> monitor_;
   std::vector<RecentSamples> recent_;            // by strut
   std::optional<Recent<Forces>> recent_forces_;  // if there are any

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "strut_search.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -35,6 +36,16 @@ DiagnoseVehicleResponse toResponse(const VehicleDiagnosis& found, const std::vec
   return response;
 }
 
+/// @throws std::runtime_error  in words for people, if there is nothing to be said of this strut.
+DiagnoseResponse answerFor(const VehicleDiagnosis& found, std::size_t strut) {
+  const Diagnosis& its = found.struts[strut];
+  if (!its) throw std::runtime_error("the drives " + its.reason + ": drive on");
+  DiagnoseResponse response = toResponse(its);
+  response.verdict = nameOf(found.verdictOn(strut));
+  response.selected = found.selected(strut);
+  return response;
+}
+
 }  // namespace
 
 DiagnoseService<DiagnoseVehicle>::Search searchOf(VehicleSearchTask task,
@@ -43,6 +54,15 @@ DiagnoseService<DiagnoseVehicle>::Search searchOf(VehicleSearchTask task,
     task.options.progress = progress;
     const auto found = std::make_shared<const VehicleDiagnosis>(searchEffects(task));
     return DiagnoseService<DiagnoseVehicle>::Outcome{toResponse(*found, task.struts), [take, found] { take(*found); }};
+  };
+}
+
+DiagnoseService<Diagnose>::Search searchOf(VehicleSearchTask task, std::size_t strut,
+                                           std::function<void(const VehicleDiagnosis&)> take) {
+  return [task = std::move(task), strut, take = std::move(take)](const SearchProgress& progress) mutable {
+    task.options.progress = progress;
+    const auto found = std::make_shared<const VehicleDiagnosis>(searchEffects(task));
+    return DiagnoseService<Diagnose>::Outcome{answerFor(*found, strut), [take, found] { take(*found); }};
   };
 }
 

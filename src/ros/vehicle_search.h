@@ -1,5 +1,6 @@
 #pragma once
 
+#include <suspension_health_monitor/Diagnose.h>
 #include <suspension_health_monitor/DiagnoseVehicle.h>
 
 #include <functional>
@@ -22,5 +23,9 @@ struct VehicleSearchTask {
 /// @param take  what is done with the result in the nodelet's queue.
 DiagnoseService<DiagnoseVehicle>::Search searchOf(VehicleSearchTask task,
                                                   std::function<void(const VehicleDiagnosis&)> take);
+
+/// The same as the work of a strut's own diagnose: all struts are searched, and the answer is about this one.
+DiagnoseService<Diagnose>::Search searchOf(VehicleSearchTask task, std::size_t strut,
+                                           std::function<void(const VehicleDiagnosis&)> take);
 
 }  // namespace suspension_health_monitor

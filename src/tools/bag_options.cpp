@@ -50,6 +50,7 @@ BagOptions readLiveOptions(const po::variables_map& values) {
   bags = readBags(values);
   bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
   if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
+  bags.not_needed = bags.topics.size() - 2;
   for (std::size_t i = 0; i < bags.topics.size(); ++i)
     if (bags.topics[i].empty())
       throw std::invalid_argument(std::string(kTopicOptions[i]) + " is empty, must be a topic");
@@ -99,11 +100,12 @@ std::optional<TextFile> outputFile(const po::variables_map& values, const char* 
   return std::optional<TextFile>(std::in_place, values[option].as<std::string>());
 }
 
-std::vector<Drive> readDrives(const BagOptions& options) {
+std::vector<Drive> readDrives(const BagOptions& options, TopicGaps& gaps) {
   std::vector<Drive> drives;
   for (const std::string& path : options.bags.paths) {
     ImuBags bag = options.bags;
     bag.paths = {path};
+    bag.gaps = &gaps;
     Drive& drive = drives.emplace_back();
     const auto take = [&](const CornerSample& sample) {
       drive.samples.push_back(sample);

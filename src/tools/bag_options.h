@@ -65,8 +65,9 @@ void addEffectsFile(boost::program_options::options_description& description);
 std::optional<TextFile> outputFile(const boost::program_options::variables_map& values, const char* option);
 
 /// Reads bags as drives, one each: both accelerations and what else the body's IMU measures.
+/// @param gaps  is told of all that is read.
 /// @throws InputError, TooLittleError  as readSamples().
-std::vector<Drive> readDrives(const BagOptions& options);
+std::vector<Drive> readDrives(const BagOptions& options, TopicGaps& gaps);
 
 /// Takes the settings of the command line over that the options of diagnose() and compare() share.
 template <class Options>

@@ -26,16 +26,21 @@ void compare(const Arguments& arguments) {
   CompareOptions comparing;
   takeSettings(options, models, comparing);
   comparing.fit = !models.model;
-  const std::vector<Drive> drives = readDrives(options);
+  TopicGaps gaps(options.pipeline.shell.input_timeout);
+  const std::vector<Drive> drives = readDrives(options, gaps);
   Comparison comparison;
   {
     Progress progress("comparing", 1.0);
     comparing.progress = [&](double share) { progress.update(share); };
     comparison = compare(drives, comparing);
   }
-  requireEnough(comparison.shortcoming, comparison.reason);
+  gaps.explain([&] { requireEnough(comparison.shortcoming, comparison.reason); });
+  gaps.print();
   printComparison(comparison);
-  if (json) json->commit(toJson(comparison).dump(2) + '\n');
+  if (!json) return;
+  nlohmann::json whole = toJson(comparison);
+  whole["silent"] = gaps.toJson();
+  json->commit(whole.dump(2) + '\n');
 }
 
 }  // namespace suspension_health_monitor

@@ -14,14 +14,16 @@ namespace suspension_health_monitor {
 void compareStruts(const boost::program_options::variables_map& values) {
   const Interruption interruption;
   std::optional<TextFile> file = outputFile(values, "json");
-  const AskedVehicle vehicle = readVehicle(values);
+  AskedVehicle vehicle = readVehicle(values);
   const KnownModels models = readModels(values, vehicle, readEffects(values));
   PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings);
+  TopicGaps gaps(settings.shell.input_timeout);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings, gaps);
   const SeparatedVehicle separated = separateVehicle(drives, vehicle.names, settings.monitor.sample_period, models);
-  requireCoupling(separated.coupling);
+  gaps.explain([&] { requireCoupling(separated.coupling); });
   printCoupling(separated.coupling, vehicle.names);
   nlohmann::json whole = toJson(separated.coupling, vehicle.names);
+  whole["silent"] = gaps.toJson();
   Progress progress("comparing", static_cast<double>(vehicle.asked.size()));
   double done = 0.0;
   for (const std::size_t i : vehicle.asked) {

@@ -43,16 +43,19 @@ void diagnose(const Arguments& arguments) {
   takeSettings(options, models, searching);
   searching.candidates = models.library;
   searching.threads = threads;
-  const std::vector<Drive> drives = readDrives(options);
+  TopicGaps gaps(options.pipeline.shell.input_timeout);
+  const std::vector<Drive> drives = readDrives(options, gaps);
   Progress progress("fitting", 1.0);
   searching.progress = [&](double share) { progress.update(share); };
   const Diagnosis found = diagnose(drives, searching);
-  requireEnough(found.shortcoming, found.reason);
+  gaps.explain([&] { requireEnough(found.shortcoming, found.reason); });
 
+  gaps.print();
   printSearch(found);
   for (const auto& [name, reason] : found.not_tried) std::printf("not tried: %s, %s\n", name.c_str(), reason.c_str());
   if (json) {
     nlohmann::json whole = toJson(found);
+    whole["silent"] = gaps.toJson();
     whole["not_tried"] = nlohmann::json::object();
     for (const auto& [name, reason] : found.not_tried) whole["not_tried"][name] = reason;
     json->commit(whole.dump(2) + '\n');

@@ -39,8 +39,9 @@ void print(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
   }
 }
 
-json toJson(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
+json toJson(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const TopicGaps& gaps) {
   json whole = toJson(found.coupling, vehicle.names);
+  whole["silent"] = gaps.toJson();
   whole["verdict"] = nameOf(found.verdict);
   whole["summary"] = found.summary;
   whole["selected"] = json::object();
@@ -64,7 +65,7 @@ KnownModels modelsOf(const VehicleDiagnosis& found) {
 
 void diagnoseStruts(const boost::program_options::variables_map& values) {
   const Interruption interruption;
-  const AskedVehicle vehicle = readVehicle(values);
+  AskedVehicle vehicle = readVehicle(values);
   DiagnoseOptions options;
   options.candidates = readEffects(values);
   options.threads = values["threads"].as<int>();
@@ -74,15 +75,16 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>(), vehicle);
 
   PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings);
+  TopicGaps gaps(settings.shell.input_timeout);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings, gaps);
   options.sample_period = settings.monitor.sample_period;
   options.horizon_samples = givenHorizon(settings);
   Progress progress("searching", 1.0);
   options.progress = [&](double share) { progress.update(share); };
   const VehicleDiagnosis found = diagnoseVehicle(drives, vehicle.names, options, models);
-  requireOne(found, vehicle);
+  gaps.explain([&] { requireOne(found, vehicle); });
   print(found, vehicle);
-  if (file) file->commit(toJson(found, vehicle).dump(2) + '\n');
+  if (file) file->commit(toJson(found, vehicle, gaps).dump(2) + '\n');
   if (model) model->commit(toYaml(modelsOf(found), vehicle));
   if (page) page->write(found, options, fileNames(values["bag"].as<std::vector<std::string>>()));
 }

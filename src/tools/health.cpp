@@ -39,7 +39,7 @@ class RecordedMonitor {
   /// @param row  called as HealthLog calls its sink, with what the strut is judged by then.
   RecordedMonitor(const BagOptions& options, const std::function<void(const HealthMoment&, const Baseline&)>& row)
       : baseline_(options.pipeline),
-        log_(fromSeconds(options.pipeline.shell.input_timeout),
+        log_(fromSeconds(options.pipeline.shell.input_timeout), {options.bags.topics[0], options.bags.topics[1]},
              [this, row](const HealthMoment& moment) { row(moment, pipeline_.strut().baseline()); }),
         pipeline_(
             options.pipeline, [this](const MonitorReport& report) { log_.addReport(report); },
@@ -49,7 +49,7 @@ class RecordedMonitor {
   }
 
   /// Reads one bag after the other.
-  /// @throws InputError, TooLittleError  as readImuMessages(), or if the bags hold too little for one estimate.
+  /// @throws InputError, TooLittleError  as readImuMessages().
   std::vector<HealthContent::Recording> read(const ImuBags& bags) {
     std::vector<HealthContent::Recording> recordings;
     for (const std::string& path : bags.paths) {
@@ -57,13 +57,12 @@ class RecordedMonitor {
       ImuBags bag = bags;
       bag.paths = {path};
       readImuMessages(bag, [&](Side side, const sensor_msgs::Imu& imu, Stamp recorded) {
-        if (side != Side::kRoad) log_.addReading(toStamp(imu.header.stamp), recorded);
+        if (side != Side::kRoad) log_.addReading(indexOf(side), toStamp(imu.header.stamp), recorded);
         pipeline_.push(side, imu);
         return true;
       });
       log_.finishRecording();
     }
-    requireEnough();
     return recordings;
   }
 
@@ -73,7 +72,7 @@ class RecordedMonitor {
   RejectCounts rejected() const { return pipeline_.rejected(); }
   bool hasBaselineOfFile() const { return baseline_.known().has_value(); }
 
- private:
+  /// @throws TooLittleError  if the bags hold too little for one estimate.
   void requireEnough() const {
     if (pipeline_.monitor() == nullptr)
       throw TooLittleError(
@@ -83,6 +82,7 @@ class RecordedMonitor {
     requireRows(monitor(), grid(), rejected());
   }
 
+ private:
   LiveBaseline baseline_;
   HealthLog log_;
   ImuPipeline pipeline_;
@@ -109,13 +109,19 @@ void health(const Arguments& arguments) {
   HealthFiles files(*values, {});
   RecordedMonitor recorded(options,
                            [&](const HealthMoment& moment, const Baseline& healthy) { files.add(0, moment, healthy); });
-  const std::vector<HealthContent::Recording> recordings = recorded.read(options.bags);
+  TopicGaps gaps(options.pipeline.shell.input_timeout);
+  ImuBags bags = options.bags;
+  bags.gaps = &gaps;
+  const std::vector<HealthContent::Recording> recordings = recorded.read(bags);
+  gaps.explain([&] { recorded.requireEnough(); });
 
   const SuspensionMonitor& monitor = recorded.monitor();
   const std::string reference =
       describeReference(monitor.baseline(), recorded.hasBaselineOfFile() ? options.pipeline.shell.baseline_file : "");
-  files.commit(toJson(recorded.log(), monitor),
-               {{recorded.log(), files.course(0), monitor, recordings, reference, ""}});
+  nlohmann::json whole = toJson(recorded.log(), monitor);
+  whole["silent"] = gaps.toJson();
+  files.commit(whole, {{recorded.log(), files.course(0), monitor, recordings, reference, ""}});
+  gaps.print();
   printInput(monitor, recorded.grid(), options, recorded.rejected());
   printHealth(recorded.log(), monitor, reference);
 }

@@ -3,9 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "../ros/conversions.h"
 #include "../ros/live_baseline.h"
 #include "../ros/live_model.h"
 #include "../ros/vehicle_options.h"
+#include "../ros/vehicle_pipeline.h"
+#include "bag_options.h"
 #include "command.h"
 #include "errors.h"
 #include "health_page.h"
@@ -18,6 +21,8 @@
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+#include "vehicle_bags.h"
 #include "vehicle_commands.h"
 #include "vehicle_tables.h"
 
@@ -46,9 +51,10 @@ std::vector<WatchedStrut> readWatched(const po::variables_map& values, const Ask
       if (given[i]) {
         its.shell.baseline_file = file;
         requireOneReference(its);
-        watched.push_back({LiveModel(its.shell), given[i], file});
+        watched.push_back({LiveModel(its.shell, options.model_of[i]), given[i], file});
       } else {
-        watched.push_back({LiveModel(its.shell), LiveBaseline(its).known(), its.shell.baseline_file});
+        watched.push_back(
+            {LiveModel(its.shell, options.model_of[i]), LiveBaseline(its).known(), its.shell.baseline_file});
       }
     });
   }
@@ -59,81 +65,119 @@ std::vector<WatchedStrut> readWatched(const po::variables_map& values, const Ask
 class WatchedVehicle {
  public:
   /// @param row  called as HealthLog calls its sink, with what the strut is judged by then.
-  WatchedVehicle(const VehicleOptions& options, const std::vector<WatchedStrut>& watched, const VehicleDrive& first,
+  WatchedVehicle(const VehicleOptions& options, const VehicleStreams& streams, const std::vector<WatchedStrut>& watched,
+                 const tf2::BufferCore* transforms,
                  const std::function<void(std::size_t strut, const HealthMoment&, const Baseline&)>& row)
-      : monitor_(
-            settingsOf(options),
-            [this](std::size_t strut, const MonitorReport& report) { logs_[strut].addReport(report); },
-            static_cast<int>(first.forces.size())) {
-    monitor_.setNoise(noiseOf(first));
-    for (std::size_t i = 0; i < watched.size(); ++i) {
-      const LiveModel& model = watched[i].model;
-      monitor_.setEffects(i, model.effects(), model.strutFor(model.effects()));
-      if (watched[i].healthy) monitor_.setBaseline(i, *watched[i].healthy);
-      logs_.emplace_back(fromSeconds(options.common.shell.input_timeout), [this, i, row](const HealthMoment& moment) {
-        row(i, moment, monitor_.isCoupled() ? monitor_.strut(i)->baseline() : Baseline{});
-      });
-    }
+      : watched_(watched),
+        topics_(topicsOf(streams)),
+        pipeline_(options, streams, transforms,
+                  {[this](VehicleMonitor& monitor) { begin(monitor); },
+                   [this](std::size_t strut, const MonitorReport& report) { logs_[strut].addReport(report); }}) {
+    for (std::size_t i = 0; i < watched.size(); ++i)
+      logs_.emplace_back(fromSeconds(options.common.shell.input_timeout), topics_,
+                         [this, i, row](const HealthMoment& moment) { row(i, moment, baselineOf(i)); });
   }
   WatchedVehicle(const WatchedVehicle&) = delete;  // its sinks refer to it
   WatchedVehicle& operator=(const WatchedVehicle&) = delete;
 
-  /// Takes in the drives, one after the other.
+  /// Reads one bag after the other.
   /// @return the time elapsed when each begins.
-  /// @throws TooLittleError  if they do not tell how the struts move one another.
-  std::vector<Stamp> read(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names) {
+  std::vector<Stamp> read(const ImuBags& bags) {
     std::vector<Stamp> begins;
-    for (const VehicleDrive& drive : drives) {
+    const auto take = [this](std::size_t sensor, const auto& message, Stamp recorded) {
+      for (HealthLog& log : logs_) log.addReading(sensor, toStamp(message.header.stamp), recorded);
+      pipeline_.push(sensor, message);
+      return true;
+    };
+    for (const std::string& path : bags.paths) {
       begins.push_back(logs_.front().elapsed());
-      for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) {
-        const VehicleSample sample = sampleOf(drive, k);
-        for (HealthLog& log : logs_) log.addReading(sample.stamp, sample.stamp);
-        monitor_.addSample(sample);
-        Interruption::check();
-      }
+      ImuBags bag = bags;
+      bag.paths = {path};
+      readTopics(bag, {take, take});
+      pipeline_.finish();
       for (HealthLog& log : logs_) log.finishRecording();
     }
-    if (!monitor_.isCoupled()) throw TooLittleError("the drives " + reasonOf(monitor_.estimate(), names));
     return begins;
   }
 
-  const VehicleMonitor& monitor() const { return monitor_; }
+  /// Tells people what the bags hold.
+  void printInput() const {
+    if (pipeline_.monitor() == nullptr) return;
+    std::printf("sample period %.6g s\n%llu samples of %zu struts, readings %s\n", *pipeline_.period(),
+                static_cast<unsigned long long>(pipeline_.grid()->numInstants()), logs_.size(),
+                pipeline_.grid()->streams().describeAlignment().c_str());
+    const std::string leans = describe(pipeline_.grid()->bodyLevel());
+    if (!leans.empty()) std::printf("%s\n", leans.c_str());
+    for (std::size_t i = 0; i < topics_.size(); ++i) printRejected(topics_[i], pipeline_.rejected(i));
+  }
+
+  /// @throws TooLittleError  if the drives do not tell how the struts move one another.
+  void requireCoupling(const std::vector<std::string>& names) const {
+    const VehicleMonitor* monitor = pipeline_.monitor();
+    if (monitor == nullptr)
+      throw TooLittleError("the sample period cannot be measured: too few readings with increasing stamps on one of " +
+                           join(topics_));
+    if (!monitor->isCoupled()) throw TooLittleError("the drives " + reasonOf(monitor->estimate(), names));
+  }
+
+  const VehicleMonitor& monitor() const { return *pipeline_.monitor(); }
   const HealthLog& log(std::size_t strut) const { return logs_[strut]; }
 
  private:
-  static std::vector<MonitorSettings> settingsOf(const VehicleOptions& options) {
-    std::vector<MonitorSettings> settings;
-    for (const PipelineOptions& strut : options.struts) settings.emplace_back(strut.monitor);
-    return settings;
+  static std::vector<std::string> topicsOf(const VehicleStreams& streams) {
+    std::vector<std::string> topics;
+    for (const VehicleStreams::Sensor& sensor : streams.sensors) topics.push_back(sensor.topic);
+    return topics;
   }
 
+  void begin(VehicleMonitor& monitor) const {
+    for (std::size_t i = 0; i < watched_.size(); ++i) {
+      const LiveModel& model = watched_[i].model;
+      monitor.setEffects(i, model.effects(), model.strutFor(model.effects()));
+      if (watched_[i].healthy) monitor.setBaseline(i, *watched_[i].healthy);
+    }
+  }
+
+  Baseline baselineOf(std::size_t strut) const {
+    const VehicleMonitor* monitor = pipeline_.monitor();
+    return monitor != nullptr && monitor->isCoupled() ? monitor->strut(strut)->baseline() : Baseline{};
+  }
+
+  const std::vector<WatchedStrut>& watched_;
+  std::vector<std::string> topics_;
   std::vector<HealthLog> logs_;
-  VehicleMonitor monitor_;
+  VehiclePipeline pipeline_;
 };
 
 }  // namespace
 
 void watchStruts(const po::variables_map& values) {
   const Interruption interruption;
-  const AskedVehicle vehicle = readVehicle(values);
+  AskedVehicle vehicle = readVehicle(values);
   VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
   const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
   HealthFiles files(values, vehicle.only ? std::vector<std::string>{} : vehicle.names);
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, options.common);
-  for (PipelineOptions& strut : options.struts) strut.monitor.sample_period = options.common.monitor.sample_period;
+  TopicGaps gaps(options.common.shell.input_timeout);
+  ImuBags bags = readBags(values);
+  if (!options.common.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+  const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
+  bags.gaps = &gaps;
   const auto placeInFiles = [&](std::size_t strut) { return vehicle.only ? 0 : strut; };
-  WatchedVehicle recorded(options, watched, drives.front(),
+  WatchedVehicle recorded(options, streams, watched, bags.transforms.get(),
                           [&](std::size_t strut, const HealthMoment& moment, const Baseline& healthy) {
                             if (!vehicle.only || *vehicle.only == strut)
                               files.add(placeInFiles(strut), moment, healthy);
                           });
-  const std::vector<Stamp> begins = recorded.read(drives, vehicle.names);
+  const std::vector<Stamp> begins = recorded.read(bags);
+  recorded.printInput();
+  gaps.print();
+  gaps.explain([&] { recorded.requireCoupling(vehicle.names); });
 
   std::vector<HealthContent::Recording> recordings;
-  for (const std::string& name : fileNames(values["bag"].as<std::vector<std::string>>()))
-    recordings.push_back({name, begins[recordings.size()]});
+  for (const std::string& name : fileNames(bags.paths)) recordings.push_back({name, begins[recordings.size()]});
   nlohmann::json whole =
-      toJson(describe(*recorded.monitor().coupling(), vehicle.names, forceNames(drives.front())), vehicle.names);
+      toJson(describe(*recorded.monitor().coupling(), vehicle.names, options.forceNames()), vehicle.names);
+  whole["silent"] = gaps.toJson();
   std::vector<HealthContent> contents;
   for (const std::size_t i : vehicle.asked) {
     const SuspensionMonitor& strut = *recorded.monitor().strut(i);

@@ -57,7 +57,7 @@ nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut)
 }
 
 void writeJson(std::FILE* out, const DriveIdentification& identification, const IdentifyResult& found,
-               const RejectCounts& counts) {
+               const RejectCounts& counts, const TopicGaps& gaps) {
   const SuspensionMonitor& monitor = identification.monitor();
   nlohmann::json rejected = nlohmann::json::object();
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
@@ -69,6 +69,7 @@ void writeJson(std::FILE* out, const DriveIdentification& identification, const 
                         {"alignment", identification.grid().describeAlignment()},
                         {"bridged", identification.grid().bridged()},
                         {"rejected", rejected},
+                        {"silent", gaps.toJson()},
                         {"sample_period", found.sample_period},
                         {"mean_period", monitor.input().mean_period},
                         {"warnings", found.warnings},
@@ -119,21 +120,25 @@ void identify(const Arguments& arguments) {
   });
   identification.setEffects(model.effects());
   StrutSensors sensors(pipeline.shell, options.bags.transforms.get());
-  readImuMessages(options.bags, [&](Side side, const sensor_msgs::Imu& imu) {
+  TopicGaps gaps(pipeline.shell.input_timeout);
+  ImuBags bags = options.bags;
+  bags.gaps = &gaps;
+  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
     if (const auto acceleration = sensors.read(side, imu))
       identification.push(side, toStamp(imu.header.stamp), *acceleration);
     return true;
   });
   RejectCounts rejected = sensors.rejected();
   rejected += identification.rejected();
-  requireRows(identification.monitor(), identification.grid(), rejected);
+  gaps.explain([&] { requireRows(identification.monitor(), identification.grid(), rejected); });
   table.finish();
 
   const IdentifyResult result = identification.result();
-  if (json) writeJson(json->stream(), identification, result, rejected);
+  if (json) writeJson(json->stream(), identification, result, rejected, gaps);
   if (json) json->commit();
   if (csv) csv->commit();
   const SuspensionMonitor& monitor = identification.monitor();
+  gaps.print();
   printInput(monitor, identification.grid(), options, rejected);
   printTable(digest.reports());
   std::printf("\nat the end, over the last %.0f rows:\n", result.la.rows);

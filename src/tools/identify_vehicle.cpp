@@ -30,9 +30,10 @@ nlohmann::json toJson(const IdentifyResult& found) {
 void identifyStruts(const boost::program_options::variables_map& values) {
   const Interruption interruption;
   std::optional<TextFile> file = outputFile(values, "json"), csv = outputFile(values, "csv");
-  const AskedVehicle vehicle = readVehicle(values);
+  AskedVehicle vehicle = readVehicle(values);
   PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings);
+  TopicGaps gaps(settings.shell.input_timeout);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings, gaps);
   IdentifyOptions options;
   options.sample_period = settings.monitor.sample_period;
   options.horizon_samples = givenHorizon(settings);
@@ -49,9 +50,15 @@ void identifyStruts(const boost::program_options::variables_map& values) {
         rows[last = strut].add(report);
       });
   rows[last].finish();
-  requireCoupling(found.coupling);
+  gaps.explain([&] { requireCoupling(found.coupling); });
   printCoupling(found.coupling, vehicle.names);
   nlohmann::json whole = toJson(found.coupling, vehicle.names);
+  whole["silent"] = gaps.toJson();
+  if (vehicle.names.size() > 1) {
+    const BodyInertiaResult body = bodyOf(found.coupling, placesOf(vehicle.layout));
+    printBody(body);
+    whole["body"] = toJson(body);
+  }
   for (const std::size_t i : vehicle.asked) {
     const IdentifyResult& strut = found.struts[i];
     std::printf("\n%s, at the end, over the last %.0f rows:\n", vehicle.names[i].c_str(), strut.la.rows);

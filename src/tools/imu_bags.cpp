@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "../ros/conversions.h"
 #include "bag_file.h"
 #include "errors.h"
 #include "long_work.h"
@@ -105,7 +106,12 @@ bool isLater(const OpenChunk& a, const OpenChunk& b) {
 class Delivery {
  public:
   Delivery(BagFile& file, const ImuBags& bags, const Range& range, const TopicSinks& take)
-      : file_(file), places_(findPlaces(file, bags)), num_imus_(bags.topics.size()), range_(range), take_(take) {}
+      : file_(file),
+        places_(findPlaces(file, bags)),
+        num_imus_(bags.topics.size()),
+        range_(range),
+        take_(take),
+        gaps_(bags.gaps) {}
 
   void open(const BagChunk& chunk) {
     file_.read(chunk, spare_);
@@ -146,6 +152,7 @@ class Delivery {
   bool deliver(const BagMessage& message, std::size_t place, Message& decoded,
                const std::function<bool(std::size_t, const Message&, Stamp)>& take) {
     decode(file_, message, "", decoded);
+    if (gaps_ != nullptr) gaps_->note(place, toStamp(decoded.header.stamp));
     return take(place, decoded, Stamp(static_cast<Stamp::rep>(message.time)));
   }
 
@@ -154,6 +161,7 @@ class Delivery {
   std::size_t num_imus_;
   Range range_;
   const TopicSinks& take_;
+  TopicGaps* gaps_;
   std::vector<OpenChunk> open_;  // a heap
   ChunkContents spare_;          // storage of a chunk that is done
   sensor_msgs::Imu imu_;
@@ -175,6 +183,13 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
     delivery.open(chunk);
   }
   return delivery.deliverBefore(std::numeric_limits<std::uint64_t>::max());
+}
+
+std::vector<std::string> neededTopics(const ImuBags& bags) {
+  std::vector<std::string> topics(bags.topics.begin(),
+                                  bags.topics.end() - static_cast<std::ptrdiff_t>(bags.not_needed));
+  topics.insert(topics.end(), bags.wrench_topics.begin(), bags.wrench_topics.end());
+  return topics;
 }
 
 }  // namespace
@@ -200,7 +215,10 @@ void readTopics(const ImuBags& bags, const TopicSinks& take) {
   for (const std::string& path : bags.paths) {
     BagFile file(path);
     if (file.chunks().empty()) throw TooLittleError(path + ": the bag holds no messages");
-    if (!readBag(file, bags, take)) return;
+    if (bags.gaps != nullptr) bags.gaps->beginBag(path, neededTopics(bags));
+    const bool goes_on = readBag(file, bags, take);
+    if (bags.gaps != nullptr) bags.gaps->finishBag();
+    if (!goes_on) return;
   }
 }
 

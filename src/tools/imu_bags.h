@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "topic_gaps.h"
 
 namespace suspension_health_monitor {
 
@@ -35,6 +36,9 @@ struct ImuBags {
     double interval = 0.0, length = 0.0;
   };
   std::optional<Stretches> stretches;
+
+  TopicGaps* gaps = nullptr;   ///< told of all that is read, if it is given; outlives the reading
+  std::size_t not_needed = 0;  ///< of `topics` so many, the last: their silence is none
 };
 
 /// @return time that the bags span, the part of each that is to be read, by their tables of contents [s].

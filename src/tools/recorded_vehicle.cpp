@@ -55,23 +55,27 @@ AskedVehicle readVehicle(const po::variables_map& values) {
   return vehicle;
 }
 
-std::vector<VehicleDrive> readDrives(const po::variables_map& values, const AskedVehicle& vehicle,
-                                     PipelineOptions& options) {
+std::vector<VehicleDrive> readDrives(const po::variables_map& values, AskedVehicle& vehicle, PipelineOptions& options,
+                                     TopicGaps& gaps) {
   ImuBags bags = readBags(values);
   if (!options.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
-  std::vector<VehicleBag> read = readVehicleDrives(bags, options, vehicle.layout);
+  std::vector<VehicleBag> read = readVehicleDrives(bags, options, vehicle.layout, gaps);
   std::printf("sample period %.6g s\n", *options.monitor.sample_period);
   std::vector<VehicleDrive> drives;
   for (VehicleBag& bag : read) {
     const StrutDrives& struts = bag.drive.struts;
     std::printf("%zu samples of %zu struts, readings %s\n", struts.front().samples.size(), struts.size(),
                 bag.alignment.c_str());
-    for (const VehicleBag::Sensor& sensor : bag.sensors)
-      if (sensor.rejected.total() > 0)
-        std::printf("%s%s\n", sensor.topic.c_str(), describeRejected(sensor.rejected).c_str());
+    if (!bag.body_level.empty()) std::printf("%s\n", bag.body_level.c_str());
+    for (const VehicleBag::Sensor& sensor : bag.sensors) printRejected(sensor.topic, sensor.rejected);
     drives.push_back(std::move(bag.drive));
   }
+  gaps.print();
   return drives;
+}
+
+void printRejected(const std::string& topic, const RejectCounts& rejected) {
+  if (rejected.total() > 0) std::printf("%s%s\n", topic.c_str(), describeRejected(rejected).c_str());
 }
 
 std::optional<int> givenHorizon(const PipelineOptions& options) {

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "../ros/shell_options.h"
+#include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 #include "suspension_health_monitor/vehicle.h"
+#include "topic_gaps.h"
 
 namespace suspension_health_monitor {
 
@@ -29,11 +31,15 @@ void refuseBesideVehicle(const boost::program_options::variables_map& values,
 /// @throws std::invalid_argument  as readVehicleFile(), for topics of one strut, and for a strut that is none of it.
 AskedVehicle readVehicle(const boost::program_options::variables_map& values);
 
-/// Reads all bags as drives of the vehicle, and tells people what they hold.
+/// Reads all bags as drives of the vehicle, and tells people what they hold and which topics were silent.
+/// @param vehicle  whose struts with a frame get their position.
 /// @param options  without a sample_period it is measured and set.
 /// @throws InputError, TooLittleError, std::invalid_argument  as readVehicleDrives().
-std::vector<VehicleDrive> readDrives(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
-                                    PipelineOptions& options);
+std::vector<VehicleDrive> readDrives(const boost::program_options::variables_map& values, AskedVehicle& vehicle,
+                                     PipelineOptions& options, TopicGaps& gaps);
+
+/// Tells people what became of the messages of the sensors that were kept out.
+void printRejected(const std::string& topic, const RejectCounts& rejected);
 
 /// @return L, if the settings give the horizon.
 std::optional<int> givenHorizon(const PipelineOptions& options);

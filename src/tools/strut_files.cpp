@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 #include "../ros/live_baseline.h"
+#include "../ros/model_file.h"
 #include "../ros/yaml_settings.h"
 #include "bag_options.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
@@ -50,13 +50,6 @@ auto readByStrut(const std::string& path, const AskedVehicle& vehicle, const Tak
   return taken;
 }
 
-std::string indented(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line, result;
-  while (std::getline(lines, line)) result += "    " + line + '\n';
-  return result;
-}
-
 }  // namespace
 
 KnownModels readModels(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
@@ -75,10 +68,10 @@ std::vector<std::optional<Baseline>> readBaselines(const std::string& path, cons
 
 std::string toYaml(const KnownModels& models, const AskedVehicle& vehicle) {
   if (vehicle.only) return toYaml(*models[*vehicle.only]);
-  std::string text = std::string(kStruts) + ":\n";
+  ModelsByStrut by_name;
   for (std::size_t i = 0; i < models.size(); ++i)
-    if (models[i]) text += "  " + vehicle.names[i] + ":\n" + indented(toYaml(*models[i]));
-  return text;
+    if (models[i]) by_name.emplace(vehicle.names[i], *models[i]);
+  return toYaml(by_name);
 }
 
 }  // namespace suspension_health_monitor

@@ -9,6 +9,7 @@
 #include "errors.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -74,7 +75,9 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
     return true;
   };
   readTopics(bag, {take, take});
+  grid.finish();
   read.drive.noise = grid.noise();
+  read.body_level = describe(grid.bodyLevel());
   read.alignment = grid.streams().describeAlignment();
   for (std::size_t i = 0; i < streams.sensors.size(); ++i) {
     RejectCounts rejected = sensors.rejected(i);
@@ -86,15 +89,22 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
 
 }  // namespace
 
-std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout layout) {
+VehicleStreams streamsOf(ImuBags& bags, const PipelineOptions& options, VehicleLayout& layout) {
   place(layout, bags, options);
-  const VehicleStreams streams(layout);
+  VehicleStreams streams(layout);
   takeTopics(streams, bags);
+  return streams;
+}
+
+std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout& layout,
+                                          TopicGaps& gaps) {
+  const VehicleStreams streams = streamsOf(bags, options, layout);
   if (!options.monitor.sample_period) options.monitor.sample_period = measurePeriod(bags);
   std::vector<VehicleBag> drives;
   for (const std::string& path : bags.paths) {
     ImuBags bag = bags;
     bag.paths = {path};
+    bag.gaps = &gaps;
     drives.push_back(readBag(bag, options, layout, streams));
   }
   return drives;

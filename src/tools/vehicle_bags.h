@@ -7,6 +7,7 @@
 #include "imu_bags.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
@@ -15,7 +16,8 @@ namespace suspension_health_monitor {
 struct VehicleBag {
   /// By VehicleLayout::struts z'' at the strut's top and w'', by VehicleLayout::known_forces the forces.
   VehicleDrive drive;
-  std::string alignment;  ///< StreamGrid::describeAlignment()
+  std::string alignment;   ///< StreamGrid::describeAlignment()
+  std::string body_level;  ///< how the body's IMU is turned, in words; empty if it is upright
   /// What became of one sensor's messages.
   struct Sensor {
     std::string topic;
@@ -25,12 +27,22 @@ struct VehicleBag {
   std::vector<Sensor> sensors;  ///< by VehicleStreams::sensors
 };
 
+/// The sensors of a vehicle as bags have them.
+/// @param bags  whose topics become those of the streams, in their order.
+/// @param layout  whose struts with a frame get their position, by the static transforms of the bags.
+/// @throws InputError, TooLittleError  as readTopics().
+/// @throws std::invalid_argument  if a frame has no static transform.
+VehicleStreams streamsOf(ImuBags& bags, const PipelineOptions& options, VehicleLayout& layout);
+
 /// Reads bags as drives of a vehicle, one each: all sensors on one grid, the strut tops told by their own IMUs or by
 /// that of the body.
 /// @param bags  whose topics are taken from the layout; the static transforms are read if the layout has frames.
 /// @param options  without a sample_period it is measured and set.
+/// @param layout  as streamsOf().
+/// @param gaps  is told of all that is read.
 /// @throws InputError, TooLittleError  as readTopics().
 /// @throws std::invalid_argument  if a frame has no static transform.
-std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout layout);
+std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout& layout,
+                                          TopicGaps& gaps);
 
 }  // namespace suspension_health_monitor

@@ -41,6 +41,13 @@ json barsJson(const VehicleCoupling& coupling) {
   return bars;
 }
 
+json forcesJson(const VehicleCoupling& coupling) {
+  json forces = json::array();
+  for (const KnownForceCoefficients& force : coupling.forces)
+    forces.push_back({{"name", force.name}, {"coefficients", force.values}, {"stddevs", force.stddevs}});
+  return forces;
+}
+
 /// The struts that bars tie one to.
 std::vector<std::string> partnersOf(std::size_t place, const VehicleCoupling& coupling,
                                     const std::vector<std::string>& names) {
@@ -92,7 +99,8 @@ void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& op
                                              {"ratios", found.coupling.ratios},
                                              {"stddevs", found.coupling.stddevs},
                                              {"condition", found.coupling.condition},
-                                             {"anti_roll_bars", barsJson(found.coupling)}}));
+                                             {"anti_roll_bars", barsJson(found.coupling)},
+                                             {"known_forces", forcesJson(found.coupling)}}));
 }
 
 }  // namespace suspension_health_monitor

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "errors.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -80,6 +81,41 @@ json toJson(const VehicleCoupling& coupling, const std::vector<std::string>& nam
           {"anti_roll_bars", barsJson(coupling, names)},
           {"known_forces", forcesJson(coupling, names)},
           {"condition", coupling.condition}};
+}
+
+BodyInertiaResult bodyOf(const VehicleCoupling& coupling, const StrutPlaces& places) {
+  const auto matrixOf = [](const std::vector<std::vector<double>>& rows) {
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd matrix(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      matrix.row(i) = Eigen::Map<const Eigen::RowVectorXd>(rows[static_cast<std::size_t>(i)].data(), n);
+    return matrix;
+  };
+  return bodyInertia(matrixOf(coupling.ratios), matrixOf(coupling.stddevs), places);
+}
+
+void printBody(const BodyInertiaResult& found) {
+  if (!found.body) {
+    std::printf("%s\n", describe(found.doubt).c_str());
+    return;
+  }
+  const BodyInertia& body = *found.body;
+  std::printf(
+      "M/Iyy %.4g +- %.2g 1/m^2, M/Ixx %.4g +- %.2g 1/m^2, centre of gravity %.3g +- %.2g m ahead and %.3g +- %.2g m "
+      "to the left of where positions count from\n",
+      body.mass_to_pitch_inertia.value, body.mass_to_pitch_inertia.stddev, body.mass_to_roll_inertia.value,
+      body.mass_to_roll_inertia.stddev, body.x.value, body.x.stddev, body.y.value, body.y.stddev);
+}
+
+json toJson(const BodyInertiaResult& found) {
+  if (!found.body) return {{"reason", describe(found.doubt)}};
+  const BodyInertia& body = *found.body;
+  return {{"mass_to_pitch_inertia", body.mass_to_pitch_inertia.value},
+          {"mass_to_pitch_inertia_stddev", body.mass_to_pitch_inertia.stddev},
+          {"mass_to_roll_inertia", body.mass_to_roll_inertia.value},
+          {"mass_to_roll_inertia_stddev", body.mass_to_roll_inertia.stddev},
+          {"centre_of_gravity", {body.x.value, body.y.value}},
+          {"centre_of_gravity_stddev", {body.x.stddev, body.y.stddev}}};
 }
 
 }  // namespace suspension_health_monitor

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
@@ -16,5 +17,13 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
 
 /// The same for programs, with `struts` to be filled.
 nlohmann::json toJson(const VehicleCoupling& coupling, const std::vector<std::string>& names);
+
+/// @param places  of the struts; empty: not known.
+/// @return how the body's mass is spread, by the ratios.
+BodyInertiaResult bodyOf(const VehicleCoupling& coupling, const StrutPlaces& places);
+
+/// The same for people and for programs.
+void printBody(const BodyInertiaResult& found);
+nlohmann::json toJson(const BodyInertiaResult& found);
 
 }  // namespace suspension_health_monitor

@@ -185,11 +185,12 @@ def page_of(program, tmp_path_factory):
     before, findings, after = re.fullmatch(
         r'(.*<script type="application/json" id="findings">)(.*?)(</script>.*)', text, re.DOTALL).groups()
 
-    def make(names, **settings):
+    def make(names, known_forces=(), **settings):
         found = json.loads(findings)
         strut = {key: value for key, value in found["struts"][0].items() if key != "position"}
         found["struts"] = [{**strut, "name": name, **settings} for name in names]
         found["ratios"] = found["stddevs"] = [[0.1] * len(names)] * len(names)
+        found["known_forces"] = list(known_forces)
         page = folder / "page" / f"{names[0]}.html"
         page.write_text(before + json.dumps(found) + after)
         return types.SimpleNamespace(path=page, page=browser.shown(page, folder / "profile"), folder=folder)
@@ -226,3 +227,18 @@ def test_any_vehicle_has_room(page_of, count, settings):
     if settings:
         assert [each.text for each in made.page.one("svg").all("text", class_="word")] == count * ["Cannot tell"]
         assert list(made.page.all("a")) == [] and "are too short" in made.page.one(id="verdict").text
+
+
+def test_known_forces_have_a_table(page_of):
+    assert [] == list(page_of(["bare_1", "bare_2"]).page.all("section", id="forces"))
+    forces = [{"name": "tow_bar", "coefficients": [3.21e-4, -8.7e-5], "stddevs": [2e-6, 3e-6]},
+              {"name": "crane", "coefficients": [0, 0], "stddevs": [None, None]}]
+    made = page_of(["pulled_1", "pulled_2"], known_forces=forces)
+    assert made.page.one(id="script-errors").text == ""
+    rows = {row.attributes["data-force"]: [cell.text for cell in list(row.all("td"))[1:]]
+            for row in made.page.one(id="forces").all("tr") if "data-force" in row.attributes}
+    shown = [[float(each) for each in cell.replace("−", "-").split("±")] for cell in rows["tow_bar"]]
+    assert shown == [pytest.approx([3.21e-4, 2e-6]), pytest.approx([-8.7e-5, 3e-6])]
+    assert rows["crane"] == ["cannot tell", "cannot tell"]
+    root = browser.measured(made.path, made.folder / "measured", 390, False).one("html").attributes
+    assert root["data-cut"] == ""

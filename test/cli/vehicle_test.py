@@ -33,6 +33,30 @@ def test_identify_tells_every_strut_its_own(program, vehicle, tmp_path):
     assert 1.0 <= found["condition"] < 20.0
 
 
+SEDAN = {"mass": 1350.0, "pitch_inertia": 2100.0, "roll_inertia": 480.0}
+SEDAN_IMU = (0.2, -0.1)  # [m] from the centre of gravity, which positions are told from
+
+
+@pytest.mark.parametrize("imus", ["all", "none"])
+def test_identify_tells_how_the_mass_is_spread(program, tmp_path, imus):
+    bag, path = tmp_path / "drive.bag", tmp_path / "vehicle.yaml"
+    program.succeed("simulate", "--vehicle-model", "sedan", "--duration", "60", "--rate", "100", "--set",
+                    f"sprung_imus={imus}", "-o", bag, "--vehicle-file", path)
+    body = result(program, "identify", (bag, path), tmp_path)["body"]
+    for name, true in (("mass_to_pitch_inertia", SEDAN["mass"] / SEDAN["pitch_inertia"]),
+                       ("mass_to_roll_inertia", SEDAN["mass"] / SEDAN["roll_inertia"])):
+        assert body[name] == pytest.approx(true, rel=0.01)
+        assert 0.0 < body[f"{name}_stddev"] < 0.01 * true
+        assert abs(body[name] - true) < 4.0 * body[f"{name}_stddev"]
+    assert body["centre_of_gravity"] == pytest.approx([-SEDAN_IMU[0], -SEDAN_IMU[1]], abs=0.02)
+
+
+def test_two_struts_do_not_tell_how_the_mass_is_spread(program, vehicle, tmp_path):
+    text = program.succeed("identify", vehicle[0], "--vehicle", vehicle[1])
+    assert "cannot tell M/Iyy and M/Ixx: it takes three struts that do not stand on one line\n" in text
+    assert set(result(program, "identify", vehicle, tmp_path)["body"]) == {"reason"}
+
+
 def test_one_strut_alone_can_be_asked_for(program, vehicle, tmp_path):
     assert set(result(program, "compare", vehicle, tmp_path, "--strut", "rear")["struts"]) == {"rear"}
 

@@ -13,6 +13,7 @@
 namespace suspension_health_monitor {
 namespace {
 
+const std::vector<std::string> kSensors{"/body", "/wheel"};
 constexpr Stamp kTimeout = std::chrono::seconds(2), kPeriod = std::chrono::milliseconds(100);
 
 MonitorReport reportAt(double seconds, HealthLevel level, bool early = false) {
@@ -23,8 +24,11 @@ MonitorReport reportAt(double seconds, HealthLevel level, bool early = false) {
   return report;
 }
 
-/// One that is recorded when it is measured.
-void addReading(HealthLog& log, Stamp stamp) { log.addReading(stamp, stamp); }
+/// One of both sensors that is recorded when it is measured.
+void addReading(HealthLog& log, Stamp stamp) {
+  log.addReading(0, stamp, stamp);
+  log.addReading(1, stamp, stamp);
+}
 
 /// Readings and reports of one level every kPeriod from `from` up to `to` [s].
 void drive(HealthLog& log, double from, double to, HealthLevel level, bool early = false) {
@@ -50,7 +54,7 @@ std::string levels(const HealthLog& log) {
 }
 
 TEST(HealthLog, EachLevelHoldsUntilTheNext) {
-  HealthLog log(kTimeout);
+  HealthLog log(kTimeout, kSensors);
   drive(log, 10.0, 14.9, HealthLevel::kStale);
   drive(log, 15.0, 19.9, HealthLevel::kOk);
   drive(log, 20.0, 22.9, HealthLevel::kWarn);
@@ -69,7 +73,7 @@ TEST(HealthLog, EachLevelHoldsUntilTheNext) {
 }
 
 TEST(HealthLog, WhatIsKnownIsOldAfterTheTimeout) {
-  HealthLog log(kTimeout);
+  HealthLog log(kTimeout, kSensors);
   drive(log, 0.1, 10.0, HealthLevel::kOk);
   drive(log, 25.0, 30.0, HealthLevel::kOk);
   log.finishRecording();
@@ -81,8 +85,35 @@ TEST(HealthLog, WhatIsKnownIsOldAfterTheTimeout) {
   EXPECT_DOUBLE_EQ(sum(log), 29.9);
 }
 
+TEST(HealthLog, ASensorThatIsSilentWhileTheOtherGoesOnIsNamed) {
+  HealthLog log(kTimeout, kSensors);
+  drive(log, 0.1, 10.0, HealthLevel::kOk);
+  for (double time = 10.1; time < 25.05; time += 0.1) log.addReading(0, fromSeconds(time), fromSeconds(time));
+  drive(log, 25.1, 30.0, HealthLevel::kOk);
+  for (double time = 30.1; time < 40.05; time += 0.1) log.addReading(1, fromSeconds(time), fromSeconds(time));
+  log.finishRecording();
+  EXPECT_EQ(levels(log), "STALE OK STALE OK STALE ");
+  EXPECT_EQ(log.events()[2].message.find("cannot tell: no reading accepted for 15 s, /wheel is silent; before: "), 0U);
+  EXPECT_EQ(log.events()[4].message.find("cannot tell: no reading accepted for 10 s, /body is silent; before: "), 0U);
+  EXPECT_EQ(log.latest().message, log.events()[4].message);
+  EXPECT_NEAR(secondsOf(log, HealthLevel::kStale), 13.1 + 8.0, 1e-6);
+}
+
+TEST(HealthLog, ReportsThatAreLateCostNoTime) {
+  HealthLog log(kTimeout, kSensors);
+  for (double time = 5.0; time < 65.05; time += 0.1) {
+    log.addReading(0, fromSeconds(time), fromSeconds(time));
+    if (time < 35.0) log.addReading(1, fromSeconds(time), fromSeconds(time));
+    if (time > 7.0 && time < 35.0) log.addReport(reportAt(time - 1.2, HealthLevel::kOk));
+  }
+  log.finishRecording();
+  EXPECT_NEAR(toSeconds(log.elapsed()), 60.0, 1e-6);
+  EXPECT_NEAR(sum(log), 60.0, 1e-6);
+  EXPECT_EQ(levels(log), "STALE OK STALE ");
+}
+
 TEST(HealthLog, AGapShorterThanTheTimeoutChangesNothing) {
-  HealthLog log(kTimeout);
+  HealthLog log(kTimeout, kSensors);
   drive(log, 1.0, 10.0, HealthLevel::kWarn);
   drive(log, 12.0, 15.0, HealthLevel::kWarn);
   log.finishRecording();
@@ -91,7 +122,7 @@ TEST(HealthLog, AGapShorterThanTheTimeoutChangesNothing) {
 }
 
 TEST(HealthLog, ReadingsWithoutReportsAreTimeToo) {
-  HealthLog log(kTimeout);
+  HealthLog log(kTimeout, kSensors);
   for (double time = 1.0; time < 5.0; time += 0.1) addReading(log, fromSeconds(time));
   drive(log, 5.0, 10.0, HealthLevel::kOk);
   for (double time = 10.1; time < 20.05; time += 0.1) addReading(log, fromSeconds(time));
@@ -105,7 +136,7 @@ TEST(HealthLog, ReadingsWithoutReportsAreTimeToo) {
 
 TEST(HealthLog, NoTimePassesBetweenRecordingsWhicheverIsTheOlder) {
   for (const double second : {1e9, 1.0}) {
-    HealthLog log(kTimeout);
+    HealthLog log(kTimeout, kSensors);
     drive(log, 1e6, 1e6 + 10.0, HealthLevel::kOk);
     log.finishRecording();
     addReading(log, fromSeconds(second));
@@ -118,7 +149,7 @@ TEST(HealthLog, NoTimePassesBetweenRecordingsWhicheverIsTheOlder) {
 }
 
 TEST(HealthLog, AClockThatGoesBackTakesNoTime) {
-  HealthLog log(kTimeout);
+  HealthLog log(kTimeout, kSensors);
   drive(log, 100.0, 110.0, HealthLevel::kOk);
   drive(log, 50.0, 55.0, HealthLevel::kOk);
   log.finishRecording();
@@ -128,7 +159,7 @@ TEST(HealthLog, AClockThatGoesBackTakesNoTime) {
 
 TEST(HealthLog, OneStampOfAnotherAgeCostsNothing) {
   for (const double wild : {0.0, 3.0, 4e9}) {
-    HealthLog log(kTimeout);
+    HealthLog log(kTimeout, kSensors);
     drive(log, 1000.0, 1010.0, HealthLevel::kOk);
     addReading(log, fromSeconds(wild));
     drive(log, 1010.1, 1020.0, HealthLevel::kOk);
@@ -138,11 +169,11 @@ TEST(HealthLog, OneStampOfAnotherAgeCostsNothing) {
 }
 
 TEST(HealthLog, SilenceIsNoLongerThanTheRecording) {
-  HealthLog log(kTimeout);
+  HealthLog log(kTimeout, kSensors);
   Stamp recorded = fromSeconds(5.0);
   const auto run = [&](double from, double to) {
     for (Stamp stamp = fromSeconds(from); stamp <= fromSeconds(to); stamp += kPeriod, recorded += kPeriod) {
-      log.addReading(stamp, recorded);
+      for (const std::size_t sensor : {0U, 1U}) log.addReading(sensor, stamp, recorded);
       MonitorReport report = reportAt(0.0, HealthLevel::kOk);
       report.stamp = stamp;
       log.addReport(report);
@@ -152,7 +183,7 @@ TEST(HealthLog, SilenceIsNoLongerThanTheRecording) {
   run(1.7e9, 1.7e9 + 10.0);  // the clock was set
   recorded += std::chrono::seconds(20);
   run(1.7e9 + 31.0, 1.7e9 + 40.0);
-  log.addReading(fromSeconds(4e9), recorded);  // a wrong stamp at the very end
+  log.addReading(0, fromSeconds(4e9), recorded);  // a wrong stamp at the very end
   log.finishRecording();
   EXPECT_NEAR(toSeconds(log.elapsed()), 10.0 + 0.1 + 10.0 + 20.1 + 9.0 + 0.1, 1e-6);
   EXPECT_DOUBLE_EQ(sum(log), toSeconds(log.elapsed()));
@@ -160,7 +191,7 @@ TEST(HealthLog, SilenceIsNoLongerThanTheRecording) {
 }
 
 TEST(HealthLog, EarlyWarningsAreCountedWhenTheyBegin) {
-  HealthLog log(kTimeout);
+  HealthLog log(kTimeout, kSensors);
   drive(log, 1.0, 5.0, HealthLevel::kOk);
   drive(log, 5.1, 8.0, HealthLevel::kOk, true);
   drive(log, 8.1, 9.0, HealthLevel::kOk);
@@ -175,7 +206,7 @@ TEST(HealthLog, EarlyWarningsAreCountedWhenTheyBegin) {
 
 TEST(HealthLog, ASecondHasOneRowAndEveryChangeToo) {
   std::vector<double> rows;
-  HealthLog log(kTimeout, [&](const HealthMoment& moment) { rows.push_back(toSeconds(moment.stamp)); });
+  HealthLog log(kTimeout, kSensors, [&](const HealthMoment& moment) { rows.push_back(toSeconds(moment.stamp)); });
   drive(log, 10.0, 12.4, HealthLevel::kStale);
   drive(log, 12.5, 15.0, HealthLevel::kOk);
   log.finishRecording();
@@ -191,7 +222,7 @@ TEST(HealthLog, IsTheMonitorsOwnLevelsAndSentences) {
   options.nominal_stiffness_to_mass = 13.8;
   std::vector<std::string> said, written;
   HealthLevel level = HealthLevel::kStale;
-  HealthLog log(kTimeout);
+  HealthLog log(kTimeout, kSensors);
   StrutMonitor monitor(options, [&](const MonitorReport& report) {
     if (report.health.level != level)
       said.push_back(std::to_string(report.stamp.count()) + nameOf(report.health.level) + describe(report.health));

@@ -68,13 +68,17 @@ class InputDiagnosticsTest(unittest.TestCase):
             before = len(drive.diagnostics.messages)
             stamps = itertools.count(START + 200 * PERIOD, PERIOD)
 
-            def status_while_sprung_goes_on():
+            def status_while_sprung_goes_on(task, words):
                 drive.publishers[MeasuredDrive.SPRUNG].publish(make_imu(next(stamps), 0.0))
-                return next((status for status in statuses(drive.diagnostics.messages[before:], drive.input_task)
-                             if "no message on" in status.message and "/half/sprung" not in status.message), None)
-            status = wait_until(status_while_sprung_goes_on, "an error for the silent sensor")
+                return next((status for status in statuses(drive.diagnostics.messages[before:], task)
+                             if words in status.message and "/half/sprung" not in status.message), None)
+            status = wait_until(lambda: status_while_sprung_goes_on(drive.input_task, "no message on"),
+                                "an error for the silent sensor")
             self.assertEqual(status.level, DiagnosticStatus.ERROR)
             self.assertIn("no message on /half/unsprung for", status.message)
+            status = wait_until(lambda: status_while_sprung_goes_on("half: Health", ", /half/unsprung is silent; before: "),
+                                "the health that names the silent sensor")
+            self.assertEqual(status.level, DiagnosticStatus.STALE)
             drive.stop()
 
     def test_stamps_that_do_not_fit_the_sample_period_leave_health_stale(self):

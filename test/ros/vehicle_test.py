@@ -18,12 +18,13 @@ from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
 from suspension_health_monitor.msg import CouplingInUse, ParameterEstimate
-from suspension_health_monitor.srv import DiagnoseVehicle, SetEffects
+from suspension_health_monitor.srv import Diagnose, DiagnoseVehicle, SetEffects
 
 STRUTS = ("front", "rear")
 DURATION = 60.0  # [s]
 SEARCHED = 30.0  # [s]
 BATCH = 100  # instants on their way at once; fewer than any queue holds
+DEAD, DEAD_FOR = "/front/unsprung/imu", 500  # a topic, and how many instants it ends before the others
 COUPLED = 1500  # instants after which the coupling is known for long; before, no estimates tell what has been taken in
 # Of LA with its memory of 2 s the median over the second half of the drive; both struts of a half car at 100 Hz with
 # noise of 0.03 m/s^2 lie within 2 %.
@@ -52,9 +53,12 @@ class VehicleTest(unittest.TestCase):
         cls.messages = read_bag(bag)
         cls.rosout = Collector("/rosout", Log)
         cls.diagnostics = Collector("/diagnostics", DiagnosticArray)
+        cls.tree = Collector("/diagnostics_agg", DiagnosticArray)
         cls.coupling = Collector("/vehicle/coupling", CouplingInUse)
         cls.la = {name: Collector(f"/{name}/la", ParameterEstimate) for name in STRUTS}
-        cls.program = launch("vehicle.launch", vehicle=cls.vehicle, strut_config=cls.strut_config)
+        cls.models = cls.write("models.yaml", {"struts": {"front": {"damping_to_mass": 3.0, "stiffness_to_mass": 50.0}}})
+        cls.program = launch("vehicle.launch", vehicle=cls.vehicle, strut_config=cls.strut_config,
+                             model_file=cls.models, aggregate="true")
         for collector in cls.la.values():
             collector.wait_for_publisher()
         cls.unknown = cls.coupling.wait_for(lambda message: True, "what is known at first")
@@ -65,7 +69,7 @@ class VehicleTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.program.stop()
-        for collector in (cls.rosout, cls.diagnostics, cls.coupling, *cls.la.values()):
+        for collector in (cls.rosout, cls.diagnostics, cls.tree, cls.coupling, *cls.la.values()):
             collector.stop()
         cls.folder.cleanup()
 
@@ -93,9 +97,13 @@ class VehicleTest(unittest.TestCase):
             end = min(begin + BATCH, count)
             for index in range(begin, end):
                 for topic, publisher in publishers.items():
-                    publisher.publish(cls.messages[topic][index])
-            if end >= COUPLED:
+                    if topic != DEAD or index < count - DEAD_FOR:
+                        publisher.publish(cls.messages[topic][index])
+            if COUPLED <= end <= count - DEAD_FOR:
                 cls.wait_until_taken_in(first, end - 1)
+        cls.stale = {name: wait_until(lambda task=f"{name}: Health": next(
+            (status for status in statuses(cls.diagnostics.messages, task) if f", {DEAD} is silent; " in status.message),
+            None), f"{name} to name the topic that has ended") for name in STRUTS}
         cls.silence = wait_until(lambda: next(
             (status for status in statuses(cls.diagnostics.messages, "vehicle: Input")
              if all(f"no message on {topic}" in status.message for topic in topics)), None), "the silent sensors")
@@ -132,6 +140,7 @@ class VehicleTest(unittest.TestCase):
         self.assertTrue(last.known)
         np.testing.assert_allclose(last.ratios, truth.coupling, atol=COUPLING_TOLERANCE)
         self.assertLess(max(last.stddevs), COUPLING_TOLERANCE)
+        self.assertTrue(np.isnan(last.mass_to_pitch_inertia), "two struts do not tell")
         self.assertEqual(list(last.forces), ["tow_bar"])
         true = self.force_coefficients()
         self.assertLess(true[0], 0.0, "what lifts the rear lowers the front")
@@ -162,8 +171,19 @@ class VehicleTest(unittest.TestCase):
         self.assertIn("front moved by rear", values(coupled[-1]))
         self.assertIn("rear moved by tow_bar", values(coupled[-1]))
 
+    def test_tree_has_the_struts_below_every_task(self):
+        expected = {f"/Suspension/{task}/{name}: {task}" for task in ("Health", "Model", "Input") for name in STRUTS}
+        expected |= {"/Suspension/Coupling/vehicle: Coupling", "/Suspension/Input/vehicle: Input"}
+        self.tree.wait_for(lambda array: expected <= {status.name for status in array.status}, sorted(expected))
+
     def test_silent_sensors_are_named(self):
         self.assertEqual(self.silence.level, DiagnosticStatus.ERROR)
+        for name, status in self.stale.items():
+            self.assertEqual(status.level, DiagnosticStatus.STALE, name)
+            self.assertTrue(status.message.startswith("cannot tell: no reading accepted for "), status.message)
+        inputs = {name: self.next_status(f"{name}: Input") for name in STRUTS}
+        self.assertIn(f"no message on {DEAD}", inputs["front"].message)
+        self.assertNotIn(DEAD, inputs["rear"].message)
 
     def test_search_answers_by_strut(self):
         answer = service("/vehicle/diagnose", DiagnoseVehicle)(SEARCHED)
@@ -172,6 +192,10 @@ class VehicleTest(unittest.TestCase):
         self.assertEqual((tuple(answer.strut), list(answer.verdicts), list(answer.selected)),
                          (STRUTS, ["nothing_missing"] * 2, [""] * 2))
         self.assertIn("must be in [0, 120]", service("/vehicle/diagnose", DiagnoseVehicle)(-1.0).message)
+        own = service("/rear/diagnose", Diagnose)(SEARCHED)
+        self.assertTrue(own.success, own.message)
+        self.assertEqual((own.verdict, list(own.selected)), ("nothing_missing", []))
+        self.assertGreater(own.noise_floor, 0.0)
 
     def test_services_of_a_strut_change_this_strut(self):
         answer = service("/rear/set_effects", SetEffects)(["bump"], [], [])
@@ -188,6 +212,15 @@ class VehicleTest(unittest.TestCase):
         self.assertTrue(saved.success, saved.message)
         self.assertTrue(os.path.exists(self.baselines["front"]))
 
+    def test_models_of_all_struts_are_one_file(self):
+        saved = service("/rear/save_model", Trigger)()
+        self.assertTrue(saved.success, saved.message)
+        with open(self.models, encoding="utf-8") as stream:
+            models = yaml.safe_load(stream)["struts"]
+        self.assertEqual(models["front"], {"damping_to_mass": 3.0, "stiffness_to_mass": 50.0})
+        true = self.truth("rear")
+        self.assertAlmostEqual(models["rear"]["damping_to_mass"] / true.damping_to_mass, 1.0, delta=0.1)
+
     def next_status(self, task):
         begin = len(statuses(self.diagnostics.messages, task))
         return wait_until(lambda: statuses(self.diagnostics.messages, task)[begin:], f"a status of {task}")[0]
@@ -196,6 +229,7 @@ class VehicleTest(unittest.TestCase):
         no_wheel = self.write("no_wheel.yaml", {"struts": {"front": {"sprung_imu": "/a"}}})
         no_field = self.write("no_field.yaml", {"struts": {"front": {"sprung_imu": "/a", "unsprung_imu": "/b"}},
                                                 "known_forces": {"bar": {"topic": "/c", "field": "force"}}})
+        strangers = self.write("strangers.yaml", {"struts": {"middle": {"damping_to_mass": 3, "stiffness_to_mass": 50}}})
         cases = ({}, ["vehicle is missing"]), \
             ({"vehicle": "/none.yaml"}, ["vehicle = /none.yaml"]), \
             ({"vehicle": no_wheel}, [no_wheel, "struts/front/unsprung_imu is missing"]), \
@@ -205,6 +239,9 @@ class VehicleTest(unittest.TestCase):
             ({"vehicle": self.vehicle, "struts": {"rear": {"sprung_mass": -1.0}}}, ["struts/rear: sprung_mass = -1"]), \
             ({"vehicle": self.vehicle, "struts": {"rear": {"sample_period": 0.01}}},
              ["struts/rear/sample_period", "of the whole vehicle"]), \
+            ({"vehicle": {"struts": {"front": {"sprung_imu": "/a"}}}},
+             ["vehicle: struts/front/unsprung_imu is missing"]), \
+            ({"vehicle": self.vehicle, "model_file": strangers}, [strangers, "struts/middle", "front, rear"]), \
             ({"vehicle": self.vehicle, "baseline_file": "/tmp/one.yaml"}, ["baseline_file", "front", "rear"]), \
             ({"vehicle": self.vehicle, "memry": 2.0}, ["unknown option memry"])
         for number, (parameters, parts) in enumerate(cases):

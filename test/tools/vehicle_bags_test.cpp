@@ -24,6 +24,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kRate = 100.0, kGravity = 9.81;
+constexpr double kTimeout = 2.0;                         // [s]
 constexpr double kPitch = 0.2, kTurn = 2.0 * kPi * 2.0;  // largest angular rate [rad/s], and its frequency [rad/s]
 
 class VehicleBags : public testing::Test {
@@ -121,7 +122,11 @@ TEST_F(VehicleBags, AreReadAsDrivesOfAllStrutsWithOneGrid) {
     bags.paths = {path("one.bag"), path("two.bag")};
     PipelineOptions options;
     if (upside_down) options.shell.sprung_axis = "-z";
-    const std::vector<VehicleBag> drives = readVehicleDrives(bags, options, layout);
+    VehicleLayout placed = layout;
+    TopicGaps gaps(kTimeout);
+    const std::vector<VehicleBag> drives = readVehicleDrives(bags, options, placed, gaps);
+    EXPECT_TRUE(gaps.toJson().empty());
+    for (const VehicleLayout::Strut& strut : placed.struts) EXPECT_TRUE(strut.position || !strut.frame) << strut.name;
     EXPECT_NEAR(*options.monitor.sample_period, 1.0 / kRate, 1e-6);
     ASSERT_EQ(drives.size(), 2u);
     EXPECT_EQ(drives[0].alignment, "paired");
@@ -161,8 +166,9 @@ TEST_F(VehicleBags, HoldKnownForcesOnTheSameGrid) {
   ImuBags bags;
   bags.paths = {path("drive.bag")};
   PipelineOptions options;
-  const VehicleBag read =
-      readVehicleDrives(bags, options, readVehicleFile(write("vehicle.yaml", kVehicle + forces))).front();
+  VehicleLayout layout = readVehicleFile(write("vehicle.yaml", kVehicle + forces));
+  TopicGaps gaps(kTimeout);
+  const VehicleBag read = readVehicleDrives(bags, options, layout, gaps).front();
   ASSERT_EQ(read.drive.forces.size(), 2u);
   EXPECT_EQ(read.drive.forces[0].name, "lift");
   EXPECT_EQ(read.drive.forces[1].name, "turn");
@@ -185,7 +191,9 @@ TEST_F(VehicleBags, OfOtherVehiclesAreRefused) {
     bags.paths = {path("drive.bag")};
     PipelineOptions options;
     try {
-      readVehicleDrives(bags, options, readVehicleFile(write("vehicle.yaml", file)));
+      VehicleLayout layout = readVehicleFile(write("vehicle.yaml", file));
+      TopicGaps gaps(kTimeout);
+      readVehicleDrives(bags, options, layout, gaps);
     } catch (const std::exception& error) {
       return std::string(error.what());
     }

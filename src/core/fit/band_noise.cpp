@@ -22,6 +22,7 @@ struct PartSpectra {
   std::size_t length;  // of a window
   std::vector<std::vector<double>> parts;
   double averages;  // independent ones in each
+  double unit;      // the sum over parts and frequencies that white noise of variance 1 has
 };
 
 /// Sums from the first frequency to each: of the weights g, and of g / S.
@@ -47,7 +48,7 @@ std::optional<PartSpectra> spectraOf(const Residuals& residuals, double natural_
   const std::size_t length = Periodogram::lengthFor(sizes, natural_period, kParts * kWindowsOfPart);
   const std::size_t windows = Periodogram::windowsIn(sizes, length);
   if (windows < kParts * kWindowsOfPart) return std::nullopt;
-  PartSpectra spectra{length, {kParts, std::vector<double>(length / 2, 0.0)}, 0.0};
+  PartSpectra spectra{length, {kParts, std::vector<double>(length / 2, 0.0)}, 0.0, 0.0};
   spectra.averages = Periodogram::kIndependent * static_cast<double>(windows / kParts);
   Periodogram periodogram(length);
   Spectrum spectrum;
@@ -58,7 +59,22 @@ std::optional<PartSpectra> spectraOf(const Residuals& residuals, double natural_
       periodogram.of(&segment[i * (length / 2)], spectrum);
       for (std::size_t f = 1; f < length / 2; ++f) power[f] += std::norm(spectrum[f]);
     }
+  spectra.unit = static_cast<double>(windows) * static_cast<double>(length / 2 - 1) * periodogram.taperPower();
   return spectra;
+}
+
+/// The share of the residuals' power that is slower than the windows are long, which no spectrum of theirs has: an
+/// offset, and what wanders.
+/// @param in_spectra  the power that these have.
+double shareOfSlow(const Residuals& residuals, double in_spectra, const PartSpectra& spectra) {
+  double squares = 0.0, count = 0.0;
+  for (const std::vector<double>& segment : residuals)
+    for (const double r : segment) {
+      squares += square(r);
+      count += 1.0;
+    }
+  const double shown = in_spectra / spectra.unit, whole = squares / count;
+  return whole > shown ? 1.0 - shown / whole : 0.0;
 }
 
 }  // namespace
@@ -88,7 +104,7 @@ double bandNoiseShare(const Residuals& residuals, double period, const StrutMode
       white = std::max(white, sums.whiteIn(first, end));
   const double scatter =
       spectra->averages / (spectra->averages - 1.0);  // 1 / S of an average over so many windows is as much too large
-  return std::min(1.0, scatter * white / all);
+  return std::min(1.0, scatter * white / all) * (1.0 - shareOfSlow(residuals, all, *spectra));
 }
 
 double floorOfResidual(double rmse, double noise_floor, const Residuals& residuals, double period,

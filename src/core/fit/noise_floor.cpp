@@ -42,34 +42,13 @@ std::vector<Place> choosePlaces(const Segments& segments) {
   return chosen;
 }
 
-/// A robust linear regression.
-struct Regression {
-  Eigen::VectorXd solution, error;
-
-  Regression(const Eigen::MatrixXd& rows, const Eigen::VectorXd& measured) {
-    Eigen::VectorXd weight = Eigen::VectorXd::Ones(measured.size());
-    for (int pass = 0; pass <= kReweightings; ++pass) {
-      const Eigen::MatrixXd weighted = weight.asDiagonal() * rows;
-      Eigen::MatrixXd gram = rows.transpose() * weighted;
-      gram.diagonal().array() += 1e-12 * gram.trace();  // for columns that are 0
-      solution = gram.ldlt().solve(weighted.transpose() * measured);
-      error = measured - rows * solution;
-      if (deviation() == 0.0) return;
-      const double outlier = kOutlierScale * deviation();
-      weight = error.unaryExpr([&](double e) { return 1.0 / (1.0 + square(square(e / outlier))); });
-    }
-  }
-
-  double deviation() const { return robustDeviation({error.data(), error.data() + error.size()}); }
-};
-
 /// z'' from its neighbours, from the wheel's motion during the steps around it (which stands for w''), and a constant.
-/// @param series  z'' per segment.
 struct InterpolationRows {
   Eigen::MatrixXd rows;
   Eigen::VectorXd measured;
 };
 
+/// @param series  z'' per segment.
 InterpolationRows interpolationRows(const Segments& segments, const std::vector<Place>& places, const Series& series) {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(places.size()), kTerms);
   Eigen::VectorXd measured(rows.rows());
@@ -91,10 +70,28 @@ InterpolationRows interpolationRows(const Segments& segments, const std::vector<
   return {rows, measured};
 }
 
-Regression interpolate(const Segments& segments, const std::vector<Place>& places, const Series& series) {
-  const auto [rows, measured] = interpolationRows(segments, places, series);
-  return {rows, measured};
-}
+/// A robust linear regression.
+struct Regression {
+  Eigen::VectorXd solution, error;
+
+  explicit Regression(const InterpolationRows& of) : Regression(of.rows, of.measured) {}
+
+  Regression(const Eigen::MatrixXd& rows, const Eigen::VectorXd& measured) {
+    Eigen::VectorXd weight = Eigen::VectorXd::Ones(measured.size());
+    for (int pass = 0; pass <= kReweightings; ++pass) {
+      const Eigen::MatrixXd weighted = weight.asDiagonal() * rows;
+      Eigen::MatrixXd gram = rows.transpose() * weighted;
+      gram.diagonal().array() += 1e-12 * gram.trace();  // for columns that are 0
+      solution = gram.ldlt().solve(weighted.transpose() * measured);
+      error = measured - rows * solution;
+      if (deviation() == 0.0) return;
+      const double outlier = kOutlierScale * deviation();
+      weight = error.unaryExpr([&](double e) { return 1.0 / (1.0 + square(square(e / outlier))); });
+    }
+  }
+
+  double deviation() const { return robustDeviation({error.data(), error.data() + error.size()}); }
+};
 
 Series sprungOf(const Segments& segments) {
   Series series;
@@ -189,7 +186,7 @@ Untold untold(const Segments& segments, const StrutModel& model, bool without_la
   const auto count = static_cast<double>(places.size());
   if (count <= 2.0 * kTerms) return {};
   Series series = sprungOf(segments);
-  Regression interpolation = interpolate(segments, places, series);
+  Regression interpolation(interpolationRows(segments, places, series));
   const double plain = interpolation.deviation() * std::sqrt(count / (count - kTerms));
   FreeFormLaws laws(segments);
   if (!without_laws || count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return {plain, interpolation.solution};
@@ -199,7 +196,7 @@ Untold untold(const Segments& segments, const StrutModel& model, bool without_la
     deviation = fit.deviation() * std::sqrt(count / (count - kTerms - kLawTerms));
     if (round == kRounds) break;
     laws.takeOff(fit.solution, series);
-    interpolation = interpolate(segments, places, series);
+    interpolation = Regression(interpolationRows(segments, places, series));
   }
   return {std::min(plain, deviation), interpolation.solution};
 }

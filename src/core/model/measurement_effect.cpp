@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "find_by_name.h"
 #include "suspension_health_monitor/effects.h"
@@ -80,18 +81,23 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
        "(1 + c) y",
        {{"coefficient", "-"}},
        "gain of a sensor",
-       [](const double* c, const BodyChannels&, double, Series& predicted) {
+       // What is off in the gain is off in gravity, too, which makes an offset of it: that tells a gain from an offset.
+       [](const double* c, const BodyChannels& body, double, Series& predicted) {
          for (double& y : predicted) y *= 1.0 + *c;
+         leak(*c, body, C::kGravity, predicted);
        },
        [](const Sizes& sizes, std::size_t) { return sizes.residual / sizes.y; }},
-      // Small angles: turned about y by c_x, the sensor's z axis sees c_x of what happens along x.
+      // Small angles: turned about y by c_x, the sensor's z axis sees c_x of what happens along x, and less of gravity.
       {"mount_tilt",
        "y + c_x a_x + c_y a_y",
        {{"c_x", "rad"}, {"c_y", "rad"}},
        "IMU of the body is not level",
        [](const double* c, const BodyChannels& body, double, Series& predicted) {
-         leak(c[0], body, C::kAccelerationX, predicted);
-         leak(c[1], body, C::kAccelerationY, predicted);
+         for (const auto& [angle, channel] : {std::pair(c[0], C::kAccelerationX), std::pair(c[1], C::kAccelerationY)}) {
+           leak(angle, body, channel, predicted);
+           if (!body[static_cast<std::size_t>(channel)].empty())
+             leak(-0.5 * angle * angle, body, C::kGravity, predicted);
+         }
        },
        [](const Sizes& sizes, std::size_t i) {
          return leakScale(sizes, i == 0 ? C::kAccelerationX : C::kAccelerationY);

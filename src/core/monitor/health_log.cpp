@@ -8,8 +8,10 @@
 
 namespace suspension_health_monitor {
 
-void HealthLog::addReading(Stamp stamp, Stamp recorded) {
+void HealthLog::addReading(std::size_t sensor, Stamp stamp, Stamp recorded) {
   if (stamp <= Stamp::zero()) return;  // no stamp at all
+  noteSilence(sensor);
+  silence_.add(sensor, stamp);
   newest_reading_ = stamp;
   newest_recorded_ = recorded;
   if (in_recording_) return;
@@ -23,6 +25,7 @@ void HealthLog::addReport(const MonitorReport& report) {
   // One that is newer than all readings of this recording is about the end of the one before.
   goTo(std::min(report.stamp, newest_reading_));
   reported_ = elapsed_;
+  std::fill(was_silent_.begin(), was_silent_.end(), false);
   const bool begins_early = report.health.early_warning && !health_.early_warning;
   health_ = report.health;
   la_ = report.la;
@@ -34,8 +37,15 @@ void HealthLog::addReport(const MonitorReport& report) {
 }
 
 void HealthLog::finishRecording() {
+  for (std::size_t i = 0; i < sensors_.size(); ++i) noteSilence(i);
+  silence_.finish();
   if (in_recording_) goTo(newest_reading_);
   in_recording_ = false;
+}
+
+// Its next reading ends a silence.
+void HealthLog::noteSilence(std::size_t sensor) {
+  if (silence_.lasting(sensor) > Stamp::zero()) was_silent_[sensor] = true;
 }
 
 HealthMoment HealthLog::latest() const {
@@ -43,7 +53,10 @@ HealthMoment HealthLog::latest() const {
 }
 
 std::string HealthLog::silence(Stamp until) const {
-  return describeNoReading(toSeconds(until - reported_), describe(health_));
+  std::vector<std::string> silent;
+  for (std::size_t i = 0; i < sensors_.size(); ++i)
+    if (was_silent_[i] || silence_.lasting(i) > Stamp::zero()) silent.push_back(sensors_[i]);
+  return describeNoReading(toSeconds(until - reported_), silent, describe(health_));
 }
 
 std::size_t HealthLog::count(HealthLevel level) const {
@@ -53,8 +66,13 @@ std::size_t HealthLog::count(HealthLevel level) const {
 
 void HealthLog::goTo(Stamp stamp) {
   if (stamp < now_ && newest_reading_ < now_) now_ = stamp;  // the clock went back, not a report that comes late
-  const Stamp recorded = newest_recorded_ - std::exchange(recorded_, newest_recorded_);
-  if (stamp <= now_) return;
+  if (stamp > now_) advance(stamp);
+  // A report may be late behind the readings; a wrong stamp is not.
+  recorded_ = newest_recorded_ - std::clamp(newest_reading_ - now_, Stamp::zero(), timeout_);
+}
+
+void HealthLog::advance(Stamp stamp) {
+  const Stamp recorded = newest_recorded_ - recorded_;
   Stamp step = stamp - now_;
   if (step > timeout_) step = std::clamp(recorded, Stamp::zero(), step);
   const Stamp until = elapsed_ + step, old_at = std::max(elapsed_, reported_ + timeout_);

@@ -59,35 +59,15 @@ void StrutPipeline::reconfigure(const MonitorSettings& settings) {
 
 void StrutPipeline::push(Side side, Stamp stamp, double acceleration) {
   if (is_refused_) return;
-  const Reading reading{side, stamp, acceleration};
   if (!monitor_) {
-    measurePeriod(reading);
-  } else if (early_.empty()) {
-    take(reading);
-  } else {  // a sink has thrown while they were replayed
-    early_.push_back(reading);
-    replayEarly();
-  }
-}
-
-void StrutPipeline::measurePeriod(const Reading& reading) {
-  const bool goes_back = measurement_.goesBack(reading.side, reading.stamp);
-  if (!measurement_.add(reading.side, reading.stamp)) {
-    rejected_.add(reading.stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp);
-    return;
-  }
-  if (goes_back) {
-    rejected_.add(RejectReason::kTimeWentBack);
-    return;
-  }
-  if (early_.size() == kMostEarly) {  // one IMU is silent
-    for (std::size_t i = 0; i < early_.size(); ++i) rejected_.add(RejectReason::kMissingPartner);
-    early_.clear();
-    measurement_ = PeriodMeasurement(kSpacingsForPeriod);
-  }
-  early_.push_back(reading);
-  if (const std::optional<double> period = measurement_.period()) {
+    const std::optional<double> period = early_.add({indexOf(side), stamp, acceleration});
+    if (!period) return;
     startOnce(*period);
+    replayEarly();
+  } else if (early_.isEmpty()) {
+    take(side, stamp, acceleration);
+  } else {  // a sink has thrown while they were replayed
+    early_.append({indexOf(side), stamp, acceleration});
     replayEarly();
   }
 }
@@ -99,20 +79,17 @@ void StrutPipeline::startOnce(double period) {
   } catch (const std::invalid_argument&) {
     is_refused_ = true;
     monitor_.reset();
-    early_ = {};
     throw;
   }
 }
 
 // A sink may throw; readings that come after those that it has seen wait for the next push().
 void StrutPipeline::replayEarly() {
-  while (replayed_ < early_.size()) take(early_[replayed_++]);
-  early_ = {};
-  replayed_ = 0;
+  while (const auto reading = early_.next()) take(static_cast<Side>(reading->stream), reading->stamp, reading->value);
 }
 
-void StrutPipeline::take(const Reading& reading) {
-  for (auto sample = grid_->push(reading.side, reading.stamp, reading.acceleration); sample; sample = grid_->next()) {
+void StrutPipeline::take(Side side, Stamp stamp, double acceleration) {
+  for (auto sample = grid_->push(side, stamp, acceleration); sample; sample = grid_->next()) {
     if (tyre_) {
       tyre_->setPeriodFits(monitor_->input().period_fits);
       tyre_->add(*sample, grid_->roadAcceleration());
@@ -124,7 +101,7 @@ void StrutPipeline::take(const Reading& reading) {
 }
 
 RejectCounts StrutPipeline::rejected() const {
-  RejectCounts all = rejected_;
+  RejectCounts all = early_.rejected();
   if (grid_) all += grid_->rejected();
   if (monitor_) all += monitor_->rejected();
   return all;

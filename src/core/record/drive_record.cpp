@@ -87,6 +87,7 @@ void DriveRecord::addSegment(const Stretch& stretch) {
   const std::size_t last = wheel.size() - 1 - kEnd;
   for (std::size_t k = kEnd; k <= last; ++k) {
     segment.sprung.push_back(stretch.sprung[k] - mean_wheel_);
+    segment.body[static_cast<std::size_t>(BodyChannel::kGravity)].push_back(mean_wheel_);
     segment.stamps.push_back(stretch.stamps[k]);
     segment.unsprung.push_back(wheel[k]);
     if (k < last)

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "explanation.h"
 #include "model_evaluator.h"
+#include "selection.h"
 #include "separating_drive.h"
-#include "suspension_health_monitor/internal/fit/band_noise.h"
+#include "suspension_health_monitor/internal/fit/folded_motion.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
-#include "suspension_health_monitor/internal/record/sampling_limit.h"
 #include "suspension_health_monitor/internal/statistics.h"
+#include "tilt_rival.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kExplained = 0.5;                 // of the structure, or there is no name
-constexpr double kTakenByAnother = 0.3;            // of what is left
 constexpr double kStarted = 0.1, kForward = 0.85;  // of the progress
 
 using Names = std::vector<std::string>;
@@ -47,31 +47,6 @@ std::vector<RankedModel> asReported(const std::vector<EvaluatedModel>& ranking) 
   return models;
 }
 
-/// The best of a ranking, or the simplest that is as good, and all that are as good.
-struct Selection {
-  EvaluatedModel chosen;
-  Names group;
-  std::vector<StrutModel> models;  // of the group
-};
-
-// A number more must pay as surely as another effect: a simpler rival is as good until it is clear that it is not.
-// @pre the first of the ranking is fitted.
-Selection select(const std::vector<EvaluatedModel>& ranking) {
-  const EvaluatedModel& best = ranking.front();
-  Selection selection{best, {}, {}};
-  for (const EvaluatedModel& rival : ranking) {
-    if (!rival.ranked.fitted) continue;
-    const bool simpler = complexity(rival.ranked.model) < complexity(best.ranked.model);
-    const double chance = simpler ? kFalseAlarm / static_cast<double>(ranking.size()) : kSure;
-    const PairedTest gain = rival.gainOf(best);
-    if (gain.removed_share > kWorthHaving || isSignificant(gain, chance)) continue;
-    selection.group.push_back(rival.added);
-    selection.models.push_back(rival.ranked.model);
-    if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
-  }
-  return selection;
-}
-
 class Search {
  public:
   Search(const Records& records, const HoldOut& held_out, const ModelFit& rough, std::size_t most_forces,
@@ -92,10 +67,7 @@ class Search {
   EvaluatedModel refine(EvaluatedModel current);
   EvaluatedModel withoutSuperfluous(EvaluatedModel current) const;
   EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick);
-  double explainedShare(const EvaluatedModel& after, double floor) const;
-  double floorOf(const EvaluatedModel& after, double floor) const;
   bool standsAlone(const EvaluatedModel& candidate) const;
-  bool isExplained(const EvaluatedModel& after) const;
   void conclude(const EvaluatedModel& last);
   void name(Verdict verdict, const EvaluatedModel& model);
   FittedModel finalFit(const EvaluatedModel& last) const;
@@ -106,11 +78,18 @@ class Search {
   ModelEvaluator evaluator_;
   EvaluatedModel base_;
   std::optional<Selection> suspect_;  // the best addition to the base
-  double sampling_floor_ = 0.0;       // [m/s^2]
+  std::optional<Explanation> explanation_;
   SearchResult result_;
 };
 
 void Search::noteGroup(const Selection& selection) {
+  if (mayBeTilt(selection.chosen.ranked.model, selection.chosen.added, records_)) {
+    Names group = selection.group;
+    if (!contains(group, kTilt)) group.emplace_back(kTilt);
+    result_.indistinguishable.push_back(group);
+    result_.separating.push_back({group, DriveKind::kAtRest, 0.0, 0.0});
+    return;
+  }
   if (selection.group.size() < 2) return;
   result_.indistinguishable.push_back(selection.group);
   result_.separating.push_back(
@@ -196,33 +175,6 @@ EvaluatedModel Search::refine(EvaluatedModel current) {
   return current;
 }
 
-// The share of the structure that a model with more effects takes.
-double Search::explainedShare(const EvaluatedModel& after, double floor) const {
-  const double structure = square(base_.ranked.held_out_rmse) - square(floor);
-  return structure > 0.0 ? (square(base_.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
-}
-
-double Search::floorOf(const EvaluatedModel& after, double floor) const {
-  return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals, records_.front()->period(),
-                         after.ranked.model);
-}
-
-// Names are given if the model with them leaves noise only, or next to nothing of what there was to explain; or if it
-// takes most of that and no other law of travel and travel rate would take the rest: that comes from elsewhere, or was
-// lost in sampling.
-bool Search::isExplained(const EvaluatedModel& after) const {
-  const double lowest = floorOf(after, sampling_floor_);
-  const double share = explainedShare(after, lowest);
-  if (share < kExplained) return false;
-  // Where only the reading is to be at fault, what that leaves has been there before, as the noise of a filtered sensor
-  // has: no law hid it.
-  const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
-  if (only_reading && explainedShare(after, floorOf(base_, sampling_floor_)) < kExplained) return false;
-  const double left = square(after.ranked.held_out_rmse) - square(lowest);
-  return share > 1.0 - kWorthHaving || !isStructured(after.ranked.held_out_rmse, lowest) ||
-         evaluator_.surfaceGain(after) * square(after.ranked.held_out_rmse) < kTakenByAnother * left;
-}
-
 // To all samples; if the solver does not get there, the numbers of the fit that was judged are not worse than none.
 FittedModel Search::finalFit(const EvaluatedModel& last) const {
   FitOptions options;
@@ -232,27 +184,33 @@ FittedModel Search::finalFit(const EvaluatedModel& last) const {
 }
 
 void Search::conclude(const EvaluatedModel& last) {
-  if (!suspect_) result_.noise_floor = floorOf(base_, result_.noise_floor);  // else a law takes a part of it
+  if (!suspect_)
+    result_.noise_floor = explanation_->floorOf(base_, result_.noise_floor);  // else a law takes a part of it
   result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
   if (result_.structured_share > 0.0)
     result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
-  if (!namesBeyond(base_, last).empty() && isExplained(last)) return name(Verdict::kEffectFound, last);
+  if (!namesBeyond(base_, last).empty() && explanation_->isExplained(last)) return name(Verdict::kEffectFound, last);
   result_.indistinguishable.clear();
   result_.separating.clear();
-  if (suspect_ && explainedShare(suspect_->chosen, result_.noise_floor) > kExplained) {
+  const bool suspected = suspect_ && explanation_->share(suspect_->chosen, result_.noise_floor) > kMostOfIt &&
+                         !explanation_->mayBeOtherStruts(suspect_->chosen);
+  if (suspected) {
     noteGroup(*suspect_);
     result_.remainder_surface_share = evaluator_.surfaceGain(suspect_->chosen);
     return name(Verdict::kSuspect, suspect_->chosen);
   }
   const bool structured = suspect_ || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
   result_.verdict = structured ? Verdict::kUnexplained : Verdict::kNothingMissing;
-  result_.power_at_sampling_limit = powerAtSamplingLimit(records_);
+  if (result_.structured_share > 0.0)
+    result_.folded_share =
+        foldedMotion(records_, base_.ranked.model) / (std::sqrt(result_.structured_share) * base_.ranked.held_out_rmse);
+  result_.turns_body = explanation_->turningShare() > kWorthHaving;
 }
 
 void Search::name(Verdict verdict, const EvaluatedModel& model) {
   result_.verdict = verdict;
   result_.selected = namesBeyond(base_, model);
-  result_.explained_share = std::min(1.0, explainedShare(model, result_.noise_floor));
+  result_.explained_share = std::min(1.0, explanation_->share(model, result_.noise_floor));
   result_.extended = model.ranked;
   result_.extended_fit_percent = evaluator_.heldOut().fitPercent(model.ranked.held_out_rmse);
   result_.final_fit = finalFit(model);
@@ -269,7 +227,7 @@ SearchResult Search::run(const ModelFit& rough) {
   result_.base = base_.ranked;
   result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
   result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
-  sampling_floor_ = estimateSamplingFloor(records_, base_.ranked.model);
+  explanation_.emplace(records_, evaluator_, base_);
   EvaluatedModel last = refine(extend());
   // What several names explain no better than one does, one explains.
   if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {

@@ -7,7 +7,9 @@
 #include "frequency_rival.h"
 #include "parallel.h"
 #include "row_start.h"
+#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
+#include "wandering.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -185,6 +187,7 @@ void ModelEvaluator::fitAll(const std::vector<std::size_t>& wanted, const Evalua
       fitted = evaluate(*candidate.second_start, current.fit.initial, &current);
     fitted.added = candidate.added;
     if (isToldByFrequency(fitted, current)) fitted = failed(current, FitFailure::kToldByFrequency);
+    if (wanders(fitted, current)) fitted = failed(current, FitFailure::kWanders);
     fitted.added = candidate.added;
     fitted.ranked.effects = candidate.ranked.effects;
     fitted.tried = true;
@@ -205,6 +208,13 @@ bool ModelEvaluator::isToldByFrequency(const EvaluatedModel& candidate, const Ev
   const EvaluatedModel as_frequency = evaluate(start->model, current.fit.initial, &current);
   if (!as_frequency.ranked.fitted) return false;
   return !isWorthHaving(as_frequency, candidate);
+}
+
+bool ModelEvaluator::wanders(const EvaluatedModel& candidate, const EvaluatedModel& current) const {
+  const StrutModel& model = candidate.ranked.model;
+  if (!candidate.ranked.significant || model.reading.size() == current.ranked.model.reading.size()) return false;
+  const double natural_period = 2.0 * kPi / std::sqrt(model.stiffness_to_mass) / records_.front()->period();
+  return isWanderingOffset(current.fit.residuals, candidate.fit.residuals, natural_period);
 }
 
 std::vector<EvaluatedModel> ModelEvaluator::rankAdditions(const EvaluatedModel& current, const Tick& tick) const {

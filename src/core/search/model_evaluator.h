@@ -15,6 +15,9 @@ namespace suspension_health_monitor {
 /// two models.
 inline constexpr double kWorthHaving = 0.02;
 
+/// What takes less of the structure is not given a name.
+inline constexpr double kMostOfIt = 0.5;
+
 /// A model and how it did, or is expected to do, on what was held out.
 struct EvaluatedModel {
   RankedModel ranked;
@@ -83,6 +86,7 @@ class ModelEvaluator {
   EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) const;
   FitFailure againstPhysics(const ModelFit& fit) const;
   bool isToldByFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
+  bool wanders(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
 
   const Records& records_;
   const HoldOut& held_out_;

@@ -77,6 +77,10 @@ SensorFaults SensorFaults::from(const std::vector<ActiveMeasurementEffect>& hidd
   return faults;
 }
 
+double SensorFaults::readAtRest(double gravity) const {
+  return (1.0 + gain_error) * std::cos(std::hypot(tilt[0], tilt[1])) * gravity;
+}
+
 double SensorFaults::read(double acceleration, const Sway& sway) const {
   // Away from the strut's top a turning body moves up by (angular acceleration) x (position), z component.
   const double here =

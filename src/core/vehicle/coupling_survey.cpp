@@ -16,7 +16,7 @@ constexpr int kFewestSamples = 8;                                // of a horizon
 // @return the largest rms that the ratios' difference gives a strut's own acceleration, as a share of it, beyond what
 // their standard deviations account for; 0 where one has an anti-roll bar that the other has not: they are two models.
 double unexplainedDifference(const CouplingEstimate& a, const CouplingEstimate& b) {
-  if (((a.coupling.bars.array() != 0.0) != (b.coupling.bars.array() != 0.0)).any()) return 0.0;
+  if (a.bars() != b.bars()) return 0.0;
   const StrutVector& power = a.coupling.own_power;
   double most = 0.0;
   for (Eigen::Index i = 0; i < power.size(); ++i) {
@@ -32,18 +32,17 @@ double unexplainedDifference(const CouplingEstimate& a, const CouplingEstimate& 
 
 }  // namespace
 
-CouplingSurvey::CouplingSurvey(int num_struts, int num_forces, double period, double memory, const SensorNoise& noise) {
+CouplingSurvey::CouplingSurvey(const CouplingColumns& columns, double period, double memory, const SensorNoise& noise)
+    : best_(columns) {
   for (double horizon = kShortestHorizon; horizon <= kLongestHorizon; horizon *= 2.0) {
     IntegralFilterOptions filter;
     filter.period = period;
     filter.horizon_samples = static_cast<int>(std::lround(horizon / period));
-    if (filter.horizon_samples >= kFewestSamples)
-      estimators_.emplace_back(num_struts, num_forces, filter, memory / period, noise);
+    if (filter.horizon_samples >= kFewestSamples) estimators_.emplace_back(columns, filter, memory / period, noise);
   }
   if (estimators_.empty())
     throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be at most " +
                                 numberText(kLongestHorizon / kFewestSamples) + " for the struts of a vehicle");
-  best_ = estimators_.front().estimate();
 }
 
 void CouplingSurvey::setNoise(const SensorNoise& noise) {

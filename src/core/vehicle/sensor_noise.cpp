@@ -40,6 +40,10 @@ SensorNoise noiseOfOwnSensors(std::size_t num_struts) {
   return noise;
 }
 
+SensorNoise knownNoise(const SensorNoise& noise, std::size_t num_struts) {
+  return noise.empty() ? noiseOfOwnSensors(num_struts) : noise;
+}
+
 SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise) {
   SensorNoise noise;
   std::size_t num_streams = channels.body_imu ? *channels.body_imu + 6 : 0;

@@ -78,24 +78,18 @@ VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std
   coupling.stddevs = rowsOf(estimate.stddevs);
   coupling.condition = estimate.condition;
   const StrutMatrix& bars = estimate.coupling.bars;
-  for (Eigen::Index i = 0; i < bars.rows(); ++i)
-    for (Eigen::Index j = i + 1; j < bars.rows(); ++j)
-      if (bars(i, j) != 0.0)
-        coupling.bars.push_back({static_cast<std::size_t>(i), static_cast<std::size_t>(j), bars(i, j), bars(j, i)});
+  for (const auto& [i, j] : estimate.bars())
+    coupling.bars.push_back({static_cast<std::size_t>(i), static_cast<std::size_t>(j), bars(i, j), bars(j, i)});
   for (std::size_t k = 0; k < forces.size(); ++k)
     coupling.forces.push_back({forces[k], columnOf(estimate.coupling.forces, k), columnOf(estimate.force_stddevs, k)});
   coupling.reason = reasonOf(estimate, names);
   return coupling;
 }
 
-SensorNoise noiseOf(const VehicleDrive& drive) {
-  return drive.noise.empty() ? noiseOfOwnSensors(drive.struts.size()) : drive.noise;
-}
-
 CouplingEstimate coupleStruts(const std::vector<VehicleDrive>& drives, double period) {
   const VehicleDrive& first = drives.front();
-  CouplingSurvey survey(static_cast<int>(first.struts.size()), static_cast<int>(first.forces.size()), period,
-                        std::numeric_limits<double>::infinity(), noiseOf(first));
+  CouplingSurvey survey({static_cast<int>(first.struts.size()), static_cast<int>(first.forces.size())}, period,
+                        std::numeric_limits<double>::infinity(), knownNoise(first.noise, first.struts.size()));
   for (const VehicleDrive& drive : drives) {
     requireSameStamps(drive);
     replay(

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "suspension_health_monitor/internal/fit/folded_motion.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
@@ -20,7 +21,8 @@ std::vector<Drive> flattened(const std::vector<VehicleDrive>& drives) {
   return all;
 }
 
-void check(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names, const KnownModels& known) {
+const std::vector<VehicleDrive>& checked(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+                                         const KnownModels& known) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   requireNumStruts(names.size());
   requireNumKnownForces(drives.front().forces.size());
@@ -35,6 +37,7 @@ void check(const std::vector<VehicleDrive>& drives, const std::vector<std::strin
   if (!known.empty() && known.size() != names.size())
     throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
                                 std::to_string(names.size()) + " or of none");
+  return drives;
 }
 
 int horizonFor(const StrutModel& model, double period) {
@@ -42,19 +45,30 @@ int horizonFor(const StrutModel& model, double period) {
   return horizonSamples(horizon, period, IntegrationRule::kBandLimited);
 }
 
+/// @return by strut what the noise of the sensors becomes as the drives are separated.
+StrutDrives separatedNoise(const VehicleDrive& drive, double period, const CouplingEstimate& estimate) {
+  VehicleDrive noise(makeNoiseDrive(knownNoise(drive.noise, drive.struts.size()), period));
+  for (const KnownForceRecord& force : drive.forces)
+    noise.forces.push_back({force.name, std::vector<double>(noise.struts.front().samples.size(), 0.0)});
+  return separateStruts(noise, period, estimate.coupling, estimate.models());
+}
+
 /// Struts with what is known of them, to be separated again as more is known.
 class Separator {
  public:
   Separator(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
             const std::optional<double>& sample_period, const KnownModels& known = {})
-      : drives_(drives) {
-    check(drives, names, known);
-    period_ = sample_period ? *sample_period : medianPeriod(flattened(drives));
-    estimate_ = coupleStruts(drives, period_);
-    models_ = estimate_.models();
+      : drives_(checked(drives, names, known)),
+        period_(sample_period ? *sample_period : medianPeriod(flattened(drives))),
+        estimate_(coupleStruts(drives, period_)),
+        coupling_(describe(estimate_, names, forceNames(drives.front()))),
+        models_(estimate_.models()) {
     for (std::size_t i = 0; i < known.size(); ++i)
       if (known[i]) models_[i] = *known[i];
-    coupling_ = describe(estimate_, names, forceNames(drives.front()));
+    if (coupling_)
+      noise_ = separatedNoise(drives.front(), period_, estimate_);
+    else if (isUndersampled())
+      coupling_.reason += kWheelsFolded;
   }
 
   const VehicleCoupling& coupling() const { return coupling_; }
@@ -76,20 +90,26 @@ class Separator {
       StrutDrives separated = separateStruts(drive, period_, estimate_.coupling, models_);
       for (std::size_t i = 0; i < struts.size(); ++i) struts[i].push_back(std::move(separated[i]));
     }
-    VehicleDrive noise(makeNoiseDrive(noiseOf(drives_.front()), period_));
-    for (const KnownForceRecord& force : drives_.front().forces)
-      noise.forces.push_back({force.name, std::vector<double>(noise.struts.front().samples.size(), 0.0)});
-    StrutDrives of_noise = separateStruts(noise, period_, estimate_.coupling, estimate_.models());
-    for (std::size_t i = 0; i < struts.size(); ++i) struts[i].front().noise = std::move(of_noise[i].samples);
+    for (std::size_t i = 0; i < struts.size(); ++i) struts[i].front().noise = noise_[i].samples;
     return struts;
   }
 
  private:
+  bool isUndersampled() const {
+    return std::any_of(drives_.begin(), drives_.end(), [&](const VehicleDrive& drive) {
+      return std::any_of(drive.struts.begin(), drive.struts.end(), [&](const Drive& strut) {
+        const DriveRecord record(strut, period_);
+        return shareAtSamplingLimit({&record}) > kUndersampled;
+      });
+    });
+  }
+
   const std::vector<VehicleDrive>& drives_;
-  double period_ = 0.0;
+  double period_;
   CouplingEstimate estimate_;
   VehicleCoupling coupling_;
   std::vector<StrutModel> models_;
+  StrutDrives noise_;  // empty without a coupling
 };
 
 bool names(const Diagnosis& strut) {

@@ -11,8 +11,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLevelMemory = 4096.0;  // samples: the ratio of two deviations within 2 %
-constexpr std::size_t kFewestOfLevel = 256;
+constexpr double kLevelSeconds = 10.0;       // braking and bends are soon over
+constexpr double kLevelMemory = 4096.0;      // samples: the ratio of two deviations within 2 %
+constexpr std::size_t kFewestOfLevel = 256;  // the same within 5 %
 
 }  // namespace
 
@@ -28,6 +29,8 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
     while (end < streams.options.size() && streams.options[end].sensor == streams.options[sensor.stream].sensor) ++end;
     channels_.push_back({sensor.stream, end});
   }
+  if (vehicle_.body_imu) num_to_wait_ = static_cast<std::size_t>(std::ceil(kLevelSeconds / period));
+  waiting_.reserve(num_to_wait_);
 }
 
 void VehicleGrid::push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) {
@@ -44,6 +47,28 @@ void VehicleGrid::take(const GridInstant& instant) {
     if (!continues) body_levels_[axis].startNewSeries();
     body_levels_[axis].add(instant.values[*vehicle_.body_imu + axis]);
   }
+  if (num_to_wait_ == 0) return lead(instant);
+  waiting_.push_back(instant);
+  if (waiting_.size() == num_to_wait_) turnUpright();
+}
+
+void VehicleGrid::finish() {
+  if (!waiting_.empty()) turnUpright();
+}
+
+void VehicleGrid::turnUpright() {
+  std::vector<Eigen::Vector3d> accelerations;
+  for (const GridInstant& instant : waiting_)
+    accelerations.emplace_back(Eigen::Map<const Eigen::Vector3d>(&instant.values[*vehicle_.body_imu]));
+  level_ = BodyLevel(accelerations);
+  vehicle_.body_mount = level_.mount();
+  for (VehicleChannels::Strut& strut : vehicle_.struts) strut.position = level_.mount() * strut.position;
+  tops_ = StrutTops(period_, vehicle_);
+  num_to_wait_ = 0;
+  for (const GridInstant& instant : std::exchange(waiting_, {})) lead(instant);
+}
+
+void VehicleGrid::lead(const GridInstant& instant) {
   if (const VehicleSample* sample = tops_.push(instant)) sink_(*sample);
 }
 
@@ -54,9 +79,12 @@ double VehicleGrid::deviation(std::size_t first_axis) const {
   return std::sqrt(squares / 3.0);
 }
 
+bool VehicleGrid::hasHeardNoise() const {
+  return !body_levels_.empty() && body_levels_.front().count() >= kFewestOfLevel && deviation(0) > 0.0;
+}
+
 SensorNoise VehicleGrid::noise() const {
-  const bool is_known = !body_levels_.empty() && body_levels_.front().count() >= kFewestOfLevel && deviation(0) > 0.0;
-  return noiseOfStrutTops(vehicle_, period_, is_known ? deviation(3) / deviation(0) : kUsualGyroNoise);
+  return noiseOfStrutTops(vehicle_, period_, hasHeardNoise() ? deviation(3) / deviation(0) : kUsualGyroNoise);
 }
 
 RejectCounts VehicleGrid::rejected(std::size_t sensor) const {

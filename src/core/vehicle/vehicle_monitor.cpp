@@ -32,13 +32,14 @@ int samplesOf(double seconds, double period) { return std::max(1, static_cast<in
 
 }  // namespace
 
-VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces)
+VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces,
+                               const SensorNoise& noise)
     : settings_(checked(settings)),
       period_(fromSeconds(*settings.front().sample_period)),
       sink_(std::move(sink)),
       starts_(settings.size()),
-      survey_(static_cast<int>(settings.size()), num_forces, toSeconds(period_), kCouplingMemory,
-              noiseOfOwnSensors(settings.size())),
+      survey_({static_cast<int>(settings.size()), num_forces}, toSeconds(period_), kCouplingMemory,
+              knownNoise(noise, settings.size())),
       coupling_due_(samplesOf(kCouplingEvery, toSeconds(period_))),
       models_due_(samplesOf(kModelsEvery, toSeconds(period_))),
       is_alone_(settings.size() == 1 && num_forces == 0) {

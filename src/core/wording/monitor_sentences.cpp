@@ -79,8 +79,9 @@ const char* nameOf(HealthLevel level) {
   return "STALE";
 }
 
-std::string describeNoReading(double seconds, const std::string& before) {
-  return formatted("cannot tell: no reading accepted for %.0f s; before: ", seconds) + before;
+std::string describeNoReading(double seconds, const std::vector<std::string>& silent, const std::string& before) {
+  const std::string why = silent.empty() ? "" : ", " + join(silent) + (silent.size() == 1 ? " is" : " are") + " silent";
+  return formatted("cannot tell: no reading accepted for %.0f s", seconds) + why + "; before: " + before;
 }
 
 std::string describe(AlignmentJudge::Verdict verdict) {
@@ -112,9 +113,8 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNotExplained: return "the model does not explain the measured acceleration";
     case EstimateDoubt::kNotAStrut: return "the estimates are not those of a spring and a damper";
     case EstimateDoubt::kClockSkew:
-      return "the clocks of the two IMUs differ by too much for the estimation: synchronise them, diagnose tells by "
-             "how "
-             "much";
+      return "the clocks of the two IMUs differ by too much for the estimation: synchronise them, diagnose tells "
+             "by how much";
     case EstimateDoubt::kNoSpread: return "the estimates' standard deviation cannot be told";
     case EstimateDoubt::kFreeRunFails:
       return "the model, driven by the wheel, fits the body's motion worse than a constant";

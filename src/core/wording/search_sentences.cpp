@@ -1,11 +1,13 @@
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
+#include <algorithm>
+
+#include "suspension_health_monitor/internal/fit/folded_motion.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kUndersampled = 0.25;       // power at half the sampling rate, over the mean one
 constexpr double kLawOfTravelAndRate = 0.5;  // share of the structure from which on it is one
 
 const char* wordsFor(DriveKind kind) {
@@ -15,6 +17,7 @@ const char* wordsFor(DriveKind kind) {
     case DriveKind::kSlower: return "slow and long bumps, with the same travel at a third of the rate";
     case DriveKind::kQuicker: return "short and hard bumps, with the same travel at three times the rate";
     case DriveKind::kLonger: return "a drive three times as long";
+    case DriveKind::kAtRest:
     case DriveKind::kNoneHelps: break;
   }
   return "";
@@ -25,6 +28,10 @@ std::string suggest(const SeparatingDrive& drive) {
   const std::string last = names.back();
   names.pop_back();
   const std::string group = join(names) + " and " + last;
+  if (drive.kind == DriveKind::kAtRest)
+    return "To tell " + group +
+           " apart, read both IMUs on level ground at rest: one that is tilted has gravity across "
+           "the strut, too.";
   if (drive.kind == DriveKind::kNoneHelps)
     return "No other kind of drive would tell " + group + " apart much better: look at the strut.";
   return "To tell " + group + " apart, record " + wordsFor(drive.kind) + ": there their forces differ by " +
@@ -32,10 +39,22 @@ std::string suggest(const SeparatingDrive& drive) {
          " here.";
 }
 
+bool wanders(const SearchResult& result) {
+  return std::any_of(result.ranking.begin(), result.ranking.end(),
+                     [](const RankedModel& model) { return model.failure == FitFailure::kWanders; });
+}
+
 std::string suggestForUnexplained(const SearchResult& result) {
-  if (result.power_at_sampling_limit > kUndersampled)
-    return "The wheel still shakes at half the sampling rate, so that a part of its motion is lost to any model: "
-           "record at twice the rate.";
+  if (wanders(result))
+    return "The reading's offset wanders more slowly than the strut moves, and a constant one would not be larger than "
+           "that: a body that leans by more than two degrees turns gravity away from its IMUs, or a sensor drifts.";
+  if (result.folded_share > kUndersampled)
+    return "The wheel still shakes at half the sampling rate, so that a part of its motion is lost to any model, which "
+           "is the likely cause: record at twice the rate, or with the filter of the IMU set below half of it.";
+  if (result.turns_body)
+    return "The strut turns its body, so that others must hold it: other struts move the same body, give their IMUs, "
+           "too "
+           "(--vehicle, vehicle.launch).";
   if (result.surface_share > kLawOfTravelAndRate)
     return "A force that depends on travel and travel rate alone would explain " + percent(result.surface_share) +
            " of what is missing: describe it as a law of your own and diagnose again.";
@@ -101,6 +120,7 @@ const char* reasonOf(FitFailure failure) {
     case FitFailure::kWrongSign: return "its coefficient would have to be negative";
     case FitFailure::kShapeAtEnd: return "is another law at the end of its range";
     case FitFailure::kToldByFrequency: return "time and the frequency of the motion go together in these drives";
+    case FitFailure::kWanders: return "the offset wanders: a body that leans, or a sensor that drifts";
     case FitFailure::kNone: break;
   }
   return "";

@@ -1,30 +1,18 @@
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kAlike = 20.0;  // information over noise's of the least combination: what is alike keeps it below
+// What tracks that are alike keep the information of the least combination of struts over noise's below, and what they
+// make the condition of the rows exceed.
+constexpr double kAlike = 20.0;
 constexpr const char* kTooLittle = "are too short or too calm to tell how the struts move one another";
-
-}  // namespace
-
-std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::string>& struts) {
-  if (estimate.isKnown()) return "";
-  if (estimate.coupling.own_power.isZero(0.0)) return kTooLittle;
-  if (!(estimate.damping_to_mass.minCoeff() > 0.0 && estimate.stiffness_to_mass.minCoeff() > 0.0))
-    return "do not show damped springs that move one body: are body and wheel swapped, or an axis upside down?";
-  if (estimate.told_apart < kAlike && struts.size() > 1)
-    return "cannot tell " + struts[static_cast<std::size_t>(estimate.first_alike)] + " from " +
-           struts[static_cast<std::size_t>(estimate.second_alike)] +
-           ": their wheels move alike, or too little. Drive over bumps on one side";
-  return kTooLittle;
-}
-
-namespace {
 
 // "friction (or digressive_damping)": what the drives cannot tell from it, too.
 std::string namesOf(const Diagnosis& strut) {
@@ -39,6 +27,36 @@ std::string namesOf(const Diagnosis& strut) {
 }
 
 }  // namespace
+
+std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::string>& struts) {
+  if (estimate.isKnown()) return "";
+  if (estimate.coupling.own_power.isZero(0.0)) return kTooLittle;
+  if (!(estimate.damping_to_mass.minCoeff() > 0.0 && estimate.stiffness_to_mass.minCoeff() > 0.0))
+    return "do not show damped springs that move one body: are body and wheel swapped, or an axis upside down?";
+  if ((estimate.told_apart < kAlike || estimate.condition > kAlike) && struts.size() > 1)
+    return "cannot tell " + struts[static_cast<std::size_t>(estimate.first_alike)] + " from " +
+           struts[static_cast<std::size_t>(estimate.second_alike)] +
+           ": their wheels move alike, or too little. Drive over bumps on one side";
+  return kTooLittle;
+}
+
+std::string describe(InertiaDoubt doubt) {
+  const std::string begin = "cannot tell M/Iyy and M/Ixx: ";
+  switch (doubt) {
+    case InertiaDoubt::kNone: return "";
+    case InertiaDoubt::kNoPositions: return begin + "a strut has no position";
+    case InertiaDoubt::kOnOneLine: return begin + "it takes three struts that do not stand on one line";
+    case InertiaDoubt::kUncertain: return begin + "the ratios are too uncertain, or do not fit the positions";
+  }
+  return "";
+}
+
+std::string describe(const BodyLevel& level) {
+  if (!level.isTurned()) return "";
+  const double degrees = level.lean() / kPi * 180.0;
+  return "the body's IMU leans by " + std::to_string(std::lround(degrees)) +
+         " degrees: gravity tells which way is up; positions are in its own axes";
+}
 
 std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::string>& struts) {
   std::vector<std::string> missing, suspects, unexplained, silent;

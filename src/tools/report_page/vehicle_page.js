@@ -3,7 +3,7 @@
 function buildVehiclePage() {
   const findings = readFindings();
   showPage(spoken(findings.summary), [
-    vehicleVerdictSection(findings), couplingSection(findings), strutsSection(findings),
+    vehicleVerdictSection(findings), couplingSection(findings), forcesSection(findings), strutsSection(findings),
     element(
         'footer', {},
         element(

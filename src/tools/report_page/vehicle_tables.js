@@ -25,9 +25,9 @@ function strutsSection({struts}) {
           struts.map(strut => strutRow(strut, scale))));
 }
 
-/** A ratio to the first digit of its standard deviation. */
-function ratioCell(value, stddev) {
-  const digits = stddev > 0 ? Math.min(4, Math.max(0, -Math.floor(Math.log10(stddev)))) : 3;
+/** A number to the first digit of its standard deviation. */
+function ratioCell(value, stddev, most = 4) {
+  const digits = stddev > 0 ? Math.min(most, Math.max(0, -Math.floor(Math.log10(stddev)))) : 3;
   const shown = number => number.toFixed(digits).replace('-', '−');
   return [shown(value), element('small', {}, `± ${shown(stddev)}`)];
 }
@@ -47,5 +47,24 @@ function couplingSection({struts, ratios, stddevs, condition}) {
           struts.map(
               ({name}, i) => element(
                   'tr', {'data-strut': name}, element('td', {}, spoken(name)), struts.map((_, j) => cell(i, j)))),
+          'matrix'));
+}
+
+/** Of a force that has been still nothing is known: its standard deviation is null. */
+function forcesSection({struts, known_forces: forces}) {
+  if (forces.length === 0) return null;
+  const cell = ({coefficients, stddevs}, i) => element(
+      'td', {class: 'number', 'data-coefficient': coefficients[i], 'data-stddev': stddevs[i]},
+      isNumber(stddevs[i]) ? ratioCell(coefficients[i], stddevs[i], 8) : 'cannot tell');
+  return section(
+      'forces', 'What the known forces do',
+      'By how much one unit of a force accelerates the top of each strut, in m/s² per unit, ± standard deviation: of a ' +
+          'vertical force in newtons 1/M + x·xᵢ/Iyy + y·yᵢ/Ixx.',
+      wideTable(
+          [head('force'), struts.map(({name}) => head(spoken(name), 'number'))],
+          forces.map(
+              force => element(
+                  'tr', {'data-force': force.name}, element('td', {}, spoken(force.name)),
+                  struts.map((_, i) => cell(force, i)))),
           'matrix'));
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "suspension_health_monitor/internal/signal/stream_silence.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -25,20 +26,26 @@ struct HealthMoment {
 ///
 /// The time covered is that from the first to the last reading of each recording, by their stamps; none passes between
 /// two recordings, nor where the clock goes back. The level is that of the newest report. As in /diagnostics it is
-/// kStale once no reading has been accepted for the time-out, and before the first report; such a silence lasts no
-/// longer than the recording took, whatever a stamp says. Cost per reading and report: O(1); memory grows with the
-/// changes only.
+/// kStale once no reading has been accepted for the time-out, and before the first report, and the sensors that were
+/// silent meanwhile are named; such a silence lasts no longer than the recording took, whatever a stamp says. Cost per
+/// reading and report: O(1); memory grows with the changes only.
 class HealthLog {
  public:
   using Sink = std::function<void(const HealthMoment&)>;
 
   /// @param timeout  silence after which what is known is old.
+  /// @param sensors  names, topics, of all whose readings the strut needs.
   /// @param sink  called with every change of level and with the first report of every second between.
-  explicit HealthLog(Stamp timeout, Sink sink = {}) : timeout_(timeout), sink_(std::move(sink)) {}
+  HealthLog(Stamp timeout, const std::vector<std::string>& sensors, Sink sink = {})
+      : timeout_(timeout),
+        sink_(std::move(sink)),
+        sensors_(sensors),
+        silence_(sensors.size(), timeout),
+        was_silent_(sensors.size()) {}
 
   /// Notes that a sensor of the strut has given a reading, whether or not it will be accepted.
-  /// @param recorded  when it was recorded, by any clock.
-  void addReading(Stamp stamp, Stamp recorded);
+  /// @param sensor  its place.  @param recorded  when it was recorded, by any clock.
+  void addReading(std::size_t sensor, Stamp stamp, Stamp recorded);
 
   /// Takes in a report of what came of the readings so far.
   void addReport(const MonitorReport& report);
@@ -66,14 +73,19 @@ class HealthLog {
 
  private:
   void goTo(Stamp stamp);
+  void advance(Stamp stamp);
   void pass(Stamp duration);
   void changeTo(HealthLevel level, const std::string& message);
   void write(const HealthMoment& moment);
+  void noteSilence(std::size_t sensor);
   std::string silence(Stamp until) const;
   HealthMoment momentOf(const std::string& message) const { return {now_, elapsed_, level_, message, la_}; }
 
   Stamp timeout_;
   Sink sink_;
+  std::vector<std::string> sensors_;
+  StreamSilence silence_;
+  std::vector<bool> was_silent_;  // by sensor, since the newest report
   bool in_recording_ = false;
   Stamp now_{}, newest_reading_{};        // stamps
   Stamp recorded_{}, newest_recorded_{};  // when what they belong to was recorded

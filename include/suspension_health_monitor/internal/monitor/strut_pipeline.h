@@ -7,7 +7,7 @@
 
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
-#include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/signal/early_readings.h"
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
@@ -53,26 +53,14 @@ class StrutPipeline {
   RejectCounts rejected() const;
 
  private:
-  struct Reading {
-    Side side;
-    Stamp stamp;
-    double acceleration;
-  };
-
-  static constexpr std::size_t kSpacingsForPeriod = 50;
-  static constexpr std::size_t kMostEarly = 2 * UniformGrid::kMostWaiting;
-
-  void measurePeriod(const Reading& reading);
   void start(double period);
   void startOnce(double period);
   void replayEarly();
-  void take(const Reading& reading);
+  void take(Side side, Stamp stamp, double acceleration);
 
   MonitorSettings settings_;
   Sinks sinks_;
-  PeriodMeasurement measurement_{kSpacingsForPeriod};
-  std::vector<Reading> early_;         // that wait for the sample period
-  std::size_t replayed_ = 0;           // of these, since the period is known
+  EarlyReadings<double> early_{PeriodMeasurement::kOfOneStrut, UniformGrid::kMostWaiting};
   bool is_refused_ = false;            // the settings do not fit the sample period that was measured
   std::vector<ActiveEffect> effects_;  // until there is a monitor, as is the baseline
   std::optional<LinearStrut> strut_;   // that belongs to them
@@ -80,7 +68,6 @@ class StrutPipeline {
   std::optional<UniformGrid> grid_;
   std::optional<SuspensionMonitor> monitor_;
   std::optional<TyreTracker> tyre_;
-  RejectCounts rejected_;  // while the sample period is being measured
 };
 
 }  // namespace suspension_health_monitor

@@ -6,7 +6,7 @@
 namespace suspension_health_monitor {
 
 /// Kinds of a drive that would tell models apart, see separating_drive.h.
-enum class DriveKind { kNoneHelps, kMoreTravel, kLessTravel, kSlower, kQuicker, kLonger };
+enum class DriveKind { kNoneHelps, kMoreTravel, kLessTravel, kSlower, kQuicker, kLonger, kAtRest };
 
 /// The drive that would tell a group of effects apart best.
 struct SeparatingDrive {
@@ -19,7 +19,8 @@ struct SeparatingDrive {
 /// A diagnosis without the words for people.
 struct SearchResult : Diagnosis {
   std::vector<SeparatingDrive> separating;  ///< one per group that the drives cannot tell apart
-  double power_at_sampling_limit = 0.0;     ///< see powerAtSamplingLimit()
+  double folded_share = 0.0;                ///< without a name: rms of foldedMotion() over that of the structure
+  bool turns_body = false;                  ///< without a name: the strut turns its body, so that it is not alone on it
   double remainder_surface_share = 0.0;     ///< of what a suspect leaves, what a free-form force would take
 };
 

@@ -81,6 +81,9 @@ struct SensorFaults {
   /// @param acceleration  z'' of the strut's top [m/s^2], `delay` ago.
   /// @return what an otherwise ideal sensor reads on its z axis, without gravity [m/s^2].
   double read(double acceleration, const Sway& sway) const;
+
+  /// @return what it reads of gravity, which comes on top of that [m/s^2].
+  double readAtRest(double gravity) const;
 };
 
 }  // namespace suspension_health_monitor

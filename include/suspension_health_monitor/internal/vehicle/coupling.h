@@ -7,10 +7,9 @@
 namespace suspension_health_monitor {
 
 /// How the struts of a rigid body move one another. At the top of strut i
-///   z_i'' = sum_j rho_ij p_j + sum_k kappa_ik x_k,   p_j = b1_j v_j + b0_j d_j + bars + effects of strut j,   rho_ii =
-///   1,
-/// with rho_ij = a_ij / a_jj, a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx: ratios that belong to the body and to where
-/// the struts stand, not to what they are worth.
+///   z_i'' = sum_j rho_ij p_j + sum_k kappa_ik x_k,   p_j = b1_j v_j + b0_j d_j + bars + effects of strut j,
+/// with rho_ii = 1 and rho_ij = a_ij / a_jj, a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx: ratios that belong to the body
+/// and to where the struts stand, not to what they are worth.
 struct Coupling {
   StrutMatrix ratios;  ///< rho [-]
   ForceMatrix forces;  ///< kappa [m/s^2 per unit of the force: 1/kg of newtons]

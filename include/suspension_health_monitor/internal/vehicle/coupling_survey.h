@@ -15,8 +15,9 @@ class CouplingSurvey {
  public:
   /// @param period  T [s].  @param memory  of the rows [s]; infinite: all count.
   /// @throws std::invalid_argument  if no horizon has samples enough.
-  CouplingSurvey(int num_struts, int num_forces, double period, double memory, const SensorNoise& noise);
+  CouplingSurvey(const CouplingColumns& columns, double period, double memory, const SensorNoise& noise);
 
+  /// From the next solve() on. Allocates.
   void setNoise(const SensorNoise& noise);
 
   void add(const VehicleSample& sample);

@@ -11,6 +11,9 @@ inline constexpr double kUsualGyroNoise = 0.002 / 0.03;
 /// @return the noise of a vehicle each of whose struts has two accelerometers of its own, all alike.
 SensorNoise noiseOfOwnSensors(std::size_t num_struts);
 
+/// @return the noise as it is known; where it is empty that of own sensors.
+SensorNoise knownNoise(const SensorNoise& noise, std::size_t num_struts);
+
 /// @param gyro_noise  standard deviation of a gyro's noise over that of an accelerometer's [s/m].
 /// @return the noise of a vehicle's sensors behind its StrutTops.
 SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise);

@@ -18,9 +18,6 @@ VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std
 /// @return the names of the forces that are known in a drive.
 std::vector<std::string> forceNames(const VehicleDrive& drive);
 
-/// @return the noise of the sensors that a drive was recorded with.
-SensorNoise noiseOf(const VehicleDrive& drive);
-
 /// @param drives  of one vehicle.
 /// @return the coupling of its struts over all of them.
 /// @throws std::invalid_argument  if the struts of a drive have not the same stamps, or as CouplingSurvey.

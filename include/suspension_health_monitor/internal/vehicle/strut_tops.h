@@ -16,14 +16,14 @@ struct VehicleChannels {
   struct Strut {
     std::size_t unsprung = 0;           ///< stream of w''
     std::optional<std::size_t> sprung;  ///< stream of z''; none: the body's IMU tells it
-    /// Of the strut's top, from the body's IMU, in the body's axes [m]: x forward, y to the left, z up (REP 103).
+    /// Of the strut's top, from the body's IMU [m].
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
   };
   std::vector<Strut> struts;
   /// Stream of the body's IMU that reads its acceleration along x; those along y and z, and the angular rates about x,
   /// y, z, are the next five.
   std::optional<std::size_t> body_imu;
-  /// Turns what the body's IMU reads into the body's axes: column i is that of the IMU's axis i.
+  /// Turns what the body's IMU reads into axes whose z is up, those of the positions: column i is that of its axis i.
   Eigen::Matrix3d body_mount = Eigen::Matrix3d::Identity();
   std::vector<std::size_t> known_forces;  ///< streams
 };

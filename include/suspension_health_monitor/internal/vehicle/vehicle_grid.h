@@ -9,6 +9,7 @@
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 #include "suspension_health_monitor/internal/signal/white_level.h"
+#include "suspension_health_monitor/internal/vehicle/body_level.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
 #include "suspension_health_monitor/vehicle.h"
@@ -16,7 +17,8 @@
 namespace suspension_health_monitor {
 
 /// The readings of all sensors of a vehicle as samples of its struts, the one way for a live vehicle and for bags:
-/// StreamGrid -> StrutTops. Cost per reading: as StreamGrid, no allocation.
+/// StreamGrid -> StrutTops. Where the body's IMU is needed the first seconds wait until they have told how it is turned
+/// (BodyLevel). Cost per reading: as StreamGrid, after these seconds no allocation.
 class VehicleGrid {
  public:
   using Sink = std::function<void(const VehicleSample&)>;
@@ -30,7 +32,13 @@ class VehicleGrid {
   /// @param sensor  its place in VehicleStreams::sensors.  @param values  of its streams.
   void push(std::size_t sensor, Stamp stamp, const std::vector<double>& values);
 
+  /// After the last reading: what waits is led on.
+  void finish();
+
   const StreamGrid& streams() const { return grid_; }
+
+  /// @return how the body's IMU was found to be turned.
+  const BodyLevel& bodyLevel() const { return level_; }
 
   /// @return what timing and losses of a sensor are judged by: all of its streams share their stamps.
   const StreamGate& gate(std::size_t sensor) const { return grid_.gate(channels_[sensor].first); }
@@ -39,8 +47,11 @@ class VehicleGrid {
   RejectCounts rejected(std::size_t sensor) const;
   std::uint64_t missed(std::size_t sensor) const;
 
-  /// @return what the sensors' noise makes of the samples, by what the body's IMU has had of it. Allocates.
+  /// @return what the sensors' noise makes of the samples. Allocates.
   SensorNoise noise() const;
+
+  /// @return true once it is by what the body's IMU has had of it; until then, and without one, by what is usual.
+  bool hasHeardNoise() const;
 
   /// @return instants of the grid so far.
   std::uint64_t numInstants() const { return num_instants_; }
@@ -51,11 +62,16 @@ class VehicleGrid {
   };
 
   void take(const GridInstant& instant);
+  void lead(const GridInstant& instant);
+  void turnUpright();
   double deviation(std::size_t first_axis) const;
 
   Stamp period_;
   VehicleChannels vehicle_;
   StrutTops tops_;
+  BodyLevel level_;
+  std::size_t num_to_wait_ = 0;  // instants until the level is taken
+  std::vector<GridInstant> waiting_;
   StreamGrid grid_;
   std::vector<Channels> channels_;       // by sensor
   std::vector<WhiteLevel> body_levels_;  // of the body's IMU, by stream

@@ -21,8 +21,8 @@ struct VehicleLayout {
     std::string name;  ///< a name that a topic may begin with
     std::string unsprung_imu;
     std::optional<std::string> sprung_imu;  ///< none: the body's IMU tells what the strut's top does
-    /// Of the strut's top, from the body's IMU, in the body's axes [m]: x forward, y to the left, z up (REP 103). Where
-    /// every strut has its own IMU it may count from any point of the body.
+    /// Of the strut's top, from the body's IMU, in that IMU's axes or, with a target_frame, in those of that frame [m].
+    /// Where every strut has its own IMU: from any point of the body, x forward, y to the left, z up (REP 103).
     std::optional<std::array<double, 3>> position;
     std::optional<std::string> frame;  ///< at the strut's top, whose static transform tells the position
   };

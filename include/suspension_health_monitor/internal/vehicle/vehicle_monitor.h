@@ -28,10 +28,12 @@ class VehicleMonitor {
   /// @param settings  of each strut, with sample_period given, the same in all.
   /// @param sink  called with the report of every strut after every sample that gave one.
   /// @param num_forces  known forces in every sample.
+  /// @param noise  what that of the sensors makes of the samples, as in VehicleDrive.
   /// @throws std::invalid_argument  as SuspensionMonitor; without a strut, or with more than kMostStruts.
-  VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0);
+  VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0,
+                 const SensorNoise& noise = {});
 
-  /// What the noise of the sensors makes of the samples; so far every strut has two of its own, all alike. Allocates.
+  /// As more is known of the noise. Allocates.
   void setNoise(const SensorNoise& noise) { survey_.setNoise(noise); }
 
   /// Takes in the next sample; gaps and clocks that go back begin a new series.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
@@ -13,8 +14,9 @@ namespace suspension_health_monitor {
 /// @return "OK", "WARN", "ERROR" or "STALE".
 const char* nameOf(HealthLevel level);
 
-/// @param seconds  for which no reading was accepted.  @param before  what was said until then.
-std::string describeNoReading(double seconds, const std::string& before);
+/// @param seconds  for which no reading was accepted.  @param silent  topics that nothing came on meanwhile, though
+/// others went on.  @param before  what was said until then.
+std::string describeNoReading(double seconds, const std::vector<std::string>& silent, const std::string& before);
 
 /// @return why readings are resampled; empty if pairing does well.
 std::string describe(AlignmentJudge::Verdict verdict);

@@ -3,13 +3,26 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/vehicle/coupling_estimator.h"
+#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
+#include "suspension_health_monitor/internal/vehicle/body_level.h"
+#include "suspension_health_monitor/internal/vehicle/coupling_estimate.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
 /// @return why the coupling is not known, to be read after "the drives"; empty if it is.
 std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::string>& struts);
+
+/// @return why it is not known how the body's mass is spread, in a sentence; empty if it is.
+std::string describe(InertiaDoubt doubt);
+
+/// @return how the body's IMU was found to be turned, if it was; else empty.
+std::string describe(const BodyLevel& level);
+
+/// To be added to a reason.
+inline constexpr const char* kWheelsFolded =
+    "; a wheel still shakes at half the sampling rate, which is the likely cause: record at twice the rate, or with "
+    "the filter of the IMU set below half of it";
 
 /// @return the verdict in a sentence.
 std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::string>& struts);

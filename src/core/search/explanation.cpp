@@ -1,0 +1,64 @@
+#include "explanation.h"
+
+#include <algorithm>
+
+#include "body_turning.h"
+#include "suspension_health_monitor/internal/fit/band_noise.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kTakenByAnother = 0.3;  // of what is left
+
+/// A force that goes with the body's own motion, not with the strut's.
+bool actsOnBody(const ActiveEffect& active) {
+  const auto rate = [&](double acceleration) {
+    return active.effect.memory_rate({1.0, 1.0, 1.0, 0.5, acceleration}, active.shapes.data());
+  };
+  return active.effect.memory_rate && rate(0.0) != rate(1.0);
+}
+
+}  // namespace
+
+Explanation::Explanation(const Records& records, const ModelEvaluator& evaluator, const EvaluatedModel& base)
+    : records_(records),
+      evaluator_(evaluator),
+      base_(base),
+      sampling_floor_(estimateSamplingFloor(records, base.ranked.model)),
+      turning_share_(shareOfTurning(records, evaluator.heldOut(), evaluator.motionOf(base))) {}
+
+double Explanation::share(const EvaluatedModel& after, double floor) const {
+  const double structure = square(base_.ranked.held_out_rmse) - square(floor);
+  return structure > 0.0 ? (square(base_.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
+}
+
+double Explanation::floorOf(const EvaluatedModel& after, double floor) const {
+  return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals, records_.front()->period(),
+                         after.ranked.model);
+}
+
+bool Explanation::isExplained(const EvaluatedModel& after) const {
+  const double lowest = floorOf(after, sampling_floor_);
+  const double explained = share(after, lowest);
+  if (explained < kMostOfIt || mayBeOtherStruts(after)) return false;
+  // Where only the reading is to be at fault, what that leaves has been there before, as the noise of a filtered sensor
+  // has: no law hid it.
+  const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
+  if (only_reading && share(after, floorOf(base_, sampling_floor_)) < kMostOfIt) return false;
+  const double left = square(after.ranked.held_out_rmse) - square(lowest);
+  return explained > 1.0 - kWorthHaving || !isStructured(after.ranked.held_out_rmse, lowest) ||
+         evaluator_.surfaceGain(after) * square(after.ranked.held_out_rmse) < kTakenByAnother * left;
+}
+
+bool Explanation::mayBeOtherStruts(const EvaluatedModel& after) const {
+  if (turning_share_ <= kWorthHaving) return false;
+  const StrutModel &given = base_.ranked.model, &model = after.ranked.model;
+  return std::any_of(model.effects.begin() + static_cast<std::ptrdiff_t>(given.effects.size()), model.effects.end(),
+                     actsOnBody) ||
+         std::any_of(model.reading.begin() + static_cast<std::ptrdiff_t>(given.reading.size()), model.reading.end(),
+                     [](const ActiveMeasurementEffect& fault) { return fault.effect.name != "accelerometer_bias"; });
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,23 @@
+#include "selection.h"
+
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+
+Selection select(const std::vector<EvaluatedModel>& ranking) {
+  const EvaluatedModel& best = ranking.front();
+  Selection selection{best, {}, {}};
+  for (const EvaluatedModel& rival : ranking) {
+    if (!rival.ranked.fitted) continue;
+    const bool simpler = complexity(rival.ranked.model) < complexity(best.ranked.model);
+    const double chance = simpler ? kFalseAlarm / static_cast<double>(ranking.size()) : kSure;
+    const PairedTest gain = rival.gainOf(best);
+    if (gain.removed_share > kWorthHaving || isSignificant(gain, chance)) continue;
+    selection.group.push_back(rival.added);
+    selection.models.push_back(rival.ranked.model);
+    if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
+  }
+  return selection;
+}
+
+}  // namespace suspension_health_monitor
