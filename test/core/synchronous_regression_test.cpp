@@ -32,7 +32,9 @@ struct Sines {
   }
 };
 
-SynchronousRegression regression() { return {kFilter, SensorColumns::kDriftingOffset, kForgetting}; }
+SynchronousRegression regression() {
+  return {kFilter, SensorColumns::kDriftingOffset, RegressorNoise(kFilter), kForgetting};
+}
 
 void drive(SynchronousRegression& rows, Sines& sines, double from, double to) {
   for (int k = static_cast<int>(from / kPeriod); k * kPeriod < to; ++k)

@@ -1,10 +1,9 @@
 #include "suspension_health_monitor/internal/identification/skew_profile.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-
-#include "suspension_health_monitor/internal/identification/regressor_noise.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -18,6 +17,18 @@ constexpr double kMemories = 30.0;   // of the estimator: clocks differ by as mu
 constexpr double kCertain = 4.0;     // standard deviations
 constexpr double kRounding = 1e-12;  // of squares
 
+/// @return the rest of the squares of psi that the best strut leaves.
+double leastSquares(const Eigen::Matrix3d& moments) {
+  const Eigen::Vector2d products = moments.bottomLeftCorner<2, 1>();
+  return moments(0, 0) - products.dot(moments.bottomRightCorner<2, 2>().ldlt().solve(products));
+}
+
+/// @return the least v' M v / v' N v over the struts v = (1, -b1, -b0), M the moments and N those of the noise.
+double totalLeastSquares(const Eigen::Matrix3d& moments, const Eigen::Matrix3d& noise) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(moments, noise, Eigen::EigenvaluesOnly)
+      .eigenvalues()[0];
+}
+
 /// The parabola through three values a step apart; x in steps.
 struct Parabola {
   double value, slope, curvature;  // in the middle
@@ -30,11 +41,12 @@ struct Parabola {
 
 }  // namespace
 
-SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions& filter, double forgetting_factor)
+SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions& filter, const RegressorNoise& noise,
+                         double forgetting_factor)
     : step_(mostSkew(filter) / kSteps),
       every_(std::max(1, filter.horizon_samples / kRowsOfHorizon)),
       horizon_rows_(std::max(kFewestRows, filter.horizon_samples)),
-      noise_(RegressorNoise(filter).covariance()) {
+      noise_(noise.covariance()) {
   for (std::size_t j = 0; j < kNumSkews; ++j) places_.push_back(wheel.place(skewAt(j)));
   setForgettingFactor(forgetting_factor);
 }
@@ -67,58 +79,77 @@ bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, do
   return true;
 }
 
-// The least v' M v / v' N v over the struts v = (1, -b1, -b0), M the moments about the means, N those of the noise.
-double SkewProfile::rest(const Sums& sums) const {
-  Eigen::Matrix3d moments;  // the lower triangle
-  moments(0, 0) = output_square_ - output_ * output_ / num_;
-  moments(1, 0) = sums.damping_output - sums.damping * output_ / num_;
-  moments(2, 0) = sums.stiffness_output - sums.stiffness * output_ / num_;
-  moments(1, 1) = sums.damping_square - sums.damping * sums.damping / num_;
-  moments(2, 1) = sums.both - sums.damping * sums.stiffness / num_;
-  moments(2, 2) = sums.stiffness_square - sums.stiffness * sums.stiffness / num_;
-  if (!moments.triangularView<Eigen::Lower>().toDenseMatrix().allFinite()) return 0.0;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments, noise_, Eigen::EigenvaluesOnly);
-  return std::max(solver.eigenvalues()[0], kRounding * output_square_ / noise_(0, 0));
+// About the means, since every block has an offset of its own.
+Eigen::Matrix3d SkewProfile::momentsOf(const Sums& sums) const {
+  const Eigen::Vector3d means = Eigen::Vector3d(output_, sums.damping, sums.stiffness) / num_;
+  Eigen::Matrix3d squares;
+  squares << output_square_, sums.damping_output, sums.stiffness_output,  //
+      sums.damping_output, sums.damping_square, sums.both,                //
+      sums.stiffness_output, sums.both, sums.stiffness_square;
+  return squares - num_ * means * means.transpose();
 }
 
 void SkewProfile::closeHorizon() {
-  Profile rests;
-  std::transform(sums_.begin(), sums_.end(), rests.begin(), [&](const Sums& sums) { return rest(sums); });
-  const double least = *std::min_element(rests.begin(), rests.end());
-  const double most = *std::max_element(rests.begin(), rests.end());
-  if (!(least > 0.0 && std::isfinite(most))) return;
-  const double unit = (num_ - kFitted) / kAlike / least;
-  std::transform(rests.begin(), rests.end(), newest_.begin(), [&](double left) { return unit * left; });
-  if (is_known_ && !newestAgrees()) older_.fill(0.0);
+  Profile plain, of_noise;
+  const double rounding = kRounding * output_square_;
+  for (std::size_t j = 0; j < kNumSkews; ++j) {
+    const Eigen::Matrix3d moments = momentsOf(sums_[j]);
+    if (!moments.allFinite()) return;
+    plain[j] = std::max(leastSquares(moments), rounding);
+    of_noise[j] = std::max(totalLeastSquares(moments, noise_), rounding / noise_(0, 0));
+  }
+  const double weight = (num_ - kFitted) / kAlike;
+  if (!plain_.take(plain, weight) || !of_noise_.take(of_noise, weight)) return;
+  if (is_known_ && !newestAgrees()) plain_.older = of_noise_.older = {};
   is_known_ = true;
   locate();
+}
+
+bool SkewProfile::Evidence::take(const Profile& rests, double weight) {
+  const double least = *std::min_element(rests.begin(), rests.end());
+  if (!(least > 0.0 && std::isfinite(*std::max_element(rests.begin(), rests.end())))) return false;
+  std::transform(rests.begin(), rests.end(), newest.begin(), [&](double left) { return weight * left / least; });
+  return true;
+}
+
+void SkewProfile::Evidence::closeBlock(double share) {
+  for (std::size_t j = 0; j < kNumSkews; ++j) older[j] = share * older[j] + newest[j];
+  newest.fill(0.0);
 }
 
 bool SkewProfile::newestAgrees() const {
   const long j = std::lround(skew_ / step_) + kSteps;
   if (j < 1 || j >= 2 * kSteps) return true;
   const auto here = static_cast<std::size_t>(j);
-  const Parabola parabola(newest_[here - 1], newest_[here], newest_[here + 1]);
+  const Profile& newest = plain_.newest;
+  const Parabola parabola(newest[here - 1], newest[here], newest[here + 1]);
   const double at_skew = parabola.at((skew_ - skewAt(here)) / step_);
-  return at_skew - *std::min_element(newest_.begin(), newest_.end()) < kCertain * kCertain;
+  return at_skew - *std::min_element(newest.begin(), newest.end()) < kCertain * kCertain;
+}
+
+SkewProfile::Optimum SkewProfile::optimumOf(const Evidence& evidence) const {
+  Profile total;
+  for (std::size_t j = 0; j < kNumSkews; ++j)
+    total[j] = evidence.older[j] + evidence.newest[j] + std::pow(skewAt(j) / (kUsualSteps * step_), 2);
+  const auto best = static_cast<std::size_t>(std::min_element(total.begin(), total.end()) - total.begin());
+  const double skew = skewAt(best);
+  if (best == 0 || best + 1 == kNumSkews) return {skew, 0.0, false};
+  // Its curvature is above 0, as it is least here and what is known beforehand has one.
+  const Parabola here(total[best - 1], total[best], total[best + 1]);
+  return {skew - here.slope / here.curvature * step_, 2.0 / here.curvature * step_ * step_, true};
 }
 
 void SkewProfile::locate() {
-  Profile total;
-  for (std::size_t j = 0; j < kNumSkews; ++j)
-    total[j] = older_[j] + newest_[j] + std::pow(skewAt(j) / (kUsualSteps * step_), 2);
-  const auto best = static_cast<std::size_t>(std::min_element(total.begin(), total.end()) - total.begin());
-  is_within_ = best > 0 && best + 1 < kNumSkews;
+  const Optimum plain = optimumOf(plain_);
+  is_within_ = plain.is_within;
   if (!is_within_) return;
-  const Parabola here(total[best - 1], total[best], total[best + 1]);
-  if (!(here.curvature > 0.0)) return;
-  skew_ = skewAt(best) - here.slope / here.curvature * step_;
-  variance_ = 2.0 / here.curvature * step_ * step_;
+  skew_ = plain.skew;
+  variance_ = plain.variance + std::pow(optimumOf(of_noise_).skew - plain.skew, 2) / 3.0;
 }
 
 void SkewProfile::interrupt() {
-  for (std::size_t j = 0; j < kNumSkews; ++j) older_[j] = share_ * older_[j] + newest_[j];
-  newest_.fill(0.0);
+  plain_.closeBlock(share_);
+  of_noise_.closeBlock(share_);
   sums_.fill({});
   output_ = output_square_ = num_ = 0.0;
   rows_ = 0;
@@ -126,7 +157,7 @@ void SkewProfile::interrupt() {
 
 void SkewProfile::restart() {
   interrupt();
-  older_.fill(0.0);
+  plain_.older = of_noise_.older = {};
   is_known_ = false;
   is_within_ = true;
   skew_ = variance_ = 0.0;

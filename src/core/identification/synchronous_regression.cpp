@@ -7,12 +7,12 @@ constexpr std::size_t kBodyColumns = 3;
 
 }  // namespace
 
-SynchronousRegression::Late::Late(const IntegralFilterOptions& options, std::size_t num_effects,
+SynchronousRegression::Late::Late(const IntegralFilterOptions& options, const RegressorNoise& noise,
                                   double forgetting_factor)
     : wheel(options, SkewProfile::mostSkew(options)),
-      skew(wheel, options, forgetting_factor),
+      skew(wheel, options, noise, forgetting_factor),
       place(wheel.place(0.0)) {
-  setEffects(num_effects);
+  setEffects(0);
 }
 
 void SynchronousRegression::Late::setEffects(std::size_t num_effects) {
@@ -20,9 +20,9 @@ void SynchronousRegression::Late::setEffects(std::size_t num_effects) {
 }
 
 SynchronousRegression::SynchronousRegression(const IntegralFilterOptions& options, SensorColumns sensors,
-                                             double forgetting_factor)
+                                             const RegressorNoise& noise, double forgetting_factor)
     : options_(options), sensors_(sensors), rows_(options, 0, sensors) {
-  if (sensors == SensorColumns::kDriftingOffset) late_.emplace(options, 0, forgetting_factor);
+  if (sensors == SensorColumns::kDriftingOffset) late_.emplace(options, noise, forgetting_factor);
 }
 
 void SynchronousRegression::changeEffects(std::size_t num_effects) {

@@ -59,8 +59,8 @@ double withDifference(double stddev, double ls, double la) {
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
       sensors_(options.estimators.sensors),
-regression_(filter_, sensors_, options.forgettingFactor(filter_.period)),
       excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), regressorNoise(options, filter_)),
+      regression_(filter_, sensors_, excitation_.noise(), options.forgettingFactor(filter_.period)),
       least_squares_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples)),
       least_absolute_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples),
                       options.leastAbsolute()),
@@ -203,7 +203,8 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
 
 // The shift by the sensors' noise is taken off from the next description on, by the strut that it leaves now: the fixed
 // point of that is the strut whose rows, less the noise's share of their moments, it solves. It is that of LS for both:
-// of normal residuals LA has the same. What is left is that nobody knows how the noise is divided between the sensors.
+// of normal residuals LA has the same. What is left is what it is not taken off of, and that nobody knows how the noise
+// is divided between the sensors.
 void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   const RegressorNoise& noise = excitation_.noise();
   const Eigen::Vector2d strut(la.damping_to_mass, la.stiffness_to_mass);
@@ -216,12 +217,14 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   // Beside a parameter that is held P is not that of the rows.
   const bool removes = lasting && !isHeld(kDampingToMass) && !isHeld(kStiffnessToMass);
   if (removes) removeShift(moment);
-  const Eigen::Vector2d unknown = removes ? noise.momentSpread(strut, variance) : moment;
+  const Eigen::Vector2d spread = removes ? noise.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
   const double of_rule = wheelFrequency() > 0.0 ? strut[kDampingToMass] * rule_error_.at(wheelFrequency()) : 0.0;
   const auto with_shift = [&](double random, int i) {
-    const double shift = std::hypot(least_squares_.parameterShift(i, unknown), skewShift(i));
+    const double not_removed = least_squares_.parameterShift(i, moment) - noise_shift_[i];
+    const double of_noise = std::hypot(not_removed, least_squares_.parameterShift(i, spread));
     const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
-    return std::hypot(std::hypot(std::sqrt(random), shift), i == kDampingToMass ? of_rule : 0.0, by_input);
+    return std::hypot(std::hypot(std::sqrt(random), of_noise, skewShift(i)), i == kDampingToMass ? of_rule : 0.0,
+                      by_input);
   };
   const auto of_ls = [&](int i) {
     return withDifference(with_shift(least_squares_.parameterVariance(i), i), least_squares_.parameters()[i],

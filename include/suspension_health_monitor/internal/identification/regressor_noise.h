@@ -43,7 +43,7 @@ class RegressorNoise {
   /// @return covariance that psi, phi_1 and phi_0 have of the noise, over the variance of a sensor.
   Eigen::Matrix3d covariance() const {
     Eigen::Matrix3d all;
-    all << rows_.outputs, -rows_.cross.transpose(), -rows_.cross, 2.0 * rows_.regressors;
+    all << rows_.outputs, rows_.cross.transpose(), rows_.cross, rows_.regressors;
     return all;
   }
 

@@ -17,8 +17,9 @@ namespace suspension_health_monitor {
 class SynchronousRegression {
  public:
   /// @param sensors  kDriftingOffset; with the others the clocks are taken at their word, and rows are not late.
-  /// @param forgetting_factor  of the estimator.
-  SynchronousRegression(const IntegralFilterOptions& options, SensorColumns sensors, double forgetting_factor);
+  /// @param noise  of the same filter.  @param forgetting_factor  of the estimator.
+  SynchronousRegression(const IntegralFilterOptions& options, SensorColumns sensors, const RegressorNoise& noise,
+                        double forgetting_factor);
 
   /// Goes on with other effects; the skew stays known. Allocates.
   void changeEffects(std::size_t num_effects);
@@ -44,7 +45,7 @@ class SynchronousRegression {
  private:
   /// What is kept until the wheel's readings of the same time are there.
   struct Late {
-    Late(const IntegralFilterOptions& options, std::size_t num_effects, double forgetting_factor);
+    Late(const IntegralFilterOptions& options, const RegressorNoise& noise, double forgetting_factor);
 
     WheelHistory wheel;
     std::vector<DelayLine> columns;  // psi, I_1^2 z'', I_0^2 z'', effects

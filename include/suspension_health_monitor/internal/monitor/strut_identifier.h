@@ -118,8 +118,8 @@ class StrutIdentifier {
 
   IntegralFilterOptions filter_;
   SensorColumns sensors_;
-  SynchronousRegression regression_;
   Excitation excitation_;
+  SynchronousRegression regression_;
   RecursiveLeastSquares least_squares_;
   RecursiveLeastAbsolute least_absolute_;
   Forgetting forgetting_;
