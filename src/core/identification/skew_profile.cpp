@@ -12,7 +12,7 @@ constexpr int kRowsOfHorizon = 64, kFewestRows = 32;
 constexpr int kHorizonsOfBlock = 8;
 constexpr double kAlike = 6.0;       // rows that count as one
 constexpr double kFitted = 3.0;      // parameters of every block
-constexpr double kUsualSteps = 3.0;  // standard deviation beforehand
+constexpr double kUsualSteps = 3.0;  // half of all skews are within it beforehand
 constexpr double kMemories = 30.0;   // of the estimator: clocks differ by as much for long
 constexpr double kCertain = 4.0;     // standard deviations
 constexpr double kRounding = 1e-12;  // of squares
@@ -99,7 +99,8 @@ void SkewProfile::closeHorizon() {
     of_noise[j] = std::max(totalLeastSquares(moments, noise_), rounding / noise_(0, 0));
   }
   const double weight = (num_ - kFitted) / kAlike;
-  if (!plain_.take(plain, weight) || !of_noise_.take(of_noise, weight)) return;
+  if (!plain_.take(plain, weight)) return;
+  of_noise_.take(of_noise, weight);
   if (is_known_ && !newestAgrees()) plain_.older = of_noise_.older = {};
   is_known_ = true;
   locate();
@@ -130,11 +131,11 @@ bool SkewProfile::newestAgrees() const {
 SkewProfile::Optimum SkewProfile::optimumOf(const Evidence& evidence) const {
   Profile total;
   for (std::size_t j = 0; j < kNumSkews; ++j)
-    total[j] = evidence.older[j] + evidence.newest[j] + std::pow(skewAt(j) / (kUsualSteps * step_), 2);
+    total[j] =
+        evidence.older[j] + evidence.newest[j] + 2.0 * std::log1p(std::pow(skewAt(j) / (kUsualSteps * step_), 2));
   const auto best = static_cast<std::size_t>(std::min_element(total.begin(), total.end()) - total.begin());
   const double skew = skewAt(best);
   if (best == 0 || best + 1 == kNumSkews) return {skew, 0.0, false};
-  // Its curvature is above 0, as it is least here and what is known beforehand has one.
   const Parabola here(total[best - 1], total[best], total[best + 1]);
   return {skew - here.slope / here.curvature * step_, 2.0 / here.curvature * step_ * step_, true};
 }

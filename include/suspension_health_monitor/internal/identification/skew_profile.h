@@ -26,8 +26,9 @@ namespace suspension_health_monitor {
 /// truth lies between them: a third of their difference squared is added to the variance, the mean square distance of
 /// a uniform distribution from its end.
 ///
-/// Beforehand a skew is 0 with a standard deviation of a 200th of the horizon, 3 ms of 0.6 s. Looked for are five of
-/// that either way, in steps by which a wheel that hops turns by a tenth of a radian.
+/// Beforehand half of all skews are within a 200th of the horizon, 3 ms of 0.6 s, and none is out of the question
+/// (Cauchy's distribution). Looked for are five of that either way, in steps by which a wheel that hops turns by a tenth
+/// of a radian.
 /// Cost per row: O(1), as rows a 64th of a horizon apart tell all; no allocation.
 class SkewProfile {
  public:
