@@ -281,7 +281,7 @@ void printSkew(double memory) {
   for (const double road : {16e-6, 256e-6})
     for (const int rate : {100, 200})
       for (const FieldVehicle& vehicle : kFieldVehicles)
-        for (const double skew : {0.0, 0.25e-3, 1e-3, 2e-3}) {
+        for (const double skew : {0.0, 1e-3, 5e-3, 10e-3}) {
           FieldDrive drive;
           drive.vehicle = vehicle;
           drive.road = road;

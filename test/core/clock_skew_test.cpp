@@ -1,4 +1,4 @@
-// Two IMUs whose clocks differ by a part of a sample: estimated with the strut, and taken off; more is a doubt.
+// Two IMUs whose clocks differ: estimated beside the strut, and taken off; more than that is a doubt.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ MonitorReport reportOf(const std::vector<CornerSample>& drive) {
 
 TEST(ClockSkew, IsEstimatedAndChangesNoEstimate) {
   for (const char* road : {"A", "C"})
-    for (const int late : {-3, -1, 0, 1, 3}) {
+    for (const int late : {-10, -3, -1, 0, 1, 3, 10}) {
       SCOPED_TRACE(std::string(road) + ", " + std::to_string(late) + " ms");
       const MonitorReport report = reportOf(driveWith(late, road));
       for (const StrutEstimate* estimate : {&report.ls, &report.la}) {
@@ -53,13 +53,13 @@ TEST(ClockSkew, IsEstimatedAndChangesNoEstimate) {
         EXPECT_NEAR(estimate->damping_to_mass, kB1, std::max(0.02 * kB1, 2.6 * estimate->damping_to_mass_stddev));
         EXPECT_NEAR(estimate->stiffness_to_mass, kB0, std::max(0.02 * kB0, 2.6 * estimate->stiffness_to_mass_stddev));
         EXPECT_LT(estimate->stiffness_to_mass_stddev, 0.1 * kB0);
-        EXPECT_NEAR(estimate->clock_skew, 1e-3 * late, 0.5e-3);
+        EXPECT_NEAR(estimate->clock_skew, 1e-3 * late, 0.2e-3);
       }
     }
 }
 
 TEST(ClockSkew, ThatIsTooLargeIsADoubt) {
-  for (const int late : {10, 15, -15}) {
+  for (const int late : {20, -20, 30}) {
     const MonitorReport report = reportOf(driveWith(late, "C"));
     EXPECT_FALSE(report.ls.valid()) << late;
     EXPECT_FALSE(report.la.valid()) << late;

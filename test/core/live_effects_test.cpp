@@ -18,6 +18,7 @@ constexpr double kCarB1 = 6.0, kCarB0 = 63.3;  // golden_car
 constexpr double kNoise = 0.03;                // [m/s^2]
 constexpr std::size_t kDelay = FreeRun::kDelay;
 constexpr int kHorizon = 60;
+constexpr int kLate = 6;  // samples: the first row needs the wheel's of 15 ms before it and after it, and one more each
 
 MonitorSettings carMonitor(double forgetting_factor) {
   MonitorSettings options;
@@ -167,7 +168,7 @@ TEST(LiveEffects, EstimatesCarryOver) {
   EXPECT_EQ(more.coefficients[0], 0.2);
   EXPECT_EQ(more.coefficients[1], found.coefficients[0]);  // it stays: no start value
   // Standard deviations of a report are up to 31 rows old, a third of the memory; those after setEffects() are new.
-  EXPECT_NEAR(more.coefficient_stddevs[1] / found.coefficient_stddevs[0], 1.0, 0.1);
+  EXPECT_NEAR(more.coefficient_stddevs[1] / found.coefficient_stddevs[0], 1.0, 0.15);
   EXPECT_NEAR(more.damping_to_mass_stddev / found.damping_to_mass_stddev, 1.0, 0.1);
 
   monitor.setEffects({});
@@ -193,7 +194,7 @@ TEST(LiveEffects, ReportsAreThoseOfASampleThatTheFreeRunHasReached) {
     ASSERT_EQ(report->measured, sample.sprung_acceleration);
     ASSERT_EQ(report->comparison.stamp, sample.stamp);
     ASSERT_EQ(report->comparison.measured, sample.sprung_acceleration);
-    ASSERT_EQ(report->has_row, k >= 500 + 2 * kHorizon);
+    ASSERT_EQ(report->has_row, k >= 500 + 2 * kHorizon + kLate);
   }
 }
 
@@ -211,7 +212,7 @@ TEST(LiveEffects, GapEmptiesFilterAndFreeRunAndTheModelIsKept) {
     const MonitorReport* report = monitor.addSample(sample);
     ASSERT_EQ(report == nullptr, k < kDelay);
     // The run begins with its 24th sample, and rows 2 L samples later.
-    ASSERT_EQ(monitor.report().has_row && report != nullptr, k >= 2 * kDelay - 1 + 2 * kHorizon) << k;
+    ASSERT_EQ(monitor.report().has_row && report != nullptr, k >= 2 * kDelay - 1 + 2 * kHorizon + kLate) << k;
     if (report == nullptr || report->has_row) continue;
     ASSERT_EQ(report->la.coefficients[0], before.coefficients[0]);
     ASSERT_FALSE(report->la.valid());

@@ -45,6 +45,17 @@ TEST(RegressorNoise, OfAWhiteSeriesIsThatOfTwoSensors) {
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(got[i] / expected[i], 1.0, kSquaresKnown) << i;
 }
 
+// The residual of psi - b1 phi_1 - b0 phi_0 has the variance v' C v, v = (1, -b1, -b0).
+TEST(RegressorNoise, CovarianceIsThatOfPsiAndBothRegressors) {
+  const RegressorNoise noise(filterOptions());
+  for (const Eigen::Vector2d& strut : {kStrut, Eigen::Vector2d(-3.0, 20.0), Eigen::Vector2d(0.0, 0.0)}) {
+    const Eigen::Vector3d v(1.0, -strut[0], -strut[1]);
+    EXPECT_NEAR(v.dot(noise.covariance() * v) / noise.residualGain(strut), 1.0, 1e-12);
+  }
+  for (int i = 0; i < 2; ++i) EXPECT_DOUBLE_EQ(noise.covariance()(1 + i, 1 + i), noise.regressorGain(i));
+  EXPECT_TRUE(noise.covariance().isApprox(noise.covariance().transpose()));
+}
+
 // What both sensors have in common is no travel: it is in psi alone, and pulls nothing.
 TEST(RegressorNoise, ThatBothSensorsShareIsInTheOutputAlone) {
   const IntegralFilterOptions options = filterOptions();

@@ -39,7 +39,7 @@ const std::vector<Flaw> kFlaws{
     {EstimateDoubt::kOutsideForce, [](EstimateFacts& f) { f.outside_force = true; }},
     {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
     {EstimateDoubt::kNotAStrut, [](EstimateFacts& f) { f.is_physical = false; }},
-    {EstimateDoubt::kClockSkew, [](EstimateFacts& f) { f.skew_left_out = kMostSkewLeftOut + 1e-9; }},
+    {EstimateDoubt::kClockSkew, [](EstimateFacts& f) { f.skew_is_known = false; }},
     {EstimateDoubt::kNoSpread, [](EstimateFacts& f) { f.has_stddev = false; }},
     {EstimateDoubt::kFreeRunFails, [](EstimateFacts& f) { f.free_run_fails = true; }},
 };

@@ -112,8 +112,8 @@ TEST(VaryingSettings, GoesOnWithEffectsInTheModel) {
   EXPECT_LT(least, 0.98);
 }
 
-// Of a strut that is parked nobody knows whether it moves on, though the rows before the stop said so: without noise
-// residuals are the errors of integration, which have a drift.
+// Of a strut that is parked nobody knows whether it moves on, though the rows before the stop said so: they are of the
+// damper's ramp.
 TEST(VaryingSettings, IsTheSlowOneOnceNothingIsExcited) {
   SimulationOptions drive;
   drive.seed = 305;
@@ -121,7 +121,7 @@ TEST(VaryingSettings, IsTheSlowOneOnceNothingIsExcited) {
   const std::vector<CornerSample> samples = simulate(drive);
   SuspensionMonitor monitor(optionsWith(kSlow, kFastest));
   std::size_t k = 0;
-  while (k < 2001) monitor.addSample(samples[k++]);
+  while (k < 2501) monitor.addSample(samples[k++]);
   ASSERT_LT(monitor.forgettingFactor(), kSlow);
   std::mt19937 generator(1);
   std::normal_distribution<double> noise(0.0, 1e-4);

@@ -19,7 +19,7 @@ namespace suspension_health_monitor {
 /// What presets differ in beside options: how rows are made, and how the estimators begin, weigh and forget.
 struct EstimatorOptions {
   IntegrationRule rule = IntegrationRule::kBandLimited;
-  SensorColumns sensors = SensorColumns::kSkewAndOffsets;  ///< what of the sensors is estimated with the strut
+  SensorColumns sensors = SensorColumns::kDriftingOffset;  ///< what of the sensors is estimated with the strut
   bool removes_noise_shift =
       true;                        ///< what the sensors' noise shifts the estimates by is taken off (regressor_noise.h)
   bool forgets_unexcited = false;  ///< true: exponential forgetting, the paper's; false: directional (excitation.h)

@@ -95,15 +95,6 @@ void RecursiveEstimator::hold(int i, bool held) {
   num_held_ = static_cast<int>(std::count(held_.begin(), held_.end(), true));
 }
 
-// A row that tells of parameter i alone, and finds it where it is.
-void RecursiveEstimator::remember(int i, double share) {
-  const double variance = covariance_.variance(i);
-  if (!(variance > 0.0 && share < 1.0)) return;
-  excited_.setZero();
-  excited_[i] = 1.0;
-  covariance_.update(excited_, variance * share / (1.0 - share), 1.0);
-}
-
 void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residual_variance, double unit) {
   for (int i = 0; i < numParameters(); ++i) {
     if (covariance_.isReleased(i) || regressor[i] == 0.0) continue;

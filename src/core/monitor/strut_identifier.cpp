@@ -17,15 +17,12 @@ constexpr int kStddevsEvery = 8;  // rows
 // come back from.
 constexpr double kLost = 2.0;
 constexpr double kMostLost = 10.0;         // memories
-constexpr double kMemoriesToSettle = 3.0;  // so slow is LA
-constexpr double kSkewMemories = 10.0;     // that the clocks' skew is learned over
-constexpr double kCertain = 4.0;           // standard deviations
 constexpr double kMostNoise = 0.8;         // of a residual: no level of noise is known better than within a tenth
 constexpr double kMemoriesToForget = 2.0;  // until rows that are wrong count for a seventh
 
 RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
   RecursiveOptions recursive = options.recursive(2 * horizon_samples);
-  if (options.estimators.sensors == SensorColumns::kSkewAndOffsets) recursive.drifting = kStiffnessToMass;
+  if (options.estimators.sensors == SensorColumns::kDriftingOffset) recursive.drifting = kStiffnessToMass;
   return recursive;
 }
 
@@ -45,10 +42,7 @@ void describeParameters(const RecursiveEstimator& estimator, const Eigen::Vector
     const auto i = kNumStrutParameters + static_cast<Eigen::Index>(j);
     estimate.coefficients[j] = theta[i] - shift[i];
   }
-  if (num_model < estimator.numParameters()) {
-    estimate.clock_skew = theta[num_model];
-    estimate.offset = -theta[num_model + 1] / theta[kStiffnessToMass];
-  }
+  if (num_model < estimator.numParameters()) estimate.offset = -theta[num_model] / theta[kStiffnessToMass];
   estimate.effective_rows = estimator.effectiveRows();
   estimate.explained = estimator.explained();
 }
@@ -64,8 +58,8 @@ double withDifference(double stddev, double ls, double la) {
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
       sensors_(options.estimators.sensors),
-      regression_(filter_, 0, sensors_),
       excitation_(filter_.horizon_samples, options.forgettingFactor(filter_.period), regressorNoise(options, filter_)),
+      regression_(filter_, sensors_, excitation_.noise(), options.forgettingFactor(filter_.period)),
       least_squares_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples)),
       least_absolute_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples),
                       options.leastAbsolute()),
@@ -73,7 +67,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       past_{present(), present()},
       stddevs_due_(kStddevsEvery),
       rule_error_(filter_),
-      skew_sizes_(options.forgettingFactor(filter_.period)),
+      skew_effect_{RunningMeans<SkewEffect::kNumMeans>(options.forgettingFactor(filter_.period))},
       silent_rows_(filter_.horizon_samples) {
   if (options.estimators.removes_noise_shift) noise_level_.emplace(filter_);
   noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
@@ -91,7 +85,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
   least_squares_.changeColumns(columns);
   least_absolute_.changeColumns(columns);
   past_.fill(present());
-  regression_ = SuspensionRegression(filter_, effects.size(), sensors_);
+  regression_.changeEffects(effects.size());
   const Eigen::VectorXd before = noise_shift_;
   noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
   for (std::size_t j = 0; j < columns.size(); ++j)
@@ -111,8 +105,11 @@ void StrutIdentifier::add(const CornerSample& sample, const double* effect_force
   // Rows that LA hits exactly would weigh so much that it could not leave them for minutes.
   if (!silent_rows_.moves()) return;
   rows_ += 1.0;
-  if (excitation_.add(*row, withoutEffects(*row), regression_.wheelOutput())) closeBlock();
-  update(*row);
+  const double output = withoutEffects(*row);
+  if (excitation_.add(*row, output, regression_.wheel().output)) closeBlock();
+  if (!holdsAll()) regression_.learnSkew(output);
+  // Rows of a skew that nobody knows would bring the estimates where they had to come back from.
+  if (regression_.skew() == nullptr || regression_.skew()->isKnown()) update(*row);
 }
 
 // The offset between the sensors is no part of psi, but of the regressor of the stiffness, which Excitation knows.
@@ -135,9 +132,7 @@ void StrutIdentifier::update(const RegressionRow& row) {
     return;
   }
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
-  left_ *= forgettingFactor();
-  const SuspensionRegression::Skew& now = regression_.skew();
-  skew_sizes_.add({now.column * now.column, now.step * now.step});
+  if (regression_.skew() != nullptr) noteSkew(row);
   least_squares_.update(row);
   const double innovation = least_absolute_.update(row);
   if (hears_noise_ && noise_level_) noise_level_->add(innovation);
@@ -148,6 +143,15 @@ void StrutIdentifier::update(const RegressionRow& row) {
   if (!forgetting_.variable || !la_is_valid_) return;
   forgetting_.variable->add(row, innovation, least_absolute_.meanAbsoluteResidual());
   forgetBy(forgetting_.variable->factor());
+}
+
+void StrutIdentifier::noteSkew(const RegressionRow& row) {
+  const WheelRow& wheel = regression_.wheel();
+  const Eigen::VectorXd& strut = least_absolute_.parameters();
+  const double x = strut[kDampingToMass] * wheel.output + strut[kStiffnessToMass] * wheel.damping;
+  const double step = x - std::exchange(skew_effect_.newest, x);
+  skew_effect_.means.add({x * x, step * step, x * row.regressor[kDampingToMass], x * row.regressor[kStiffnessToMass],
+                          regression_.skew()->skew()});
 }
 
 // That two blocks of rows tell nothing of a parameter is known at their end, when their noise has pulled it already: so
@@ -162,20 +166,9 @@ void StrutIdentifier::closeBlock() {
     past_[1] = past_[0];
     return;
   }
-  rememberSkew();
   std::swap(past_[0], past_[1]);
   least_squares_.copyTo(past_[1].ls);
   least_absolute_.copyTo(past_[1].la);
-}
-
-// Clocks differ by as much for long. That is learned with a memory of its own, so that it costs the strut's parameters
-// next to nothing; only of estimates that are valid, since the column is made of them.
-void StrutIdentifier::rememberSkew() {
-  const double share = std::pow(left_, 1.0 - 1.0 / kSkewMemories);
-  left_ = 1.0;
-  if (sensors_ == SensorColumns::kNone || valid_memories_ <= kMemoriesToSettle) return;
-  least_squares_.remember(numModelColumns(), share);
-  least_absolute_.remember(numModelColumns(), share);
 }
 
 void StrutIdentifier::takeExcitation() {
@@ -191,25 +184,11 @@ void StrutIdentifier::takeExcitation() {
 void StrutIdentifier::noteValidity(const StrutEstimate& ls, const StrutEstimate& la) {
   least_squares_.learnScatter(ls.valid() && la.valid(), least_absolute_.parameters());
   least_absolute_.learnScatter(la.valid(), least_absolute_.parameters());
-  // A doubt that comes of the skew would end by leaving it out.
-  const bool goes_on = la.valid() || la.doubt == EstimateDoubt::kClockSkew;
-  valid_memories_ = goes_on ? valid_memories_ + 1.0 - forgettingFactor() : 0.0;
   if (la.valid()) excitation_.know({la.damping_to_mass, la.stiffness_to_mass});
-  if (valid_memories_ > kMemoriesToSettle)
-    regression_.setStrut({la.damping_to_mass, la.stiffness_to_mass}, knownSkew());
-  else
-    restSkew();
   if (forgetting_.variable && la_is_valid_ && !la.valid()) forgetBy(forgetting_.variable->slow());
   la_is_valid_ = la.valid();
   // Noise that is as large as the motion is to be known before an estimate can be valid.
   hears_noise_ = la.valid() || (excitation_.noise().isOfVehicle() && la.doubt == EstimateDoubt::kNotExplained);
-}
-
-// What made LA doubtful may have moved LS, which would remember it in the skew for ten memories: LS goes on with LA's.
-void StrutIdentifier::restSkew() {
-  regression_.setStrut(Eigen::Vector2d::Zero(), 0.0);
-  if (sensors_ == SensorColumns::kNone) return;
-  least_squares_.setParameter(numModelColumns(), skew());
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
@@ -218,13 +197,15 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
   for (StrutEstimate* estimate : {&ls, &la}) {
     estimate->damping_excitation = excitation_.excitation(kDampingToMass);
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
+    if (regression_.skew() != nullptr) estimate->clock_skew = regression_.skew()->skew();
   }
   if (!holdsAll() && stddevs_due_()) describeStddevs(ls, la);
 }
 
 // The shift by the sensors' noise is taken off from the next description on, by the strut that it leaves now: the fixed
 // point of that is the strut whose rows, less the noise's share of their moments, it solves. It is that of LS for both:
-// of normal residuals LA has the same. What is left is that nobody knows how the noise is divided between the sensors.
+// of normal residuals LA has the same. What is left is what it is not taken off of, and that nobody knows how the noise
+// is divided between the sensors.
 void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   const RegressorNoise& noise = excitation_.noise();
   const Eigen::Vector2d strut(la.damping_to_mass, la.stiffness_to_mass);
@@ -238,12 +219,14 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   // Beside a parameter that is held P is not that of the rows.
   const bool removes = lasting && !isHeld(kDampingToMass) && !isHeld(kStiffnessToMass);
   if (removes) removeShift(moment);
-  const Eigen::Vector2d unknown = removes ? noise.momentSpread(strut, variance) : moment;
+  const Eigen::Vector2d spread = removes ? noise.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
   const double of_rule = wheelFrequency() > 0.0 ? strut[kDampingToMass] * rule_error_.at(wheelFrequency()) : 0.0;
   const auto with_shift = [&](double random, int i) {
-    const double shift = std::hypot(least_squares_.parameterShift(i, unknown), skewShift(i));
+    const double not_removed = least_squares_.parameterShift(i, moment) - noise_shift_[i];
+    const double of_noise = std::hypot(not_removed, least_squares_.parameterShift(i, spread));
     const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
-    return std::hypot(std::hypot(std::sqrt(random), shift), i == kDampingToMass ? of_rule : 0.0, by_input);
+    return std::hypot(std::hypot(std::sqrt(random), of_noise, skewShift(i)), i == kDampingToMass ? of_rule : 0.0,
+                      by_input);
   };
   const auto of_ls = [&](int i) {
     return withDifference(with_shift(least_squares_.parameterVariance(i), i), least_squares_.parameters()[i],
@@ -262,29 +245,21 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
 
 // @return of the oscillation that has the same steps from row to row [rad/sample]; 0: not known.
 double StrutIdentifier::wheelFrequency() const {
-  if (sensors_ == SensorColumns::kNone || !(skew_sizes_.mean(0) > 0.0)) return 0.0;
-  return 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(skew_sizes_.mean(1) / skew_sizes_.mean(0))));
+  const RunningMeans<SkewEffect::kNumMeans>& means = skew_effect_.means;
+  if (!(means.mean(SkewEffect::kSquare) > 0.0)) return 0.0;
+  const double ratio = means.mean(SkewEffect::kSquareStep) / means.mean(SkewEffect::kSquare);
+  return 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(ratio)));
 }
 
-// Of the series in the skew tau two terms are estimated, x tau + x' tau^2 / 2. Where the wheel shakes with omega, the
-// next one is (omega tau)^2 / 6 of the first.
-double StrutIdentifier::skewLeftOut() const { return std::pow(wheelFrequency() / filter_.period * skew(), 2) / 6.0; }
-
-// As far as the series goes.
-double StrutIdentifier::knownSkew() const {
-  const double frequency = wheelFrequency() / filter_.period;
-  if (!(frequency > 0.0)) return 0.0;
-  const double most = std::sqrt(6.0 * kMostSkewLeftOut) / frequency;
-  return std::clamp(skew(), -most, most);
-}
-
-// What the whole skew would shift parameter i by if it were not estimated, times the share that is left out.
+// What parameter i is off by if the skew is off by its standard deviation, and by what the rows of the memory, which
+// were made with the skew as it was known then, differ by from it.
 double StrutIdentifier::skewShift(int i) const {
-  if (sensors_ == SensorColumns::kNone) return 0.0;
-  const int column = numModelColumns();
-  const double variance = least_squares_.covariance().variance(column);
-  if (!(variance > 0.0)) return 0.0;
-  return skewLeftOut() * skew() * least_squares_.covariance().entry(i, column) / variance;
+  const SkewProfile* skew = regression_.skew();
+  if (skew == nullptr) return 0.0;
+  const RunningMeans<SkewEffect::kNumMeans>& means = skew_effect_.means;
+  const Eigen::Vector2d moment(means.mean(SkewEffect::kDamping), means.mean(SkewEffect::kStiffness));
+  const double off = std::hypot(std::sqrt(skew->variance()), skew->skew() - means.mean(SkewEffect::kSkew));
+  return off * least_squares_.parameterShift(i, moment);
 }
 
 // Noise does no more to a parameter that is excited than kLeastExcitation says.
@@ -317,10 +292,7 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
   facts.outside_force = rows_to_forget_ > 0.0;
   facts.explained = explainedBesideNoise(estimate);
   facts.is_physical = estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;
-  if (sensors_ != SensorColumns::kNone) {
-    const double variance = least_absolute_.parameterVariance(numModelColumns());
-    if (skew() * skew() > kCertain * kCertain * variance) facts.skew_left_out = skewLeftOut();
-  }
+  facts.skew_is_known = regression_.skew() == nullptr || regression_.skew()->isWithin();
   facts.has_stddev = std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev);
   return facts;
 }
@@ -336,6 +308,7 @@ void StrutIdentifier::startNewSeries() {
 
 void StrutIdentifier::startNewDrive() {
   startNewSeries();
+  regression_.restart();
   excitation_.restart();
   takeExcitation();
 }
@@ -345,6 +318,8 @@ void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   const double fastest = options.fastestForgettingFactor(filter_.period);
   least_squares_.setForgettingFactor(slow);
   least_absolute_.setForgettingFactor(slow);
+  regression_.setForgettingFactor(slow);
+  skew_effect_.means.setForgettingFactor(slow);
   forgetting_.fewest_rows = options.fewestRows(kFewestHorizons, filter_.period);
   if (!options.fastest_memory) {
     forgetting_.variable.reset();

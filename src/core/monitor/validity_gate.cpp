@@ -33,8 +33,8 @@ constexpr std::array kRules{
     Rule{EstimateDoubt::kNotExplained, [](const EstimateFacts& f) { return !(f.explained >= kLeastExplained); }},
     // A spring and a damper have positive rates.
     Rule{EstimateDoubt::kNotAStrut, [](const EstimateFacts& f) { return !f.is_physical; }},
-    // The skew's estimate, and with it the strut's, is only the beginning of a series.
-    Rule{EstimateDoubt::kClockSkew, [](const EstimateFacts& f) { return f.skew_left_out > kMostSkewLeftOut; }},
+    // A larger skew would explain more, and the strut would be another one.
+    Rule{EstimateDoubt::kClockSkew, [](const EstimateFacts& f) { return !f.skew_is_known; }},
     // An estimate without a standard deviation cannot be judged.
     Rule{EstimateDoubt::kNoSpread, [](const EstimateFacts& f) { return !f.has_stddev; }},
     // However small the rows' residuals: parameters whose free run is worse than a constant are not the strut's.

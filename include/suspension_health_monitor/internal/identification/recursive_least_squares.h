@@ -77,13 +77,6 @@ class RecursiveEstimator {
   /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
   void hold(int i, bool held);
 
-  /// Goes on from another value of parameter i, as well known as before.
-  void setParameter(int i, double value) { theta_[i] = value; }
-
-  /// What is known of parameter i is not forgotten as fast as the rest: its variance, that the rows since the last such
-  /// call have left it with, is multiplied by `share` in (0, 1).
-  void remember(int i, double share);
-
   /// An estimate as it was after some row.
   struct Past {
     Eigen::VectorXd theta;

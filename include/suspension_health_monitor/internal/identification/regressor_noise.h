@@ -40,6 +40,13 @@ class RegressorNoise {
     return residual / std::sqrt(12.0) * (square / of_wheel - (cross + square) / of_body);
   }
 
+  /// @return covariance that psi, phi_1 and phi_0 have of the noise, over the variance of a sensor.
+  Eigen::Matrix3d covariance() const {
+    Eigen::Matrix3d all;
+    all << rows_.outputs, rows_.cross.transpose(), rows_.cross, rows_.regressors;
+    return all;
+  }
+
   /// @return variance of a row's residual over that of a sensor [-].
   double residualGain(const Eigen::Vector2d& theta) const { return rows_.gain(theta); }
 

@@ -12,7 +12,7 @@
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/rule_error.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
-#include "suspension_health_monitor/internal/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/identification/synchronous_regression.h"
 #include "suspension_health_monitor/internal/identification/variable_forgetting.h"
 #include "suspension_health_monitor/internal/monitor/silent_rows.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
@@ -92,33 +92,35 @@ class StrutIdentifier {
     RecursiveEstimator::Past ls, la;
   };
 
+  /// What a skew of the clocks does to the rows of the memory: tau x is in psi, x = b1 I_2^2 w'' + b0 I_1^2 w''.
+  struct SkewEffect {
+    enum Mean : std::size_t { kSquare, kSquareStep, kDamping, kStiffness, kSkew, kNumMeans };
+
+    RunningMeans<kNumMeans> means;  // of x^2, of that of its steps, of x phi_1, x phi_0, and of the skew taken off
+    double newest = 0.0;            // x
+  };
+
   Past present() const { return {least_squares_.present(), least_absolute_.present()}; }
   double withoutEffects(const RegressionRow& row) const;
   void update(const RegressionRow& row);
+  void noteSkew(const RegressionRow& row);
   void closeBlock();
   void takeExcitation();
-  void rememberSkew();
-  void restSkew();
   bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }
   void forgetBy(double factor);
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
   void removeShift(const Eigen::Vector2d& moment);
   double explainedBesideNoise(const StrutEstimate& estimate) const;
   double wheelFrequency() const;
-  double skewLeftOut() const;
-  double knownSkew() const;
   double skewShift(int i) const;
 
   /// @return how many columns are those of the strut and of its effects: all but the sensors', which are the last.
   int numModelColumns() const { return least_absolute_.numParameters() - count(sensors_); }
 
-  /// @return the clocks' skew by LA [s].  @pre there are columns of the sensors.
-  double skew() const { return least_absolute_.parameters()[numModelColumns()]; }
-
   IntegralFilterOptions filter_;
   SensorColumns sensors_;
-  SuspensionRegression regression_;
   Excitation excitation_;
+  SynchronousRegression regression_;
   RecursiveLeastSquares least_squares_;
   RecursiveLeastAbsolute least_absolute_;
   Forgetting forgetting_;
@@ -128,17 +130,15 @@ class StrutIdentifier {
   EveryN stddevs_due_;
   bool has_row_ = false;
   RuleError rule_error_;
-  RunningMeans<2> skew_sizes_;             // squares of what a skew does to psi, and of its steps
+  SkewEffect skew_effect_;
   double rows_ = 0.0;                      // of the model's present columns
-  double left_ = 1.0;                      // of what was known at the end of the newest block
   double rows_to_forget_ = 0.0;            // until what a force from outside did is forgotten
   double lost_memories_ = 0.0;             // that LS has explained far more than LA for
   std::optional<NoiseLevel> noise_level_;  // none: what the noise shifts is left in the estimates
   double noise_share_ = 0.0;               // of the residuals' variance
   SilentRows silent_rows_;
   bool la_is_valid_ = false;
-  bool hears_noise_ = false;     // in what LA leaves
-  double valid_memories_ = 0.0;  // that LA has been valid for
+  bool hears_noise_ = false;  // in what LA leaves
 };
 
 }  // namespace suspension_health_monitor

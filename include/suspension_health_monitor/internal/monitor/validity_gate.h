@@ -12,9 +12,6 @@ inline constexpr double kLeastExplained = 0.5;
 /// m/s on, where it is wrong.
 inline constexpr double kLeastExplainedOfShaking = 0.75;
 
-/// Largest share of what a clock skew does to psi that may lie in the terms that the estimation leaves out.
-inline constexpr double kMostSkewLeftOut = 0.1;
-
 /// All that decides whether an estimate is valid.
 struct EstimateFacts {
   bool period_fits = true;        ///< samples come at the sample period of the options
@@ -28,7 +25,7 @@ struct EstimateFacts {
   bool outside_force = false;     ///< something else moves the body, or did within the memory
   double explained = 0.0;         ///< share of the output's size
   bool is_physical = false;       ///< all parameters that have to be above 0 are
-  double skew_left_out = 0.0;     ///< share of what a clock skew does to psi that is left out; 0: no skew is certain
+  bool skew_is_known = true;      ///< the clocks' skew is one of those that are looked for
   bool has_stddev = false;        ///< the standard deviations are numbers
   bool free_run_fails = false;    ///< the free run fits the body's motion worse than a constant does
 };
