@@ -156,8 +156,7 @@ void identify(const Arguments& arguments) {
   const auto reason = whyNotValid(monitor, ever_valid);
   if (!reason)
     for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
-  if (reason)
-    throw TooLittleError(*reason + (ever_valid ? "" : suspicions(identification) + describeRejected(rejected)));
+  if (reason) throw TooLittleError(*reason + suspicions(identification) + describeRejected(rejected));
 }
 
 }  // namespace suspension_health_monitor
