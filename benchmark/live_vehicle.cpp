@@ -267,6 +267,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   ros::init(argc, argv, "live_vehicle_" + mode);
+  ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Warn);  // standard output is the result
   try {
     run(mode, argv, seconds, imus == "5");
   } catch (const std::exception& error) {
