@@ -37,7 +37,7 @@ void InputDiagnostics::describe(const ImuPipeline& pipeline, Status& status) {
     status.mergeSummary(DiagnosticStatus::WARN, "readings rejected: " + newly);
   describeTransforms(pipeline, status);
   if (refusal_.empty())
-    for (const ImuArrivals& imu : arrivals_) imu.describeSilence(status);
+    for (const ImuArrivals& imu : arrivals_) imu.describeSilence(published_, status);
   else
     status.mergeSummary(DiagnosticStatus::ERROR, "stopped listening until reset: " + refusal_);
   clock_.describe(status);

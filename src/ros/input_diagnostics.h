@@ -48,6 +48,7 @@ class InputDiagnostics {
   ShellOptions options_;
   std::array<ImuArrivals, 2> arrivals_;
   SilentSensors silent_;
+  PublishedTopics published_;
   std::string refusal_;
   SeriesHistory series_;
   RejectHistory rejected_;

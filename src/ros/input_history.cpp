@@ -12,10 +12,20 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kShownLag = 0.0005;    // [s] half of the last digit that is shown
+constexpr double kTopicsEvery = 0.5;    // [s]
 constexpr std::size_t kMostOthers = 6;  // topics that a person reads through
 constexpr double kRateTolerance = 0.1;  // share of the expected rate: drivers keep theirs to a few percent
 
 }  // namespace
+
+const ros::master::V_TopicInfo& PublishedTopics::now() {
+  const ros::WallTime time = ros::WallTime::now();
+  if ((time - asked_).toSec() < kTopicsEvery) return topics_;
+  asked_ = time;
+  topics_.clear();
+  ros::master::getTopics(topics_);
+  return topics_;
+}
 
 void ImuArrivals::note(const ros::Time& stamp) {
   if (!last_) last_.emplace();
@@ -39,9 +49,9 @@ bool ImuArrivals::isSilentByWall() const { return last_ && (ros::WallTime::now()
 
 // An IMU counts as silent when it is so by the clock that stamps the data and by the wall clock. The first alone stands
 // still while a simulation is paused; the second alone would call a replay silent that is slower than life.
-void ImuArrivals::describeSilence(Status& status) const {
+void ImuArrivals::describeSilence(PublishedTopics& published, Status& status) const {
   if (!last_) {
-    status.mergeSummary(DiagnosticStatus::ERROR, "no message yet on " + topic_ + whatElseThereIs());
+    status.mergeSummary(DiagnosticStatus::ERROR, "no message yet on " + topic_ + whatElseThereIs(published));
     return;
   }
   const double by_wall = (ros::WallTime::now() - last_->by_wall).toSec();
@@ -53,11 +63,10 @@ void ImuArrivals::describeSilence(Status& status) const {
 }
 
 // Somebody has mistyped a name, or forgotten to remap it.
-std::string ImuArrivals::whatElseThereIs() const {
-  ros::master::V_TopicInfo published;
-  if ((ros::WallTime::now() - begun_).toSec() < timeout_ || !ros::master::getTopics(published)) return "";
+std::string ImuArrivals::whatElseThereIs(PublishedTopics& published) const {
+  if ((ros::WallTime::now() - begun_).toSec() < timeout_) return "";
   std::vector<std::string> others;
-  for (const ros::master::TopicInfo& topic : published)
+  for (const ros::master::TopicInfo& topic : published.now())
     if (topic.datatype == type_ && topic.name != topic_) others.push_back(topic.name);
   if (others.empty()) return "";
   std::sort(others.begin(), others.end());

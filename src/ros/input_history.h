@@ -15,10 +15,22 @@
 
 namespace suspension_health_monitor {
 
+inline constexpr const char* kImuType = "sensor_msgs/Imu";
+
+/// The topics that anybody publishes, as the master told at most half a second ago: all silent sensors of a report,
+/// which is due once a second, ask it once.
+class PublishedTopics {
+ public:
+  /// @return empty if the master does not answer.
+  const ros::master::V_TopicInfo& now();
+
+ private:
+  ros::WallTime asked_;
+  ros::master::V_TopicInfo topics_;
+};
+
 /// What the task Input of /diagnostics is made of: each remembers what the last report has said, as a warning is about
 /// what came since.
-
-inline constexpr const char* kImuType = "sensor_msgs/Imu";
 
 /// When the messages of one IMU came.
 class ImuArrivals {
@@ -38,7 +50,7 @@ class ImuArrivals {
   /// @return true if messages have come and no longer do.
   bool isSilentByWall() const;
 
-  void describeSilence(Status& status) const;
+  void describeSilence(PublishedTopics& published, Status& status) const;
 
  private:
   struct Last {
@@ -47,7 +59,7 @@ class ImuArrivals {
     RunningMean lag{0.99};
   };
 
-  std::string whatElseThereIs() const;
+  std::string whatElseThereIs(PublishedTopics& published) const;
 
   std::string topic_;
   double timeout_;

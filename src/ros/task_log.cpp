@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -10,15 +12,6 @@ using diagnostic_msgs::DiagnosticStatus;
 ros::console::Level lineOf(unsigned char level) {
   if (level == DiagnosticStatus::ERROR) return ros::console::levels::Error;
   return level == DiagnosticStatus::WARN ? ros::console::levels::Warn : ros::console::levels::Info;
-}
-
-const char* nameOf(unsigned char level) {
-  switch (level) {
-    case DiagnosticStatus::OK: return "OK";
-    case DiagnosticStatus::WARN: return "WARN";
-    case DiagnosticStatus::ERROR: return "ERROR";
-    default: return "STALE";
-  }
 }
 
 }  // namespace
@@ -31,7 +24,8 @@ void TaskLog::note(const Status& status) {
   const bool is_worth_telling = level >= least_ || (told_ && *told_ >= least_);
   told_ = level;
   if (is_worth_telling)
-    ROS_LOG(lineOf(level), ROSCONSOLE_DEFAULT_NAME, "%s: %s: %s", task_.c_str(), nameOf(level), status.message.c_str());
+    ROS_LOG(lineOf(level), ROSCONSOLE_DEFAULT_NAME, "%s: %s: %s", task_.c_str(),
+            nameOf(static_cast<HealthLevel>(level)), status.message.c_str());
 }
 
 }  // namespace suspension_health_monitor

@@ -85,7 +85,7 @@ void VehicleInput::describeSensors(const std::vector<std::size_t>& sensors, cons
     if (pipeline != nullptr) describeSensor(sensor, *pipeline, told, status);
   if (!refusal_.empty())
     return status.mergeSummary(DiagnosticStatus::ERROR, "stopped listening until reset: " + refusal_);
-  for (const std::size_t sensor : sensors) sensors_[sensor].arrivals.describeSilence(status);
+  for (const std::size_t sensor : sensors) sensors_[sensor].arrivals.describeSilence(published_, status);
 }
 
 void VehicleInput::describeSensor(std::size_t sensor, const VehiclePipeline& pipeline, Told told,

@@ -63,6 +63,7 @@ class VehicleInput {
   std::vector<std::size_t> all_sensors_;
   std::vector<std::vector<std::size_t>> own_sensors_;  // by strut
   SilentSensors silent_;
+  PublishedTopics published_;
   std::string refusal_;
   SeriesHistory series_;
   ClockHistory clock_;

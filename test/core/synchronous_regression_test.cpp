@@ -32,6 +32,14 @@ struct Sines {
   }
 };
 
+Sines lateWithNoise(double noise, unsigned seed) {
+  Sines sines;
+  sines.late = -0.0031;
+  sines.noise = noise;
+  sines.random.seed(seed);
+  return sines;
+}
+
 SynchronousRegression regression() {
   return {kFilter, SensorColumns::kDriftingOffset, RegressorNoise(kFilter), kForgetting};
 }
@@ -63,10 +71,7 @@ TEST(SynchronousRegression, RowsOfALateWheelObeyTheStrut) {
 
 TEST(SynchronousRegression, TheSkewIsKnownWithinItsStandardDeviation) {
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
-    Sines sines;
-    sines.late = -0.0031;
-    sines.noise = 0.1;
-    sines.random.seed(seed);
+    Sines sines = lateWithNoise(0.1, seed);
     SynchronousRegression rows = regression();
     drive(rows, sines, 0.0, 3.0);
     const double early = std::sqrt(rows.skew()->variance());
@@ -82,10 +87,7 @@ TEST(SynchronousRegression, TheSkewIsKnownWithinItsStandardDeviation) {
 // So much noise is in the regressors, too, and moves the skew of the best strut for good.
 TEST(SynchronousRegression, WhatNoiseMovesIsInTheStandardDeviation) {
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
-    Sines sines;
-    sines.late = -0.0031;
-    sines.noise = 0.5;
-    sines.random.seed(seed);
+    Sines sines = lateWithNoise(0.5, seed);
     SynchronousRegression rows = regression();
     drive(rows, sines, 0.0, 40.0);
     EXPECT_NEAR(rows.skew()->skew(), sines.late, 3.0 * std::sqrt(rows.skew()->variance()));

@@ -16,17 +16,10 @@ void SilentSensors::noteEnd(std::size_t sensor) {
   if (isSilent(sensor)) was_silent_[sensor] = true;
 }
 
-std::vector<std::string> SilentSensors::now() const {
+std::vector<std::string> SilentSensors::names(bool with_past) const {
   std::vector<std::string> silent;
   for (std::size_t i = 0; i < names_.size(); ++i)
-    if (isSilent(i)) silent.push_back(names_[i]);
-  return silent;
-}
-
-std::vector<std::string> SilentSensors::ofLate() const {
-  std::vector<std::string> silent;
-  for (std::size_t i = 0; i < names_.size(); ++i)
-    if (was_silent_[i] || isSilent(i)) silent.push_back(names_[i]);
+    if (isSilent(i) || (with_past && was_silent_[i])) silent.push_back(names_[i]);
   return silent;
 }
 

@@ -24,14 +24,15 @@ class SilentSensors {
   void forget() { was_silent_.assign(names_.size(), false); }
 
   /// @return those that are silent now.
-  std::vector<std::string> now() const;
+  std::vector<std::string> now() const { return names(false); }
 
   /// @return also those whose silence has ended since forget().
-  std::vector<std::string> ofLate() const;
+  std::vector<std::string> ofLate() const { return names(true); }
 
  private:
   bool isSilent(std::size_t sensor) const { return silence_.lasting(sensor) > Stamp::zero(); }
   void noteEnd(std::size_t sensor);
+  std::vector<std::string> names(bool with_past) const;
 
   std::vector<std::string> names_;
   StreamSilence silence_;
