@@ -41,8 +41,8 @@ void expectSameEstimates(const std::string& scenario, const Sensors& sensors) {
     const MonitorReport& expected = *reference.addSample(sample);
     const MonitorReport& actual = *monitor.addSample(seenBy(sensors, sample));
     if (!expected.has_row) continue;
-    expectNear(actual.ls, expected.ls, 1e-8);
-    expectNear(actual.la, expected.la, 1e-8);
+    expectNear(actual.ls, expected.ls, 1e-9);
+    expectNear(actual.la, expected.la, 1e-9);
     if (testing::Test::HasFatalFailure()) return;
   }
   // A constant is subject to the step error of the free run, 1e-6 of it, which moves a little with b1 and b0.
