@@ -28,11 +28,13 @@ inline std::optional<std::string_view> takeBlock(std::string_view& rest) {
   return block;
 }
 
+/// @param name  without '='.
 /// @return the value of the field `name` of a record's header.
 inline std::optional<std::string_view> findField(std::string_view header, std::string_view name) {
   while (const std::optional<std::string_view> field = takeBlock(header)) {
-    const std::size_t equals = field->find('=');
-    if (equals != std::string_view::npos && field->substr(0, equals) == name) return field->substr(equals + 1);
+    const bool is_it =
+        field->size() > name.size() && (*field)[name.size()] == '=' && field->substr(0, name.size()) == name;
+    if (is_it) return field->substr(name.size() + 1);
   }
   return std::nullopt;
 }

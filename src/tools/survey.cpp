@@ -26,8 +26,7 @@ constexpr std::size_t kCheckedMessages = 2000;
 constexpr double kMostFilled = StreamResampler::kSlowest;  // samples made of one reading
 
 // A horizon is proposed from stretches that lie all over the drive: it may begin parked, or be rough for a short time
-// only. What stands still weighs little beside what moves. So many samples are surveyed at least, and this share.
-constexpr double kSurveyedShare = 0.2;
+// only. What stands still weighs little beside what moves.
 constexpr int kStretch = 2500;  // [samples]
 
 constexpr std::size_t kLookedAt = 40000;  // samples, for an offset of the clocks
@@ -115,7 +114,7 @@ std::string describeClockLag(double lag) {
 int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options, bool clocks_may_differ) {
   const double period = *options.monitor.sample_period;
   const IntegrationRule rule = MonitorSettings(options.monitor).estimators.rule;
-  const double share = std::max(kSurveyedShare, HorizonSurvey::kEnough * period / duration(bags));
+  const double share = HorizonSurvey::kEnough * period / duration(bags);
   if (share < 1.0) {
     ImuBags stretches = bags;
     stretches.stretches = ImuBags::Stretches{kStretch * period / share, kStretch * period};

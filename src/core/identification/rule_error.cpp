@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "suspension_health_monitor/internal/signal/delay_line.h"
 
@@ -20,11 +19,9 @@ RuleError::RuleError(const IntegralFilterOptions& filter) {
 }
 
 double RuleError::at(double w) const {
-  const std::complex<double> i(0.0, 1.0);
-  std::complex<double> sum = 0.5 + 1.0 / (2.0 * i * std::tan(w / 2.0));
-  for (std::size_t k = 0; k < corrections_.size(); ++k)
-    sum += corrections_[k] * std::exp(-i * (w * static_cast<double>(k)));
-  return std::real(i * w * sum) - 1.0;
+  double sum = 0.5 / std::tan(w / 2.0);
+  for (std::size_t k = 0; k < corrections_.size(); ++k) sum += corrections_[k] * std::sin(w * static_cast<double>(k));
+  return w * sum - 1.0;
 }
 
 }  // namespace suspension_health_monitor

@@ -47,7 +47,10 @@ SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions&
       every_(std::max(1, filter.horizon_samples / kRowsOfHorizon)),
       horizon_rows_(std::max(kFewestRows, filter.horizon_samples)),
       noise_(noise.covariance()) {
-  for (std::size_t j = 0; j < kNumSkews; ++j) places_.push_back(wheel.place(skewAt(j)));
+  for (std::size_t j = 0; j < kNumSkews; ++j) {
+    places_.push_back(wheel.place(skewAt(j)));
+    prior_[j] = 2.0 * std::log1p(std::pow(skewAt(j) / (kUsualSteps * step_), 2));
+  }
   setForgettingFactor(forgetting_factor);
 }
 
@@ -130,9 +133,7 @@ bool SkewProfile::newestAgrees() const {
 
 SkewProfile::Optimum SkewProfile::optimumOf(const Evidence& evidence) const {
   Profile total;
-  for (std::size_t j = 0; j < kNumSkews; ++j)
-    total[j] =
-        evidence.older[j] + evidence.newest[j] + 2.0 * std::log1p(std::pow(skewAt(j) / (kUsualSteps * step_), 2));
+  for (std::size_t j = 0; j < kNumSkews; ++j) total[j] = evidence.older[j] + evidence.newest[j] + prior_[j];
   const auto best = static_cast<std::size_t>(std::min_element(total.begin(), total.end()) - total.begin());
   const double skew = skewAt(best);
   if (best == 0 || best + 1 == kNumSkews) return {skew, 0.0, false};

@@ -27,9 +27,8 @@ namespace suspension_health_monitor {
 /// a uniform distribution from its end.
 ///
 /// Beforehand half of all skews are within a 200th of the horizon, 3 ms of 0.6 s, and none is out of the question
-/// (Cauchy's distribution). Looked for are five of that either way, in steps by which a wheel that hops turns by a tenth
-/// of a radian.
-/// Cost per row: O(1), as rows a 64th of a horizon apart tell all; no allocation.
+/// (Cauchy's distribution). Looked for are five of that either way, in steps by which a wheel that hops turns by a
+/// tenth of a radian. Cost per row: O(1), as rows a 64th of a horizon apart tell all; no allocation.
 class SkewProfile {
  public:
   /// @return the largest skew that is looked for [s].
@@ -98,6 +97,7 @@ class SkewProfile {
   Eigen::Matrix3d noise_;  // what it adds to the moments of psi, phi_1, phi_0 of a row [1 / variance of a sensor]
   double share_ = 1.0;     // of a block, that is left at the end of the next one
   std::vector<WheelHistory::Place> places_;
+  Profile prior_;                     // -2 log of what is known beforehand
   std::array<Sums, kNumSkews> sums_;  // of the block
   double output_ = 0.0, output_square_ = 0.0, num_ = 0.0;
   int rows_ = 0;
