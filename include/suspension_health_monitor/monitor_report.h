@@ -41,6 +41,7 @@ struct StrutEstimate {
   double damping_to_mass_stddev = std::nan("");    ///< [1/s], with the residuals' correlation and the shift by noise in
                                                    ///< the regressors; renewed every few rows
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
+  bool scatter_is_known = false;                   ///< that correlation has been seen; else it is what is usual
   std::size_t num_effects = 0;                     ///< in the model
   std::array<double, kMostEffects> coefficients{};         ///< c_j [unit of the effect's coefficient]
   std::array<double, kMostEffects> coefficient_stddevs{};  ///< likewise

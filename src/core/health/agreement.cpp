@@ -5,15 +5,14 @@
 namespace suspension_health_monitor {
 
 void Agreement::update(const StrutEstimate& ls, const StrutEstimate& la, double memory) {
-  holds_ =
-      ls.valid() &&
-      !areApart(ls.damping_to_mass, la.damping_to_mass, ls.damping_to_mass_stddev, la.damping_to_mass_stddev) &&
-      !areApart(ls.stiffness_to_mass, la.stiffness_to_mass, ls.stiffness_to_mass_stddev, la.stiffness_to_mass_stddev);
+  const bool scatter_is_known = ls.scatter_is_known && la.scatter_is_known;
+  const auto agree = [&](double StrutEstimate::*value, double StrutEstimate::*stddev) {
+    const bool are_apart = std::abs(ls.*value - la.*value) > kMostApart * la.*stddev;
+    return !are_apart && !(scatter_is_known && ls.*stddev > kTails * la.*stddev);
+  };
+  holds_ = ls.valid() && agree(&StrutEstimate::damping_to_mass, &StrutEstimate::damping_to_mass_stddev) &&
+           agree(&StrutEstimate::stiffness_to_mass, &StrutEstimate::stiffness_to_mass_stddev);
   failing_ += ((holds_ ? 0.0 : 1.0) - failing_) / (kMemories * memory);
-}
-
-bool Agreement::areApart(double ls, double la, double ls_stddev, double la_stddev) {
-  return std::abs(ls - la) > kMostApart * la_stddev || ls_stddev > kTails * la_stddev;
 }
 
 }  // namespace suspension_health_monitor

@@ -21,7 +21,7 @@ namespace {
 // the integral has there less what the sum has. Its series -i w / 12 - ... sets the moments of the corrections c_k,
 // which are sum c_k = sum k^2 c_k = 0, sum k c_k = 1/12 (exact on parabolas); what is left of them is least squares,
 // relative to the integral, over the band, and small.
-Eigen::VectorXd endCorrections(int count) {
+std::vector<double> endCorrections(int count) {
   constexpr int kFrequencies = 128, kMoments = 3;
   constexpr double kBeyond = 1e-2;  // weight of an error beyond half of the Nyquist frequency: it must not grow there
   constexpr double kSize = 1e-5;    // weight of a correction: it passes noise on
@@ -40,7 +40,8 @@ Eigen::VectorXd endCorrections(int count) {
     for (int moment = 0; moment < kMoments; ++moment)
       system(k, count + moment) = system(count + moment, k) = std::pow(k, moment);
   right[count + 1] = 1.0 / 12.0;
-  return system.fullPivLu().solve(right).head(count);
+  const Eigen::VectorXd solution = system.fullPivLu().solve(right);
+  return {solution.data(), solution.data() + count};
 }
 
 }  // namespace
@@ -54,12 +55,12 @@ HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule r
   if (!(std::isfinite(period) && period > 0.0))
     throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be above 0");
   switch (rule) {
-    case IntegrationRule::kTrapezoid: end_corrections_.setConstant(1, -1.0 / 2); break;
+    case IntegrationRule::kTrapezoid: end_corrections_ = {-1.0 / 2}; break;
     case IntegrationRule::kSimpson:
       if (intervals % 2 != 0) refuseIntervals(intervals, "even for Simpson's rule");
       same_weight_ = 2.0 / 3;
       other_weight_ = 4.0 / 3;
-      end_corrections_.setConstant(1, -1.0 / 3);
+      end_corrections_ = {-1.0 / 3};
       break;
     case IntegrationRule::kBandLimited:
       if (intervals < 5) refuseIntervals(intervals, "at least 5");
@@ -80,10 +81,10 @@ double HorizonIntegral::update(const DelayLine& signal) {
     until_refresh_ = intervals_ + 1;
   }
   double integral = same_weight_ * sums_[parity_] + other_weight_ * sums_[parity_ ^ 1];
-  const auto count = end_corrections_.size();
-  using Samples = Eigen::Map<const Eigen::VectorXd>;
-  integral += end_corrections_.dot(Samples(signal.from(intervals_), count));
-  integral += end_corrections_.dot(Samples(signal.from(static_cast<int>(count) - 1), count).reverse());
+  for (std::size_t k = 0; k < end_corrections_.size(); ++k) {
+    const int place = static_cast<int>(k);
+    integral += end_corrections_[k] * (signal.at(place) + signal.at(intervals_ - place));
+  }
   parity_ ^= 1;
   return period_ * integral;
 }

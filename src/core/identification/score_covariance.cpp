@@ -197,6 +197,8 @@ void ScoreCovariance::compareWithWhiteResiduals() {
   }
 }
 
+bool ScoreCovariance::isKnown() const { return means_.blocks > kPriorBlocks; }
+
 double ScoreCovariance::inflation(int i, double weight) const {
   const double forgetting = 1.0 - forgetting_factor_;
   // The weight of a memory that was longer still counts for a while.

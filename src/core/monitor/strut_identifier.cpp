@@ -34,6 +34,7 @@ RegressorNoise regressorNoise(const MonitorSettings& options, const IntegralFilt
 // @param shift  by the sensors' noise, of each parameter.
 void describeParameters(const RecursiveEstimator& estimator, const Eigen::VectorXd& shift, int num_model,
                         StrutEstimate& estimate) {
+  if (!(estimator.effectiveRows() > 0.0)) return;  // the start values are no estimates
   const Eigen::VectorXd& theta = estimator.parameters();
   estimate.damping_to_mass = theta[kDampingToMass] - shift[kDampingToMass];
   estimate.stiffness_to_mass = theta[kStiffnessToMass] - shift[kStiffnessToMass];
@@ -45,6 +46,7 @@ void describeParameters(const RecursiveEstimator& estimator, const Eigen::Vector
   if (num_model < estimator.numParameters()) estimate.offset = -theta[num_model] / theta[kStiffnessToMass];
   estimate.effective_rows = estimator.effectiveRows();
   estimate.explained = estimator.explained();
+  estimate.scatter_is_known = estimator.knowsScatter();
 }
 
 // What LS and LA differ by beyond the scatter of LS is an error of LS, which suffers wrong readings for as long as it

@@ -5,7 +5,8 @@
 namespace suspension_health_monitor {
 
 /// Whether LS and LA say the same. If they are more than kMostApart standard deviations of LA apart, or LS is more than
-/// kTails times as uncertain, there are outliers, or was a step. Cost per update: O(1), no allocation.
+/// kTails times as uncertain as far as the scatter of both is known, there are outliers, or was a step. Cost per
+/// update: O(1), no allocation.
 class Agreement {
  public:
   /// @param memory  of the estimates, in updates.
@@ -20,8 +21,6 @@ class Agreement {
  private:
   static constexpr double kMostApart = 3.0, kTails = 2.5;
   static constexpr double kOften = 0.4, kMemories = 10.0;
-
-  static bool areApart(double ls, double la, double ls_stddev, double la_stddev);
 
   bool holds_ = false;
   double failing_ = 0.0;  // share of the updates

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
+#include <vector>
 
 #include "suspension_health_monitor/internal/signal/delay_line.h"
 
@@ -47,9 +47,9 @@ class HorizonIntegral {
 
   int intervals_;
   double period_;
-  double same_weight_ = 1.0;         // of taps at an even distance from the newest sample, inside the horizon
-  double other_weight_ = 1.0;        // of taps at an odd distance
-  Eigen::VectorXd end_corrections_;  // of either end sample, its neighbour, ...
+  double same_weight_ = 1.0;             // of taps at an even distance from the newest sample, inside the horizon
+  double other_weight_ = 1.0;            // of taps at an odd distance
+  std::vector<double> end_corrections_;  // of either end sample, its neighbour, ...
   // Running sums over the window by parity of the sample's index, and the ones that will replace them.
   std::array<double, 2> sums_{};
   std::array<double, 2> fresh_{};

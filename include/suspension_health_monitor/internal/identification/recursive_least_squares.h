@@ -102,6 +102,7 @@ class RecursiveEstimator {
 
   /// @return sum of lambda^(k-i): the number of rows that the estimate rests on.
   double effectiveRows() const { return means_.weight(); }
+  bool knowsScatter() const { return scores_.isKnown(); }  ///< else what is usual is assumed
 
   double meanAbsoluteResidual() const { return means_.mean(kAbsoluteResidual); }  ///< running mean of |epsilon|
   double meanSquareResidual() const { return means_.mean(kSquareResidual); }      ///< running mean of epsilon^2

@@ -65,6 +65,9 @@ class ScoreCovariance {
   /// @return the size of a residual, limited to what does not stand out, as far as that is known.
   double limited(double size) const;
 
+  /// @return true once what has been seen counts for more than what is assumed beforehand.
+  bool isKnown() const;
+
   /// @return V_ii / (P_ii scale), with the scale E[(w epsilon)^2] / E[w] of the newest rows: what P is multiplied by to
   /// be the variance.
   /// @param weight  sum lambda^(k-i).

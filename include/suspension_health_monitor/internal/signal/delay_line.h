@@ -23,9 +23,6 @@ class DelayLine {
   /// @return q^-lag x.
   double at(int lag) const { return samples_[newest_ - static_cast<std::size_t>(lag)]; }
 
-  /// @return the samples from that age on to the newest, one after the other; valid until the next push.
-  const double* from(int lag) const { return samples_.data() + newest_ - static_cast<std::size_t>(lag); }
-
   void reset() { samples_.assign(samples_.size(), 0.0); }
 
  private:
