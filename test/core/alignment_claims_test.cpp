@@ -60,6 +60,18 @@ TEST_P(AsItReallyComes, WrongStampsCostNoMoreThanSaid) {
   EXPECT_NEAR(real.la_damping, ideal.la_damping, 0.02 * ideal.la_damping);
 }
 
+// Nobody knows whether such stamps are wrong, or the readings irregular: the interval holds both.
+TEST_P(AsItReallyComes, WrongStampsAreWithinTheStandardDeviation) {
+  const double ideal = identify(ideal_, Alignment::kPaired).la_stiffness;
+  const double of_regular_stamps = identify(real_, Alignment::kAuto).la_stiffness_stddev;
+  for (const double jitter : {0.0005, 0.001, 0.002}) {
+    real_.stamp_jitter = jitter;
+    const MeanEstimates real = identify(real_, Alignment::kAuto);
+    EXPECT_NEAR(real.la_stiffness, ideal, 2.0 * real.la_stiffness_stddev) << jitter;
+    EXPECT_GT(real.la_stiffness_stddev, 0.99 * of_regular_stamps) << jitter;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Roads, AsItReallyComes, testing::Values("paper_clean", "iso_road"));
 
 }  // namespace

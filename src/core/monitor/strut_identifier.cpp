@@ -67,6 +67,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
                       options.leastAbsolute()),
       forgetting_{!options.estimators.forgets_unexcited, {}},
       past_{present(), present()},
+      stamp_noise_(filter_.period, options.forgettingFactor(filter_.period)),
       stddevs_due_(kStddevsEvery),
       rule_error_(filter_),
       skew_effect_{RunningMeans<SkewEffect::kNumMeans>(options.forgettingFactor(filter_.period))},
@@ -100,6 +101,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
 }
 
 void StrutIdentifier::add(const CornerSample& sample, const double* effect_forces) {
+  stamp_noise_.add(sample);
   const RegressionRow* row = regression_.push(sample, effect_forces);
   has_row_ = row != nullptr;
   if (!has_row_) return;
@@ -222,10 +224,13 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   const bool removes = lasting && !isHeld(kDampingToMass) && !isHeld(kStiffnessToMass);
   if (removes) removeShift(moment);
   const Eigen::Vector2d spread = removes ? noise.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
+  // All of it or none, or a part: a uniform distribution from its end, which the estimate is at.
+  const Eigen::Vector2d of_stamps = noise.momentOf(strut, stamp_noise_.variances()) / std::sqrt(3.0);
   const double of_rule = wheelFrequency() > 0.0 ? strut[kDampingToMass] * rule_error_.at(wheelFrequency()) : 0.0;
   const auto with_shift = [&](double random, int i) {
     const double not_removed = least_squares_.parameterShift(i, moment) - noise_shift_[i];
-    const double of_noise = std::hypot(not_removed, least_squares_.parameterShift(i, spread));
+    const double of_noise =
+        std::hypot(not_removed, least_squares_.parameterShift(i, spread), least_squares_.parameterShift(i, of_stamps));
     const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
     return std::hypot(std::hypot(std::sqrt(random), of_noise, skewShift(i)), i == kDampingToMass ? of_rule : 0.0,
                       by_input);
@@ -304,6 +309,7 @@ void StrutIdentifier::startNewSeries() {
   least_squares_.interrupt();
   least_absolute_.interrupt();
   if (noise_level_) noise_level_->interrupt();
+  stamp_noise_.interrupt();
   excitation_.reset();
   has_row_ = false;
 }
@@ -322,6 +328,7 @@ void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   least_absolute_.setForgettingFactor(slow);
   regression_.setForgettingFactor(slow);
   skew_effect_.means.setForgettingFactor(slow);
+  stamp_noise_.setForgettingFactor(slow);
   forgetting_.fewest_rows = options.fewestRows(kFewestHorizons, filter_.period);
   if (!options.fastest_memory) {
     forgetting_.variable.reset();

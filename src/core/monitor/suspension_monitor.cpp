@@ -65,6 +65,10 @@ void SuspensionMonitor::setInputStddevs(const Eigen::Vector2d& stddevs) {
   changeModels([&](ModelTracker& model, ModelReport&) { model.setInputStddevs(stddevs); });
 }
 
+void SuspensionMonitor::setStampErrors(const Eigen::Vector2d& stddevs) {
+  changeModels([&](ModelTracker& model, ModelReport&) { model.setStampErrors(stddevs); });
+}
+
 const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
   const std::optional<Continuity> how = series_.add(sample);
   if (!how) return nullptr;

@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
+#include <cmath>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -28,6 +29,13 @@ std::optional<CornerSample> UniformGrid::take(const GridInstant* instant) {
   const bool has_road = has_road_ && instant->measured[indexOf(Side::kRoad)];
   road_acceleration_ = has_road ? std::optional<double>(values[indexOf(Side::kRoad)]) : std::nullopt;
   return CornerSample{instant->stamp, values[indexOf(Side::kSprung)], values[indexOf(Side::kUnsprung)]};
+}
+
+// A spacing has the errors of two stamps.
+Eigen::Vector2d UniformGrid::stampErrors() const {
+  if (!resamples()) return Eigen::Vector2d::Zero();
+  return Eigen::Vector2d(gate(Side::kSprung).timing().jitter(), gate(Side::kUnsprung).timing().jitter()) /
+         std::sqrt(2.0);
 }
 
 }  // namespace suspension_health_monitor

@@ -29,6 +29,12 @@ class RegressorNoise {
     return sensor_variance * (rows_.cross - rows_.regressors * theta);
   }
 
+  /// @param variances  of the sensors on the body and on the wheel carrier [(m/s^2)^2], white.
+  /// @return as moment().
+  Eigen::Vector2d momentOf(const Eigen::Vector2d& theta, const Eigen::Vector2d& variances) const {
+    return variances[0] * rows_.cross - 0.5 * variances.sum() * (rows_.regressors * theta);
+  }
+
   /// @return standard deviation of moment() if nobody knows how the noise is divided between the sensors: of two that
   /// of a uniform distribution from all of it in the one to all of it in the other, with the same residual; of more a
   /// half.

@@ -60,6 +60,9 @@ class ModelTracker {
   /// As StrutIdentifier::setInputStddevs().
   void setInputStddevs(const Eigen::Vector2d& stddevs) { identifier_.setInputStddevs(stddevs); }
 
+  /// As StrutIdentifier::setStampErrors().
+  void setStampErrors(const Eigen::Vector2d& stddevs) { identifier_.setStampErrors(stddevs); }
+
   /// @return true while what is measured tells nothing of the strut, and the estimates stay as they are.
   bool holds() const { return identifier_.holdsAll(); }
 

@@ -12,6 +12,7 @@
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/rule_error.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
+#include "suspension_health_monitor/internal/identification/stamp_noise.h"
 #include "suspension_health_monitor/internal/identification/synchronous_regression.h"
 #include "suspension_health_monitor/internal/identification/variable_forgetting.h"
 #include "suspension_health_monitor/internal/monitor/silent_rows.h"
@@ -71,6 +72,10 @@ class StrutIdentifier {
   /// @param stddevs  of (b1 [1/s], b0 [1/s^2]) by what the samples went through before: no row shows that.
   void setInputStddevs(const Eigen::Vector2d& stddevs) { input_stddevs_ = stddevs; }
 
+  /// @param stddevs  of the errors of the stamps by which samples were brought onto the grid, of the sprung and the
+  /// unsprung sensor [s].
+  void setStampErrors(const Eigen::Vector2d& stddevs) { stamp_noise_.setStamps(stddevs); }
+
   /// @return the factor that rows are forgotten by now.
   double forgettingFactor() const { return least_absolute_.forgettingFactor(); }
 
@@ -126,6 +131,7 @@ class StrutIdentifier {
   Forgetting forgetting_;
   std::array<Past, 2> past_;  // at the ends of the newest two blocks that may have told something, the older one first
   Eigen::Vector2d input_stddevs_ = Eigen::Vector2d::Zero();
+  StampNoise stamp_noise_;
   Eigen::VectorXd noise_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
   EveryN stddevs_due_;
   bool has_row_ = false;

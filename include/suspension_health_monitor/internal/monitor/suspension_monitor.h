@@ -43,6 +43,9 @@ class SuspensionMonitor {
   /// As StrutIdentifier::setInputStddevs(), from the next sample on.
   void setInputStddevs(const Eigen::Vector2d& stddevs);
 
+  /// As StrutIdentifier::setStampErrors(), from the next sample on.
+  void setStampErrors(const Eigen::Vector2d& stddevs);
+
   /// Takes in the next sample. A gap or a clock that goes back empties the filter (2 L samples without rows follow);
   /// estimates hold meanwhile, marked as not valid.
   /// @return the report, owned by this object and valid until the next call; nullptr if the sample was rejected, and,
