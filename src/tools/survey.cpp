@@ -16,12 +16,12 @@
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/signal/stream_resampler.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kMessagesForPeriod = 20000;  // the mean of n spacings has 1/n of a stamp's jitter
-constexpr std::size_t kFewestSpacings = 10;
 constexpr std::size_t kCheckedMessages = 2000;
 constexpr double kMostFilled = StreamResampler::kSlowest;  // samples made of one reading
 
@@ -34,7 +34,7 @@ constexpr std::size_t kLookedAt = 40000;  // samples, for an offset of the clock
 
 // @param count  messages to look at; becomes those that there were.
 std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
-  PeriodMeasurement measurement(kFewestSpacings);
+  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording);
   const std::size_t most = std::exchange(count, 0);
   readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
     measurement.add(side, toStamp(imu.header.stamp));
@@ -47,7 +47,8 @@ double measurePeriod(const ImuBags& bags) {
   std::size_t count = kMessagesForPeriod;
   const std::optional<double> period = stampSpacing(bags, count);
   if (!period)
-    throw TooLittleError("the sample period cannot be measured: fewer than " + std::to_string(kFewestSpacings) +
+    throw TooLittleError("the sample period cannot be measured: fewer than " +
+                         std::to_string(PeriodMeasurement::kFewestOfRecording) +
                          " increasing stamps on one of the topics (of " + std::to_string(count) + " messages)");
   try {
     MonitorOptions options;
