@@ -20,13 +20,14 @@ message(STATUS "Python module: ${python_module} (${python_module_reason})")
 
 get_filename_component(python_repository ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
 
-# add_python_part(TARGET DIRECTORY SOURCE...): a compiled part that lands in a folder of the build.
-function(add_python_part target directory)
+# add_python_part(PART DIRECTORY SOURCE...): the compiled part _PART, which lands in a folder of the build.
+function(add_python_part part directory)
+  set(target suspension_health_monitor_python_${part})
   pybind11_add_module(${target} ${ARGN})
   target_include_directories(${target} PRIVATE ${python_repository}/include)
   target_compile_options(${target} PRIVATE ${strict_warnings})
   target_compile_features(${target} PRIVATE cxx_std_17)
-  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${directory})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME _${part} LIBRARY_OUTPUT_DIRECTORY ${directory})
 endfunction()
 
 file(GLOB python_core_sources CONFIGURE_DEPENDS ${python_repository}/src/python/*.cpp)

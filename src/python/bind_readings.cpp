@@ -17,6 +17,11 @@ void bindReadings(py::module& module) {
            }),
            py::arg("streams"), py::arg("across"));
   py::class_<Keywords>(module, "Keywords", "Options by their full names.")
+      .def("with_defaults",
+           [](Keywords self, const Keywords& defaults) {
+             self.values.insert(defaults.values.begin(), defaults.values.end());
+             return self;
+           })
       .def_property_readonly(
           "assignments", [](const Keywords& self) { return assignmentsOf(self.values); },
           "NAME=VALUE each, for `--set`");

@@ -104,10 +104,11 @@ void bindSimulation(py::module& module) {
   defTruth(simulation, "road_height", &DriveTruth::road_height, "[m]");
   module.def(
       "simulator_keywords",
-      [](const py::dict& keywords, const std::vector<std::string>& arguments) {
+      [](const py::dict& keywords, bool of_vehicle, const std::vector<std::string>& arguments) {
+        if (of_vehicle) return Keywords{toSettings(keywords)};  // who makes the vehicle knows its options
         return takeKeywords(keywords, SimulatorOptions::describe(), arguments);
       },
-      py::arg("keywords"), py::arg("arguments"));
+      py::arg("keywords"), py::arg("of_vehicle"), py::arg("arguments"));
   module.def(
       "simulate",
       [](const Keywords& keywords, const EffectLibrary& library, const py::object& progress) {
