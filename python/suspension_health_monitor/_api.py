@@ -123,9 +123,10 @@ def simulate(output=None, *, effect=None, effects_file=None, progress=None, **op
         if output is not None:
             arguments = [f"--output={os.fspath(output)}", *(f"--effect={each}" for each in hidden)]
             vehicle = options.pop("vehicle_model", None)
-            return files().simulate(
+            files().simulate(
                 arguments + _flags(config=options.pop("config", None), effects_file=effects_file, vehicle_model=vehicle)
                 + [f"--set={each}" for each in simulator_keywords(options, bool(vehicle)).assignments], told)
+            return None
         if hidden:
             options["hidden"] = "; ".join(hidden)
         return _core.simulate(simulator_keywords(options, False), _library(effects_file), told)

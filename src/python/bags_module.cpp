@@ -137,6 +137,7 @@ PYBIND11_MODULE(_bags, module) {
     const ToolsWork tools(work, 1);
     simulate(arguments);
     std::fflush(stdout);
+    return true;
   });
   module.def(
       "read_effects", [](const std::string& path) { return readEffectsFile(path); }, py::arg("path"));

@@ -14,11 +14,15 @@ class LongWork {
   /// @param progress  called with the share that is done, 0 .. 1, or None.
   explicit LongWork(pybind11::object progress) : progress_(std::move(progress)) {}
 
-  /// Runs the work.
+  /// Runs the work; once it is done the callback is told so.
   template <class Work>
   auto run(const Work& work) {
-    const pybind11::gil_scoped_release released;
-    return work();
+    auto result = [&] {
+      const pybind11::gil_scoped_release released;
+      return work();
+    }();
+    if (told_ < 1.0) tell(1.0);
+    return result;
   }
 
   /// To be called from within run(), on its thread, as often as one likes.
@@ -29,7 +33,7 @@ class LongWork {
     due_ = now + kInterval;
     const pybind11::gil_scoped_acquire held;
     if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
-    if (!progress_.is_none()) progress_(share);
+    tell(share);
   }
 
   /// The same for work in many small steps: one of them costs nothing.
@@ -42,12 +46,18 @@ class LongWork {
   }
 
  private:
+  void tell(double share) {
+    told_ = share;
+    if (!progress_.is_none()) progress_(share);
+  }
+
   static constexpr std::chrono::milliseconds kInterval{50};  // what a person waits for without noticing
 
   static constexpr unsigned kSteps = 256;  // readings, of a microsecond each
 
   pybind11::object progress_;
   unsigned steps_ = 0;
+  double told_ = 0.0;
   std::chrono::steady_clock::time_point due_{};
 };
 

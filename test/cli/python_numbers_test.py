@@ -89,8 +89,8 @@ def test_identify(program, tmp_path, rough_bag, options):
 
 def test_identify_a_part_with_effects_and_topics(program, tmp_path, rough_bag):
     flags = ["--start", "20", "--end", "80", "--sprung-topic", "/sprung/imu"]
-    found = shm.identify(rough_bag, start=20, end=80, sprung_topic="/sprung/imu", effects=["coulomb_friction"])
-    assert_same(found, said(program, tmp_path, "identify", rough_bag, *flags, "--set", "effects=coulomb_friction"))
+    found = shm.identify(rough_bag, start=20, end=80, sprung_topic="/sprung/imu", effects=["quadratic_damping"])
+    assert_same(found, said(program, tmp_path, "identify", rough_bag, *flags, "--set", "effects=quadratic_damping"))
     assert not found.iv.valid and "effects" in found.iv.reason
 
 
@@ -175,8 +175,8 @@ def test_arrays_are_the_bag(rough_bag):
 
 def test_simulated_arrays_are_the_simulated_bag(tmp_path):
     options = {"dropout": 0.01, "clock_offset": 0.003, "body_acceleration": 1.0, "duration": 20.0, **ROUGH}
-    shm.simulate(tmp_path / "drive.bag", effect=["coulomb_friction=0.2", "scale_error=0.1"], **options)
-    made = shm.simulate(effect=["coulomb_friction=0.2", "scale_error=0.1"], **options)
+    shm.simulate(tmp_path / "drive.bag", effect=["coulomb_friction=0.2,vs=0.05", "scale_error=0.1"], **options)
+    made = shm.simulate(effect=["coulomb_friction=0.2,vs=0.05", "scale_error=0.1"], **options)
     stamps_body, body, stamps_wheel, wheel = arrays_of(tmp_path / "drive.bag")
     np.testing.assert_array_equal(made.body, body)
     np.testing.assert_array_equal(made.wheel, wheel)
