@@ -118,18 +118,14 @@ def simulate(output=None, *, effect=None, effects_file=None, progress=None, **op
     :returns: a Simulation: .stamps_body (n,), .body (n,), .stamps_wheel (m,), .wheel (m,) and the truth; a bag: None.
     :raises ValueError: naming option, value and what is allowed.
     """
-    hidden = [effect] if isinstance(effect, str) else list(effect or ())
+    if effect is not None:
+        options["hidden"] = effect if isinstance(effect, str) else "; ".join(effect)
     with callback(progress, "simulate") as told:
-        if output is not None:
-            arguments = [f"--output={os.fspath(output)}", *(f"--effect={each}" for each in hidden)]
-            vehicle = options.pop("vehicle_model", None)
-            files().simulate(
-                arguments + _flags(config=options.pop("config", None), effects_file=effects_file, vehicle_model=vehicle)
-                + [f"--set={each}" for each in simulator_keywords(options, bool(vehicle)).assignments], told)
-            return None
-        if hidden:
-            options["hidden"] = "; ".join(hidden)
-        return _core.simulate(simulator_keywords(options, False), _library(effects_file), told)
+        if output is None:
+            return _core.simulate(simulator_keywords(options, False), _library(effects_file), told)
+        of_vehicle = options.get("vehicle_model") is not None
+        files().simulate(os.fspath(output), simulator_keywords({**options, "effects_file": effects_file}, of_vehicle), told)
+    return None
 
 
 class _Call:

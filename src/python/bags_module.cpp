@@ -2,19 +2,21 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <cstdio>
 #include <stdexcept>
 
 #include "../ros/live_baseline.h"
 #include "../ros/model_file.h"
+#include "../ros/simulated_drive.h"
 #include "../ros/yaml_settings.h"
 #include "../tools/bag_options.h"
 #include "../tools/command.h"
 #include "../tools/identify_tables.h"
 #include "../tools/recorded_strut.h"
+#include "../tools/simulate_vehicle.h"
 #include "../tools/vehicle_commands.h"
 #include "bags_long_work.h"
 #include "opaque.h"
+#include "options.h"
 #include "results.h"
 
 namespace suspension_health_monitor {
@@ -87,6 +89,14 @@ auto withDrives(const Arguments& arguments, LongWork& progress, const Work& work
   return work(options, models, gaps);
 }
 
+std::string writeSimulation(const std::string& path, const OptionMap& values, LongWork& work) {
+  const ToolsWork tools(work, 1);
+  const SimulatedDrive drive = makeSimulatedDrive(values);
+  const double start = drive.playing.start_time;
+  writeBag(*drive.begin(fromSeconds(start)), drive.duration, start, path);
+  return path;
+}
+
 py::dict toDict(const OptionMap& values) {
   py::dict settings;
   for (const auto& [name, value] : values) {
@@ -133,12 +143,13 @@ PYBIND11_MODULE(_bags, module) {
         return asCommand([&] { return work.run([&] { return withDrives(arguments, work, search); }); });
       },
       py::arg("arguments"), py::arg("threads"), py::arg("progress"));
-  defCommand(module, "simulate", [](const Arguments& arguments, LongWork& work) {
-    const ToolsWork tools(work, 1);
-    simulate(arguments);
-    std::fflush(stdout);
-    return true;
-  });
+  module.def(
+      "simulate",
+      [](const std::string& path, const Keywords& keywords, const py::object& progress) {
+        LongWork work(progress);
+        return asCommand([&] { return work.run([&] { return writeSimulation(path, keywords.values, work); }); });
+      },
+      py::arg("path"), py::arg("keywords"), py::arg("progress"));
   module.def(
       "read_effects", [](const std::string& path) { return readEffectsFile(path); }, py::arg("path"));
   module.def(
