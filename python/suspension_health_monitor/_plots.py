@@ -6,7 +6,7 @@ def _axes(axes, count, **keywords):
     """Axes one above the other: those given, or those of a new figure."""
     if axes is None:
         from matplotlib import pyplot
-        figure, axes = pyplot.subplots(count, squeeze=False, figsize=(9, 2.6 * count), layout="constrained", **keywords)
+        figure, axes = pyplot.subplots(count, squeeze=False, figsize=(9, 2.6 * count), constrained_layout=True, **keywords)
         return figure, list(axes[:, 0])
     axes = [axes] if count == 1 and not hasattr(axes, "__len__") else list(axes)
     if len(axes) != count:
@@ -45,8 +45,11 @@ def _plot_identification(self, axes=None):
 def _plot_health(self, axes=None):
     """Level, damping and stiffness over time; returns the figure. axes: three, to draw into."""
     figure, axes = _axes(axes, 3, sharex=True)
-    axes[0].step(self.course.time, self.course.level, where="post", color="k")
-    axes[0].set_yticks(range(4), ["OK", "WARN", "ERROR", "STALE"])
+    levels = ["OK", "WARN", "ERROR", "STALE"]
+    moments = [*self.events, self.end]
+    axes[0].step([each.time for each in moments], [levels.index(each.level) for each in moments], where="post", color="k")
+    axes[0].set_yticks(range(4))
+    axes[0].set_yticklabels(levels)
     healthy = self.baseline
 
     def values(name):

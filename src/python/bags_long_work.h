@@ -20,7 +20,7 @@ class ToolsWork {
 
   void beginBar();
   void update(double share);
-  void step() { work_.step(0.0); }
+  void step() { work_.step(); }
 
  private:
   LongWork& work_;

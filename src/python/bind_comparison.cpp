@@ -30,7 +30,7 @@ void bindSegment(py::module& module) {
       .def_property_readonly(
           "time",
           [](const ComparedSegment& self) {
-            py::array_t<double> time(static_cast<py::ssize_t>(self.size()));
+            py::array_t<double> time(static_cast<Py_ssize_t>(self.size()));
             double* next = time.mutable_data();
             for (std::size_t k = 0; k < self.size(); ++k) *next++ = self.time(k);
             return time;

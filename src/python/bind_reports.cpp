@@ -23,7 +23,7 @@ void bindEstimates(py::module& module) {
       .def_property_readonly(
           "coefficients",
           [](const StrutEstimate& self) {
-            return py::array_t<double>(static_cast<py::ssize_t>(self.num_effects), self.coefficients.data());
+            return py::array_t<double>(static_cast<Py_ssize_t>(self.num_effects), self.coefficients.data());
           },
           "of the effects in the model, in their order")
       .def_property_readonly("valid", &StrutEstimate::valid)

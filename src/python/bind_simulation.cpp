@@ -59,7 +59,7 @@ Simulation simulate(const SimulatorOptions& options, LongWork& work) {
 }
 
 py::array_t<double> asArray(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+  return py::array_t<double>(static_cast<Py_ssize_t>(values.size()), values.data());
 }
 
 void defSensor(py::class_<Simulation>& simulation, const char* name, const char* stamps,
@@ -91,7 +91,7 @@ void bindSimulation(py::module& module) {
   simulation.def_property_readonly(
       "across",
       [](const Simulation& self) {
-        return py::array_t<double>({static_cast<py::ssize_t>(self.across.size()), py::ssize_t{4}},
+        return py::array_t<double>({static_cast<Py_ssize_t>(self.across.size()), Py_ssize_t{4}},
                                    self.across.empty() ? nullptr : self.across.front().data());
       },
       "a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, (readings, 4); NaN: it has none");

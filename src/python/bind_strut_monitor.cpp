@@ -26,7 +26,7 @@ class LockedMonitor {
     lock_.push([&] {
       readings.forEach([&](Side side, Stamp stamp, double value) {
         monitor_.push(side, stamp, value);
-        interruption.step(0.0);
+        interruption.step();
       });
     });
   }

@@ -47,9 +47,9 @@ class LockedVehicle {
     const auto top = body.unchecked<2>(), carrier = wheel.unchecked<2>();
     LongWork interruption{py::none()};
     lock_.push([&] {
-      for (py::ssize_t k = 0; k < stamps.size(); ++k) {
+      for (Py_ssize_t k = 0; k < stamps.size(); ++k) {
         const Stamp stamp(stamps.data()[k]);
-        py::ssize_t of_body = 0, of_wheel = 0;
+        Py_ssize_t of_body = 0, of_wheel = 0;
         for (std::size_t i = 0; i < streams_.sensors.size(); ++i) {
           const VehicleStreams::Place place = streams_.sensors[i].place;
           values_.clear();
@@ -59,7 +59,7 @@ class LockedVehicle {
             values_.push_back(place == VehicleStreams::Place::kSprung ? top(k, of_body++) : carrier(k, of_wheel++));
           grid_.push(i, stamp, values_);
         }
-        interruption.step(0.0);
+        interruption.step();
       }
     });
   }

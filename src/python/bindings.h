@@ -28,7 +28,7 @@ void bindVehicleMonitor(pybind11::module& module);
 template <class Items, class Get>
 auto arrayOf(const Items& items, const Get& get) {
   using Number = std::decay_t<decltype(get(items[0]))>;
-  pybind11::array_t<Number> array(static_cast<pybind11::ssize_t>(items.size()));
+  pybind11::array_t<Number> array(static_cast<Py_ssize_t>(items.size()));
   Number* next = array.mutable_data();
   for (const auto& item : items) *next++ = get(item);
   return array;
@@ -41,7 +41,7 @@ void defArray(pybind11::class_<Class>& to, const char* name, std::vector<Number>
       name,
       [member](const Class& self) {
         const std::vector<Number>& values = self.*member;
-        return pybind11::array_t<Number>(static_cast<pybind11::ssize_t>(values.size()), values.data());
+        return pybind11::array_t<Number>(static_cast<Py_ssize_t>(values.size()), values.data());
       },
       text);
 }

@@ -28,9 +28,7 @@ class LongWork {
   /// To be called from within run(), on its thread, as often as one likes.
   /// @throws pybind11::error_already_set  to end the work.
   void update(double share) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now < due_ && share < 1.0) return;
-    due_ = now + kInterval;
+    if (!isDue(telling_due_) && share < 1.0) return;
     const pybind11::gil_scoped_acquire held;
     if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
     tell(share);
@@ -41,24 +39,39 @@ class LongWork {
     if (++steps_ % kSteps == 0) update(share);
   }
 
+  /// The same where nothing is to be told.
+  void step() {
+    if (++steps_ % kSteps != 0 || !isDue(asking_due_)) return;
+    const pybind11::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+  }
+
   std::function<void(double)> callback() {
     return [this](double share) { update(share); };
   }
 
  private:
+  using Time = std::chrono::steady_clock::time_point;
+
+  static bool isDue(Time& due) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < due) return false;
+    due = now + kInterval;
+    return true;
+  }
+
   void tell(double share) {
     told_ = share;
     if (!progress_.is_none()) progress_(share);
   }
 
   static constexpr std::chrono::milliseconds kInterval{50};  // what a person waits for without noticing
-
   static constexpr unsigned kSteps = 256;  // readings, of a microsecond each
 
   pybind11::object progress_;
   unsigned steps_ = 0;
   double told_ = 0.0;
-  std::chrono::steady_clock::time_point due_{};
+  Time telling_due_{}, asking_due_{};
 };
 
 }  // namespace suspension_health_monitor

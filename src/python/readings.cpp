@@ -29,7 +29,7 @@ std::vector<BodyMotion> Recording::bodyMotion(Stamp shift) const {
   const auto rows = across_->unchecked<2>();
   const std::int64_t* stamps = streams_.front().stamps.data();
   std::optional<Stamp> last;
-  for (pybind11::ssize_t k = 0; k < rows.shape(0); ++k) {
+  for (Py_ssize_t k = 0; k < rows.shape(0); ++k) {
     const Stamp stamp = Stamp(stamps[k]) + shift;
     if (last && stamp <= *last) continue;
     last = stamp;
@@ -76,7 +76,7 @@ std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& 
     drive.body = recording.bodyMotion(shift);
     recording.forEach([&](Side side, Stamp stamp, double value) {
       if (side == Side::kRoad) return;
-      work.step(0.0);
+      work.step();
       for (auto sample = grid.push(side, stamp + shift, value); sample; sample = grid.next())
         drive.samples.push_back(*sample);
     });

@@ -159,7 +159,7 @@ def test_wrong_bags_are_refused_as_by_the_command_line(program, tmp_path, paper_
                                  (paper_bag, ["--end", "0.05"], {"end": 0.05}),
                                  (paper_bag, ["--config", tmp_path / "no.yaml"], {"config": tmp_path / "no.yaml"})):
         for name in ("identify", "compare", "diagnose", "health"):
-            words = program(name, path, *flags).stderr.strip().removeprefix(f"suspension_bag {name}: ")
+            words = program(name, path, *flags).stderr.strip()[len(f"suspension_bag {name}: "):]
             with pytest.raises(ValueError) as refused:
                 getattr(shm, name)(path, **options)
             assert str(refused.value) == words

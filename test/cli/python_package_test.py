@@ -108,8 +108,8 @@ for call in (lambda: shm.identify("drive.bag"), lambda: shm.simulate("drive.bag"
 @pytest.fixture(scope="module")
 def results():
     drive = shm.simulate(effect="quadratic_damping=1.6", duration=60.0, **ROUGH)
-    return {call.__name__: call(drive) for call in (shm.identify, shm.compare, shm.diagnose, shm.health)} | \
-        {"simulate": drive}
+    found = {call.__name__: call(drive) for call in (shm.identify, shm.compare, shm.diagnose, shm.health)}
+    return {**found, "simulate": drive}
 
 
 def test_results_show_themselves(results):
