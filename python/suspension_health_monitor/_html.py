@@ -103,7 +103,7 @@ def _model(self):
 
 
 def _model_table(model, stddev=()):
-    spread = [*map(_number, stddev)] + [""] * (len(model.numbers) - len(stddev))
+    spread = [_number(each, 2) for each in stddev] + [""] * (len(model.numbers) - len(stddev))
     return _table(("number", "value", "±", "unit"), [
         (each.name, _number(each.value, 5), each_spread, each.unit) for each, each_spread in zip(model.numbers, spread)])
 
@@ -130,8 +130,9 @@ def _diagnosis(self):
 
 def _diagnosis_html(self):
     groups = [f"These drives cannot tell apart: {', '.join(group)}." for group in self.indistinguishable]
-    rows = [(" + ".join(each.effects), _number(each.held_out_rmse), f"{each.error_removed_percent:.1f}",
-             each.failure or ("yes" if each.significant else "no")) for each in self.ranking[:8]]
+    rows = [(" + ".join(each.effects), "-", "-", f"no: {each.failure}") if each.failure else
+            (" + ".join(each.effects), _number(each.held_out_rmse), f"{each.error_removed_percent:.1f}",
+             "yes" if each.significant else "no") for each in self.ranking[:8]]
     rows.insert(0, ("the model as it is", _number(self.base.held_out_rmse), "", ""))
     stddev = self.final_fit.stddev if self.final_fit is not None else ()
     return _paragraphs(_Markup(f"<b>{html.escape(self.summary)}</b>"), self.remainder, *groups, self.suggested_drive) \

@@ -70,7 +70,7 @@ def _plot_comparison(self, axes=None):
     first, last = _worst_stretch(segment)
     time = segment.time[first:last]
     axes[0].plot(time, segment.measured[first:last], label="measured", color="k", linewidth=0.8)
-    axes[0].plot(time, segment.predicted[first:last], label="model", linewidth=0.8)
+    axes[0].plot(time, segment.predicted[first:last], label="model", color="tab:orange", linewidth=0.8)
     axes[0].set(xlabel="time [s]", ylabel="body [m/s²]")
     axes[0].legend(loc="best", fontsize="small")
     for axis, view, label, scale in ((axes[1], self.views.travel, "travel [mm]", 1e3),
