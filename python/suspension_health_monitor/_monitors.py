@@ -24,7 +24,6 @@ class StrutMonitor:
     def __init__(self, *, model=None, baseline=None, on_report=None, every=1, tyre=False, config=None, **options):
         arguments = ["model", "baseline", "on_report", "every", "tyre", "config"]
         self._core = _core.StrutMonitor(array_keywords(options, config, arguments), tyre, on_report, every)
-        self._has_road = tyre
         if model is not None:
             self.set_model(model)
         if baseline is not None:

@@ -6,7 +6,7 @@ import numpy as np
 from . import _core
 
 _SHORTEST, _LONGEST = 1e-5, 10.0  # [s], as sample_period
-_FARTHEST = 9e9  # [s], 285 years: what fits into nanoseconds
+_FARTHEST = 4e9  # [s], 126 years: the difference of two fits into nanoseconds
 
 
 class Recording:

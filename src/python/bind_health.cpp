@@ -15,6 +15,7 @@ namespace {
 
 HealthSummary watch(const Recordings& recordings, const ArrayOptions& options, const std::optional<Baseline>& healthy,
                     LongWork& work) {
+  requireFittingPeriod(recordings, options.monitor);
   const Stamp shift = shiftOf(recordings);
   MonitorOptions its = options.monitor;
   its.tyre = false;

@@ -66,7 +66,7 @@ class LongWork {
   }
 
   static constexpr std::chrono::milliseconds kInterval{50};  // what a person waits for without noticing
-  static constexpr unsigned kSteps = 256;  // readings, of a microsecond each
+  static constexpr unsigned kSteps = 256;                    // readings, of a microsecond each
 
   pybind11::object progress_;
   unsigned steps_ = 0;

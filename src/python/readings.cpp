@@ -6,8 +6,19 @@
 
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+std::optional<double> spacingOf(const Recordings& recordings) {
+  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording);
+  for (const Recording& recording : recordings)
+    recording.forEach([&](Side side, Stamp stamp, double) { measurement.add(side, stamp); });
+  return measurement.period();
+}
+
+}  // namespace
 
 std::size_t Recording::size() const {
   std::size_t sum = 0;
@@ -46,19 +57,20 @@ Stamp shiftOf(const Recordings& recordings) {
   return shift;
 }
 
+void requireFittingPeriod(const Recordings& recordings, const MonitorOptions& options) {
+  if (!options.sample_period) return;
+  const std::string short_period = describeShortPeriod(*options.sample_period, spacingOf(recordings));
+  if (!short_period.empty()) throw std::invalid_argument(short_period);
+}
+
 double periodOf(const Recordings& recordings, const MonitorOptions& options) {
+  requireFittingPeriod(recordings, options);
   if (options.sample_period) return *options.sample_period;
-  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording);
-  std::size_t count = 0;
-  for (const Recording& recording : recordings) {
-    recording.forEach([&](Side side, Stamp stamp, double) { measurement.add(side, stamp); });
-    count += recording.size();
-  }
-  const std::optional<double> period = measurement.period();
+  const std::optional<double> period = spacingOf(recordings);
   if (!period)
     throw std::invalid_argument("the sample period cannot be measured: fewer than " +
                                 std::to_string(PeriodMeasurement::kFewestOfRecording) +
-                                " increasing stamps of one of the sensors (of " + std::to_string(count) + " readings)");
+                                " increasing stamps of one of the sensors");
   MonitorOptions measured;
   measured.sample_period = period;
   validate(measured, kMonitorFields);

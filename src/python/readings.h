@@ -71,8 +71,11 @@ using Recordings = std::vector<Recording>;
 /// @return by how much later all stamps have to be for none to be 0 or less: 0 is the stamp that a driver has not set.
 Stamp shiftOf(const Recordings& recordings);
 
+/// @throws std::invalid_argument  if a sample_period is given that is far below the spacing of the stamps.
+void requireFittingPeriod(const Recordings& recordings, const MonitorOptions& options);
+
 /// @return T [s]: as it was given, or the mean spacing of the stamps.
-/// @throws std::invalid_argument  if there are too few of them to tell.
+/// @throws std::invalid_argument  as requireFittingPeriod(), or if there are too few stamps to tell.
 double periodOf(const Recordings& recordings, const MonitorOptions& options);
 
 /// @return the samples of a strut, one drive for each recording, aligned as the live monitor aligns them.

@@ -88,7 +88,7 @@ T = 0.01 * np.arange(30)
     ((T, [None] * 30, N), "body is of type object"),
     ((T[::-1], N, N), "stamps go back at 1: 0.280000000 after 0.290000000"),
     ((np.where(T > 0.1, np.nan, T), N, N), r"stamps\[11\] = nan, must be finite"),
-    ((1e18 * T, N, N), r"stamps\[1\] = 1e\+16, must be finite seconds below 9e\+09"),
+    ((1e18 * T, N, N), r"stamps\[1\] = 1e\+16, must be finite seconds below 4e\+09"),
     ((0.0, N, N), r"stamps = 0 \[s\], must be a period in \[1e-05, 10\]"),
     ((float("nan"), N, N), r"stamps = nan \[s\]"),
     ((T[:5], N[:5], N[:5]), "the sample period cannot be measured: fewer than 10"),
@@ -128,6 +128,13 @@ def test_every_name_of_an_option_is_its_own():
     assert _core.monitor_keywords(names, []).assignments == [
         "effects=a, b", "health/confirm_time=1", "health/damping_error=0.40000000000000002",
         "health/damping_warn=0.20000000000000001", "nominal/damping_to_mass=3", "tyre/enabled=true"]
+
+
+@pytest.mark.parametrize("call", [shm.identify, shm.compare, shm.diagnose, shm.health])
+def test_a_period_far_below_the_spacing_is_refused(call, drive):
+    """Nearly all samples would be made up."""
+    with pytest.raises(ValueError, match=r"sample_period = 1e-05 \[s\], must be at least .*: the stamps come every 0.01 s"):
+        call(*drive, sample_period=1e-5)
 
 
 @pytest.mark.parametrize("call, words", [

@@ -1,6 +1,5 @@
 """The Python module beside the generated messages; its stubs, its page, and what is left of it without ROS."""
 import ast
-import doctest
 import inspect
 import os
 import re
@@ -9,6 +8,7 @@ import sys
 
 import pytest
 
+import python_page
 from imu_bag import REPOSITORY
 from python_module import ROUGH, shm
 from suspension_health_monitor import _core
@@ -26,17 +26,12 @@ def run(program, **environment):
 
 def test_the_page_is_true(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    examples = "\n".join(re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL))
-    test = doctest.DocTestParser().get_doctest(examples, {}, PAGE.name, str(PAGE), 0)
-    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
-    said = []
-    runner.run(test, out=said.append)
-    assert len(test.examples) > 15 and runner.failures == 0, "".join(said)
+    count, failures = python_page.run(PAGE)
+    assert count > 15 and failures == ""
 
 
 def test_from_csv_to_verdict_takes_ten_lines():
-    block = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)[1]
-    assert len(re.findall(r"^>>>|^\.\.\.", block, re.MULTILINE)) <= 10
+    assert len(re.findall(r"^>>>|^\.\.\.", python_page.blocks(PAGE)[1], re.MULTILINE)) <= 10
 
 
 def test_messages_load_without_the_module_and_beside_it():

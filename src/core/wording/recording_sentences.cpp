@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
+#include "suspension_health_monitor/internal/signal/stream_resampler.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -28,6 +29,13 @@ std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& g
   const std::string slow = grid.whatIsTooSlow();
   if (!slow.empty()) message += "; " + slow;
   return message + describeRejected(rejected);
+}
+
+std::string describeShortPeriod(double sample_period, const std::optional<double>& spacing) {
+  constexpr double kMostFilled = StreamResampler::kSlowest;  // samples made of one reading
+  if (!spacing || *spacing <= kMostFilled * sample_period) return {};
+  return formatted("sample_period = %.9g [s], must be at least %.6g: the stamps come every %.6g s", sample_period,
+                   *spacing / kMostFilled, *spacing);
 }
 
 std::string describeReference(const Baseline& baseline, const std::string& file) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
@@ -15,6 +16,10 @@ std::string describeRejected(const RejectCounts& rejected);
 
 /// @return why the readings have not given one regression row; empty if they have.
 std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected);
+
+/// @param spacing  of the stamps [s]; nothing: they tell none.
+/// @return why a sample period is so far below the spacing that nearly all samples would be made up; empty if it is not.
+std::string describeShortPeriod(double sample_period, const std::optional<double>& spacing);
 
 /// @param file  that the baseline was read from; empty: none was.
 /// @return what the strut was judged by at the end.
