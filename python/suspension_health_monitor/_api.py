@@ -1,14 +1,15 @@
 """The functions of the module. Each takes arrays, recordings or bags, and options by the names of doc/settings.md."""
-import contextlib
 import os
-import tempfile
+from typing import Any, List, Optional, Union
 
 from . import _core, _html, _plots
 from ._core import Baseline, Comparison, Diagnosis, Effect, Health, Identification, Simulation, StrutModel
+from ._models import baseline_file, library, model_file, to_baseline, to_model
 from ._monitors import StrutMonitor, VehicleMonitor
 from ._progress import callback
 from ._recording import Recording, is_path, to_source
 from ._settings import array_keywords, files, simulator_keywords
+from ._types import Model, Option, Path, Progress
 
 __all__ = ["Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identification", "Recording", "Simulation",
            "StrutModel", "StrutMonitor", "VehicleMonitor", "compare", "diagnose", "effects", "health", "identify",
@@ -17,7 +18,8 @@ __all__ = ["Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identific
 _OF_BAGS = ("sprung_topic", "unsprung_topic", "road_topic", "start", "end")
 
 
-def identify(*drives, model=None, effects_file=None, progress=None, **options):
+def identify(*drives: Any, model: Model = None, effects_file: Optional[Path] = None, progress: Progress = None,
+             **options: Option) -> Identification:
     """Damping/mass b1 [1/s] and stiffness/mass b0 [1/s^2] of a strut from recorded drives.
 
     :param drives: arrays, as Recording takes them: stamps (n,), body (n,), wheel (n,), or stamps_body, body,
@@ -32,14 +34,15 @@ def identify(*drives, model=None, effects_file=None, progress=None, **options):
     :raises ValueError: wrong option, array or file; or too little data, saying what would be enough.
     """
     call = _Call("identify", drives, options, ["model", "effects_file"], progress)
-    with _as_file(model, effects_file, call.is_of_bags) as file:
-        if call.is_of_bags:
-            settings = {"effects_file": effects_file, "model_file": file}
-            return call.of_bags(files().identify, settings={k: v for k, v in settings.items() if v is not None})
-        return call.of_arrays(_core.identify, _to_model(model, effects_file))
+    if not call.is_of_bags:
+        return call.of_arrays(_core.identify, to_model(model, effects_file))
+    with model_file(model, effects_file) as file:
+        settings = {"effects_file": effects_file, "model_file": file}
+        return call.of_bags(files().identify, settings={k: v for k, v in settings.items() if v is not None})
 
 
-def compare(*drives, model=None, effects_file=None, progress=None, **options):
+def compare(*drives: Any, model: Model = None, effects_file: Optional[Path] = None, progress: Progress = None,
+            **options: Option) -> Comparison:
     """How far a model is from the measurement, and where it fails.
 
     :param drives: as of identify().
@@ -50,13 +53,14 @@ def compare(*drives, model=None, effects_file=None, progress=None, **options):
     :raises ValueError: as identify().
     """
     call = _Call("compare", drives, options, ["model", "effects_file"], progress)
-    with _as_file(model, effects_file, call.is_of_bags) as file:
-        if call.is_of_bags:
-            return call.of_bags(files().compare, model=file, effects_file=effects_file)
-        return call.of_arrays(_core.compare, _to_model(model, effects_file))
+    if not call.is_of_bags:
+        return call.of_arrays(_core.compare, to_model(model, effects_file))
+    with model_file(model, effects_file) as file:
+        return call.of_bags(files().compare, model=file, effects_file=effects_file)
 
 
-def diagnose(*drives, model=None, effects_file=None, threads=None, progress=None, **options):
+def diagnose(*drives: Any, model: Model = None, effects_file: Optional[Path] = None, threads: Optional[int] = None,
+             progress: Progress = None, **options: Option) -> Diagnosis:
     """Which physical effect the model misses, and how sure that is.
 
     :param drives: as of identify(); two minutes on a road are enough for most effects.
@@ -71,14 +75,14 @@ def diagnose(*drives, model=None, effects_file=None, threads=None, progress=None
     threads = os.cpu_count() or 1 if threads is None else threads
     if not isinstance(threads, int) or isinstance(threads, bool):
         raise ValueError(f"threads = {threads!r}, must be a whole number")
-    with _as_file(model, effects_file, call.is_of_bags) as file:
-        if call.is_of_bags:
-            return call.of_bags(files().diagnose, threads, model=file, effects_file=effects_file)
-        library = _library(effects_file)
-        return call.of_arrays(_core.diagnose, _to_model(model, effects_file), library, threads)
+    if not call.is_of_bags:
+        return call.of_arrays(_core.diagnose, to_model(model, effects_file), library(effects_file), threads)
+    with model_file(model, effects_file) as file:
+        return call.of_bags(files().diagnose, threads, model=file, effects_file=effects_file)
 
 
-def health(*drives, baseline=None, progress=None, **options):
+def health(*drives: Any, baseline: Optional[Union[Baseline, Path]] = None, progress: Progress = None,
+           **options: Option) -> Health:
     """What the monitor would have said over recorded drives, and when.
 
     :param drives: as of identify().
@@ -91,22 +95,22 @@ def health(*drives, baseline=None, progress=None, **options):
     """
     call = _Call("health", drives, options, ["baseline"], progress)
     if not call.is_of_bags:
-        healthy = files().read_baseline(os.fspath(baseline)) if is_path(baseline) else baseline
-        return call.of_arrays(_core.health, healthy)
-    with _written(baseline, _baseline_text) as file:
+        return call.of_arrays(_core.health, to_baseline(baseline))
+    with baseline_file(baseline) as file:
         return call.of_bags(files().health, baseline=file)
 
 
-def effects(effects_file=None):
+def effects(effects_file: Optional[Path] = None) -> List[Effect]:
     """The physical effects that diagnose() and simulate() know, as a list of Effect.
 
-    :param effects_file: path of a YAML file with laws of your own, which come last.
+    :param effects_file: path of a YAML file with laws of your own, listed too.
     :raises ValueError: naming the file and what is wrong in it.
     """
-    return _html.EffectList(_library(effects_file).effects)
+    return _html.EffectList(library(effects_file).effects)
 
 
-def simulate(output=None, *, effect=None, effects_file=None, progress=None, **options):
+def simulate(output: Optional[Path] = None, *, effect: Optional[Union[str, List[str]]] = None,
+             effects_file: Optional[Path] = None, progress: Progress = None, **options: Option) -> Optional[Simulation]:
     """A simulated drive of one strut, for trying things and for tests; the same for the same options and seed.
 
     :param output: path of a bag to write instead; whole vehicles (vehicle_model) only so.
@@ -122,7 +126,7 @@ def simulate(output=None, *, effect=None, effects_file=None, progress=None, **op
         options["hidden"] = effect if isinstance(effect, str) else "; ".join(effect)
     with callback(progress, "simulate") as told:
         if output is None:
-            return _core.simulate(simulator_keywords(options, False), _library(effects_file), told)
+            return _core.simulate(simulator_keywords(options, False), library(effects_file), told)
         of_vehicle = options.get("vehicle_model") is not None
         files().simulate(os.fspath(output), simulator_keywords({**options, "effects_file": effects_file}, of_vehicle), told)
     return None
@@ -158,39 +162,6 @@ class _Call:
 def _flags(**values):
     return [f"--{name.replace('_', '-')}={os.fspath(value) if is_path(value) else repr(value)}"
             for name, value in values.items() if value is not None]
-
-
-def _library(effects_file):
-    return _core.EffectLibrary() if effects_file is None else files().read_effects(os.fspath(effects_file))
-
-
-def _to_model(model, effects_file):
-    library = _library(effects_file)
-    return files().read_model(os.fspath(model), library) if is_path(model) else _core.to_model(model, library)
-
-
-@contextlib.contextmanager
-def _written(value, text):
-    """The path of a file that holds a value, or None; a path is one already."""
-    if value is None or is_path(value):
-        yield None if value is None else os.fspath(value)
-        return
-    with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
-        file.write(text(value))
-        file.flush()
-        yield file.name
-
-
-def _as_file(model, effects_file, wanted):
-    if not wanted:
-        return contextlib.nullcontext()
-    return _written(model, lambda value: _to_model(value, effects_file).yaml())
-
-
-def _baseline_text(baseline):
-    names = ("damping_to_mass", "stiffness_to_mass", "damping_to_mass_stddev", "stiffness_to_mass_stddev")
-    values = {name: getattr(baseline, name) for name in names}
-    return "".join(f"{name}: {value!r}\n" for name, value in values.items() if value is not None)
 
 
 _html.install()

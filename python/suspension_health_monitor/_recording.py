@@ -1,9 +1,11 @@
 """From what callers have, arrays or paths, to what the compiled part reads."""
 import os
+from typing import Optional
 
 import numpy as np
 
 from . import _core
+from ._types import Array
 
 _SHORTEST, _LONGEST = 1e-5, 10.0  # [s], as sample_period
 _FARTHEST = 4e9  # [s], 126 years: the difference of two fits into nanoseconds
@@ -26,7 +28,8 @@ class Recording:
         or go back. Readings that are NaN are no error: they are kept out and counted.
     """
 
-    def __init__(self, *arrays, stamps_road=None, road=None, across=None):
+    def __init__(self, *arrays: Array, stamps_road: Optional[Array] = None, road: Optional[Array] = None,
+                 across: Optional[Array] = None) -> None:
         if len(arrays) == 3:
             names, arrays = ("stamps", "stamps"), (arrays[0], arrays[1], arrays[0], arrays[2])
         elif len(arrays) == 4:

@@ -183,3 +183,37 @@ def test_simulated_arrays_are_the_simulated_bag(tmp_path):
     np.testing.assert_allclose(made.stamps_body, 1e-9 * stamps_body, rtol=0, atol=2e-9)
     np.testing.assert_allclose(made.stamps_wheel, 1e-9 * stamps_wheel, rtol=0, atol=2e-9)
     assert made.across.shape == (len(body), 4) and np.isnan(made.across[:, 2:]).all()
+
+
+LAWS = """effects:
+  second_spring:
+    force: "max(0, d - gap)^2"
+    unit: "1/(m s^2)"
+    finding: second spring engages
+    shapes: {gap: {unit: m, scale: travel, min: 0.2, max: 3}}
+"""
+
+
+def test_laws_of_ones_own(tmp_path):
+    laws = tmp_path / "laws.yaml"
+    laws.write_text(LAWS)
+    assert {each.name for each in shm.effects(laws)} - {each.name for each in shm.effects()} == {"second_spring"}
+    hidden = {"effect": "second_spring=4000,gap=0.01", "effects_file": laws, **ROUGH}
+    shm.simulate(tmp_path / "drive.bag", **hidden)
+    drive = shm.simulate(**hidden)
+    for found in (shm.diagnose(drive, effects_file=laws), shm.diagnose(tmp_path / "drive.bag", effects_file=laws)):
+        assert found.selected == ["second_spring"]
+        for of in (drive, tmp_path / "drive.bag"):
+            assert shm.compare(of, model=found.model, effects_file=laws).free_run.rmse < \
+                0.8 * shm.compare(of).free_run.rmse
+            assert not shm.identify(of, model=found.model, effects_file=laws).iv.valid  # it knows the plain strut only
+
+
+def test_options_of_a_file(tmp_path, rough_bag):
+    file = tmp_path / "strut.yaml"
+    file.write_text("memory: 5\nintegration_horizon: 0.4\nhealth: {damping_warn: 0.1}\n")
+    arrays = arrays_of(rough_bag)
+    for drive in ((rough_bag,), arrays):
+        by_name = shm.identify(*drive, memory=5, integration_horizon=0.3, health_damping_warn=0.1)
+        by_file = shm.identify(*drive, config=file, integration_horizon=0.3)  # what is given beside it counts
+        assert by_file.la.damping_to_mass == by_name.la.damping_to_mass and by_file.horizon_samples == 30
