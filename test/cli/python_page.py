@@ -25,4 +25,4 @@ if __name__ == "__main__":
         os.chdir(scratch)
         failures = run(its_page)[1]
         os.chdir("/")
-    sys.exit(failures)
+    sys.exit(failures or None)
