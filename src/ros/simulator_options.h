@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "model_file.h"
 #include "playing_options.h"
@@ -49,9 +50,16 @@ struct SimulatorOptions {
   /// @throws std::invalid_argument  naming an unknown name, or a value that is wrong and what is allowed.
   static SimulatorOptions fromValues(OptionMap values) {
     SimulatorOptions options;
+    OptionMap of_publishing = values;
+    takeOptions(of_publishing, kPublishingFields, options.publishing);
+    return fromValues(std::move(values), readEffectsFile(options.publishing.effects_file));
+  }
+
+  /// The same with the laws of effects_file, and the catalogue's.
+  static SimulatorOptions fromValues(OptionMap values, const EffectLibrary& library) {
+    SimulatorOptions options;
     takeOptions(values, kPublishingFields, options.publishing);
     takeOptions(values, kPlayingFields, options.playing);
-    const EffectLibrary library = readEffectsFile(options.publishing.effects_file);
     setEffects(values, options.publishing.hidden, library.readings);
     options.drive.hidden = takeEffects(values, library.forces, library.readings);
     options.drive.hidden_faults = takeReadings(values, library.readings);

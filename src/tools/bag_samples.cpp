@@ -35,12 +35,6 @@ std::string describeStillness(const char* side, const StreamGate& gate) {
 
 }  // namespace
 
-std::string describeRejected(const RejectCounts& rejected) {
-  std::string text;
-  for (const auto& [reason, count] : rejected.byName()) text += "; rejected " + reason + ": " + std::to_string(count);
-  return text;
-}
-
 std::string describeSuspicions(const UniformGrid& grid, bool negative_damping) {
   const StreamGate &body = grid.gate(Side::kSprung), &wheel = grid.gate(Side::kUnsprung);
   std::string text = describeStillness("sprung", body) + describeStillness("unsprung", wheel);

@@ -11,9 +11,6 @@
 
 namespace suspension_health_monitor {
 
-/// @return what was kept out, reason by reason: "; rejected clipped: 12"; empty if nothing was.
-std::string describeRejected(const RejectCounts& rejected);
-
 /// @return what in the readings may be why they show no strut: "; ..." for each suspicion, empty without any.
 std::string describeSuspicions(const UniformGrid& grid, bool negative_damping);
 

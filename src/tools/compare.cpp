@@ -4,6 +4,7 @@
 #include "bag_options.h"
 #include "command.h"
 #include "long_work.h"
+#include "recorded_strut.h"
 #include "results.h"
 #include "vehicle_commands.h"
 
@@ -23,18 +24,12 @@ void compare(const Arguments& arguments) {
   const Interruption interruption;
   std::optional<TextFile> json = outputFile(*values, "json");
 
-  CompareOptions comparing;
-  takeSettings(options, models, comparing);
-  comparing.fit = !models.model;
   TopicGaps gaps(options.pipeline.shell.input_timeout);
-  const std::vector<Drive> drives = readDrives(options, gaps);
   Comparison comparison;
   {
     Progress progress("comparing", 1.0);
-    comparing.progress = [&](double share) { progress.update(share); };
-    comparison = compare(drives, comparing);
+    comparison = compareBags(options, models, gaps, [&](double share) { progress.update(share); });
   }
-  gaps.explain([&] { requireEnough(comparison.shortcoming, comparison.reason); });
   gaps.print();
   printComparison(comparison);
   if (!json) return;

@@ -5,6 +5,7 @@
 #include "bag_options.h"
 #include "command.h"
 #include "long_work.h"
+#include "recorded_strut.h"
 #include "report_page.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
@@ -39,16 +40,11 @@ void diagnose(const Arguments& arguments) {
   std::optional<ReportPage> page;
   if (values->count(kReport) != 0) page.emplace((*values)[kReport].as<std::string>());
 
-  DiagnoseOptions searching;
-  takeSettings(options, models, searching);
-  searching.candidates = models.library;
-  searching.threads = threads;
   TopicGaps gaps(options.pipeline.shell.input_timeout);
-  const std::vector<Drive> drives = readDrives(options, gaps);
   Progress progress("fitting", 1.0);
-  searching.progress = [&](double share) { progress.update(share); };
-  const Diagnosis found = diagnose(drives, searching);
-  gaps.explain([&] { requireEnough(found.shortcoming, found.reason); });
+  const RecordedDiagnosis recorded =
+      diagnoseBags(options, models, threads, gaps, [&](double share) { progress.update(share); });
+  const Diagnosis& found = recorded.found;
 
   gaps.print();
   printSearch(found);
@@ -61,7 +57,7 @@ void diagnose(const Arguments& arguments) {
     json->commit(whole.dump(2) + '\n');
   }
   if (model) model->commit(toYaml(found.model()));
-  if (page) page->write(found, drives, searching, fileNames(options.bags.paths));
+  if (page) page->write(found, recorded.drives, recorded.options, fileNames(options.bags.paths));
 }
 
 }  // namespace suspension_health_monitor

@@ -23,12 +23,6 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-std::string healthyValue(const char* name, const std::optional<double>& value, double stddev, const char* unit) {
-  if (!value) return {};
-  const std::string spread = stddev > 0.0 ? formatted(" +- %.2g", stddev) : "";
-  return formatted("%s %.5g", name, *value) + spread + ' ' + unit;
-}
-
 void printEstimate(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
   printResult(name, atTheEnd(estimate), mass);
   if (!std::isnan(estimate.offset))
@@ -52,17 +46,6 @@ void HealthTable::add(std::size_t strut, const HealthMoment& moment) {
   std::fprintf(out_, "%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level), quoted(moment.message).c_str(),
                la.damping_to_mass, la.stiffness_to_mass, la.damping_to_mass_stddev, la.stiffness_to_mass_stddev,
                la.offset);
-}
-
-std::string describeReference(const Baseline& baseline, const std::string& file) {
-  if (baseline.isEmpty()) return "nothing: no nominal values, no baseline_file, and no baseline was learned";
-  const std::string values =
-      join({healthyValue("damping/mass", baseline.damping_to_mass, baseline.damping_to_mass_stddev, "1/s"),
-            healthyValue("stiffness/mass", baseline.stiffness_to_mass, baseline.stiffness_to_mass_stddev, "1/s^2")});
-  if (!baseline.learned) return "nominal values: " + values;
-  if (!file.empty()) return "the baseline of " + file + ": " + values;
-  return formatted("the baseline learned from %.2f s to %.2f s: ", toSeconds(baseline.from), toSeconds(baseline.to)) +
-         values;
 }
 
 void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference) {

@@ -23,10 +23,6 @@ class HealthTable {
   std::vector<std::string> struts_;
 };
 
-/// @param file  that the baseline was read from; empty: none was.
-/// @return what the strut was judged by at the end, in words.
-std::string describeReference(const Baseline& baseline, const std::string& file);
-
 /// The result for people: a line per change of level, then the times, and the estimates at the end.
 void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference);
 

@@ -20,6 +20,7 @@
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "vehicle_bags.h"

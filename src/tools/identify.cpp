@@ -2,9 +2,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "../ros/conversions.h"
-#include "../ros/live_model.h"
-#include "../ros/strut_sensors.h"
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "bag_samples.h"
@@ -12,9 +9,12 @@
 #include "errors.h"
 #include "identify_tables.h"
 #include "long_work.h"
+#include "recorded_strut.h"
 #include "row_table.h"
+#include "suspension_health_monitor/internal/digest.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
@@ -23,25 +23,6 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr std::size_t kTableLines = 12;
-
-/// Keeps a few reports, evenly spread over a series of unknown length: every n-th, n doubling when there are too many.
-class Digest {
- public:
-  void add(const MonitorReport& report) {
-    if (count_++ % stride_ != 0) return;
-    reports_.push_back(report);
-    if (reports_.size() < 2 * kTableLines) return;
-    for (std::size_t i = 0; 2 * i < reports_.size(); ++i) reports_[i] = reports_[2 * i];
-    reports_.resize(reports_.size() / 2);
-    stride_ *= 2;
-  }
-  const std::vector<MonitorReport>& reports() const { return reports_; }
-
- private:
-  std::vector<MonitorReport> reports_;
-  std::size_t count_ = 0;
-  std::size_t stride_ = 1;
-};
 
 nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
   nlohmann::json json{{"damping_to_wheel_mass", estimate.damping_to_wheel_mass},
@@ -104,32 +85,23 @@ void identify(const Arguments& arguments) {
   if (isOfVehicle(*values)) return identifyStruts(*values);
   const BagOptions options = readBagOptions(*values);
 
-  const LiveModel model(options.pipeline.shell);
   const Interruption interruption;
   std::optional<TextFile> csv = outputFile(*values, "csv"), json = outputFile(*values, "json");
   if (csv) RowTable::writeHead(csv->stream(), false);
   RowTable table(csv ? csv->stream() : nullptr, "");
-  Digest digest;
+  Digest<MonitorReport> digest(kTableLines);
   bool ever_valid = false;
   const PipelineOptions& pipeline = options.pipeline;
-  DriveIdentification identification(pipeline.monitor, [&](const MonitorReport& report) {
+  RecordedIdentification recorded(options, [&](const MonitorReport& report) {
     table.add(report);
     if (!report.has_row) return;
     ever_valid = ever_valid || report.la.valid() || report.ls.valid();
     digest.add(report);
   });
-  identification.setEffects(model.effects());
-  StrutSensors sensors(pipeline.shell, options.bags.transforms.get());
   TopicGaps gaps(pipeline.shell.input_timeout);
-  ImuBags bags = options.bags;
-  bags.gaps = &gaps;
-  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
-    if (const auto acceleration = sensors.read(side, imu))
-      identification.push(side, toStamp(imu.header.stamp), *acceleration);
-    return true;
-  });
-  RejectCounts rejected = sensors.rejected();
-  rejected += identification.rejected();
+  recorded.read(gaps);
+  const DriveIdentification& identification = recorded.made();
+  const RejectCounts rejected = recorded.rejected();
   gaps.explain([&] { requireRows(identification.monitor(), identification.grid(), rejected); });
   table.finish();
 
@@ -140,7 +112,7 @@ void identify(const Arguments& arguments) {
   const SuspensionMonitor& monitor = identification.monitor();
   gaps.print();
   printInput(monitor, identification.grid(), options, rejected);
-  printTable(digest.reports());
+  printTable(digest.items());
   std::printf("\nat the end, over the last %.0f rows:\n", result.la.rows);
   const std::optional<double>& mass = pipeline.monitor.sprung_mass;
   printResult("LS", result.ls, mass);
@@ -149,7 +121,7 @@ void identify(const Arguments& arguments) {
     printTyre("LS", tyre->report().ls, monitor.report().ls);
     printTyre("LA", tyre->report().la, monitor.report().la);
   }
-  if (model.effects().empty()) {
+  if (!recorded.hasEffects()) {
     std::printf("over the whole drive, by instrumental variables:\n");
     printResult("IV", result.iv, mass);
   }

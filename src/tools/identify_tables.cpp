@@ -9,6 +9,7 @@
 #include "errors.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -54,14 +55,8 @@ void printInput(const SuspensionMonitor& monitor, const UniformGrid& grid, const
 }
 
 void requireRows(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected) {
-  if (monitor.input().rows > 0) return;
-  std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed (" +
-                        std::to_string(2 * monitor.horizonSamples() + 1) +
-                        " samples; usable samples in all: " + std::to_string(monitor.input().samples) +
-                        ", gaps: " + std::to_string(monitor.input().gaps) + ")";
-  const std::string slow = grid.whatIsTooSlow();
-  if (!slow.empty()) message += "; " + slow;
-  throw TooLittleError(message + describeRejected(rejected));
+  const std::string nothing = describeNoRow(monitor, grid, rejected);
+  if (!nothing.empty()) throw TooLittleError(nothing);
 }
 
 void printTable(const std::vector<MonitorReport>& reports) {

@@ -7,6 +7,7 @@
 #include "../ros/vehicle_file.h"
 #include "bag_options.h"
 #include "bag_samples.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "vehicle_bags.h"
 #include "vehicle_commands.h"

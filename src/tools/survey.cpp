@@ -15,15 +15,13 @@
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
-#include "suspension_health_monitor/internal/signal/stream_resampler.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kMessagesForPeriod = 20000;  // the mean of n spacings has 1/n of a stamp's jitter
-constexpr std::size_t kFewestSpacings = 10;
 constexpr std::size_t kCheckedMessages = 2000;
-constexpr double kMostFilled = StreamResampler::kSlowest;  // samples made of one reading
 
 // A horizon is proposed from stretches that lie all over the drive: it may begin parked, or be rough for a short time
 // only. What stands still weighs little beside what moves.
@@ -33,7 +31,7 @@ constexpr std::size_t kLookedAt = 40000;  // samples, for an offset of the clock
 
 // @param count  messages to look at; becomes those that there were.
 std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
-  PeriodMeasurement measurement(kFewestSpacings);
+  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording);
   const std::size_t most = std::exchange(count, 0);
   readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
     measurement.add(side, toStamp(imu.header.stamp));
@@ -46,7 +44,8 @@ double measurePeriod(const ImuBags& bags) {
   std::size_t count = kMessagesForPeriod;
   const std::optional<double> period = stampSpacing(bags, count);
   if (!period)
-    throw TooLittleError("the sample period cannot be measured: fewer than " + std::to_string(kFewestSpacings) +
+    throw TooLittleError("the sample period cannot be measured: fewer than " +
+                         std::to_string(PeriodMeasurement::kFewestOfRecording) +
                          " increasing stamps on one of the topics (of " + std::to_string(count) + " messages)");
   try {
     MonitorOptions options;
@@ -142,12 +141,8 @@ void measureOpenSettings(const ImuBags& bags, PipelineOptions& options, bool clo
 
 void requireFittingPeriod(const ImuBags& bags, double sample_period) {
   std::size_t count = kCheckedMessages;
-  const std::optional<double> spacing = stampSpacing(bags, count);
-  if (!spacing || *spacing <= kMostFilled * sample_period) return;
-  char text[160];
-  std::snprintf(text, sizeof text, "sample_period = %.9g [s], must be at least %.6g: the stamps come every %.6g s",
-                sample_period, *spacing / kMostFilled, *spacing);
-  throw std::invalid_argument(text);
+  const std::string short_period = describeShortPeriod(sample_period, stampSpacing(bags, count));
+  if (!short_period.empty()) throw std::invalid_argument(short_period);
 }
 
 }  // namespace suspension_health_monitor

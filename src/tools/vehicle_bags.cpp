@@ -15,7 +15,6 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kMessagesForPeriod = 20000;  // of one sensor: the mean of n spacings has 1/n of a stamp's jitter
-constexpr std::size_t kFewestSpacings = 10;
 
 void takeTopics(const VehicleStreams& streams, ImuBags& bags) {
   bags.topics = streams.topicsOfImus();
@@ -41,7 +40,7 @@ void place(VehicleLayout& layout, ImuBags bags, const PipelineOptions& options) 
 }
 
 double measurePeriod(const ImuBags& bags) {
-  PeriodMeasurement measurement(kFewestSpacings, std::vector<bool>(bags.named_by.size(), true));
+  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording, std::vector<bool>(bags.named_by.size(), true));
   std::size_t count = 0;
   const auto take = [&](std::size_t topic, const auto& message, Stamp) {
     measurement.add(topic, toStamp(message.header.stamp));
@@ -50,7 +49,8 @@ double measurePeriod(const ImuBags& bags) {
   readTopics(bags, {take, take});
   const std::optional<double> period = measurement.period();
   if (!period)
-    throw TooLittleError("the sample period cannot be measured: fewer than " + std::to_string(kFewestSpacings) +
+    throw TooLittleError("the sample period cannot be measured: fewer than " +
+                         std::to_string(PeriodMeasurement::kFewestOfRecording) +
                          " increasing stamps on one of the topics (of " + std::to_string(count) + " messages)");
   return *period;
 }

@@ -59,6 +59,24 @@ def test_public_headers_and_examples_include_nothing_internal(path):
     assert includes(path, INTERNAL_INCLUDE) == []
 
 
+PYTHON_WITHOUT_ROS = sorted(path for path in (REPOSITORY / "src/python").glob("*.cpp") if not path.name.startswith("bags_"))
+
+
+def included(path, found):
+    """path and all files of ours that it includes by a path of theirs, and these by one."""
+    if path not in found:
+        found.add(path)
+        for target in re.findall(r'^#include "((?!suspension_health_monitor/)[^"]+)"', path.read_text(), re.MULTILINE):
+            included((path.parent / target).resolve(), found)
+    return found
+
+
+@pytest.mark.parametrize("path", PYTHON_WITHOUT_ROS, ids=name)
+def test_python_over_arrays_includes_no_ros(path):
+    for file in included(path, set()):
+        assert includes(file, ROS_INCLUDE) + includes(file, GENERATED_INCLUDE) == [], file
+
+
 def test_few_headers_are_public():
     assert len([path for path in PUBLIC if path.suffix == ".h"]) <= 12
 

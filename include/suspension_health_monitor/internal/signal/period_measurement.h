@@ -17,6 +17,8 @@ class PeriodMeasurement {
   /// Of a strut's streams, numbered by Side.
   static inline const std::vector<bool> kOfOneStrut{true, true, false};
 
+  static constexpr std::size_t kFewestOfRecording = 10;  ///< spacings that tell the period of something recorded
+
   /// @param spacings_wanted  of each required stream before a period is given, >= 1.
   /// @param is_required  by stream; one at least.
   explicit PeriodMeasurement(std::size_t spacings_wanted, const std::vector<bool>& is_required = kOfOneStrut)

@@ -1,0 +1,35 @@
+# The Python module: python/suspension_health_monitor over compiled parts, _core of src/python and, with ROS, _bags.
+# BUILD_PYTHON: ON builds it where pybind11 is found.
+option(BUILD_PYTHON "Build the Python module, where pybind11 is found" ON)
+set(python_module OFF)
+set(python_module_reason "BUILD_PYTHON is off")
+if(BUILD_PYTHON AND SANITIZE)
+  set(python_module_reason "the interpreter has no sanitizers")
+elseif(BUILD_PYTHON)
+  find_program(PYTHON_EXECUTABLE python3)  # catkin has its own; pybind11 would look for old versions first
+  set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE})
+  find_package(Python3 QUIET COMPONENTS Interpreter Development)  # newer pybind11 wants what it defines
+  find_package(pybind11 CONFIG QUIET)
+  set(python_module_reason "pybind11 is not found (Debian, Ubuntu: pybind11-dev)")
+  if(pybind11_FOUND)
+    set(python_module ON)
+    set(python_module_reason "pybind11 ${pybind11_VERSION}, ${PYTHON_EXECUTABLE}")
+  endif()
+endif()
+message(STATUS "Python module: ${python_module} (${python_module_reason})")
+
+get_filename_component(python_repository ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
+
+# add_python_part(PART DIRECTORY SOURCE...): the compiled part _PART, which lands in a folder of the build.
+function(add_python_part part directory)
+  set(target suspension_health_monitor_python_${part})
+  pybind11_add_module(${target} ${ARGN})
+  target_include_directories(${target} PRIVATE ${python_repository}/include)
+  target_compile_options(${target} PRIVATE ${strict_warnings})
+  target_compile_features(${target} PRIVATE cxx_std_17)
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME _${part} LIBRARY_OUTPUT_DIRECTORY ${directory})
+endfunction()
+
+file(GLOB python_core_sources CONFIGURE_DEPENDS ${python_repository}/src/python/*.cpp)
+list(FILTER python_core_sources EXCLUDE REGEX "/bags_[a-z_]*\\.cpp$")
+file(GLOB python_bags_sources CONFIGURE_DEPENDS ${python_repository}/src/python/bags_*.cpp)

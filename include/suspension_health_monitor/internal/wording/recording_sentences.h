@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+
+namespace suspension_health_monitor {
+
+/// What came of a recording, in words for people: of bags and of arrays.
+
+/// @return what was kept out, reason by reason: "; rejected clipped: 12"; empty if nothing was.
+std::string describeRejected(const RejectCounts& rejected);
+
+/// @return why the readings have not given one regression row; empty if they have.
+std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected);
+
+/// @param spacing  of the stamps [s]; nothing: they tell none.
+/// @return why a sample period is so far below the spacing that nearly all samples would be made up; empty if it is not.
+std::string describeShortPeriod(double sample_period, const std::optional<double>& spacing);
+
+/// @param file  that the baseline was read from; empty: none was.
+/// @return what the strut was judged by at the end.
+std::string describeReference(const Baseline& baseline, const std::string& file);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,38 @@
+"""How healthy is a suspension, and is its model right? From accelerations of body and wheel carrier.
+
+    import suspension_health_monitor as shm
+    found = shm.diagnose(stamps, body, wheel)     # NumPy arrays, or the path of a bag
+    print(found.summary)
+
+identify, compare, diagnose, health: of recorded drives. StrutMonitor, VehicleMonitor: to push readings into as they
+come. effects, simulate: the catalogue, and drives to try things with. doc/python.md leads through it.
+
+Signs and units: SI; z up; readings are those along the strut, up positive, with or without gravity; travel is
+compression positive. Wrong use raises ValueError in the words of the command line.
+
+Messages and services of the ROS package are in suspension_health_monitor.msg and .srv. Whoever imports only these does
+not load the rest: it comes with the first name that is asked for.
+"""
+from typing import TYPE_CHECKING
+
+__all__ = [
+    "Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identification", "Recording", "Simulation",
+    "StrutModel", "StrutMonitor", "VehicleMonitor", "compare", "diagnose", "effects", "health", "identify", "simulate",
+]
+
+if TYPE_CHECKING:
+    from ._api import (Baseline, Comparison, Diagnosis, Effect, Health, Identification, Recording, Simulation,
+                       StrutModel, StrutMonitor, VehicleMonitor, compare, diagnose, effects, health, identify, simulate)
+
+
+def __getattr__(name):
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from . import _api
+    for each in __all__:
+        globals()[each] = getattr(_api, each)
+    return globals()[name]
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

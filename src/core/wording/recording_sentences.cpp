@@ -1,0 +1,52 @@
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+
+#include "suspension_health_monitor/internal/signal/stream_resampler.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+std::string healthyValue(const char* name, const std::optional<double>& value, double stddev, const char* unit) {
+  if (!value) return {};
+  const std::string spread = stddev > 0.0 ? formatted(" +- %.2g", stddev) : "";
+  return formatted("%s %.5g", name, *value) + spread + ' ' + unit;
+}
+
+}  // namespace
+
+std::string describeRejected(const RejectCounts& rejected) {
+  std::string text;
+  for (const auto& [reason, count] : rejected.byName()) text += "; rejected " + reason + ": " + std::to_string(count);
+  return text;
+}
+
+std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected) {
+  if (monitor.input().rows > 0) return {};
+  std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed (" +
+                        std::to_string(2 * monitor.horizonSamples() + 1) +
+                        " samples; usable samples in all: " + std::to_string(monitor.input().samples) +
+                        ", gaps: " + std::to_string(monitor.input().gaps) + ")";
+  const std::string slow = grid.whatIsTooSlow();
+  if (!slow.empty()) message += "; " + slow;
+  return message + describeRejected(rejected);
+}
+
+std::string describeShortPeriod(double sample_period, const std::optional<double>& spacing) {
+  constexpr double kMostFilled = StreamResampler::kSlowest;  // samples made of one reading
+  if (!spacing || *spacing <= kMostFilled * sample_period) return {};
+  return formatted("sample_period = %.9g [s], must be at least %.6g: the stamps come every %.6g s", sample_period,
+                   *spacing / kMostFilled, *spacing);
+}
+
+std::string describeReference(const Baseline& baseline, const std::string& file) {
+  if (baseline.isEmpty()) return "nothing: no nominal values, no baseline_file, and no baseline was learned";
+  const std::string values =
+      join({healthyValue("damping/mass", baseline.damping_to_mass, baseline.damping_to_mass_stddev, "1/s"),
+            healthyValue("stiffness/mass", baseline.stiffness_to_mass, baseline.stiffness_to_mass_stddev, "1/s^2")});
+  if (!baseline.learned) return "nominal values: " + values;
+  if (!file.empty()) return "the baseline of " + file + ": " + values;
+  return formatted("the baseline learned from %.2f s to %.2f s: ", toSeconds(baseline.from), toSeconds(baseline.to)) +
+         values;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,162 @@
+// The compiled part of the Python module that reads and writes bags and files, by the code of the command line.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <stdexcept>
+
+#include "../ros/live_baseline.h"
+#include "../ros/model_file.h"
+#include "../ros/simulated_drive.h"
+#include "../ros/yaml_settings.h"
+#include "../tools/bag_options.h"
+#include "../tools/command.h"
+#include "../tools/identify_tables.h"
+#include "../tools/recorded_strut.h"
+#include "../tools/simulate_vehicle.h"
+#include "../tools/vehicle_commands.h"
+#include "bags_long_work.h"
+#include "opaque.h"
+#include "options.h"
+#include "results.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace py = pybind11;
+namespace po = boost::program_options;
+
+/// Runs what the command line runs; its errors are ValueError.
+template <class Work>
+auto asCommand(const Work& work) {
+  try {
+    return work();
+  } catch (const py::error_already_set&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw py::value_error(error.what());
+  }
+}
+
+po::variables_map parsed(const Arguments& arguments) {
+  po::options_description description("options");
+  addBagOptions(description);
+  addModelOptions(description);
+  description.add_options()(kBaseline, po::value<std::string>());
+  return *parse(arguments, "", description, "bag");
+}
+
+Identification identifyBags(const Arguments& arguments, LongWork& work) {
+  ToolsWork tools(work, 0);
+  const BagOptions options = readBagOptions(parsed(arguments));
+  Course course;
+  RecordedIdentification recorded(options, [&](const MonitorReport& report) {
+    if (report.has_row) course.add(report);
+  });
+  TopicGaps gaps(options.pipeline.shell.input_timeout);
+  tools.tellReading(options.bags.paths.size());
+  recorded.read(gaps);
+  const DriveIdentification& made = recorded.made();
+  gaps.explain([&] { requireRows(made.monitor(), made.grid(), recorded.rejected()); });
+  return Identification::of(made, recorded.rejected(), course);
+}
+
+HealthSummary watchBags(const Arguments& arguments, LongWork& work) {
+  ToolsWork tools(work, 0);
+  const BagOptions options = readMonitorOptions(parsed(arguments));
+  Course course;
+  RecordedMonitor recorded(
+      options, [](const HealthMoment&, const Baseline&) {},
+      [&](const MonitorReport& report) {
+        if (report.has_row) course.add(report);
+      });
+  TopicGaps gaps(options.pipeline.shell.input_timeout);
+  tools.tellReading(options.bags.paths.size());
+  recorded.read(gaps);
+  gaps.explain([&] { recorded.requireEnough(); });
+  return HealthSummary::of(recorded.log(), recorded.monitor(), recorded.baselineFile(), recorded.rejected(), course);
+}
+
+/// Calls work(options, models, gaps) for the search and the comparison.
+template <class Work>
+auto withDrives(const Arguments& arguments, LongWork& progress, const Work& work) {
+  const ToolsWork tools(progress, 0);
+  const po::variables_map values = parsed(arguments);
+  const ModelOptions models = readModelOptions(values);
+  const BagOptions options = readBagOptions(values, true);
+  TopicGaps gaps(options.pipeline.shell.input_timeout);
+  return work(options, models, gaps);
+}
+
+std::string writeSimulation(const std::string& path, const OptionMap& values, LongWork& work) {
+  const ToolsWork tools(work, 1);
+  const SimulatedDrive drive = makeSimulatedDrive(values);
+  const double start = drive.playing.start_time;
+  writeBag(*drive.begin(fromSeconds(start)), drive.duration, start, path);
+  return path;
+}
+
+py::dict toDict(const OptionMap& values) {
+  py::dict settings;
+  for (const auto& [name, value] : values) {
+    if (const auto* list = std::get_if<UnusableList>(&value))
+      throw std::invalid_argument(name + " = " + list->text + ", must be a plain value");
+    settings[py::str(name)] = py::str(std::get<std::string>(value));  // a YAML file has texts only
+  }
+  return settings;
+}
+
+/// Adds a function of arguments as on the command line, and of a callback.
+template <class Work>
+void defCommand(py::module& module, const char* name, const Work& work) {
+  module.def(
+      name,
+      [work](const Arguments& arguments, const py::object& progress) {
+        LongWork long_work(progress);
+        return asCommand([&] { return long_work.run([&] { return work(arguments, long_work); }); });
+      },
+      py::arg("arguments"), py::arg("progress"));
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
+
+PYBIND11_MODULE(_bags, module) {
+  using namespace suspension_health_monitor;
+  module.doc() = "Compiled part of suspension_health_monitor: bags and files.";
+  pybind11::module::import("suspension_health_monitor._core");  // which has the classes of the results
+  defCommand(module, "identify", &identifyBags);
+  defCommand(module, "health", &watchBags);
+  defCommand(module, "compare", [](const Arguments& arguments, LongWork& work) {
+    return withDrives(arguments, work, [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
+      return compareBags(options, models, gaps, work.callback());
+    });
+  });
+  module.def(
+      "diagnose",
+      [](const Arguments& arguments, int threads, const py::object& progress) {
+        LongWork work(progress);
+        const auto search = [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
+          return diagnoseBags(options, models, threads, gaps, work.callback()).found;
+        };
+        return asCommand([&] { return work.run([&] { return withDrives(arguments, work, search); }); });
+      },
+      py::arg("arguments"), py::arg("threads"), py::arg("progress"));
+  module.def(
+      "simulate",
+      [](const std::string& path, const Keywords& keywords, const py::object& progress) {
+        LongWork work(progress);
+        return asCommand([&] { return work.run([&] { return writeSimulation(path, keywords.values, work); }); });
+      },
+      py::arg("path"), py::arg("keywords"), py::arg("progress"));
+  module.def(
+      "read_effects", [](const std::string& path) { return readEffectsFile(path); }, py::arg("path"));
+  module.def(
+      "read_model", [](const std::string& path, const EffectLibrary& known) { return readModelFile(path, known); },
+      py::arg("path"), py::arg("library"));
+  module.def(
+      "read_baseline", [](const std::string& path) { return readBaselineFile(path); }, py::arg("path"));
+  module.def(
+      "read_settings", [](const std::string& path) { return toDict(readYaml(path)); }, py::arg("path"));
+}

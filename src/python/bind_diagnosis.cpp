@@ -1,0 +1,85 @@
+#include <stdexcept>
+
+#include "bindings.h"
+#include "options.h"
+#include "readings.h"
+#include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
+
+namespace suspension_health_monitor {
+
+namespace py = pybind11;
+
+namespace {
+
+Diagnosis diagnoseArrays(const Recordings& recordings, const MonitorOptions& options, DiagnoseOptions searching,
+                         LongWork& work) {
+  const double period = periodOf(recordings, options);
+  searching.sample_period = period;
+  if (options.integration_horizon) searching.horizon_samples = MonitorSettings(options).horizonSamples(period);
+  searching.progress = work.callback();
+  Diagnosis found = diagnose(toDrives(recordings, options, period, shiftOf(recordings), work), searching);
+  if (!found) throw std::invalid_argument("the drives " + found.reason);
+  return found;
+}
+
+void bindParts(py::module& module) {
+  py::class_<RankedModel>(module, "RankedModel", "The model with effects added, judged by what no fit has seen.")
+      .def_readonly("effects", &RankedModel::effects, "names of all that is in it")
+      .def_readonly("model", &RankedModel::model)
+      .def_readonly("fitted", &RankedModel::fitted, "False: by the linear response only")
+      .def_property_readonly(
+          "failure", [](const RankedModel& self) { return reasonOf(self.failure); },
+          "why there is no such model; empty if there is")
+      .def_readonly("held_out_rmse", &RankedModel::held_out_rmse, "[m/s^2]")
+      .def_readonly("error_removed_percent", &RankedModel::error_removed_percent, "of the mean square before")
+      .def_readonly("significance", &RankedModel::significance, "t of the improvement")
+      .def_readonly("significant", &RankedModel::significant);
+  py::class_<FittedModel>(module, "FittedModel", "A model with its uncertainty.")
+      .def_readonly("model", &FittedModel::model)
+      .def_readonly("stddev", &FittedModel::stddev, "of its numbers, in their order")
+      .def_readonly("all_samples", &FittedModel::all_samples, "False: fitted to two thirds of them");
+}
+
+}  // namespace
+
+void bindDiagnosis(py::module& module) {
+  bindParts(module);
+  py::class_<Diagnosis>(module, "Diagnosis", "What a search for missing effects found.")
+      .def_property_readonly(
+          "verdict", [](const Diagnosis& self) { return nameOf(self.verdict); },
+          "effect_found, suspect, nothing_missing or unexplained")
+      .def_readonly("summary", &Diagnosis::summary, "the verdict in a sentence")
+      .def_readonly("remainder", &Diagnosis::remainder, "what a suspect leaves, in a sentence")
+      .def_readonly("selected", &Diagnosis::selected, "names of what is to be added to the model")
+      .def_readonly("indistinguishable", &Diagnosis::indistinguishable, "groups that these drives cannot tell apart")
+      .def_readonly("suggested_drive", &Diagnosis::suggested_drive, "what to record next")
+      .def_readonly("base", &Diagnosis::base, "the model that the search started with, fitted")
+      .def_readonly("base_fit_percent", &Diagnosis::base_fit_percent)
+      .def_readonly("noise_floor", &Diagnosis::noise_floor, "[m/s^2]")
+      .def_readonly("structured_share", &Diagnosis::structured_share, "of the base's error that is not noise")
+      .def_readonly("surface_share", &Diagnosis::surface_share, "that a force over travel and rate would take")
+      .def_readonly("explained_share", &Diagnosis::explained_share, "of the structure, by the effects named")
+      .def_readonly("ranking", &Diagnosis::ranking, "single effects, best first")
+      .def_readonly("extended", &Diagnosis::extended, "the model with what was found, as judged, or None")
+      .def_readonly("extended_fit_percent", &Diagnosis::extended_fit_percent)
+      .def_readonly("final_fit", &Diagnosis::final_fit, "the same fitted to all samples, or None")
+      .def_readonly("not_tried", &Diagnosis::not_tried, "(name, why) of candidates that these drives cannot tell")
+      .def_property_readonly("model", &Diagnosis::model, "to go on with: final_fit's, or the base's");
+  module.def(
+      "diagnose",
+      [](const Recordings& recordings, const Keywords& keywords, const std::optional<StrutModel>& model,
+         const EffectLibrary& candidates, int threads, const py::object& progress) {
+        const ArrayOptions options = ArrayOptions::from(keywords.values);
+        DiagnoseOptions searching;
+        searching.model = model;
+        searching.candidates = candidates;
+        searching.threads = threads;
+        LongWork work(progress);
+        return work.run([&] { return diagnoseArrays(recordings, options.monitor, searching, work); });
+      },
+      py::arg("recordings"), py::arg("keywords"), py::arg("model"), py::arg("candidates"), py::arg("threads"),
+      py::arg("progress"));
+}
+
+}  // namespace suspension_health_monitor

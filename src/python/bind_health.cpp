@@ -1,0 +1,85 @@
+#include <stdexcept>
+
+#include "bindings.h"
+#include "options.h"
+#include "readings.h"
+#include "results.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+
+namespace suspension_health_monitor {
+
+namespace py = pybind11;
+
+namespace {
+
+HealthSummary watch(const Recordings& recordings, const ArrayOptions& options, const std::optional<Baseline>& healthy,
+                    LongWork& work) {
+  requireFittingPeriod(recordings, options.monitor);
+  const Stamp shift = shiftOf(recordings);
+  MonitorOptions its = options.monitor;
+  its.tyre = false;
+  HealthLog log(fromSeconds(options.input_timeout), {"the body's sensor", "the wheel carrier's sensor"});
+  Course course(shift);
+  StrutPipeline strut(its, {[&](const MonitorReport& report) {
+                              log.addReport(report);
+                              if (report.has_row) course.add(report);
+                            },
+                            {}});
+  if (healthy) strut.setBaseline(*healthy);
+  double done = 0.0, all = 0.0;
+  for (const Recording& recording : recordings) all += static_cast<double>(recording.size());
+  for (const Recording& recording : recordings) {
+    recording.forEach([&](Side side, Stamp stamp, double value) {
+      if (side == Side::kRoad) return;
+      log.addReading(indexOf(side), stamp + shift, stamp + shift);
+      strut.push(side, stamp + shift, value);
+      work.step(++done / all);
+    });
+    log.finishRecording();
+  }
+  if (strut.monitor() == nullptr)
+    throw std::invalid_argument(
+        "the sample period cannot be measured: too few readings with increasing stamps of one of the sensors" +
+        describeRejected(strut.rejected()));
+  const std::string nothing = describeNoRow(*strut.monitor(), *strut.grid(), strut.rejected());
+  if (!nothing.empty()) throw std::invalid_argument(nothing);
+  return HealthSummary::of(log, *strut.monitor(), "", strut.rejected(), course, shift);
+}
+
+}  // namespace
+
+void bindHealth(py::module& module) {
+  py::class_<HealthMoment>(module, "HealthMoment", "What a monitor said at one time.")
+      .def_property_readonly(
+          "time", [](const HealthMoment& self) { return toSeconds(self.stamp); }, "its stamp [s]")
+      .def_property_readonly(
+          "elapsed", [](const HealthMoment& self) { return toSeconds(self.elapsed); },
+          "time that the recordings have covered until then [s]")
+      .def_property_readonly(
+          "level", [](const HealthMoment& self) { return nameOf(self.level); }, "OK, WARN, ERROR or STALE")
+      .def_readonly("message", &HealthMoment::message, "why");
+  py::class_<HealthSummary>(module, "Health", "What the monitor would have said over recorded drives, and when.")
+      .def_readonly("events", &HealthSummary::events, "changes of level, in the order of time")
+      .def_readonly("early_warnings", &HealthSummary::early_warnings, "when one began")
+      .def_readonly("end", &HealthSummary::end, "what is said at the end")
+      .def_readonly("seconds", &HealthSummary::seconds, "how long each level held [s]")
+      .def_readonly("counts", &HealthSummary::counts, "changes to each level")
+      .def_readonly("ls", &HealthSummary::ls, "estimates at the end")
+      .def_readonly("la", &HealthSummary::la, "estimates at the end")
+      .def_readonly("reference", &HealthSummary::reference, "what the strut was judged by at the end, in words")
+      .def_readonly("baseline", &HealthSummary::baseline, "the same; of no use if nothing was given or learned")
+      .def_readonly("rejected", &HealthSummary::rejected, "readings that were kept out, by reason")
+      .def_readonly("course", &HealthSummary::course, "estimates and level over time");
+  module.def(
+      "health",
+      [](const Recordings& recordings, const Keywords& keywords, const std::optional<Baseline>& healthy,
+         const py::object& progress) {
+        const ArrayOptions options = ArrayOptions::from(keywords.values);
+        LongWork work(progress);
+        return work.run([&] { return watch(recordings, options, healthy, work); });
+      },
+      py::arg("recordings"), py::arg("keywords"), py::arg("baseline"), py::arg("progress"));
+}
+
+}  // namespace suspension_health_monitor

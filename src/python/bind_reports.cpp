@@ -1,0 +1,132 @@
+#include "bindings.h"
+#include "results.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/monitor_report.h"
+
+namespace suspension_health_monitor {
+
+namespace py = pybind11;
+
+namespace {
+
+void bindEstimates(py::module& module) {
+  py::class_<StrutEstimate>(module, "StrutEstimate", "What one estimator of the live monitor knows; NaN: nothing yet.")
+      .def_readonly("damping_to_mass", &StrutEstimate::damping_to_mass, "b1 [1/s]")
+      .def_readonly("stiffness_to_mass", &StrutEstimate::stiffness_to_mass, "b0 [1/s^2]")
+      .def_readonly("damping_to_mass_stddev", &StrutEstimate::damping_to_mass_stddev, "[1/s]")
+      .def_readonly("stiffness_to_mass_stddev", &StrutEstimate::stiffness_to_mass_stddev, "[1/s^2]")
+      .def_readonly("offset", &StrutEstimate::offset, "of the wheel carrier's reading against the body's [m/s^2]")
+      .def_readonly("clock_skew", &StrutEstimate::clock_skew,
+                    "by which the wheel carrier's readings are stamped late [s]")
+      .def_readonly("rows", &StrutEstimate::effective_rows, "regression rows in the memory")
+      .def_readonly("explained", &StrutEstimate::explained, "share of the body's motion that the strut explains")
+      .def_property_readonly(
+          "coefficients",
+          [](const StrutEstimate& self) {
+            return py::array_t<double>(static_cast<Py_ssize_t>(self.num_effects), self.coefficients.data());
+          },
+          "of the effects in the model, in their order")
+      .def_property_readonly("valid", &StrutEstimate::valid)
+      .def_property_readonly(
+          "reason", [](const StrutEstimate& self) { return self.valid() ? std::string() : describe(self.doubt); },
+          "why it is not valid; empty if it is")
+      .def_property_readonly("natural_frequency", &StrutEstimate::naturalFrequency, "undamped [Hz]")
+      .def_property_readonly("damping_ratio", &StrutEstimate::dampingRatio, "[-]");
+  py::class_<WheelEstimate>(module, "WheelEstimate", "What one estimator knows of wheel and tyre; NaN: nothing yet.")
+      .def_readonly("damping_to_wheel_mass", &WheelEstimate::damping_to_wheel_mass, "[1/s]")
+      .def_readonly("stiffness_to_wheel_mass", &WheelEstimate::stiffness_to_wheel_mass, "[1/s^2]")
+      .def_readonly("tyre_to_wheel_mass", &WheelEstimate::tyre_to_wheel_mass, "[1/s^2]")
+      .def_property_readonly("wheel_hop_frequency", &WheelEstimate::wheelHopFrequency, "[Hz]")
+      .def_property_readonly("valid", &WheelEstimate::valid);
+  py::class_<TyreReport>(module, "Tyre", "What is known of the tyre.")
+      .def_readonly("ls", &TyreReport::ls)
+      .def_readonly("la", &TyreReport::la);
+}
+
+void bindCondition(py::module& module) {
+  py::class_<Baseline>(module, "Baseline", "The healthy strut, to judge changes by.")
+      .def(py::init([](std::optional<double> damping, std::optional<double> stiffness) {
+             Baseline baseline;
+             baseline.damping_to_mass = damping;
+             baseline.stiffness_to_mass = stiffness;
+             return baseline;
+           }),
+           py::arg("damping_to_mass") = py::none(), py::arg("stiffness_to_mass") = py::none())
+      .def_readonly("damping_to_mass", &Baseline::damping_to_mass, "b1 [1/s], or None")
+      .def_readonly("stiffness_to_mass", &Baseline::stiffness_to_mass, "b0 [1/s^2], or None")
+      .def_readonly("damping_to_mass_stddev", &Baseline::damping_to_mass_stddev, "[1/s]; 0 of a given value")
+      .def_readonly("stiffness_to_mass_stddev", &Baseline::stiffness_to_mass_stddev, "[1/s^2]")
+      .def_readonly("learned", &Baseline::learned, "from a drive");
+  py::class_<HealthReport>(module, "HealthReport", "What is known of the strut's condition.")
+      .def_property_readonly(
+          "level", [](const HealthReport& self) { return nameOf(self.level); }, "OK, WARN, ERROR or STALE")
+      .def_property_readonly(
+          "message", [](const HealthReport& self) { return describe(self); }, "in one sentence")
+      .def_readonly("damping_change", &HealthReport::damping_change, "relative to the healthy strut, or None")
+      .def_readonly("stiffness_change", &HealthReport::stiffness_change)
+      .def_readonly("payload_change", &HealthReport::payload_change, "of the body's mass")
+      .def_readonly("early_warning", &HealthReport::early_warning)
+      .def_readonly("learning", &HealthReport::learning, "progress 0 .. 1 of learning the baseline, or None");
+  py::class_<ComparisonReport>(module, "ComparisonReport", "The model, driven by the wheel, against the measurement.")
+      .def_readonly("measured", &ComparisonReport::measured, "z'' [m/s^2]")
+      .def_readonly("predicted", &ComparisonReport::predicted, "[m/s^2], or None until the free run has settled")
+      .def_readonly("rmse", &ComparisonReport::rmse, "over comparison_window [m/s^2]")
+      .def_readonly("fit_percent", &ComparisonReport::fit_percent)
+      .def_readonly("base_rmse", &ComparisonReport::base_rmse, "of the model without effects [m/s^2]")
+      .def_readonly("base_fit_percent", &ComparisonReport::base_fit_percent);
+  py::class_<MonitorReport>(module, "MonitorReport", "Everything that is known after one sample.")
+      .def_property_readonly(
+          "stamp", [](const MonitorReport& self) { return toSeconds(self.stamp); }, "[s]")
+      .def_readonly("ls", &MonitorReport::ls, "by least squares")
+      .def_readonly("la", &MonitorReport::la, "by the least sum of absolute values")
+      .def_readonly("comparison", &MonitorReport::comparison)
+      .def_readonly("health", &MonitorReport::health);
+  py::class_<InputStatus>(module, "InputStatus", "How the input has been so far.")
+      .def_readonly("samples", &InputStatus::samples)
+      .def_readonly("rows", &InputStatus::rows)
+      .def_readonly("gaps", &InputStatus::gaps)
+      .def_readonly("clock_jumps", &InputStatus::restarts)
+      .def_readonly("mean_period", &InputStatus::mean_period, "[s]")
+      .def_readonly("period_fits", &InputStatus::period_fits);
+}
+
+void bindCourse(py::module& module) {
+  py::class_<Course> course(module, "Course",
+                            "Estimates over time, evenly thinned out to a few thousand points. One entry per point.");
+  const auto add = [&](const char* name, auto get, const char* text) {
+    course.def_property_readonly(
+        name, [get](const Course& self) { return arrayOf(self.points(), get); }, text);
+  };
+  add(
+      "time", [](const CoursePoint& p) { return toSeconds(p.stamp); }, "[s]");
+  add(
+      "damping_to_mass", [](const CoursePoint& p) { return p.la.damping_to_mass; }, "of la [1/s]");
+  add(
+      "stiffness_to_mass", [](const CoursePoint& p) { return p.la.stiffness_to_mass; }, "of la [1/s^2]");
+  add(
+      "damping_to_mass_stddev", [](const CoursePoint& p) { return p.la.damping_to_mass_stddev; }, "[1/s]");
+  add(
+      "stiffness_to_mass_stddev", [](const CoursePoint& p) { return p.la.stiffness_to_mass_stddev; }, "[1/s^2]");
+  add(
+      "ls_damping_to_mass", [](const CoursePoint& p) { return p.ls.damping_to_mass; }, "of ls [1/s]");
+  add(
+      "ls_stiffness_to_mass", [](const CoursePoint& p) { return p.ls.stiffness_to_mass; }, "of ls [1/s^2]");
+  add(
+      "valid", [](const CoursePoint& p) { return p.la.valid(); }, "of la");
+  add(
+      "rmse", [](const CoursePoint& p) { return p.rmse; }, "of the free run [m/s^2]");
+  add(
+      "fit_percent", [](const CoursePoint& p) { return p.fit_percent; }, "of the free run");
+  add(
+      "level", [](const CoursePoint& p) { return static_cast<int>(p.level); }, "0 OK, 1 WARN, 2 ERROR, 3 STALE");
+}
+
+}  // namespace
+
+void bindReports(py::module& module) {
+  bindEstimates(module);
+  bindCondition(module);
+  bindCourse(module);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "../ros/simulator_options.h"  // of its folder a file without ROS
+#include "bindings.h"
+#include "options.h"
+#include "readings.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
+
+namespace suspension_health_monitor {
+
+namespace py = pybind11;
+
+namespace {
+
+/// What one simulated sensor has read.
+struct SimulatedReadings {
+  std::vector<double> stamps, values;
+
+  void add(double start, const std::optional<AccelerometerReading>& reading, double gravity) {
+    if (!reading) return;
+    stamps.push_back(start + toSeconds(reading->stamp));
+    values.push_back(reading->acceleration + gravity);
+  }
+};
+
+struct Simulation {
+  SimulatedReadings body, wheel, road;
+  std::vector<std::array<double, 4>> across;  ///< a_x, a_y, w_x, w_y, with body
+  std::vector<double> time;
+  std::vector<DriveTruth> truth;
+};
+
+void refusePlaying(const OptionMap& values) {
+  for (const PlayingField& field : kPlayingFields)
+    if (field.name != "start_time" && values.count(std::string(field.name)) != 0)
+      throw std::invalid_argument(std::string(field.name) + " is an option of the nodelet, must not come with arrays");
+}
+
+Simulation simulate(const SimulatorOptions& options, LongWork& work) {
+  DriveSimulator simulator(options.drive);
+  Simulation made;
+  const double start = options.playing.start_time, gravity = options.publishing.gravity;
+  const double body_gravity = SensorFaults::from(options.drive.hidden_faults).readAtRest(gravity);
+  while (const std::optional<DriveSample> sample = simulator.next()) {
+    const double now = toSeconds(sample->stamp);
+    made.body.add(start, sample->sprung, body_gravity);
+    made.wheel.add(start, sample->unsprung, gravity);
+    if (options.publishing.road_imu) made.road.add(start, sample->road, gravity);
+    const Sway& sway = sample->body;
+    const bool has_gyro = options.drive.body_rate > 0.0;
+    const auto rate = [&](std::size_t axis) { return has_gyro ? sway.angular_rate[axis] : std::nan(""); };
+    if (sample->sprung) made.across.push_back({sway.acceleration[0], sway.acceleration[1], rate(0), rate(1)});
+    made.time.push_back(start + now);
+    made.truth.push_back(sample->truth);
+    work.step(now / std::max(options.drive.duration, 1e-9));
+  }
+  return made;
+}
+
+py::array_t<double> asArray(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<Py_ssize_t>(values.size()), values.data());
+}
+
+void defSensor(py::class_<Simulation>& simulation, const char* name, const char* stamps,
+               SimulatedReadings Simulation::*sensor) {
+  simulation.def_property_readonly(
+      name, [sensor](const Simulation& self) { return asArray((self.*sensor).values); },
+      "what it reads up along the strut, gravity included [m/s^2]");
+  simulation.def_property_readonly(
+      stamps, [sensor](const Simulation& self) { return asArray((self.*sensor).stamps); }, "[s], one per reading");
+}
+
+void defTruth(py::class_<Simulation>& simulation, const char* name, double DriveTruth::*member, const char* text) {
+  simulation.def_property_readonly(
+      name,
+      [member](const Simulation& self) {
+        return arrayOf(self.truth, [member](const DriveTruth& truth) { return truth.*member; });
+      },
+      text);
+}
+
+}  // namespace
+
+void bindSimulation(py::module& module) {
+  py::class_<Simulation> simulation(module, "Simulation",
+                                    "A simulated drive: readings of the sensors, and the truth that none tells.");
+  defSensor(simulation, "body", "stamps_body", &Simulation::body);
+  defSensor(simulation, "wheel", "stamps_wheel", &Simulation::wheel);
+  defSensor(simulation, "road", "stamps_road", &Simulation::road);
+  simulation.def_property_readonly(
+      "across",
+      [](const Simulation& self) {
+        return py::array_t<double>({static_cast<Py_ssize_t>(self.across.size()), Py_ssize_t{4}},
+                                   self.across.empty() ? nullptr : self.across.front().data());
+      },
+      "a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, (readings, 4); NaN: it has none");
+  simulation.def_property_readonly(
+      "time", [](const Simulation& self) { return asArray(self.time); }, "of the truth [s]");
+  defTruth(simulation, "damping_to_mass", &DriveTruth::damping_to_mass, "b1 [1/s]");
+  defTruth(simulation, "stiffness_to_mass", &DriveTruth::stiffness_to_mass, "b0 [1/s^2]");
+  defTruth(simulation, "travel", &DriveTruth::travel, "compression positive [m]");
+  defTruth(simulation, "travel_rate", &DriveTruth::travel_rate, "[m/s]");
+  defTruth(simulation, "road_height", &DriveTruth::road_height, "[m]");
+  module.def(
+      "simulator_keywords",
+      [](const py::dict& keywords, bool of_vehicle, const std::vector<std::string>& arguments) {
+        if (of_vehicle) return Keywords{toSettings(keywords)};  // who makes the vehicle knows its options
+        return takeKeywords(keywords, SimulatorOptions::describe(), arguments);
+      },
+      py::arg("keywords"), py::arg("of_vehicle"), py::arg("arguments"));
+  module.def(
+      "simulate",
+      [](const Keywords& keywords, const EffectLibrary& library, const py::object& progress) {
+        refusePlaying(keywords.values);
+        const SimulatorOptions options = SimulatorOptions::fromValues(keywords.values, library);
+        LongWork work(progress);
+        return work.run([&] { return simulate(options, work); });
+      },
+      py::arg("keywords"), py::arg("library"), py::arg("progress"));
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/strut_model.h"
+
+namespace suspension_health_monitor {
+
+/// Keywords of a call by the full names of the options, to be handed on to one of the functions that do the work.
+struct Keywords {
+  OptionMap values;
+};
+
+/// @param keywords  of a call: an option's name, with _ for / where a Python name is wanted: health_damping_warn. None:
+/// left out. A list of texts is one text with commas.
+/// @param known  all options that the call understands.
+/// @param arguments  its other keywords, for the proposal of a name that is near an unknown one.
+/// @throws std::invalid_argument  naming an unknown name, or a value that no option can have.
+Keywords takeKeywords(const pybind11::dict& keywords, const std::vector<OptionDescription>& known,
+                      const std::vector<std::string>& arguments);
+
+/// @return NAME=VALUE each, as `--set` takes them.
+std::vector<std::string> assignmentsOf(const OptionMap& values);
+
+/// What can be set where readings are arrays.
+struct ArrayOptions {
+  MonitorOptions monitor;
+  double input_timeout;  ///< [s], of the log of health
+
+  /// @throws std::invalid_argument  naming name, value and what is allowed; also for options of messages, which arrays
+  /// have no use for.
+  static ArrayOptions from(OptionMap values);
+};
+
+/// @return the settings that a dict names, as an option file has them; groups may be dicts in it.
+OptionMap toSettings(const pybind11::dict& settings);
+
+/// @param model  a StrutModel, a dict of settings as in a model file, or None.
+std::optional<StrutModel> toModel(const pybind11::object& model, const EffectLibrary& library);
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,99 @@
+#include "readings.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+std::optional<double> spacingOf(const Recordings& recordings) {
+  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording);
+  for (const Recording& recording : recordings)
+    recording.forEach([&](Side side, Stamp stamp, double) { measurement.add(side, stamp); });
+  return measurement.period();
+}
+
+}  // namespace
+
+std::size_t Recording::size() const {
+  std::size_t sum = 0;
+  for (const ReadingStream& stream : streams_) sum += static_cast<std::size_t>(stream.stamps.size());
+  return sum;
+}
+
+std::optional<Stamp> Recording::earliest() const {
+  std::optional<Stamp> first;
+  for (const ReadingStream& stream : streams_)
+    if (stream.stamps.size() > 0 && (!first || Stamp(*stream.stamps.data()) < *first))
+      first = Stamp(*stream.stamps.data());
+  return first;
+}
+
+std::vector<BodyMotion> Recording::bodyMotion(Stamp shift) const {
+  std::vector<BodyMotion> motion;
+  if (!across_) return motion;
+  const auto rows = across_->unchecked<2>();
+  const std::int64_t* stamps = streams_.front().stamps.data();
+  std::optional<Stamp> last;
+  for (Py_ssize_t k = 0; k < rows.shape(0); ++k) {
+    const Stamp stamp = Stamp(stamps[k]) + shift;
+    if (last && stamp <= *last) continue;
+    last = stamp;
+    motion.push_back({stamp, {rows(k, 0), rows(k, 1)}, {rows(k, 2), rows(k, 3)}});
+  }
+  return motion;
+}
+
+Stamp shiftOf(const Recordings& recordings) {
+  constexpr Stamp kFirst(1);
+  Stamp shift{};
+  for (const Recording& recording : recordings)
+    if (const std::optional<Stamp> first = recording.earliest()) shift = std::max(shift, kFirst - *first);
+  return shift;
+}
+
+void requireFittingPeriod(const Recordings& recordings, const MonitorOptions& options) {
+  if (!options.sample_period) return;
+  const std::string short_period = describeShortPeriod(*options.sample_period, spacingOf(recordings));
+  if (!short_period.empty()) throw std::invalid_argument(short_period);
+}
+
+double periodOf(const Recordings& recordings, const MonitorOptions& options) {
+  requireFittingPeriod(recordings, options);
+  if (options.sample_period) return *options.sample_period;
+  const std::optional<double> period = spacingOf(recordings);
+  if (!period)
+    throw std::invalid_argument("the sample period cannot be measured: fewer than " +
+                                std::to_string(PeriodMeasurement::kFewestOfRecording) +
+                                " increasing stamps of one of the sensors");
+  MonitorOptions measured;
+  measured.sample_period = period;
+  validate(measured, kMonitorFields);
+  return *period;
+}
+
+std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& options, double period, Stamp shift,
+                            LongWork& work) {
+  MonitorSettings settings = options;
+  settings.tyre = false;  // a sample has no part of the road
+  std::vector<Drive> drives;
+  for (const Recording& recording : recordings) {
+    UniformGrid grid(period, settings.grid(period));
+    Drive& drive = drives.emplace_back();
+    drive.body = recording.bodyMotion(shift);
+    recording.forEach([&](Side side, Stamp stamp, double value) {
+      if (side == Side::kRoad) return;
+      work.step();
+      for (auto sample = grid.push(side, stamp + shift, value); sample; sample = grid.next())
+        drive.samples.push_back(*sample);
+    });
+  }
+  return drives;
+}
+
+}  // namespace suspension_health_monitor

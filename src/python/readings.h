@@ -1,0 +1,85 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "long_work.h"
+#include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/internal/monitor_settings.h"
+
+namespace suspension_health_monitor {
+
+/// One sensor of a recording: arrays of equal length, which the wrapper in Python has checked.
+struct ReadingStream {
+  pybind11::array_t<std::int64_t> stamps;  ///< [ns], rising
+  pybind11::array_t<double> values;        ///< along the strut [m/s^2]; of the body's other axes rows of four
+};
+
+/// Arrays of one drive. To be made and destroyed with the interpreter's lock; read without.
+class Recording {
+ public:
+  /// @param arrays  stamps and values of the body's, the wheel carrier's and, if there is one, the road's sensor, by
+  /// Side.
+  /// @param across  a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, in the strut's frame, at the body's stamps.
+  Recording(std::vector<ReadingStream> arrays, std::optional<pybind11::array_t<double>> across)
+      : streams_(std::move(arrays)), across_(std::move(across)) {}
+
+  std::size_t size() const;  ///< readings
+
+  bool hasRoad() const { return streams_.size() > 2; }
+
+  /// @return the earliest stamp; nothing without a reading.
+  std::optional<Stamp> earliest() const;
+
+  /// Calls take(side, stamp, value) with all readings in the order of their stamps; at the same time the body's first.
+  template <class Take>
+  void forEach(const Take& take) const {
+    std::vector<Cursor> cursors;
+    for (const ReadingStream& stream : streams_)
+      cursors.push_back({stream.stamps.data(), stream.values.data(), stream.stamps.data() + stream.stamps.size()});
+    while (true) {
+      std::size_t next = cursors.size();
+      for (std::size_t i = 0; i < cursors.size(); ++i)
+        if (!cursors[i].isAtEnd() && (next == cursors.size() || *cursors[i].stamp < *cursors[next].stamp)) next = i;
+      if (next == cursors.size()) return;
+      Cursor& cursor = cursors[next];
+      take(static_cast<Side>(next), Stamp(*cursor.stamp++), *cursor.value++);
+    }
+  }
+
+  /// @return what the body's IMU measures across the strut; empty: nothing.
+  std::vector<BodyMotion> bodyMotion(Stamp shift) const;
+
+ private:
+  struct Cursor {
+    const std::int64_t* stamp;
+    const double* value;
+    const std::int64_t* end;
+
+    bool isAtEnd() const { return stamp == end; }
+  };
+
+  std::vector<ReadingStream> streams_;
+  std::optional<pybind11::array_t<double>> across_;
+};
+
+using Recordings = std::vector<Recording>;
+
+/// @return by how much later all stamps have to be for none to be 0 or less: 0 is the stamp that a driver has not set.
+Stamp shiftOf(const Recordings& recordings);
+
+/// @throws std::invalid_argument  if a sample_period is given that is far below the spacing of the stamps.
+void requireFittingPeriod(const Recordings& recordings, const MonitorOptions& options);
+
+/// @return T [s]: as it was given, or the mean spacing of the stamps.
+/// @throws std::invalid_argument  as requireFittingPeriod(), or if there are too few stamps to tell.
+double periodOf(const Recordings& recordings, const MonitorOptions& options);
+
+/// @return the samples of a strut, one drive for each recording, aligned as the live monitor aligns them.
+std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& options, double period, Stamp shift,
+                            LongWork& work);
+
+}  // namespace suspension_health_monitor

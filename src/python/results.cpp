@@ -1,0 +1,65 @@
+#include "results.h"
+
+#include <array>
+#include <stdexcept>
+
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::array kLevels{HealthLevel::kOk, HealthLevel::kWarn, HealthLevel::kError, HealthLevel::kStale};
+
+HealthMoment shifted(HealthMoment moment, Stamp shift) {
+  moment.stamp -= shift;
+  return moment;
+}
+
+std::vector<HealthMoment> shifted(std::vector<HealthMoment> moments, Stamp shift) {
+  for (HealthMoment& moment : moments) moment = shifted(moment, shift);
+  return moments;
+}
+
+}  // namespace
+
+Identification Identification::of(const DriveIdentification& made, const RejectCounts& rejected, const Course& course) {
+  const SuspensionMonitor& monitor = made.monitor();
+  const std::string nothing = describeNoRow(monitor, made.grid(), rejected);
+  if (!nothing.empty()) throw std::invalid_argument(nothing);
+  Identification found;
+  static_cast<IdentifyResult&>(found) = made.result();
+  found.rejected = rejected.byName();
+  found.mean_period = monitor.input().mean_period;
+  found.alignment = made.grid().describeAlignment();
+  found.bridged = made.grid().bridged();
+  if (made.tyre() != nullptr) found.tyre = made.tyre()->report();
+  found.sprung_mass = monitor.options().sprung_mass;
+  found.course = course;
+  return found;
+}
+
+HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& file,
+                                const RejectCounts& rejected, const Course& course, Stamp shift) {
+  HealthSummary summary;
+  summary.events = shifted(log.events(), shift);
+  summary.early_warnings = shifted(log.earlyWarnings(), shift);
+  summary.end = shifted(log.latest(), shift);
+  for (const HealthLevel level : kLevels) {
+    summary.seconds[nameOf(level)] = toSeconds(log.duration(level));
+    summary.counts[nameOf(level)] = log.count(level);
+  }
+  summary.ls = monitor.report().ls;
+  summary.la = monitor.report().la;
+  summary.baseline = monitor.baseline();
+  if (summary.baseline.learned) {
+    summary.baseline.from -= shift;
+    summary.baseline.to -= shift;
+  }
+  summary.reference = describeReference(summary.baseline, file);
+  summary.rejected = rejected.byName();
+  summary.course = course;
+  return summary;
+}
+
+}  // namespace suspension_health_monitor

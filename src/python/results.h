@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/identify.h"
+#include "suspension_health_monitor/internal/digest.h"
+#include "suspension_health_monitor/internal/monitor/drive_identification.h"
+#include "suspension_health_monitor/internal/monitor/health_log.h"
+
+namespace suspension_health_monitor {
+
+/// What Python gets of arrays and of bags alike, where it is more than what the library's public calls return.
+
+/// What was known at one time.
+struct CoursePoint {
+  Stamp stamp{};
+  StrutEstimate ls, la;
+  double rmse = std::nan(""), fit_percent = std::nan("");
+  HealthLevel level = HealthLevel::kStale;
+};
+
+/// Estimates over time, thinned out evenly where a drive is long: for plots.
+class Course {
+ public:
+  /// @param shift  that stamps are late by.
+  explicit Course(Stamp shift = {}) : shift_(shift) {}
+
+  void add(const MonitorReport& report) {
+    points_.add({report.stamp - shift_, report.ls, report.la, report.comparison.rmse, report.comparison.fit_percent,
+                 report.health.level});
+  }
+
+  const std::vector<CoursePoint>& points() const { return points_.items(); }
+
+ private:
+  static constexpr std::size_t kWanted = 2000;  // more than a plot has pixels
+
+  Stamp shift_;
+  Digest<CoursePoint> points_{kWanted};
+};
+
+struct Identification : IdentifyResult {
+  double mean_period = 0.0;  ///< of uninterrupted samples [s]
+  std::string alignment;     ///< how readings became samples, in words
+  std::uint64_t bridged = 0;
+  std::optional<TyreReport> tyre;
+  std::optional<double> sprung_mass;  ///< [kg], as it was given
+  Course course;
+
+  /// @throws std::invalid_argument  saying why, if the readings have not given one regression row.
+  static Identification of(const DriveIdentification& made, const RejectCounts& rejected, const Course& course);
+};
+
+struct HealthSummary {
+  std::vector<HealthMoment> events, early_warnings;
+  HealthMoment end;
+  std::map<std::string, double> seconds;      ///< by level [s]
+  std::map<std::string, std::size_t> counts;  ///< changes to it
+  StrutEstimate ls, la;                       ///< at the end
+  std::string reference;                      ///< what the strut was judged by at the end, in words
+  Baseline baseline;                          ///< the same
+  std::map<std::string, std::uint64_t> rejected;
+  Course course;
+
+  /// @param file  that the baseline was read from; empty: none was.
+  /// @param shift  that stamps are late by.
+  static HealthSummary of(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& file,
+                          const RejectCounts& rejected, const Course& course, Stamp shift = {});
+};
+
+}  // namespace suspension_health_monitor

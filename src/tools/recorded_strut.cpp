@@ -1,0 +1,119 @@
+#include "recorded_strut.h"
+
+#include <filesystem>
+
+#include "../ros/conversions.h"
+#include "../ros/live_model.h"
+#include "command.h"
+#include "errors.h"
+#include "identify_tables.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "vehicle_commands.h"
+
+namespace suspension_health_monitor {
+
+RecordedIdentification::RecordedIdentification(const BagOptions& options, DriveIdentification::Sink report)
+    : options_(options),
+      made_(options.pipeline.monitor, std::move(report)),
+      sensors_(options.pipeline.shell, options.bags.transforms.get()) {
+  const LiveModel model(options.pipeline.shell);
+  has_effects_ = !model.effects().empty();
+  made_.setEffects(model.effects());
+}
+
+void RecordedIdentification::read(TopicGaps& gaps) {
+  ImuBags bags = options_.bags;
+  bags.gaps = &gaps;
+  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
+    if (const auto acceleration = sensors_.read(side, imu)) made_.push(side, toStamp(imu.header.stamp), *acceleration);
+    return true;
+  });
+}
+
+RejectCounts RecordedIdentification::rejected() const {
+  RejectCounts all = sensors_.rejected();
+  all += made_.rejected();
+  return all;
+}
+
+RecordedMonitor::RecordedMonitor(const BagOptions& options, const Row& row,
+                                 const std::function<void(const MonitorReport&)>& report)
+    : options_(options),
+      baseline_(options.pipeline),
+      log_(fromSeconds(options.pipeline.shell.input_timeout), {options.bags.topics[0], options.bags.topics[1]},
+           [this, row](const HealthMoment& moment) { row(moment, pipeline_.strut().baseline()); }),
+      pipeline_(
+          options.pipeline,
+          [this, report](const MonitorReport& newest) {
+            log_.addReport(newest);
+            if (report) report(newest);
+          },
+          options.bags.transforms.get()) {
+  pipeline_.strut().setEffects(LiveModel(options.pipeline.shell).effects());
+  if (baseline_.known()) pipeline_.strut().setBaseline(*baseline_.known());
+}
+
+std::vector<HealthContent::Recording> RecordedMonitor::read(TopicGaps& gaps) {
+  std::vector<HealthContent::Recording> recordings;
+  for (const std::string& path : options_.bags.paths) {
+    recordings.push_back({std::filesystem::path(path).filename().string(), log_.elapsed()});
+    ImuBags bag = options_.bags;
+    bag.paths = {path};
+    bag.gaps = &gaps;
+    readImuMessages(bag, [&](Side side, const sensor_msgs::Imu& imu, Stamp recorded) {
+      if (side != Side::kRoad) log_.addReading(indexOf(side), toStamp(imu.header.stamp), recorded);
+      pipeline_.push(side, imu);
+      return true;
+    });
+    log_.finishRecording();
+  }
+  return recordings;
+}
+
+std::string RecordedMonitor::baselineFile() const {
+  return baseline_.known() ? options_.pipeline.shell.baseline_file : "";
+}
+
+void RecordedMonitor::requireEnough() const {
+  if (pipeline_.monitor() == nullptr)
+    throw TooLittleError(
+        "the sample period cannot be measured: too few readings with increasing stamps on one of "
+        "the topics" +
+        describeRejected(rejected()));
+  requireRows(monitor(), grid(), rejected());
+}
+
+BagOptions readMonitorOptions(const boost::program_options::variables_map& values) {
+  BagOptions options = readLiveOptions(values);
+  if (values.count(kBaseline) == 0) return options;
+  std::string& file = options.pipeline.shell.baseline_file;
+  file = values[kBaseline].as<std::string>();
+  readBaselineFile(file);  // a live monitor would learn one if it is not there, and that is not what was asked for
+  return options;
+}
+
+Comparison compareBags(const BagOptions& options, const ModelOptions& models, TopicGaps& gaps,
+                       const std::function<void(double)>& progress) {
+  CompareOptions comparing;
+  takeSettings(options, models, comparing);
+  comparing.fit = !models.model;
+  comparing.progress = progress;
+  Comparison comparison = compare(readDrives(options, gaps), comparing);
+  gaps.explain([&] { requireEnough(comparison.shortcoming, comparison.reason); });
+  return comparison;
+}
+
+RecordedDiagnosis diagnoseBags(const BagOptions& options, const ModelOptions& models, int threads, TopicGaps& gaps,
+                               const std::function<void(double)>& progress) {
+  RecordedDiagnosis recorded;
+  takeSettings(options, models, recorded.options);
+  recorded.options.candidates = models.library;
+  recorded.options.threads = threads;
+  recorded.options.progress = progress;
+  recorded.drives = readDrives(options, gaps);
+  recorded.found = diagnose(recorded.drives, recorded.options);
+  gaps.explain([&] { requireEnough(recorded.found.shortcoming, recorded.found.reason); });
+  return recorded;
+}
+
+}  // namespace suspension_health_monitor

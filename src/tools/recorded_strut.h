@@ -1,0 +1,95 @@
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../ros/imu_pipeline.h"
+#include "../ros/live_baseline.h"
+#include "../ros/strut_sensors.h"
+#include "bag_options.h"
+#include "health_page.h"
+#include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/monitor/drive_identification.h"
+#include "suspension_health_monitor/internal/monitor/health_log.h"
+
+namespace suspension_health_monitor {
+
+// What the commands of one strut make of bags, before it is printed or written: for the command line and for Python.
+// All of it throws InputError, TooLittleError or std::invalid_argument as command.h.
+
+/// `suspension_bag identify`.
+class RecordedIdentification {
+ public:
+  /// @param report  called with the monitor's report after every sample that was taken in.
+  RecordedIdentification(const BagOptions& options, DriveIdentification::Sink report);
+
+  /// Reads the bags.
+  /// @param gaps  is told of all that is read.
+  void read(TopicGaps& gaps);
+
+  const DriveIdentification& made() const { return made_; }
+  bool hasEffects() const { return has_effects_; }
+
+  /// @return everything that was kept out.
+  RejectCounts rejected() const;
+
+ private:
+  BagOptions options_;
+  bool has_effects_;
+  DriveIdentification made_;
+  StrutSensors sensors_;
+};
+
+/// `suspension_bag health`: the monitor of MonitorNodelet over recorded drives, with its log.
+class RecordedMonitor {
+ public:
+  using Row = std::function<void(const HealthMoment&, const Baseline&)>;
+
+  /// @param row  called as HealthLog calls its sink, with what the strut is judged by then.
+  /// @param report  called with every report, if it is given.
+  RecordedMonitor(const BagOptions& options, const Row& row,
+                  const std::function<void(const MonitorReport&)>& report = {});
+
+  /// Reads one bag after the other.
+  std::vector<HealthContent::Recording> read(TopicGaps& gaps);
+
+  const HealthLog& log() const { return log_; }
+  const SuspensionMonitor& monitor() const { return *pipeline_.monitor(); }
+  const UniformGrid& grid() const { return *pipeline_.strut().grid(); }
+  RejectCounts rejected() const { return pipeline_.rejected(); }
+
+  /// @return the file that the baseline was read from; empty: none was.
+  std::string baselineFile() const;
+
+  /// @throws TooLittleError  if the bags hold too little for one estimate.
+  void requireEnough() const;
+
+ private:
+  BagOptions options_;
+  LiveBaseline baseline_;
+  HealthLog log_;
+  ImuPipeline pipeline_;
+};
+
+/// @return the options as a live monitor would have them, with the file of --baseline for baseline_file.
+BagOptions readMonitorOptions(const boost::program_options::variables_map& values);
+
+/// `suspension_bag compare`.
+Comparison compareBags(const BagOptions& options, const ModelOptions& models, TopicGaps& gaps,
+                       const std::function<void(double)>& progress);
+
+/// `suspension_bag diagnose`.
+struct RecordedDiagnosis {
+  std::vector<Drive> drives;
+  DiagnoseOptions options;
+  Diagnosis found;
+};
+
+RecordedDiagnosis diagnoseBags(const BagOptions& options, const ModelOptions& models, int threads, TopicGaps& gaps,
+                               const std::function<void(double)>& progress);
+
+}  // namespace suspension_health_monitor
