@@ -26,10 +26,7 @@ namespace po = boost::program_options;
 /// The options as a live monitor would have them, with the file of --baseline for baseline_file.
 BagOptions readOptions(const po::variables_map& values) {
   BagOptions options = readLiveOptions(values);
-  if (values.count(kBaseline) == 0) return options;
-  std::string& file = options.pipeline.shell.baseline_file;
-  file = values[kBaseline].as<std::string>();
-  readBaselineFile(file);  // a live monitor would learn one if it is not there, and that is not what was asked for
+  takeBaselineFile(values, options.pipeline.shell);
   return options;
 }
 
@@ -76,9 +73,8 @@ class RecordedMonitor {
   void requireEnough() const {
     if (pipeline_.monitor() == nullptr)
       throw TooLittleError(
-          "the sample period cannot be measured: too few readings with increasing stamps on one of "
-          "the topics" +
-          describeRejected(rejected()));
+          "the sample period cannot be measured: too few readings with increasing stamps on one of the topics (" +
+          std::to_string(EarlyReadings<double>::kSpacings + 1) + " of each are enough)" + describeRejected(rejected()));
     requireRows(monitor(), grid(), rejected());
   }
 
@@ -101,8 +97,12 @@ void health(const Arguments& arguments) {
   add(kReport, po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
   const auto values = parse(arguments, "health BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, {"csv", "json", kReport});
-  if (isOfVehicle(*values)) return watchStruts(*values);
+  const std::vector<std::string> outputs{"csv", "json", kReport};
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, outputs);
+  if (isOfVehicle(*values)) {
+    watchStruts(*values);
+    return printWritten(*values, outputs);
+  }
   const BagOptions options = readOptions(*values);
 
   const Interruption interruption;
@@ -120,10 +120,12 @@ void health(const Arguments& arguments) {
       describeReference(monitor.baseline(), recorded.hasBaselineOfFile() ? options.pipeline.shell.baseline_file : "");
   nlohmann::json whole = toJson(recorded.log(), monitor);
   whole["silent"] = gaps.toJson();
-  files.commit(whole, {{recorded.log(), files.course(0), monitor, recordings, reference, ""}});
+  files.commit(whole, {{recorded.log(), files.course(0), monitor, recordings, reference, ""}},
+               originOf(*values, options.bags.topics));
   gaps.print();
   printInput(monitor, recorded.grid(), options, recorded.rejected());
   printHealth(recorded.log(), monitor, reference);
+  printWritten(*values, outputs);
 }
 
 }  // namespace suspension_health_monitor

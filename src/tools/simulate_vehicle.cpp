@@ -6,6 +6,7 @@
 
 #include "../ros/vehicle_messages.h"
 #include "../ros/whole_bag.h"
+#include "command.h"
 #include "long_work.h"
 #include "suspension_health_monitor/internal/model/effect_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
@@ -97,6 +98,7 @@ void simulateVehicle(const boost::program_options::variables_map& values, const 
               options.vehicle.iso_class.c_str(), options.vehicle.speed, options.drive.tracks.c_str(),
               options.drive.seed);
   printTruth(options.vehicle);
+  printWritten(values, {"vehicle-file"});
 }
 
 }  // namespace suspension_health_monitor

@@ -34,7 +34,8 @@ function rankingSection(findings) {
             chosen    ? ' ✓' :
                 rival ? ' ≈' :
                         '',
-            element('small', {}, kindOf(findings, name).finding)),
+            element('small', {}, kindOf(findings, name).finding),
+            element('small', {class: 'minor advice'}, kindOf(findings, name).advice)),
         element(
             'td', {class: 'error'}, `${rounded(ranked.held_out_rmse * scale.factor)} ${scale.unit}`,
             bar(ranked.held_out_rmse / longest, floor / longest, chosen ? 'after' : 'floor')),
