@@ -83,12 +83,12 @@ def health(recordings, titles):
     figure, axes = new_figure(1 + len(recordings), 2.2 + 0.45 * len(recordings),
                               gridspec_kw={"height_ratios": [0.9] * len(recordings) + [3.5]})
     first, course = recordings[0], axes[-1]
-    course.plot(first.health.time, 100 * first.health.damping_change, color=COLOURS["la"], label="LA, no fault")
+    course.plot(first.health.time, 100 * first.health.damping_change, color=COLOURS["la"])
     nominal = first.health.nominal_damping_to_mass[-1]
     course.plot(first.truth.time, 100 * (first.truth.damping_to_mass / nominal - 1), color=COLOURS["truth"],
-                linestyle=(0, (5, 2)), linewidth=1.3, label="truth")
+                linestyle=(0, (5, 2)), linewidth=1.3)
     course.set(ylim=(-42, 12), xlim=(0, DURATION))
-    name_panel(course, "damping against nominal [%]")
+    name_panel(course, "damping against nominal [%], no fault; dashed: truth")
     for axis, recording, title in zip(axes, recordings, titles):
         axis.set(ylim=(0, 1), yticks=[])
         axis.grid(False)

@@ -25,7 +25,8 @@ class Figure:
 class Section:
     """A heading, paragraphs of HTML, then figures side by side where there is room, then tables.
 
-    level: of the section that stands first and says how it all ended; its heading is that of the page.
+    level: of the section that stands first and says how it all ended; its heading is that of the page, and its figures
+    come before its paragraphs.
     """
     title: str
     paragraphs: tuple = ()
@@ -38,9 +39,9 @@ class Section:
         return f'<h1><span class="pill">{self.level}</span><br>{title}</h1>' if self.level else f"<h2>{title}</h2>"
 
     def to_html(self):
-        parts = [self.heading(), *(f"<p>{paragraph}</p>" for paragraph in self.paragraphs)]
-        if self.figures:
-            parts += ['<div class="figures">', *(figure.to_html() for figure in self.figures), "</div>"]
+        paragraphs = [f"<p>{paragraph}</p>" for paragraph in self.paragraphs]
+        figures = ['<div class="figures">', *(figure.to_html() for figure in self.figures), "</div>"] if self.figures else []
+        parts = [self.heading(), *(figures + paragraphs if self.level else paragraphs + figures)]
         attributes = f' id="verdict" class="verdict" data-level="{self.level}"' if self.level else ""
         return "\n".join([f"<section{attributes}>", *parts, *(table.to_html() for table in self.tables), "</section>"])
 

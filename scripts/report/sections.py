@@ -11,8 +11,9 @@ from .table import Column, Table
 
 EXCERPT = (80.0, 86.0)  # [s]
 ERROR_COLUMNS = [Column("drive", css="text"), Column("estimator", css="text"),
-                 Column("b1 rms", "1/s"), Column("b1 max", "1/s"), Column("b0 rms", "1/s²"), Column("b0 max", "1/s²"),
-                 Column("claim: rms b1, b0", css="text"), Column("", css="text")]
+                 Column("b1 rms", "1/s"), Column("b1 max", "1/s", css="minor"), Column("b0 rms", "1/s²"),
+                 Column("b0 max", "1/s²", css="minor"), Column("claim: rms b1, b0", css="text minor"),
+                 Column("", css="text")]
 
 
 @dataclasses.dataclass

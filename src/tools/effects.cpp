@@ -61,11 +61,11 @@ void printWrapped(const std::string& text) {
 }
 
 void printForTerminal(const std::vector<Row>& rows) {
-  constexpr int name_width = 28;
-  std::printf("%-*s%s\n", name_width, "name", "law; [unit] of c; shape");
+  std::printf("name\n%slaw; [unit] of c; shape\n%swhat a workshop would find\n%sdesign or wear, and what to check\n",
+              kIndent, kIndent, kIndent);
   for (const Row& row : rows) {
     const std::string unit = row.unit.find('[') == std::string::npos ? '[' + row.unit + ']' : row.unit;
-    std::printf("\n%-*s%s\n", name_width, row.name.c_str(), join({row.law, unit, row.shapes}, "; ").c_str());
+    std::printf("\n%s\n%s%s\n", row.name.c_str(), kIndent, join({row.law, unit, row.shapes}, "; ").c_str());
     printWrapped(row.finding);
     printWrapped(adviceOn(row.name));
   }

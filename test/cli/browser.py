@@ -82,7 +82,8 @@ Object.assign(parent.document.documentElement.dataset, {
   width: innerWidth,
   dark: matchMedia('(prefers-color-scheme: dark)').matches,
   cut: reaches.map(node => `${node.tagName}.${node.getAttribute('class')}`).join(' '),
-  scrolls: [...document.querySelectorAll('.wide')].filter(node => node.scrollWidth > node.clientWidth + 1).length
+  verdictEnds: document.querySelector('#verdict h1, .verdict h1')?.getBoundingClientRect().bottom,
+  scrolls: [...document.querySelectorAll('.wide, .table')].filter(node => node.scrollWidth > node.clientWidth + 1).length
 });
 })();</script>"""
 

@@ -15,7 +15,7 @@ OPTIONS = {
     "simulate": ["-o [ --output ]", "--config", "--set", "--scenario", "--vehicle", "--seed", "--duration", "--rate",
                  "--vehicle-model", "--vehicle-file"],
     "identify": ["--config", "--set", "--sprung-topic", "/sprung/imu", "--unsprung-topic", "/unsprung/imu", "--start",
-                 "--end", "--csv", "--json"],
+                 "--end", "--csv", "--json", "-o [ --output ]", "--baseline"],
     "health": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--baseline", "--csv", "--json",
                "--report"],
     "compare": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--json", "--model",
