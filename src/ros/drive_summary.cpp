@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 #include <vector>
 
@@ -22,11 +23,19 @@ std::string describe(const char* name, const StrutEstimate& estimate) {
                    estimate.stiffness_to_mass_stddev);
 }
 
+void log(const std::string& line) { ROS_INFO("%s", line.c_str()); }
+
+// By the time that a node ends, ROS logs no more; and a manager may not end well, so nothing must stay in a buffer.
+void print(const std::string& line) {
+  std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 DriveSummary::DriveSummary(const std::string& strut, double timeout) : strut_(strut), timeout_(timeout) {}
 
-DriveSummary::~DriveSummary() { tell(""); }
+DriveSummary::~DriveSummary() { tell("", &print); }
 
 void DriveSummary::add(const MonitorReport& report) {
   const double passed = toSeconds(report.stamp - newest_.stamp);
@@ -46,10 +55,10 @@ void DriveSummary::watchClock() {
     clock_ = now;
     stands_since_ = wall;
   }
-  if ((wall - stands_since_).toSec() > timeout_) tell(" until the clock stopped");
+  if ((wall - stands_since_).toSec() > timeout_) tell(" until the clock stopped", &log);
 }
 
-void DriveSummary::tell(const char* until) {
+void DriveSummary::tell(const char* until, void (*say)(const std::string& line)) {
   if (!is_news_) return;
   is_news_ = false;
   const auto lasted = [this](HealthLevel level) { return seconds_[static_cast<std::size_t>(level)]; };
@@ -59,10 +68,10 @@ void DriveSummary::tell(const char* until) {
   if (levels.empty()) return;
   const auto* const worst =
       std::find_if(kLevels.begin(), kLevels.end(), [&](HealthLevel level) { return lasted(level) > 0.0; });
-  ROS_INFO("%s: driven for %.1f s%s, worst level %s (%s)", strut_.c_str(),
-           std::accumulate(seconds_.begin(), seconds_.end(), 0.0), until, nameOf(*worst), join(levels).c_str());
-  ROS_INFO("%s: at the end %s, %s", strut_.c_str(), nameOf(newest_.health.level), describe(newest_.health).c_str());
-  ROS_INFO("%s: %s", strut_.c_str(), describe("la", newest_.la).c_str());
+  say(formatted("%s: driven for %.1f s%s, worst level %s (%s)", strut_.c_str(),
+                std::accumulate(seconds_.begin(), seconds_.end(), 0.0), until, nameOf(*worst), join(levels).c_str()));
+  say(strut_ + ": at the end " + nameOf(newest_.health.level) + ", " + describe(newest_.health));
+  say(strut_ + ": " + describe("la", newest_.la));
 }
 
 }  // namespace suspension_health_monitor

@@ -29,8 +29,8 @@ class DriveSummary {
   void watchClock();
 
  private:
-  /// @param until  what ended the drive; empty: this object ends.
-  void tell(const char* until);
+  /// @param until  what ended the drive; empty: this object ends.  @param say  prints a line.
+  void tell(const char* until, void (*say)(const std::string& line));
 
   std::string strut_;
   double timeout_;
