@@ -6,7 +6,7 @@ const asDate = seconds => new Date(1000 * seconds).toISOString().replace('T', ' 
 const YEAR = 365 * 86400;
 
 /** Stamps are seconds since 1970 where a clock was set, else since whatever the drive began. */
-const asStamp = seconds => (seconds > YEAR ? asDate(seconds) : `${rounded(seconds, 6)} s`);
+const asStamp = seconds => (seconds > YEAR ? asDate(seconds) : `${seconds.toFixed(2)} s`);
 
 /** @param note  what else the reader of this page has to know. */
 function originSection({origin}, note) {
