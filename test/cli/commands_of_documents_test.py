@@ -48,6 +48,7 @@ def documents_with_commands():
         walk = re.search(r"<!-- walk -->.*?<!-- end -->", text, re.DOTALL)
         text = text.replace(walk.group(0), "") if walk else text
         commands = [command for block in commands_of(text) for command in block if not command.startswith(RUN_ELSEWHERE)]
+        commands += re.findall(r"`(roslaunch suspension_health_monitor [^`]+)`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
         if commands:
             yield pytest.param(document, commands, id=document)
 
