@@ -88,7 +88,8 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   if (model) model->commit(toYaml(modelsOf(found), vehicle));
   if (page)
     page->write(found, options,
-                {fileNames(values["bag"].as<std::vector<std::string>>()), originOf(values, topicsOf(VehicleStreams(vehicle.layout)))});
+                {fileNames(values["bag"].as<std::vector<std::string>>()),
+                 originOf(values, topicsOf(VehicleStreams(vehicle.layout)))});
 }
 
 }  // namespace suspension_health_monitor
