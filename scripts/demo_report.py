@@ -5,7 +5,9 @@ Needs a built workspace whose setup.bash is sourced; scripts/demo does both. Exi
 1 otherwise.
 """
 import argparse
+import datetime
 import pathlib
+import shlex
 import sys
 import time
 
@@ -14,7 +16,7 @@ from report.accuracy import find_program, seed_medians
 from report.experiments import DURATION, EXPERIMENTS, RunFailed, paper_drive, read_settings, run_drives
 from report.page import page, write_whole
 from report.progress import Progress
-from report.recording import IncompleteRecording, read_recording, require_complete
+from report.recording import FIELDS, IncompleteRecording, read_recording, require_complete
 from report.sections import Results, report_sections, tables
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[1]
@@ -68,6 +70,12 @@ def search_hidden_effect(options):
     return hidden_effect.search(hidden_bag(options), options.output, options.work.resolve())
 
 
+def origin():
+    made = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M:%S UTC")
+    return (("made", made), ("command", shlex.join([pathlib.Path(sys.argv[0]).name, *sys.argv[1:]])),
+            ("topics", ", ".join(topic for topic, _ in FIELDS.values())))
+
+
 def main():
     options = parse_arguments()
     start = time.monotonic()
@@ -88,7 +96,7 @@ def main():
     print(f"\nDrive with a hidden effect ({hidden_effect.EFFECT}): {results.search.sentence}")
     print(hidden_effect.ladder(results.search).to_text())
     report = options.output / "report.html"
-    write_whole(report, page(TITLE, report_sections(results)))
+    write_whole(report, page(TITLE, report_sections(results), origin()))
     held = [claim[-1] for claim in results.claims()]
     print(f"\n{sum(held)} of {len(held)} claims of the paper held, {time.monotonic() - start:.0f} s; report: {report}")
     return 0 if all(held) else 1

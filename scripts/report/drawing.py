@@ -39,9 +39,12 @@ def finish(figure, axes, description, legend_columns=3, xlabel="time [s]"):
     """The figure as an <svg> element with `description` for readers who do not see it."""
     with matplotlib.rc_context(STYLE):
         axes[-1].set_xlabel(xlabel)
-        handles, labels = axes[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="upper center", ncol=legend_columns, handlelength=1.6, columnspacing=1.4)
-        figure.tight_layout(rect=(0, 0, 1, 1 - 0.3 / figure.get_figheight()), pad=0.4, h_pad=0.8)
+        legends = (axis.get_legend_handles_labels() for axis in axes)
+        handles, labels = next((legend for legend in legends if legend[0]), ([], []))
+        if handles:
+            figure.legend(handles, labels, loc="upper center", ncol=legend_columns, handlelength=1.6, columnspacing=1.4)
+        room = 0.3 if handles else 0.0  # [inch] for the legend
+        figure.tight_layout(rect=(0, 0, 1, 1 - room / figure.get_figheight()), pad=0.4, h_pad=0.8)
         text = io.StringIO()
         figure.savefig(text, format="svg", transparent=True)
     pyplot.close(figure)

@@ -80,16 +80,16 @@ def level_spans(health):
 
 def health(recordings, titles):
     """The loss of damping that the monitor sees, and the level that it reports, in each drive."""
-    figure, axes = new_figure(1 + len(recordings), 2.6 + 0.55 * len(recordings),
-                              gridspec_kw={"height_ratios": [4] + [0.9] * len(recordings)})
-    first = recordings[0]
-    axes[0].plot(first.health.time, 100 * first.health.damping_change, color=COLOURS["la"], label="LA, no fault")
+    figure, axes = new_figure(1 + len(recordings), 2.2 + 0.45 * len(recordings),
+                              gridspec_kw={"height_ratios": [0.9] * len(recordings) + [3.5]})
+    first, course = recordings[0], axes[-1]
+    course.plot(first.health.time, 100 * first.health.damping_change, color=COLOURS["la"])
     nominal = first.health.nominal_damping_to_mass[-1]
-    axes[0].plot(first.truth.time, 100 * (first.truth.damping_to_mass / nominal - 1), color=COLOURS["truth"],
-                 linestyle=(0, (5, 2)), linewidth=1.3, label="truth")
-    axes[0].set(ylim=(-42, 12), xlim=(0, DURATION))
-    name_panel(axes[0], "damping against nominal [%]")
-    for axis, recording, title in zip(axes[1:], recordings, titles):
+    course.plot(first.truth.time, 100 * (first.truth.damping_to_mass / nominal - 1), color=COLOURS["truth"],
+                linestyle=(0, (5, 2)), linewidth=1.3)
+    course.set(ylim=(-42, 12), xlim=(0, DURATION))
+    name_panel(course, "damping against nominal [%], no fault; dashed: truth")
+    for axis, recording, title in zip(axes, recordings, titles):
         axis.set(ylim=(0, 1), yticks=[])
         axis.grid(False)
         axis.set_ylabel(title.replace(" ", "\n"), rotation=0, ha="right", va="center")
@@ -99,7 +99,7 @@ def health(recordings, titles):
                 axis.text((start + end) / 2, 0.46, level.upper(), ha="center", va="center", color=COLOURS["ink"])
             elif level == "stale":
                 axis.text((start + end) / 2, 0.46, "?", ha="center", va="center", color=COLOURS["ink"])
-    return finish(figure, axes, "Loss of damping over time and the health level in each drive")
+    return finish(figure, axes, "The health level in each drive over time, and the loss of damping")
 
 
 def excerpt(rows, start, end):

@@ -67,6 +67,12 @@ def sizes_found(found):
             f"± {extended['stddevs'][EFFECT]:.3f} m/s².")
 
 
+def pointer(found):
+    """One sentence with the way to the page of the search."""
+    return (f'In a drive with a hidden effect: {html.escape(found.sentence)} <a href="{PAGE_FOLDER}/report.html">The whole '
+            "search as a page</a>.")
+
+
 def section(found):
     """The search in a few words, and the way to its own page."""
     return Section("Which effect is missing?", (

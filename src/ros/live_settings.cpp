@@ -19,13 +19,34 @@ std::vector<Bound> bindLive(PipelineOptions& options) {
   std::vector<Bound> live;
   const auto add = [&](const auto& fields, auto& group) {
     for (const auto& field : fields)
-      if (std::find(kLiveSettings.begin(), kLiveSettings.end(), field.name) != kLiveSettings.end())
+      if (std::any_of(kLiveSettings.begin(), kLiveSettings.end(),
+                      [&](const LiveSetting& setting) { return setting.name == field.name; }))
         live.push_back(option_table::bind(field, group));
   };
   add(kMonitorFields, options.monitor);
   add(kShellFields, options.shell);
   return live;
 }
+
+double least(double a, double b) { return std::min(a, b); }
+double most(double a, double b) { return std::max(a, b); }
+
+/// Moves a value to the end of its slider, unless it is beyond.
+void extend(OptionValue& value, double end, double (*beyond)(double, double)) {
+  if (auto* whole = std::get_if<int>(&value)) *whole = static_cast<int>(beyond(*whole, end));
+  if (auto* number = std::get_if<double>(&value)) *number = beyond(*number, end);
+}
+
+/// Names of the groups in the order of the options, each once.
+std::vector<std::string> groupsOf(const std::vector<Bound>& live) {
+  std::vector<std::string> groups;
+  for (const Bound& option : live)
+    if (std::find(groups.begin(), groups.end(), option.group) == groups.end()) groups.emplace_back(option.group);
+  return groups;
+}
+
+/// The top of the groups, as the generator would have it: it holds the others, and no setting.
+constexpr const char* kTop = "Default";
 
 bool isWhole(const Bound& option) { return std::holds_alternative<int*>(option.member); }
 
@@ -36,16 +57,17 @@ LiveSettings::LiveSettings(PipelineOptions options) {
   for (const Bound& option : bindLive(options)) values_[std::string(option.name)] = *option_table::valueOf(option);
 }
 
-LiveSettings LiveSettings::ends(double Bound::*end) {
-  LiveSettings settings;
-  PipelineOptions options;
-  for (const Bound& option : bindLive(options)) {
-    OptionValue& value = settings.values_[std::string(option.name)];
-    if (isWhole(option))
-      value = static_cast<int>(option.*end);
-    else
-      value = option.*end;
-  }
+LiveSettings LiveSettings::lowerEnds() const {
+  LiveSettings settings = *this;
+  for (const LiveSetting& setting : kLiveSettings)
+    extend(settings.values_[std::string(setting.name)], setting.min, least);
+  return settings;
+}
+
+LiveSettings LiveSettings::upperEnds() const {
+  LiveSettings settings = *this;
+  for (const LiveSetting& setting : kLiveSettings)
+    extend(settings.values_[std::string(setting.name)], setting.max, most);
   return settings;
 }
 
@@ -66,14 +88,22 @@ PipelineOptions LiveSettings::appliedTo(PipelineOptions options) const {
 dynamic_reconfigure::ConfigDescription LiveSettings::__getDescriptionMessage__() {
   dynamic_reconfigure::ConfigDescription description;
   description.groups.resize(1);
-  description.groups.front().name = "Default";
+  description.groups.front().name = kTop;
   PipelineOptions options;
-  for (const Bound& option : bindLive(options)) {
-    dynamic_reconfigure::ParamDescription parameter;
-    parameter.name = std::string(option.name);
-    parameter.type = isWhole(option) ? "int" : "double";
-    parameter.description = '[' + std::string(option.unit) + "] " + std::string(option.help);
-    description.groups.front().parameters.push_back(std::move(parameter));
+  const std::vector<Bound> live = bindLive(options);
+  for (const std::string& name : groupsOf(live)) {
+    dynamic_reconfigure::Group group;
+    group.name = name;
+    group.id = static_cast<int>(description.groups.size());
+    for (const Bound& option : live) {
+      if (option.group != name) continue;
+      dynamic_reconfigure::ParamDescription parameter;
+      parameter.name = std::string(option.name);
+      parameter.type = isWhole(option) ? "int" : "double";
+      parameter.description = '[' + std::string(option.unit) + "] " + std::string(option.help);
+      group.parameters.push_back(std::move(parameter));
+    }
+    description.groups.push_back(std::move(group));
   }
   __getMin__().__toMessage__(description.min);
   __getMax__().__toMessage__(description.max);
@@ -113,9 +143,16 @@ void LiveSettings::__toMessage__(dynamic_reconfigure::Config& message) const {
     if (const auto* whole = std::get_if<int>(&value)) ConfigTools::appendParameter(message, name, *whole);
     if (const auto* number = std::get_if<double>(&value)) ConfigTools::appendParameter(message, name, *number);
   }
-  message.groups.resize(1);
-  message.groups.front().name = "Default";
-  message.groups.front().state = true;
+  PipelineOptions options;
+  std::vector<std::string> groups = groupsOf(bindLive(options));
+  groups.insert(groups.begin(), kTop);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    dynamic_reconfigure::GroupState group;
+    group.name = groups[i];
+    group.state = true;
+    group.id = static_cast<int>(i);
+    message.groups.push_back(std::move(group));
+  }
 }
 
 }  // namespace suspension_health_monitor

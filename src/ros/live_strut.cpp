@@ -67,7 +67,7 @@ void LiveStrut::publishModel() {
 }
 
 void LiveStrut::publish(const MonitorReport& report) {
-  if (diagnostics_.noteLevel(report.health.level)) publishDiagnostics();
+  if (diagnostics_.note(report)) publishDiagnostics();
   if (report.health.learned && !baseline_.known()) keepBaseline();
   reports_->publish(report, *monitor(), nullptr, vehicle_.frame());
 }

@@ -23,7 +23,7 @@ class MonitorDiagnostics {
   InputDiagnostics& input() { return input_; }
 
   /// As StrutDiagnostics has it.
-  bool noteLevel(HealthLevel level) { return strut_.noteLevel(level); }
+  bool note(const MonitorReport& report) { return strut_.note(report); }
 
   void publish(const ImuPipeline& pipeline);
 

@@ -77,6 +77,8 @@ void MonitorNodelet::advertiseServices(ros::NodeHandle& private_node) {
     return searchOf(giveSamples(window), [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); });
   });
   reconfigure_.emplace(private_node);  // writes down the parameters as they were given, and defaults
+  reconfigure_->setConfigMin(LiveSettings(options_).lowerEnds());
+  reconfigure_->setConfigMax(LiveSettings(options_).upperEnds());
   reconfigure_->setCallback([this](LiveSettings& settings, std::uint32_t) { onReconfigure(settings); });
 }
 
@@ -114,7 +116,7 @@ void MonitorNodelet::onImu(Side side, const sensor_msgs::Imu& imu) {
 }
 
 void MonitorNodelet::publish(const MonitorReport& report) {
-  if (diagnostics_->noteLevel(report.health.level)) onTick();
+  if (diagnostics_->note(report)) onTick();
   if (report.health.learned && !baseline_->known()) keepBaseline();
   reports_->publish(report, *pipeline_->monitor(), pipeline_->strut().tyre(), imus_->frame(indexOf(Side::kSprung)));
 }

@@ -43,9 +43,10 @@ void StrutDiagnostics::addTo(diagnostic_updater::Updater& updater, const Find& f
   add("Model", &StrutDiagnostics::describeModel);
 }
 
-bool StrutDiagnostics::noteLevel(HealthLevel level) {
-  const bool changed = level_ != level;
-  level_ = level;
+bool StrutDiagnostics::note(const MonitorReport& report) {
+  drive_.add(report);
+  const bool changed = level_ != report.health.level;
+  level_ = report.health.level;
   return changed;
 }
 
@@ -54,6 +55,7 @@ void StrutDiagnostics::describeHealth(const SuspensionMonitor& monitor, Status& 
   status.summary(static_cast<unsigned char>(report.health.level), describe(report.health));
   describeSilence(monitor, status);
   log_.note(status);
+  drive_.watchClock();
   addEstimate(status, "la", report.la);
   addEstimate(status, "ls", report.ls);
   if (monitor.options().fastest_memory)

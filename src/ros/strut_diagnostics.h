@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "drive_summary.h"
 #include "live_model.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "task_log.h"
@@ -28,13 +29,17 @@ class StrutDiagnostics {
   /// @param name  of the strut, for the terminal.
   /// @param input_timeout  [s] as the option.  @param model  outlives this object.
   StrutDiagnostics(const std::string& name, double input_timeout, const LiveModel& model, FindSilent silent)
-      : input_timeout_(input_timeout), silent_(std::move(silent)), model_(model), log_(name) {}
+      : input_timeout_(input_timeout),
+        silent_(std::move(silent)),
+        model_(model),
+        log_(name),
+        drive_(name, input_timeout) {}
 
   /// Adds the tasks to an updater that does not outlive this object.
   void addTo(diagnostic_updater::Updater& updater, const Find& find);
 
   /// @return true if the level differs from the last one: a change is published at once.
-  bool noteLevel(HealthLevel level);
+  bool note(const MonitorReport& report);
 
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -55,6 +60,7 @@ class StrutDiagnostics {
   Accepted accepted_;
   const LiveModel& model_;
   TaskLog log_;  // of Health
+  DriveSummary drive_;
   std::optional<HealthLevel> level_;
 };
 

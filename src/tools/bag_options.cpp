@@ -5,12 +5,14 @@
 #include <string>
 #include <utility>
 
+#include "../ros/live_baseline.h"
 #include "../ros/model_file.h"
 #include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
 #include "survey.h"
 #include "suspension_health_monitor/internal/plain_text.h"
+#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -73,6 +75,12 @@ BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_diffe
   if (options.period_measured || options.horizon_measured)
     measureOpenSettings(options.bags, options.pipeline, clocks_may_differ);
   return options;
+}
+
+void takeBaselineFile(const po::variables_map& values, ShellOptions& options) {
+  if (values.count(kBaseline) == 0) return;
+  options.baseline_file = values[kBaseline].as<std::string>();
+  readBaselineFile(options.baseline_file);
 }
 
 void addEffectsFile(po::options_description& description) {

@@ -39,6 +39,11 @@ BagOptions readLiveOptions(const boost::program_options::variables_map& values);
 /// @throws std::invalid_argument, InputError, TooLittleError  likewise.
 BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ = false);
 
+/// Takes the file of --baseline for baseline_file.
+/// @throws std::invalid_argument  as readBaselineFile(): a live monitor would learn one if it is not there, and that is
+/// not what was asked for.
+void takeBaselineFile(const boost::program_options::variables_map& values, ShellOptions& options);
+
 /// Names of the options that addModelOptions() adds; their values are files that are read.
 inline constexpr const char* kEffectsFile = "effects-file";
 inline constexpr const char* kModel = "model";

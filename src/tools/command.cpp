@@ -1,5 +1,6 @@
 #include "command.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -7,6 +8,7 @@
 
 #include "../ros/yaml_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -18,6 +20,11 @@ std::vector<std::string> paths(const po::variables_map& values, const std::strin
   if (values.count(option) == 0) return {};
   if (const auto* path = boost::any_cast<std::string>(&values[option].value())) return {*path};
   return values[option].as<std::vector<std::string>>();
+}
+
+/// The file that an output option with this value makes.
+fs::path writtenBy(const std::string& option, const std::string& value) {
+  return option == kReport ? fs::path(value) / kReportFile : fs::path(value);
 }
 
 }  // namespace
@@ -36,7 +43,22 @@ std::optional<po::variables_map> parse(const Arguments& arguments, const std::st
     return std::nullopt;
   }
   po::notify(values);
+  std::string line = "suspension_bag " + usage.substr(0, usage.find(' '));
+  for (const std::string& word : arguments) line += ' ' + shellQuoted(word);
+  values.emplace(kCommandLine, po::variable_value(line, true));
   return values;
+}
+
+std::string shellQuoted(const std::string& word) {
+  const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+:=,@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string result = "'";
+  for (const char character : word)
+    if (character == '\'')
+      result += "'\\''";
+    else
+      result += character;
+  return result + "'";
 }
 
 OptionMap gatherOptions(const po::variables_map& values) {
@@ -60,12 +82,21 @@ void requireSeparateFiles(const po::variables_map& values, const std::vector<std
   taken.erase("");  // an option that was not given
   for (const std::string& option : outputs)
     for (const std::string& path : paths(values, option)) {
-      const fs::path file = option == kReport ? fs::path(path) / kReportFile : fs::path(path);
+      const fs::path file = writtenBy(option, path);
       const fs::path full = fs::weakly_canonical(file, error);
       const bool is_new = full.empty() || taken.insert(full).second;
       if (!is_new && (fs::is_regular_file(file, error) || !fs::exists(file, error)))
         throw std::invalid_argument("--" + option + " " + path + ", must be a file of its own: it is used already");
     }
+}
+
+void printWritten(const po::variables_map& values, const std::vector<std::string>& outputs) {
+  std::error_code error;
+  std::vector<std::string> written;
+  for (const std::string& option : outputs)
+    for (const std::string& path : paths(values, option))
+      if (const fs::path file = writtenBy(option, path); fs::is_regular_file(file, error)) written.push_back(file);
+  if (!written.empty()) std::printf("wrote %s\n", join(written).c_str());
 }
 
 }  // namespace suspension_health_monitor

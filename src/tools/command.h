@@ -35,6 +35,12 @@ std::optional<boost::program_options::variables_map> parse(const Arguments& argu
                                                            boost::program_options::options_description options,
                                                            const std::string& positional = {});
 
+/// Among the parsed values: what was typed, as text.
+inline constexpr const char* kCommandLine = "command line";
+
+/// A word as a shell takes it.
+std::string shellQuoted(const std::string& word);
+
 /// @return the settings of the file --config, if there is one, and of --set NAME=VALUE, which override them.
 /// @throws std::invalid_argument  naming what is wrong.
 OptionMap gatherOptions(const boost::program_options::variables_map& values);
@@ -48,5 +54,9 @@ inline constexpr const char* kReportFile = "report.html";
 /// @throws std::invalid_argument  naming option and path.
 void requireSeparateFiles(const boost::program_options::variables_map& values, const std::vector<std::string>& inputs,
                           const std::vector<std::string>& outputs);
+
+/// Tells people which files were written.
+/// @param outputs  as above. What is no regular file (a pipe, /dev/stdout) is not told of.
+void printWritten(const boost::program_options::variables_map& values, const std::vector<std::string>& outputs);
 
 }  // namespace suspension_health_monitor

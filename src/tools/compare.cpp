@@ -17,8 +17,12 @@ void compare(const Arguments& arguments) {
   addModelOptions(description);
   const auto values = parse(arguments, "compare BAG... [--model MODEL.yaml] [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json"});
-  if (isOfVehicle(*values)) return compareStruts(*values);
+  const std::vector<std::string> outputs{"json"};
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, outputs);
+  if (isOfVehicle(*values)) {
+    compareStruts(*values);
+    return printWritten(*values, outputs);
+  }
   const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;
@@ -36,6 +40,7 @@ void compare(const Arguments& arguments) {
   nlohmann::json whole = toJson(comparison);
   whole["silent"] = gaps.toJson();
   json->commit(whole.dump(2) + '\n');
+  printWritten(*values, outputs);
 }
 
 }  // namespace suspension_health_monitor

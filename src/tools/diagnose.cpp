@@ -28,11 +28,15 @@ void diagnose(const Arguments& arguments) {
       "processor cores to use");
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json", "output", kReport});
+  const std::vector<std::string> outputs{"json", "output", kReport};
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, outputs);
   const int threads = (*values)["threads"].as<int>();
   if (threads < 1 || threads > 1024)
     throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
-  if (isOfVehicle(*values)) return diagnoseStruts(*values);
+  if (isOfVehicle(*values)) {
+    diagnoseStruts(*values);
+    return printWritten(*values, outputs);
+  }
   const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;
@@ -57,7 +61,10 @@ void diagnose(const Arguments& arguments) {
     json->commit(whole.dump(2) + '\n');
   }
   if (model) model->commit(toYaml(found.model()));
-  if (page) page->write(found, recorded.drives, recorded.options, fileNames(options.bags.paths));
+  if (page)
+    page->write(found, recorded.drives, recorded.options,
+                {fileNames(options.bags.paths), originOf(*values, options.bags.topics)});
+  printWritten(*values, outputs);
 }
 
 }  // namespace suspension_health_monitor

@@ -86,7 +86,10 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   print(found, vehicle);
   if (file) file->commit(toJson(found, vehicle, gaps).dump(2) + '\n');
   if (model) model->commit(toYaml(modelsOf(found), vehicle));
-  if (page) page->write(found, options, fileNames(values["bag"].as<std::vector<std::string>>()));
+  if (page)
+    page->write(found, options,
+                {fileNames(values["bag"].as<std::vector<std::string>>()),
+                 originOf(values, topicsOf(VehicleStreams(vehicle.layout)))});
 }
 
 }  // namespace suspension_health_monitor

@@ -26,8 +26,12 @@ void health(const Arguments& arguments) {
   add(kReport, po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
   const auto values = parse(arguments, "health BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, {"csv", "json", kReport});
-  if (isOfVehicle(*values)) return watchStruts(*values);
+  const std::vector<std::string> outputs{"csv", "json", kReport};
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, outputs);
+  if (isOfVehicle(*values)) {
+    watchStruts(*values);
+    return printWritten(*values, outputs);
+  }
   const BagOptions options = readMonitorOptions(*values);
 
   const Interruption interruption;
@@ -42,10 +46,12 @@ void health(const Arguments& arguments) {
   const std::string reference = describeReference(monitor.baseline(), recorded.baselineFile());
   nlohmann::json whole = toJson(recorded.log(), monitor);
   whole["silent"] = gaps.toJson();
-  files.commit(whole, {{recorded.log(), files.course(0), monitor, recordings, reference, ""}});
+  files.commit(whole, {{recorded.log(), files.course(0), monitor, recordings, reference, ""}},
+               originOf(*values, options.bags.topics));
   gaps.print();
   printInput(monitor, recorded.grid(), options, recorded.rejected());
   printHealth(recorded.log(), monitor, reference);
+  printWritten(*values, outputs);
 }
 
 }  // namespace suspension_health_monitor

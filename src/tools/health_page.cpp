@@ -100,13 +100,13 @@ void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Basel
   if (page_) courses_[strut].add(moment, healthy);
 }
 
-void HealthFiles::commit(const json& result, const std::vector<HealthContent>& contents) {
+void HealthFiles::commit(const json& result, const std::vector<HealthContent>& contents, const json& origin) {
   if (json_) json_->commit(result.dump(2) + '\n');
   if (csv_) csv_->commit();
   if (!page_) return;
   json struts = json::array();
   for (const HealthContent& content : contents) struts.push_back(findingsOf(content));
-  page_->write(healthTemplate(), {{"struts", struts}});
+  page_->write(healthTemplate(), {{"struts", struts}, {"origin", origin}});
 }
 
 }  // namespace suspension_health_monitor

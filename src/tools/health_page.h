@@ -75,9 +75,9 @@ class HealthFiles {
 
   const HealthCourse& course(std::size_t strut) const { return courses_[strut]; }
 
-  /// @param result  for --json.  @param contents  for the page, a strut each.
+  /// @param result  for --json.  @param contents, origin  for the page: a strut each, and as originOf().
   /// @throws std::runtime_error  naming the file that cannot be written.
-  void commit(const nlohmann::json& result, const std::vector<HealthContent>& contents);
+  void commit(const nlohmann::json& result, const std::vector<HealthContent>& contents, const nlohmann::json& origin);
 
  private:
   std::optional<TextFile> json_, csv_;

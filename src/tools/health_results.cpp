@@ -50,11 +50,11 @@ void HealthTable::add(std::size_t strut, const HealthMoment& moment) {
 
 void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference) {
   std::printf("judged by %s\n\n", reference.c_str());
-  std::printf("%15s  %10s  %-5s  %s\n", "time s", "after s", "level", "reason");
+  std::printf("%15s  %10s  %-5s  %s\n", "time [s]", "after [s]", "level", "reason");
   for (const HealthMoment& event : log.events())
     std::printf("%15.2f  %10.2f  %-5s  %s\n", toSeconds(event.stamp), toSeconds(event.elapsed), nameOf(event.level),
                 event.message.c_str());
-  std::printf("\nlevel     seconds   share   events\n");
+  std::printf("\nlevel    time [s]   share   events\n");
   const double covered = toSeconds(log.elapsed());
   for (const HealthLevel level : kLevels) {
     const double seconds = toSeconds(log.duration(level));

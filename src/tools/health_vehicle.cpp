@@ -117,7 +117,8 @@ class WatchedVehicle {
     const VehicleMonitor* monitor = pipeline_.monitor();
     if (monitor == nullptr)
       throw TooLittleError("the sample period cannot be measured: too few readings with increasing stamps on one of " +
-                           join(topics_));
+                           join(topics_) + " (" + std::to_string(EarlyReadings<double>::kSpacings + 1) +
+                           " of each are enough)");
     if (!monitor->isCoupled()) throw TooLittleError("the drives " + reasonOf(monitor->estimate(), names));
   }
 
@@ -125,12 +126,6 @@ class WatchedVehicle {
   const HealthLog& log(std::size_t strut) const { return logs_[strut]; }
 
  private:
-  static std::vector<std::string> topicsOf(const VehicleStreams& streams) {
-    std::vector<std::string> topics;
-    for (const VehicleStreams::Sensor& sensor : streams.sensors) topics.push_back(sensor.topic);
-    return topics;
-  }
-
   void begin(VehicleMonitor& monitor) const {
     for (std::size_t i = 0; i < watched_.size(); ++i) {
       const LiveModel& model = watched_[i].model;
@@ -189,7 +184,7 @@ void watchStruts(const po::variables_map& values) {
     std::printf("\n%s, ", vehicle.names[i].c_str());
     printHealth(recorded.log(i), strut, reference);
   }
-  files.commit(whole, contents);
+  files.commit(whole, contents, originOf(values, topicsOf(streams)));
 }
 
 }  // namespace suspension_health_monitor

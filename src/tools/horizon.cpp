@@ -56,6 +56,7 @@ void horizon(const Arguments& arguments) {
   plot(proposal);
   std::printf("\nintegration_horizon: %.3g   # [s] strut and filter both reach to %.3g Hz (3 dB)\n", proposal.horizon,
               proposal.bandwidth_hz);
+  printWritten(*values, {"json"});
 }
 
 }  // namespace suspension_health_monitor

@@ -1,5 +1,6 @@
 #include "html_page.h"
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -36,6 +37,14 @@ json shortened(json value) {
   if (value.is_structured())
     for (json& each : value) each = shortened(std::move(each));
   return value;
+}
+
+json originOf(const boost::program_options::variables_map& values, const std::vector<std::string>& topics) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return {{"made", std::chrono::duration_cast<std::chrono::seconds>(now).count()},
+          {"program", "suspension_bag " PACKAGE_VERSION},
+          {"command", values[kCommandLine].as<std::string>()},
+          {"topics", topics}};
 }
 
 HtmlPage::Folder::Folder(const std::string& path) : path_(path) {

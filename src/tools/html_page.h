@@ -1,8 +1,10 @@
 #pragma once
 
+#include <boost/program_options.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "../ros/whole_file.h"
 
@@ -45,5 +47,9 @@ nlohmann::json shortened(nlohmann::json value);
 std::string_view searchTemplate();
 std::string_view vehicleTemplate();
 std::string_view healthTemplate();
+
+/// What every page tells of itself: when it was made, by what, and from which topics.
+/// @param values  of the command that makes it.
+nlohmann::json originOf(const boost::program_options::variables_map& values, const std::vector<std::string>& topics);
 
 }  // namespace suspension_health_monitor

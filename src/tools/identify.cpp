@@ -10,7 +10,9 @@
 #include "identify_tables.h"
 #include "long_work.h"
 #include "recorded_strut.h"
+#include "report_page.h"
 #include "row_table.h"
+#include "strut_settings.h"
 #include "suspension_health_monitor/internal/digest.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
@@ -64,6 +66,22 @@ void writeJson(std::FILE* out, const DriveIdentification& identification, const 
   std::fprintf(out, "%s\n", result.dump(2).c_str());
 }
 
+/// @param has_iv  the model is linear, so that there are instrumental variables.
+void printEnd(const DriveIdentification& identification, const IdentifyResult& found, const std::optional<double>& mass,
+              bool has_iv) {
+  std::printf("\nat the end, over the last %.0f rows:\n", found.la.rows);
+  printResult("LS", found.ls, mass);
+  printResult("LA", found.la, mass);
+  if (const TyreTracker* tyre = identification.tyre()) {
+    const MonitorReport& strut = identification.monitor().report();
+    printTyre("LS", tyre->report().ls, strut.ls);
+    printTyre("LA", tyre->report().la, strut.la);
+  }
+  if (!has_iv) return;
+  std::printf("over the whole drive, by instrumental variables:\n");
+  printResult("IV", found.iv, mass);
+}
+
 std::string suspicions(const DriveIdentification& identification) {
   const SensorReport& sensor = identification.monitor().report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated) return "; " + describe(sensor);
@@ -78,15 +96,26 @@ void identify(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
   addVehicleOptions(description);
-  description.add_options()("csv", po::value<std::string>(), "write a line per regression row, full precision");
+  auto add = description.add_options();
+  add("csv", po::value<std::string>(), "write a line per regression row, full precision");
+  add("output,o", po::value<std::string>(),
+      "write horizon and nominal values, with the settings given, as YAML for the monitor and --config");
+  add(kBaseline, po::value<std::string>(), "YAML file with the healthy strut, to say how this one is against it");
   const auto values = parse(arguments, "identify BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config"}, {"csv", "json"});
-  if (isOfVehicle(*values)) return identifyStruts(*values);
-  const BagOptions options = readBagOptions(*values);
+  const std::vector<std::string> outputs{"csv", "json", "output"};
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, outputs);
+  if (isOfVehicle(*values)) {
+    identifyStruts(*values);
+    return printWritten(*values, outputs);
+  }
+  BagOptions options = readBagOptions(*values);
+  takeBaselineFile(*values, options.pipeline.shell);
+  const Baseline healthy = healthyStrut(options.pipeline);
 
   const Interruption interruption;
-  std::optional<TextFile> csv = outputFile(*values, "csv"), json = outputFile(*values, "json");
+  std::optional<TextFile> csv = outputFile(*values, "csv"), json = outputFile(*values, "json"),
+                          settings = outputFile(*values, "output");
   if (csv) RowTable::writeHead(csv->stream(), false);
   RowTable table(csv ? csv->stream() : nullptr, "");
   Digest<MonitorReport> digest(kTableLines);
@@ -109,25 +138,19 @@ void identify(const Arguments& arguments) {
   if (json) writeJson(json->stream(), identification, result, rejected, gaps);
   if (json) json->commit();
   if (csv) csv->commit();
+  const std::optional<StrutOfDrive> strut = strutOf(result);
+  if (settings && strut) settings->commit(settingsOf(*strut, gatherOptions(*values), fileNames(options.bags.paths)));
   const SuspensionMonitor& monitor = identification.monitor();
   gaps.print();
   printInput(monitor, identification.grid(), options, rejected);
   printTable(digest.items());
-  std::printf("\nat the end, over the last %.0f rows:\n", result.la.rows);
-  const std::optional<double>& mass = pipeline.monitor.sprung_mass;
-  printResult("LS", result.ls, mass);
-  printResult("LA", result.la, mass);
-  if (const TyreTracker* tyre = identification.tyre()) {
-    printTyre("LS", tyre->report().ls, monitor.report().ls);
-    printTyre("LA", tyre->report().la, monitor.report().la);
-  }
-  if (!recorded.hasEffects()) {
-    std::printf("over the whole drive, by instrumental variables:\n");
-    printResult("IV", result.iv, mass);
-  }
+  printEnd(identification, result, pipeline.monitor.sprung_mass, !recorded.hasEffects());
+  if (strut) printChange(*strut, healthy, pipeline);
   const auto reason = whyNotValid(monitor, ever_valid);
   if (!reason)
     for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
+  printWritten(*values, strut ? outputs : std::vector<std::string>{"csv", "json"});
+  if (settings && !strut && !reason) throw TooLittleError("no estimate is valid: there are no settings to write");
   if (reason) throw TooLittleError(*reason + suspicions(identification) + describeRejected(rejected));
 }
 

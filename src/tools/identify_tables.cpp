@@ -60,8 +60,8 @@ void requireRows(const SuspensionMonitor& monitor, const UniformGrid& grid, cons
 }
 
 void printTable(const std::vector<MonitorReport>& reports) {
-  std::printf("              damping/mass [1/s]   stiffness/mass [1/s^2]   free run\n");
-  std::printf("      time s      LS        LA          LS         LA       rmse m/s^2   fit %%   valid\n");
+  std::printf("              damping/mass [1/s]   stiffness/mass [1/s^2]           free run\n");
+  std::printf("    time [s]        LS        LA           LS         LA rmse [m/s^2]  fit [%%]   valid\n");
   for (const MonitorReport& report : reports)
     std::printf("%12.2f %s %s  %s %s %s %s   %s\n", toSeconds(report.stamp),
                 cell(9, 4, report.ls.damping_to_mass).c_str(), cell(9, 4, report.la.damping_to_mass).c_str(),
@@ -115,7 +115,12 @@ std::optional<std::string> whyNotValid(const SuspensionMonitor& monitor, bool wa
   if (monitor.report().ls.valid() || monitor.report().la.valid()) return std::nullopt;
   if (auto warning = periodWarning(monitor)) return warning;
   if (was_valid && isHeld(monitor.report().la.doubt)) return std::nullopt;
-  if (!was_valid) return "no estimate was ever valid: too short, too little motion, or not the two sides of one strut";
+  if (!was_valid) {
+    const double enough = 2.0 * monitor.horizonSamples() +
+                          MonitorSettings(monitor.options()).fewestRows(kFewestHorizons, monitor.period());
+    return "no estimate was ever valid: too short" + describeEnough(enough * monitor.period()) +
+           ", too little motion, or not the two sides of one strut";
+  }
   return "no estimate is valid at the end of the drive: " + describe(monitor.report().la.doubt) + " (column \"valid\")";
 }
 

@@ -1,11 +1,16 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "bag_options.h"
 #include "command.h"
+#include "errors.h"
 #include "identify_tables.h"
 #include "long_work.h"
 #include "recorded_vehicle.h"
+#include "report_page.h"
 #include "row_table.h"
+#include "strut_files.h"
+#include "strut_settings.h"
 #include "vehicle_commands.h"
 #include "vehicle_tables.h"
 
@@ -25,13 +30,33 @@ nlohmann::json toJson(const IdentifyResult& found) {
           {"iv", toJson(found.iv)}};
 }
 
+std::vector<Baseline> healthyStruts(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
+                                    const PipelineOptions& settings) {
+  std::vector<Baseline> healthy(vehicle.names.size(), healthyStrut(settings));
+  if (values.count(kBaseline) == 0) return healthy;
+  const auto given = readBaselines(values[kBaseline].as<std::string>(), vehicle);
+  for (std::size_t i = 0; i < given.size(); ++i)
+    if (given[i]) healthy[i] = *given[i];
+  return healthy;
+}
+
+std::string settingsText(const std::map<std::string, StrutOfDrive>& struts, const OptionMap& given,
+                         const boost::program_options::variables_map& values, const AskedVehicle& vehicle) {
+  if (struts.empty()) throw TooLittleError("no estimate is valid: there are no settings to write");
+  const std::vector<std::string> drives = fileNames(values["bag"].as<std::vector<std::string>>());
+  return vehicle.only ? settingsOf(struts.begin()->second, given, drives) : settingsOf(struts, given, drives);
+}
+
 }  // namespace
 
 void identifyStruts(const boost::program_options::variables_map& values) {
   const Interruption interruption;
-  std::optional<TextFile> file = outputFile(values, "json"), csv = outputFile(values, "csv");
+  std::optional<TextFile> file = outputFile(values, "json"), csv = outputFile(values, "csv"),
+                          settings_file = outputFile(values, "output");
   AskedVehicle vehicle = readVehicle(values);
-  PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
+  const OptionMap given = gatherOptions(values);
+  PipelineOptions settings = PipelineOptions::fromValues(given);
+  const std::vector<Baseline> healthy = healthyStruts(values, vehicle, settings);
   TopicGaps gaps(settings.shell.input_timeout);
   const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings, gaps);
   IdentifyOptions options;
@@ -59,6 +84,7 @@ void identifyStruts(const boost::program_options::variables_map& values) {
     printBody(body);
     whole["body"] = toJson(body);
   }
+  std::map<std::string, StrutOfDrive> struts;
   for (const std::size_t i : vehicle.asked) {
     const IdentifyResult& strut = found.struts[i];
     std::printf("\n%s, at the end, over the last %.0f rows:\n", vehicle.names[i].c_str(), strut.la.rows);
@@ -66,11 +92,16 @@ void identifyStruts(const boost::program_options::variables_map& values) {
     printResult("LA", strut.la, settings.monitor.sprung_mass);
     std::printf("over the whole drive, by instrumental variables:\n");
     printResult("IV", strut.iv, settings.monitor.sprung_mass);
+    if (const std::optional<StrutOfDrive> its = strutOf(strut)) {
+      printChange(*its, healthy[i], settings);
+      struts.emplace(vehicle.names[i], *its);
+    }
     for (const std::string& warning : strut.warnings) std::printf("warning: %s\n", warning.c_str());
     whole["struts"][vehicle.names[i]] = toJson(strut);
   }
   if (csv) csv->commit();
   if (file) file->commit(whole.dump(2) + '\n');
+  if (settings_file) settings_file->commit(settingsText(struts, given, values, vehicle));
 }
 
 }  // namespace suspension_health_monitor

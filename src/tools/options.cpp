@@ -48,7 +48,8 @@ void print(const std::vector<Cells>& rows) {
 void options(const Arguments& arguments) {
   namespace po = boost::program_options;
   po::options_description description("options");
-  description.add_options()("of", po::value<std::string>()->default_value("monitor"), "monitor, simulator, vehicle or corners");
+  description.add_options()("of", po::value<std::string>()->default_value("monitor"),
+                            "monitor, simulator, vehicle or corners");
   const auto values = parse(arguments, "options [monitor|simulator|vehicle|corners]", description, "of");
   if (!values) return;
   const std::vector<OptionDescription> all = optionsOf((*values)["of"].as<std::string>());

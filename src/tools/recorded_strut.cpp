@@ -77,18 +77,14 @@ std::string RecordedMonitor::baselineFile() const {
 void RecordedMonitor::requireEnough() const {
   if (pipeline_.monitor() == nullptr)
     throw TooLittleError(
-        "the sample period cannot be measured: too few readings with increasing stamps on one of "
-        "the topics" +
-        describeRejected(rejected()));
+        "the sample period cannot be measured: too few readings with increasing stamps on one of the topics (" +
+        std::to_string(EarlyReadings<double>::kSpacings + 1) + " of each are enough)" + describeRejected(rejected()));
   requireRows(monitor(), grid(), rejected());
 }
 
 BagOptions readMonitorOptions(const boost::program_options::variables_map& values) {
   BagOptions options = readLiveOptions(values);
-  if (values.count(kBaseline) == 0) return options;
-  std::string& file = options.pipeline.shell.baseline_file;
-  file = values[kBaseline].as<std::string>();
-  readBaselineFile(file);  // a live monitor would learn one if it is not there, and that is not what was asked for
+  takeBaselineFile(values, options.pipeline.shell);
   return options;
 }
 

@@ -56,6 +56,12 @@ AskedVehicle readVehicle(const po::variables_map& values) {
   return vehicle;
 }
 
+std::vector<std::string> topicsOf(const VehicleStreams& streams) {
+  std::vector<std::string> topics;
+  for (const VehicleStreams::Sensor& sensor : streams.sensors) topics.push_back(sensor.topic);
+  return topics;
+}
+
 std::vector<VehicleDrive> readDrives(const po::variables_map& values, AskedVehicle& vehicle, PipelineOptions& options,
                                      TopicGaps& gaps) {
   ImuBags bags = readBags(values);

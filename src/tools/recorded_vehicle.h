@@ -9,6 +9,7 @@
 #include "../ros/shell_options.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "topic_gaps.h"
 
@@ -30,6 +31,9 @@ void refuseBesideVehicle(const boost::program_options::variables_map& values,
 
 /// @throws std::invalid_argument  as readVehicleFile(), for topics of one strut, and for a strut that is none of it.
 AskedVehicle readVehicle(const boost::program_options::variables_map& values);
+
+/// @return the topics of all its sensors.
+std::vector<std::string> topicsOf(const VehicleStreams& streams);
 
 /// Reads all bags as drives of the vehicle, and tells people what they hold and which topics were silent.
 /// @param vehicle  whose struts with a frame get their position.

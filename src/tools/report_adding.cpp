@@ -1,5 +1,6 @@
 #include <string>
 
+#include "command.h"
 #include "report_parts.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -8,19 +9,6 @@ namespace suspension_health_monitor {
 namespace {
 
 using nlohmann::json;
-
-/// A word as a shell takes it.
-std::string quoted(const std::string& word) {
-  const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+:=,@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string result = "'";
-  for (const char character : word)
-    if (character == '\'')
-      result += "'\\''";
-    else
-      result += character;
-  return result + "'";
-}
 
 /// The request of ~set_effects.
 std::string settingOf(const StrutModel& model) {
@@ -41,9 +29,9 @@ std::string settingOf(const StrutModel& model) {
 json addingJson(const ReportContent& content) {
   const InVehicle* vehicle = content.vehicle;
   std::string bags;
-  for (const std::string& name : content.drive_names) bags += " " + quoted(name);
+  for (const std::string& name : content.source.drive_names) bags += " " + shellQuoted(name);
   const std::string tool = "rosrun suspension_health_monitor suspension_bag ";
-  const std::string of = vehicle ? " --vehicle " + quoted(vehicle->file) + " --strut " + vehicle->strut : "";
+  const std::string of = vehicle ? " --vehicle " + shellQuoted(vehicle->file) + " --strut " + vehicle->strut : "";
   const std::string file = vehicle ? vehicle->strut + ".yaml" : "model.yaml";
   const std::string node = vehicle ? '/' + vehicle->strut : "/monitor";
   json commands = json::array();
@@ -59,12 +47,11 @@ json addingJson(const ReportContent& content) {
             "/comparison/base_rmse " + node + "/comparison/rmse");
   const std::string launch = "roslaunch suspension_health_monitor ";
   if (vehicle)
-    add("Live from the start: name the file among what differs at this strut, my_struts.yaml",
-        "struts: {" + vehicle->strut + ": {model_file: /path/to/" + file + "}}\n\n" + launch +
-            "vehicle.launch vehicle:=/path/to/my_vehicle.yaml strut_config:=$PWD/my_struts.yaml");
+    add("Live from the start, with models of all struts",
+        tool + "diagnose" + bags + " --vehicle " + shellQuoted(vehicle->file) + " -o models.yaml\n" + launch +
+            "vehicle.launch vehicle:=/path/to/my_vehicle.yaml model_file:=$PWD/models.yaml");
   else
-    add("Live from the start: name the file in your copy of monitor.yaml",
-        "model_file: /path/to/" + file + "\n\n" + launch + "monitor.launch config:=$PWD/my_strut.yaml");
+    add("Live from the start", launch + "monitor.launch config:=$PWD/my_strut.yaml model_file:=$PWD/" + file);
   return {{"model_file", toYaml(model)}, {"commands", commands}};
 }
 

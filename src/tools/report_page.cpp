@@ -19,7 +19,7 @@ std::string sourceOf(const ReportContent& content) {
   for (const ComparedSegment& segment : content.before.segments)
     duration += static_cast<double>(segment.size()) * content.period;
   const std::string strut = content.vehicle ? content.vehicle->strut + " in " : "";
-  return strut + join(content.drive_names) + formatted(": %.4g s at %.4g Hz", duration, 1.0 / content.period);
+  return strut + join(content.source.drive_names) + formatted(": %.4g s at %.4g Hz", duration, 1.0 / content.period);
 }
 
 json findingsOf(const ReportContent& content) {
@@ -30,7 +30,10 @@ json findingsOf(const ReportContent& content) {
                 {"drives", drivesJson(content)},
                 {"before", shortened(toJson(content.before))},
                 {"forces", shortened(forcesJson(content))},
-                {"adding", addingJson(content)}};
+                {"adding", addingJson(content)},
+                {"origin", content.source.origin}};
+  findings["origin"]["from"] = toSeconds(content.found.from);
+  findings["origin"]["to"] = toSeconds(content.found.to);
   if (content.after != nullptr) findings["after"] = shortened(toJson(*content.after));
   if (const InVehicle* vehicle = content.vehicle)
     findings["vehicle"] = {{"strut", vehicle->strut}, {"bars", vehicle->bars}, {"has_page", vehicle->has_page}};
@@ -40,7 +43,7 @@ json findingsOf(const ReportContent& content) {
 }  // namespace
 
 void ReportPage::write(const Diagnosis& found, const std::vector<Drive>& drives, const DiagnoseOptions& options,
-                       const std::vector<std::string>& names, const InVehicle* vehicle) {
+                       const PageSource& source, const InVehicle* vehicle) {
   CompareOptions comparing;
   comparing.sample_period = options.sample_period;
   comparing.model = found.base.model;
@@ -56,7 +59,7 @@ void ReportPage::write(const Diagnosis& found, const std::vector<Drive>& drives,
     comparing.fit = false;
     after = compare(drives, comparing);
   }
-  page_.write(searchTemplate(), findingsOf({found, options.candidates, *options.sample_period, names, before,
+  page_.write(searchTemplate(), findingsOf({found, options.candidates, *options.sample_period, source, before,
                                             after && *after ? &*after : nullptr, vehicle}));
 }
 

@@ -17,15 +17,21 @@ struct InVehicle {
   bool has_page = true;           ///< of its own, in the folder above that of the strut's
 };
 
+/// What a page is made from.
+struct PageSource {
+  std::vector<std::string> drive_names;  ///< one per drive
+  nlohmann::json origin;                 ///< as originOf()
+};
+
 /// All that the page of a search is made of.
 struct ReportContent {
   const Diagnosis& found;
-  const EffectLibrary& library;          ///< the candidates of the search
-  double period;                         ///< of the samples [s]
-  std::vector<std::string> drive_names;  ///< one per drive
-  const Comparison& before;              ///< the model as it is, fitted to all samples
-  const Comparison* after = nullptr;     ///< with the effects found; none if there are none
-  const InVehicle* vehicle = nullptr;    ///< none: the strut was searched by itself
+  const EffectLibrary& library;  ///< the candidates of the search
+  double period;                 ///< of the samples [s]
+  const PageSource& source;
+  const Comparison& before;            ///< the model as it is, fitted to all samples
+  const Comparison* after = nullptr;   ///< with the effects found; none if there are none
+  const InVehicle* vehicle = nullptr;  ///< none: the strut was searched by itself
 };
 
 /// The page of a search: the verdict, the error step by step, measured against predicted over time, the residual from
@@ -37,11 +43,11 @@ class ReportPage {
   explicit ReportPage(const std::string& folder) : page_(folder) {}
 
   /// Compares what a search found with the drives, before and after, and writes the page.
-  /// @param drives, options  of the search.  @param names  of the drives.  @param vehicle  nullptr: there is none.
+  /// @param drives, options  of the search.  @param vehicle  nullptr: there is none.
   /// @throws InputError, TooLittleError  if even the model as it is cannot be compared.
   /// @throws std::runtime_error  as HtmlPage::write().
   void write(const Diagnosis& found, const std::vector<Drive>& drives, const DiagnoseOptions& options,
-             const std::vector<std::string>& names, const InVehicle* vehicle = nullptr);
+             const PageSource& source, const InVehicle* vehicle = nullptr);
 
  private:
   HtmlPage page_;

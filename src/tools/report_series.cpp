@@ -94,7 +94,7 @@ json drivesJson(const ReportContent& content) {
   const double span = kPeriodsInView * 2.0 * kPi / std::sqrt(stiffness);
   const std::size_t range = thinning(content);
   json drives = json::array();
-  for (std::size_t r = 0; r < content.drive_names.size(); ++r) {
+  for (std::size_t r = 0; r < content.source.drive_names.size(); ++r) {
     std::pair<double, double> worst{0.0, -1.0};
     double duration = 0.0;
     json stretches = json::array();
@@ -108,7 +108,7 @@ json drivesJson(const ReportContent& content) {
     }
     if (stretches.empty()) continue;
     drives.push_back(
-        {{"name", content.drive_names[r]},
+        {{"name", content.source.drive_names[r]},
          {"duration", duration},
          {"view_span", span},
          {"view_centre", worst.first},

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "report_parts.h"
+#include "suspension_health_monitor/internal/wording/effect_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -36,7 +37,11 @@ json effectsJson(const EffectLibrary& library) {
     json numbers = json::array({{{"key", effect.name}, {"symbol", "c"}, {"unit", effect.unit}}});
     for (const ShapeParameter& shape : effect.shapes)
       numbers.push_back({{"key", effect.name + '/' + shape.name}, {"symbol", shape.name}, {"unit", shape.unit}});
-    effects[effect.name] = {{"law", effect.law}, {"finding", effect.finding}, {"numbers", numbers}, {"kind", "force"}};
+    effects[effect.name] = {{"law", effect.law},
+                            {"finding", effect.finding},
+                            {"advice", adviceOn(effect.name)},
+                            {"numbers", numbers},
+                            {"kind", "force"}};
   }
   for (const MeasurementEffect& effect : library.readings) {
     json numbers = json::array();
@@ -44,8 +49,11 @@ json effectsJson(const EffectLibrary& library) {
       numbers.push_back({{"key", nameOfCoefficient(effect, i)},
                          {"symbol", effect.coefficients.size() == 1 ? "c" : effect.coefficients[i].name},
                          {"unit", effect.coefficients[i].unit}});
-    effects[effect.name] = {
-        {"law", effect.law}, {"finding", effect.finding}, {"numbers", numbers}, {"kind", "reading"}};
+    effects[effect.name] = {{"law", effect.law},
+                            {"finding", effect.finding},
+                            {"advice", adviceOn(effect.name)},
+                            {"numbers", numbers},
+                            {"kind", "reading"}};
   }
   return effects;
 }

@@ -90,9 +90,13 @@ void simulateVehicle(const boost::program_options::variables_map& values, const 
   const auto path = values["output"].as<std::string>();
   VehicleMessageSource drive(options, fromSeconds(options.playing.start_time));
   writeBag(drive, options.drive.duration, options.playing.start_time, path);
-  if (values.count("vehicle-file") != 0)
-    TextFile(values["vehicle-file"].as<std::string>()).commit(vehicleFile(options));
-  std::printf("%s: %s, %g s at %g Hz, class %s at %g m/s, %s tracks, seed %d\n", path.c_str(),
+  std::string written = path;
+  if (values.count("vehicle-file") != 0) {
+    const auto file = values["vehicle-file"].as<std::string>();
+    TextFile(file).commit(vehicleFile(options));
+    written += " and " + file;
+  }
+  std::printf("%s: %s, %g s at %g Hz, class %s at %g m/s, %s tracks, seed %d\n", written.c_str(),
               shortened(options.model).c_str(), options.drive.duration, options.drive.rate,
               options.vehicle.iso_class.c_str(), options.vehicle.speed, options.drive.tracks.c_str(),
               options.drive.seed);

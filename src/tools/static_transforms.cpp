@@ -19,7 +19,8 @@ std::set<std::uint32_t> findConnections(const BagFile& file) {
     connections.insert(connection.id);
   }
   if (connections.empty())
-    throw InputError(file.path() + ": no topic " + kTopic + ", needed since target_frame or the frame of a strut is set");
+    throw InputError(file.path() + ": no topic " + kTopic +
+                     ", needed since target_frame or the frame of a strut is set");
   return connections;
 }
 

@@ -16,6 +16,7 @@
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -46,7 +47,8 @@ double measurePeriod(const ImuBags& bags) {
   if (!period)
     throw TooLittleError("the sample period cannot be measured: fewer than " +
                          std::to_string(PeriodMeasurement::kFewestOfRecording) +
-                         " increasing stamps on one of the topics (of " + std::to_string(count) + " messages)");
+                         " increasing stamps on one of the topics (of " + std::to_string(count) + " messages); " +
+                         std::to_string(PeriodMeasurement::kFewestOfRecording + 1) + " messages of each are enough");
   try {
     MonitorOptions options;
     options.sample_period = period;
@@ -61,6 +63,7 @@ double measurePeriod(const ImuBags& bags) {
 struct Surveyed {
   Drive drive;
   UniformGrid grid;
+  double period;
   std::size_t samples, gaps;
   RejectCounts rejected;
 };
@@ -88,7 +91,7 @@ Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOpti
     return true;
   });
   read.rejected += too_soon;
-  return {std::move(drive), std::move(read.grid), count, gaps, read.rejected};
+  return {std::move(drive), std::move(read.grid), *options.monitor.sample_period, count, gaps, read.rejected};
 }
 
 std::string describeClockLag(double lag) {
@@ -103,7 +106,9 @@ std::string describeClockLag(double lag) {
   throw TooLittleError(
       "no horizon can be proposed: " +
       std::string(surveyed.samples == 0 ? "no pair of readings can be used" : "the data show no damped spring") +
-      " (samples " + std::to_string(surveyed.samples) + ", gaps " + std::to_string(surveyed.gaps) +
+      " (samples " + std::to_string(surveyed.samples) +
+      formatted(" in %.3g s", static_cast<double>(surveyed.samples) * surveyed.period) + ", gaps " +
+      std::to_string(surveyed.gaps) + "; two bounces of the body in one piece are enough" +
       describeRejected(surveyed.rejected) + ")" +
       (lagged ? describeClockLag(lagged->model.reading.front().coefficients.front())
               : describeSuspicions(surveyed.grid, survey.dampingIsNegative())) +

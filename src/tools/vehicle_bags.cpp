@@ -51,7 +51,8 @@ double measurePeriod(const ImuBags& bags) {
   if (!period)
     throw TooLittleError("the sample period cannot be measured: fewer than " +
                          std::to_string(PeriodMeasurement::kFewestOfRecording) +
-                         " increasing stamps on one of the topics (of " + std::to_string(count) + " messages)");
+                         " increasing stamps on one of the topics (of " + std::to_string(count) + " messages); " +
+                         std::to_string(PeriodMeasurement::kFewestOfRecording + 1) + " messages of each are enough");
   return *period;
 }
 

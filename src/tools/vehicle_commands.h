@@ -17,6 +17,6 @@ void compareStruts(const boost::program_options::variables_map& values);
 void diagnoseStruts(const boost::program_options::variables_map& values);
 void watchStruts(const boost::program_options::variables_map& values);
 
-inline constexpr const char* kBaseline = "baseline";  ///< name of the option of `health`
+inline constexpr const char* kBaseline = "baseline";  ///< name of an option
 
 }  // namespace suspension_health_monitor

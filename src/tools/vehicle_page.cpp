@@ -78,21 +78,20 @@ VehiclePage::VehiclePage(const std::string& folder, const AskedVehicle& vehicle)
 }
 
 void VehiclePage::writeStrut(std::size_t place, const VehicleDiagnosis& found, const DiagnoseOptions& options,
-                             const std::vector<std::string>& names) {
+                             const PageSource& source) {
   const InVehicle in{vehicle_.names[place], vehicle_.file, partnersOf(place, found.coupling, vehicle_.names),
                      page_.has_value()};
-  struts_.at(place).write(found.struts[place], found.drives[place], options, names, &in);
+  struts_.at(place).write(found.struts[place], found.drives[place], options, source, &in);
 }
 
-void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options,
-                        const std::vector<std::string>& names) {
-  if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, names);
+void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const PageSource& source) {
+  if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, source);
   json struts = json::array();
   for (std::size_t i = 0; i < vehicle_.names.size(); ++i) {
-    if (found.struts[i]) writeStrut(i, found, options, names);
+    if (found.struts[i]) writeStrut(i, found, options, source);
     struts.push_back(strutJson(vehicle_.layout.struts[i], i, found, static_cast<bool>(found.struts[i])));
   }
-  page_->write(vehicleTemplate(), shortened({{"source", sourceOf(found, *options.sample_period, names)},
+  page_->write(vehicleTemplate(), shortened({{"source", sourceOf(found, *options.sample_period, source.drive_names)},
                                              {"verdict", nameOf(found.verdict)},
                                              {"summary", found.summary},
                                              {"struts", struts},
@@ -100,7 +99,8 @@ void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& op
                                              {"stddevs", found.coupling.stddevs},
                                              {"condition", found.coupling.condition},
                                              {"anti_roll_bars", barsJson(found.coupling)},
-                                             {"known_forces", forcesJson(found.coupling)}}));
+                                             {"known_forces", forcesJson(found.coupling)},
+                                             {"origin", source.origin}}));
 }
 
 }  // namespace suspension_health_monitor

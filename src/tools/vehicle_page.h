@@ -17,13 +17,13 @@ class VehiclePage {
   /// As HtmlPage. @param vehicle  outlives this object.
   VehiclePage(const std::string& folder, const AskedVehicle& vehicle);
 
-  /// @param options  of the search, with sample_period.  @param names  of the drives.
+  /// @param options  of the search, with sample_period.
   /// @throws std::runtime_error  naming the file that cannot be written.
-  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const std::vector<std::string>& names);
+  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const PageSource& source);
 
  private:
   void writeStrut(std::size_t place, const VehicleDiagnosis& found, const DiagnoseOptions& options,
-                  const std::vector<std::string>& names);
+                  const PageSource& source);
 
   const AskedVehicle& vehicle_;
   std::optional<HtmlPage> page_;              // before those of the struts, whose folders are in its folder

@@ -1,5 +1,6 @@
 """A page as a browser shows it: headless Chromium, without a network."""
 import html.parser
+import json
 import os
 import shutil
 import subprocess
@@ -82,9 +83,41 @@ Object.assign(parent.document.documentElement.dataset, {
   width: innerWidth,
   dark: matchMedia('(prefers-color-scheme: dark)').matches,
   cut: reaches.map(node => `${node.tagName}.${node.getAttribute('class')}`).join(' '),
-  scrolls: [...document.querySelectorAll('.wide')].filter(node => node.scrollWidth > node.clientWidth + 1).length
+  verdictEnds: document.querySelector('#verdict h1, .verdict h1')?.getBoundingClientRect().bottom,
+  scrolls: [...document.querySelectorAll('.wide, .table')].filter(node => node.scrollWidth > node.clientWidth + 1).length
 });
 })();</script>"""
+
+
+# Saves every picture and its numbers, and notes what would have come into the downloads. Without waiting for anything:
+# the time of a page that is only dumped does not pass.
+SAVE = """<script>(() => {
+let parts = [];
+window.Blob = function(given) { parts = given; };
+URL.createObjectURL = () => '#';
+URL.revokeObjectURL = () => {};
+HTMLAnchorElement.prototype.click = () => {};
+HTMLCanvasElement.prototype.toBlob = function(take) { take(new Blob([this.toDataURL('image/png')])); };
+const place = document.createElement('pre');
+place.id = 'saved';
+place.textContent = JSON.stringify([...document.querySelectorAll('.saving')].map(buttons => {
+  const figure = {name: buttons.firstChild.getAttribute('aria-label')};
+  for (const button of buttons.children) {
+    parts = [''];
+    button.click();
+    figure[button.textContent] = parts[0];
+  }
+  return figure;
+}));
+document.body.append(place);
+})();</script>"""
+
+
+def saved(path, profile):
+    """What the buttons of every picture save: [{name, PNG: as a data URL, CSV: text}]."""
+    profile.mkdir(exist_ok=True)
+    (profile / "page.html").write_text(path.read_text().replace("</body>", SAVE + "</body>"))
+    return json.loads("".join(shown(profile / "page.html", profile / "browser").one(id="saved").children))
 
 
 def measured(path, profile, width, dark):

@@ -102,6 +102,23 @@ def test_page_has_every_figure_with_its_panels(text):
         assert unit in text
 
 
+def test_levels_over_time_come_first_with_the_way_to_the_effect(results, text):
+    first = text[text.index("<section"):text.index("</section>")]
+    assert first.startswith('<section id="verdict" class="verdict" data-level="ERROR">')
+    assert first.index("<h1>") < first.index("<svg") < first.index("<p>")
+    assert "The first WARN or ERROR comes at 70 s (no fault), 70 s (data loss), 70 s (end stops)" in first
+    results.search = search_result()
+    try:
+        assert 'href="effect_report/report.html"' in sections.verdict(results).to_html()
+    finally:
+        results.search = None
+
+
+def test_page_tells_what_it_was_made_from():
+    text = page.page("A title", [], (("command", "demo --output <x>"),))
+    assert "<dt>command</dt><dd>demo --output &lt;x&gt;</dd>" in text
+
+
 def test_page_refers_to_nothing_outside_itself(text):
     reader = Reader(text)
     assert reader.open == []
@@ -114,10 +131,11 @@ def test_page_refers_to_nothing_outside_itself(text):
 
 def test_curves_take_their_colours_from_the_page(text):
     assert not re.search("|".join(drawing.COLOURS.values()), text)
-    style = page.STYLE.read_text()
+    style = "".join(path.read_text() for path in page.STYLES)
     for name in drawing.COLOURS:
-        assert style.count(f"--{name}:") == 2, "one for a light, one for a dark background"
-    assert set(re.findall(r"var\(--(\w+)\)", text)) <= set(re.findall(r"--(\w+):", style))
+        follows = re.search(rf"--{name}: var\(--([\w-]+)\)", style)
+        assert style.count(f"--{follows[1] if follows else name}:") == 2, "one for a light, one for a dark background"
+    assert set(re.findall(r"var\(--(\w+)\)", text)) - {"colour"} <= set(re.findall(r"--([\w-]+):", style))
 
 
 def test_table_tells_the_known_errors(text):

@@ -46,9 +46,11 @@ def test_several_threads_find_the_same(program, tmp_path):
 
 
 def test_effects_lists_the_catalogue(program):
-    table = program.succeed("effects")
+    table, text = program.succeed("effects", "--markdown"), program.succeed("effects")
     for name in ("progressive_spring", "coulomb_friction", "hysteresis", "clock_offset"):
-        assert f"| `{name}` |" in table
+        assert f"| `{name}` |" in table and f"\n{name}\n" in text
+    assert max(map(len, text.splitlines())) <= 80 and not any(line.endswith(" ") for line in text.splitlines())
+    assert "Design, not wear: oil through an orifice" in text
 
 
 @pytest.mark.parametrize("effect, words", [

@@ -1,4 +1,6 @@
 """suspension_bag diagnose --report: what the page shows in a browser."""
+import base64
+import itertools
 import json
 import math
 import re
@@ -115,6 +117,58 @@ def test_no_figure_is_empty(report):
         pixels = int(canvas.attributes["width"]) * int(canvas.attributes["height"])
         assert int(canvas.attributes["data-painted"]) > 0.01 * pixels, canvas.attributes["aria-label"]
         assert int(canvas.attributes["data-colours"]) > 20, canvas.attributes["aria-label"]
+
+
+def test_every_picture_and_its_numbers_can_be_saved(report, tmp_path):
+    saved = browser.saved(report.path, tmp_path / "saved")
+    assert len(saved) == len(list(report.page.all("canvas")))
+    for figure in saved:
+        assert base64.b64decode(figure["PNG"].split(",")[1])[1:4] == b"PNG" and len(figure["PNG"]) > 1000, figure["name"]
+        lines = figure["CSV"].splitlines()
+        assert len(lines) > 10 and {line.count(",") for line in lines[:1]} == {4}, figure["name"]
+    head, *lines = next(figure["CSV"] for figure in saved if figure["name"].endswith(": acceleration")).splitlines()
+    assert head == "series,time [s],acceleration [m/s^2],low,high"
+    measured = [line.split(",") for line in lines if line.startswith("measured,")]
+    assert len(measured) > 5000, "every sample of 60 s at 100 Hz"
+    assert max(abs(float(row[2])) for row in measured) < 50
+
+
+def test_page_tells_what_it_was_made_from(report):
+    origin = report.page.one(id="origin").text
+    assert "suspension_bag diagnose" in origin and "--report" in origin
+    assert "/sprung/imu , /unsprung/imu" in origin
+    assert re.search(r"made 20\d\d-\d\d-\d\d \d\d:\d\d:\d\d UTC by suspension_bag \d", origin)
+    assert re.search(r"stamps \S+ s to \S+ s", origin)
+
+
+def test_errors_have_one_unit(report):
+    text = " ".join(report.page.one(id=name).text for name in ("verdict", "ladder", "where", "ranking"))
+    assert "mm/s²" not in text and "m/s²" in text
+
+
+def test_workshop_is_told_what_to_check(report):
+    advice = [each.text for each in report.page.one(id="verdict").all(class_="advice")]
+    assert len(advice) == len(report.result["selected"])
+    if report.case == "friction":
+        assert advice[0].startswith("A little is design of any seal; more than when new is wear: check for a bent")
+    if report.case == "several":
+        assert any("Design of most dampers" in each for each in advice)
+
+
+def test_commands_are_of_the_shell_alone(report):
+    blocks = [each.text for each in report.page.one(id="adding").all("pre")]
+    assert blocks[0].startswith("damping_to_mass:")
+    for block in blocks[1:]:
+        assert re.match(r"(rosrun|roslaunch|rosservice) ", block), block
+    assert "model_file:=$PWD/model.yaml" in blocks[-1]
+
+
+@pytest.mark.parametrize("width, dark", itertools.product([1400, 390], [False, True]))
+def test_nothing_is_cut_off_and_the_verdict_is_above_the_fold(report, tmp_path, width, dark):
+    root = browser.measured(report.path, tmp_path / "measured", width, dark).one("html").attributes
+    assert (root["data-width"], root["data-dark"]) == (str(width), str(dark).lower())
+    assert (root["data-cut"], root["data-scrolls"]) == ("", "0")
+    assert 0 < float(root["data-verdict-ends"]) <= 900
 
 
 def test_parameters_and_model_file_are_those_of_the_result(report):

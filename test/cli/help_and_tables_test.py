@@ -15,7 +15,7 @@ OPTIONS = {
     "simulate": ["-o [ --output ]", "--config", "--set", "--scenario", "--vehicle", "--seed", "--duration", "--rate",
                  "--vehicle-model", "--vehicle-file"],
     "identify": ["--config", "--set", "--sprung-topic", "/sprung/imu", "--unsprung-topic", "/unsprung/imu", "--start",
-                 "--end", "--csv", "--json"],
+                 "--end", "--csv", "--json", "-o [ --output ]", "--baseline"],
     "health": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--baseline", "--csv", "--json",
                "--report"],
     "compare": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--json", "--model",
@@ -58,7 +58,7 @@ def test_help_comes_before_complaints(program):
 
 
 @pytest.mark.parametrize("document, command", [
-    *(("settings.md", f"options {of}") for of in ("monitor", "simulator", "vehicle", "corners")), ("effects.md", "effects")])
+    *(("settings.md", f"options {of}") for of in ("monitor", "simulator", "vehicle", "corners")), ("effects.md", "effects --markdown")])
 def test_tables_of_the_documents_are_those_of_the_program(program, document, command):
     assert f"<!-- {command} -->\n{program.succeed(*command.split())}<!-- end -->" in (DOCUMENTS / document).read_text()
 

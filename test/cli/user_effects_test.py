@@ -64,10 +64,12 @@ def test_effect_of_the_model_is_kept_and_the_other_one_is_found_beside_it(progra
 
 
 def test_laws_are_listed_beside_the_catalogue(program, laws):
-    listed = program.succeed("effects", "--effects-file", laws)
-    row = "| `second_spring` | c (max(0, d - gap)^2) | 1/(m s^2) | gap [m] | second spring engages |\n"
+    listed = program.succeed("effects", "--markdown", "--effects-file", laws)
+    row = "| `second_spring` | c (max(0, d - gap)^2) | 1/(m s^2) | gap [m] | second spring engages |  |\n"
     assert row in listed
-    assert listed.replace(row, "") == program.succeed("effects")
+    assert listed.replace(row, "") == program.succeed("effects", "--markdown")
+    text = program.succeed("effects", "--effects-file", laws)
+    assert "second_spring\n    c (max(0, d - gap)^2); [1/(m s^2)]; gap [m]\n    second spring engages\n" in text
 
 
 @pytest.mark.parametrize("wrong, right, words", [

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """What rqt_reconfigure does: settings turned while the estimates go on."""
+import re
 import subprocess
 import unittest
 
@@ -16,10 +17,11 @@ START = 1000.0  # [s]
 # Not one of them is the default. b1 of the drive is 3 1/s: 25 % below nominal.
 GIVEN = {"memory": 1.0, "publish_every": 1,
          "health": {"damping_warn": 0.2, "damping_error": 0.5, "stiffness_warn": 0.4, "stiffness_error": 2,
-                    "confirm_time": 0.5},
+                    "confirm_time": 0.5, "payload_range": 0.3, "gravity_tolerance": 0.2},
          "nominal": {"damping_to_mass": 4.0, "stiffness_to_mass": 13.8}}
 AS_GIVEN = {"memory": 1.0, "publish_every": 1, "health/damping_warn": 0.2, "health/damping_error": 0.5,
-            "health/stiffness_warn": 0.4, "health/stiffness_error": 2.0, "health/confirm_time": 0.5}
+            "health/stiffness_warn": 0.4, "health/stiffness_error": 2.0, "health/confirm_time": 0.5,
+            "health/payload_range": 0.3, "health/gravity_tolerance": 0.2}
 # What is asked for, and what the warning must hold.
 REFUSED = {
     "error below warn": ({"health/damping_error": 0.1}, ["health/damping_error = 0.1", "at least health/damping_warn"]),
@@ -97,21 +99,45 @@ class ReconfigureTest(unittest.TestCase):
                                  f"a warning with {words}")
             self.assertTrue(all(rospy.get_param("/monitor/" + name) == before[name] for name in request))
 
-    def test_ranges_and_defaults_are_those_of_all_options(self):
-        description = rospy.wait_for_message("/monitor/parameter_descriptions", ConfigDescription, PATIENCE)
+    def description(self):
+        """(message, smallest, largest, default), the last three by name."""
+        message = rospy.wait_for_message("/monitor/parameter_descriptions", ConfigDescription, PATIENCE)
+        by_name = ({number.name: number.value for number in [*config.ints, *config.doubles]}
+                   for config in (message.min, message.max, message.dflt))
+        return (message, *by_name)
+
+    def test_defaults_and_texts_are_those_of_all_options_and_ranges_within_them(self):
+        message, smallest, largest, default = self.description()
         table = options_by_name()
-
-        def numbers(config):
-            return {number.name: number.value for number in [*config.ints, *config.doubles]}
-
-        smallest, largest, default = map(numbers, (description.min, description.max, description.dflt))
         self.assertEqual(set(smallest), set(AS_GIVEN))
-        for parameter in description.groups[0].parameters:
-            allowed = f"[{smallest[parameter.name]:.15g}, {largest[parameter.name]:.15g}]"
-            row = " ".join(table[parameter.name])
-            self.assertIn(allowed, row)
-            self.assertIn(f" {default[parameter.name]:.15g} ", f" {row} ".replace("|", " "))
+        for parameter in [parameter for group in message.groups for parameter in group.parameters]:
+            name, row = parameter.name, " ".join(table[parameter.name])
+            low, high = map(float, re.search(r"\[(\S+), (\S+)\]", row).groups())
+            self.assertTrue(low <= smallest[name] < largest[name] <= high, name)
+            self.assertIn(f" {default[name]:.15g} ", f" {row} ".replace("|", " "))
             self.assertIn(parameter.description.split("] ", 1)[1], row)
+
+    def test_sliders_can_be_used(self):
+        """A hundredth of a slider is no more than the default, and what was given is on it."""
+        _, smallest, largest, default = self.description()
+        for name, value in AS_GIVEN.items():
+            self.assertLessEqual((largest[name] - smallest[name]) / 100, default[name], name)
+            self.assertTrue(smallest[name] <= value <= largest[name], name)
+        self.assertEqual(largest["health/stiffness_error"], 2.0)  # as given, beyond the slider's usual end
+        self.assertEqual(largest["health/damping_error"], 1.0)
+
+    def test_settings_are_in_groups(self):
+        message, *_ = self.description()
+        groups = {group.name: [parameter.name for parameter in group.parameters] for group in message.groups}
+        self.assertEqual(list(groups), ["Default", "estimation", "health", "output"])
+        self.assertEqual([(group.id, group.parent) for group in message.groups], [(0, 0), (1, 0), (2, 0), (3, 0)])
+        self.assertEqual((groups["Default"], groups["estimation"], groups["output"]), ([], ["memory"], ["publish_every"]))
+        self.assertEqual(set(groups["health"]), {name for name in AS_GIVEN if name.startswith("health/")})
+        table = options_by_name()
+        self.assertEqual(set(groups["health"]), {name for name in table if name.startswith("health/")}, "all of them")
+
+    def test_what_is_beyond_a_slider_can_be_set_all_the_same(self):
+        self.assertEqual(self.turn(**{"health/confirm_time": 60.0})["health/confirm_time"], 60.0)
 
     def test_estimates_are_kept(self):
         self.drive.feed(0, 600, START)

@@ -213,7 +213,7 @@ def record_drive(folder, topics, file="paper.launch", **arguments):
 @contextlib.contextmanager
 def replayed(collectors, **arguments):
     """replay.launch as a Program, which begins to play when all the collectors have been connected."""
-    with launch("replay.launch", paused="true", **arguments) as program:
+    with launch("replay.launch", paused="true", shutdown_at_end="true", **arguments) as program:
         wait_until(lambda: all(is_served_by_all(collector.topic) for collector in collectors) or not program.running(),
                    "the monitor and its topics")
         if not program.running():

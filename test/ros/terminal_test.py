@@ -21,6 +21,19 @@ class TerminalTest(unittest.TestCase):
         self.assertTrue(all(before != after for before, after in zip(names, names[1:])), names)
         self.assertEqual([name for name in names if name in ("WARN", "ERROR")][-1], "ERROR")
         self.assertTrue(all("damping" in reason for name, reason in levels if name in ("WARN", "ERROR")), levels)
+        self.assert_summary_is_told_once(text)
+
+    def assert_summary_is_told_once(self, text):
+        """At the end of the drive of 120 s: the levels' times add up, and the last level is the one told last."""
+        (driven, worst, levels), = re.findall(r"/monitor: driven for (\S+) s, worst level (\w+) \((.*)\)", text)
+        self.assertAlmostEqual(float(driven), 120.0, delta=3.0)
+        self.assertEqual(worst, "ERROR")
+        self.assertAlmostEqual(sum(float(seconds) for seconds in re.findall(r"(\S+) s\b", levels)), float(driven), delta=0.3)
+        (level, reason), = re.findall(r"/monitor: at the end (\w+), (.*)", text)
+        self.assertEqual(level, "ERROR")
+        self.assertIn("damping 3", reason)
+        b1, = re.findall(r"/monitor: la: damping/mass (\S+) \+- \S+ 1/s, stiffness/mass \S+ \+- \S+ 1/s\^2", text)
+        self.assertAlmostEqual(float(b1), 2.0, delta=0.3)
 
     def test_a_topic_that_nobody_publishes_is_told_with_those_that_are_there(self):
         other = rospy.Publisher("/a_robot/imu", Imu, queue_size=1)

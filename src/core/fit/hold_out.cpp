@@ -9,7 +9,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kBlocks = 15;  // per record
+constexpr std::size_t kBlocks = 15;  // per record; longer than a natural period, the five held out have two stretches
+static_assert(kBlocks == kEnoughPeriods);
 constexpr std::size_t kFewestStretches = 8;
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
 

@@ -7,6 +7,7 @@
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -83,6 +84,8 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   const EstimateDoubt doubt = doubtOf(facts);
   strut.valid = doubt == EstimateDoubt::kNone;
   if (!strut.valid) strut.reason = describe(doubt);
+  if (doubt == EstimateDoubt::kFewRows)
+    strut.reason += describeEnough(whole_drive_->enoughSamples() * monitor().period());
   return strut;
 }
 

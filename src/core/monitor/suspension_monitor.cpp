@@ -58,6 +58,7 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects, con
 void SuspensionMonitor::reconfigure(const MonitorSettings& options) {
   options_ = checked(options);
   health_.setOptions(options.health(period()));
+  sensors_.setTolerance(options.gravity_tolerance);
   changeModels([&](ModelTracker& model, ModelReport&) { model.setForgetting(options); });
 }
 

@@ -110,9 +110,9 @@ void FailureSentences::describe(FailureRegion& region) const {
 }
 
 std::string FailureSentences::errors(const FailureRegion& region) const {
-  std::string text = "rmse " + acceleration_.number(region.rmse);
-  if (region.rmse_elsewhere > 0.0) text += " against " + acceleration_.number(region.rmse_elsewhere) + " elsewhere";
-  return text;
+  if (!(region.rmse_elsewhere > 0.0)) return "rmse " + acceleration_(region.rmse);
+  return "rmse " + acceleration_.number(region.rmse) + " against " + acceleration_(region.rmse_elsewhere) +
+         " elsewhere";
 }
 
 std::string FailureSentences::push(double mean) const {

@@ -24,14 +24,18 @@ std::string describeChange(const std::string& parameter, const std::optional<dou
   return std::isfinite(significance) ? text + describeSignificance(std::lround(significance)) : text;
 }
 
+std::string describePayload(double change) {
+  if (std::lround(100.0 * change) == 0) return {};
+  return "body mass " + sizeInPercent(change) + (change < 0.0 ? " below" : " above");
+}
+
+const char* referenceOf(bool learned) { return learned ? "baseline" : "nominal"; }
+
 std::string describeChanges(const HealthReport& report) {
-  const std::string reference = report.learned ? "baseline" : "nominal";
-  const double payload = report.payload_change.value_or(0.0);
+  const std::string reference = referenceOf(report.learned);
   return join({describeChange("damping", report.damping_change, report.damping_significance, reference),
                describeChange("stiffness", report.stiffness_change, report.stiffness_significance, reference),
-               std::lround(100.0 * payload) == 0
-                   ? ""
-                   : "body mass " + sizeInPercent(payload) + (payload < 0.0 ? " below" : " above")});
+               describePayload(report.payload_change.value_or(0.0))});
 }
 
 std::string describe(LoadDoubt doubt) {
@@ -183,10 +187,21 @@ std::string describe(const SensorReport& report) {
 }
 
 std::string describe(const HealthReport& report) {
-  return join({describe(report.sensor), describeJudgement(report),
-               report.early_warning && report.level == HealthLevel::kOk ? "early warning: a small change is certain" : "",
-               report.outliers ? "outliers or saturation present (LS and LA disagree)" : ""},
-              "; ");
+  return join(
+      {describe(report.sensor), describeJudgement(report),
+       report.early_warning && report.level == HealthLevel::kOk ? "early warning: a small change is certain" : "",
+       report.outliers ? "outliers or saturation present (LS and LA disagree)" : ""},
+      "; ");
+}
+
+std::string describe(const StrutChange& change, const Baseline& healthy) {
+  const std::string reference = referenceOf(healthy.learned);
+  const auto part = [&](const char* parameter, const std::optional<double>& size, double stddev) {
+    return describeChange(parameter, size, std::abs(std::log1p(size.value_or(0.0))) / stddev, reference);
+  };
+  return join({part("damping", change.damping, change.damping_stddev),
+               part("stiffness", change.stiffness, change.stiffness_stddev),
+               describePayload(change.payload.value_or(0.0))});
 }
 
 std::string describe(const CornerComparisonReport& report) {

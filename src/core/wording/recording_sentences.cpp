@@ -24,7 +24,8 @@ std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& g
   if (monitor.input().rows > 0) return {};
   std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed (" +
                         std::to_string(2 * monitor.horizonSamples() + 1) +
-                        " samples; usable samples in all: " + std::to_string(monitor.input().samples) +
+                        formatted(" samples, %.3g s", (2 * monitor.horizonSamples() + 1) * monitor.period()) +
+                        "; usable samples in all: " + std::to_string(monitor.input().samples) +
                         ", gaps: " + std::to_string(monitor.input().gaps) + ")";
   const std::string slow = grid.whatIsTooSlow();
   if (!slow.empty()) message += "; " + slow;

@@ -1,8 +1,11 @@
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "suspension_health_monitor/internal/fit/folded_motion.h"
+#include "suspension_health_monitor/internal/fit/hold_out.h"
+#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -126,13 +129,20 @@ const char* reasonOf(FitFailure failure) {
   return "";
 }
 
+// One period more than the blocks take: a record loses samples at its ends.
+static std::string enoughToHoldOut(const StrutModel& strut) {
+  if (!(strut.stiffness_to_mass > 0.0)) return {};
+  return describeEnough((kEnoughPeriods + 1.0) * 2.0 * kPi / std::sqrt(strut.stiffness_to_mass));
+}
+
 std::string reasonOf(Shortcoming shortcoming, const StrutModel& start) {
   const std::string numbers =
       formatted("damping/mass %.4g, stiffness/mass %.4g", start.damping_to_mass, start.stiffness_to_mass);
   switch (shortcoming) {
     case Shortcoming::kNoDampedSpring: return "show no damped spring (" + numbers + ")";
     case Shortcoming::kTooFast: return "are sampled too slowly for so stiff a strut (" + numbers + ")";
-    case Shortcoming::kTooShort: return "are too short or too calm: nothing can be held out to judge a model by";
+    case Shortcoming::kTooShort:
+      return "are too short or too calm: nothing can be held out to judge a model by" + enoughToHoldOut(start);
     case Shortcoming::kNoStableFit: return "have no stable damped spring that fits them";
     case Shortcoming::kModelUntestable: return "do not tell a fault of the body's IMU that the model has";
     case Shortcoming::kNone: break;

@@ -28,4 +28,8 @@ std::string sizeInPercent(double change) { return formatted("%ld %%", std::lroun
 
 std::string percent(double share) { return formatted("%.*f %%", share < 0.01 ? 1 : 0, 100.0 * share); }
 
+std::string describeEnough(double seconds) {
+  return formatted(" (%.3g s in one piece are enough)", std::ceil(10.0 * seconds) / 10.0);
+}
+
 }  // namespace suspension_health_monitor

@@ -50,7 +50,9 @@ function extent(drive, names, [from, to]) {
 
 /** One series over time; where several samples share a pixel, from the smallest to the largest. */
 function seriesLayer(drive, name, colourName, {width = 1.5, opacity = 1, dash = []} = {}) {
-  return (context, plot) => {
+  const points = stretch => Array.from(
+      stretch.values[name] || [], (value, k) => [SERIES[colourName], stretch.start + k * stretch.period, value]);
+  return telling((context, plot) => {
     context.strokeStyle = colour(colourName);
     context.lineWidth = width;
     context.globalAlpha = opacity;
@@ -82,5 +84,5 @@ function seriesLayer(drive, name, colourName, {width = 1.5, opacity = 1, dash = 
       }
       context.stroke();
     }
-  };
+  }, () => drive().stretches.flatMap(points));
 }

@@ -7,7 +7,7 @@ function levelSpans({events, duration}) {
 }
 
 /** Spans of levels; however short, an event is one pixel wide, and what is worse covers what is not. */
-const levelsLayer = spans => (context, plot) => {
+const levelsLayer = spans => telling((context, plot) => {
   const [bottom, top] = plot.y.range;
   for (const level of ['OK', 'STALE', 'WARN', 'ERROR']) {
     context.fillStyle = colour(AREAS[level]);
@@ -16,7 +16,7 @@ const levelsLayer = spans => (context, plot) => {
       context.fillRect(left, top, Math.max(1, plot.x.pixel(to) - left), bottom - top);
     }
   }
-};
+}, () => spans.map(({level, message, from, to}) => [level, from, message, from, to]));
 
 /** Vertical lines. */
 const marksLayer = (times, colourName, dash = []) => (context, plot) => {
@@ -55,11 +55,11 @@ function intervalLayer(time, {value, stddev}) {
         part(time), values.map((each, i) => each - INTERVAL * deviations[i]),
         values.map((each, i) => each + INTERVAL * deviations[i]), 'after', 0.25);
   });
-  return (context, plot) => layers.forEach(layer => {
+  return telling((context, plot) => layers.forEach(layer => {
     context.save();
     layer(context, plot);
     context.restore();
-  });
+  }), () => layers.flatMap(layer => layer.points()));
 }
 
 /** What an axis has to show: nearly all of the estimates and their intervals, the healthy value and its thresholds. */
@@ -84,9 +84,10 @@ function parameterPlot(host, time, parameter, thresholds, axes) {
     name: `${axes.y.title} over time`,
     layers: [
       marksLayer(axes.marks, 'muted', [2, 4]), intervalLayer(time, parameter),
-      ...[-warn, warn].map(share => lineLayer(time, level(share), 'open', {width: 1.3, dash: [6, 4]})),
-      ...[-error, error].map(share => lineLayer(time, level(share), 'found', {width: 1.3, dash: [6, 4]})),
-      lineLayer(time, value, 'after', {width: 1.6}), lineLayer(time, healthy, 'fine', {width: 1.4})
+      ...[-warn, warn].map(share => lineLayer(time, level(share), 'open', {width: 1.3, dash: [6, 4], label: 'warning'})),
+      ...[-error, error].map(share => lineLayer(time, level(share), 'found', {width: 1.3, dash: [6, 4], label: 'error'})),
+      lineLayer(time, value, 'after', {width: 1.6, label: 'estimate'}),
+      lineLayer(time, healthy, 'fine', {width: 1.4, label: 'healthy'})
     ],
     hover(x) {
       const i = nearestIndex(time, x);

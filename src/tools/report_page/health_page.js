@@ -1,7 +1,8 @@
 // Puts the page of health together, section by section.
 
 function buildHealthPage() {
-  const {struts} = readFindings();
+  const findings = readFindings();
+  const {struts} = findings;
   const several = struts.length > 1;
   showPage(headlineOf(struts), [
     several ? [overviewSection(struts), levelsSection(struts)] : [],
@@ -9,12 +10,8 @@ function buildHealthPage() {
         strut =>
             [healthVerdictSection(strut, several), courseSection(strut, several), eventsSection(strut, several),
              estimatesSection(strut, several)]),
-    element(
-        'footer', {},
-        element(
-            'p', {},
-            'Made by suspension_bag health, through the code of the live monitor. Everything on this page ' +
-                'is in this one file.'))
+    originSection(
+        findings, 'Judged through the code of the live monitor. Everything on this page is in this one file.')
   ]);
 }
 

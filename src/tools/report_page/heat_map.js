@@ -8,7 +8,11 @@ function scaleLimit(...matrices) {
 
 /** Cells of a matrix[row][column] between edges; empty where the drive never was. */
 function cellLayer(map, matrix, limit) {
-  return (context, plot) => {
+  const middle = (edges, i) => (edges[i] + edges[i + 1]) / 2;
+  const points = () => matrix.flatMap((row, i) => row.map((value, k) => [
+    value, middle(map.x_edges, k), middle(map.y_edges, i)
+  ])).filter(([value]) => isNumber(value));
+  return telling((context, plot) => {
     const colourOf = divergingScale();
     matrix.forEach((row, i) => row.forEach((value, k) => {
       if (!isNumber(value)) return;
@@ -17,7 +21,7 @@ function cellLayer(map, matrix, limit) {
       const [bottom, top] = [plot.y.pixel(map.y_edges[i]), plot.y.pixel(map.y_edges[i + 1])];
       context.fillRect(left, top, right - left + 0.5, bottom - top + 0.5);
     }));
-  };
+  }, points);
 }
 
 const ends = edges => [edges[0], edges[edges.length - 1]];
@@ -35,6 +39,7 @@ function heatMap(host, map, domains, value, name) {
     y: new Axis({...map.y, domain: domains.y}),
     height: 300,
     name,
+    valued: `${value.title} [${value.unit}]`,
     layers: [cellLayer(map, map.mean, value.limit)],
     hover(x, y) {
       const [row, column] = [cell(map.y_edges, y), cell(map.x_edges, x)];

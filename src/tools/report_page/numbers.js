@@ -61,7 +61,8 @@ function withDeviation(value, stddev) {
 /** A scale for values up to `largest` of a unit: {factor, unit}, shown = value * factor. */
 function scaleFor(largest, unit) {
   const plain = {factor: 1, unit: prettyUnit(unit)};
-  const takesPrefix = /^(m|s|Hz|V|N|g)(?=$|[/ ])/.test(unit);
+  // Accelerations, errors above all, are to be compared at a glance: one unit for all of them.
+  const takesPrefix = /^(m|s|Hz|V|N|g)(?=$|[/ ])/.test(unit) && unit !== 'm/s^2';
   if (!takesPrefix || !isNumber(largest) || largest <= 0 || (largest >= 0.1 && largest < 1e4)) return plain;
   const power = Math.max(-9, Math.min(9, 3 * Math.floor(Math.log10(largest) / 3)));
   return {factor: 10 ** -power, unit: PREFIXES[power] + plain.unit};

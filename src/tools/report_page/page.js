@@ -14,7 +14,7 @@ function buildPage() {
         timeView.content),
     whereSection(findings), mapSection(findings), forceSection(findings), spectrumSection(findings),
     whitenessSection(findings), rankingSection(findings), parameterSection(findings), addingSection(findings),
-    element('footer', {}, element('p', {}, TERMS))
+    originSection(findings, TERMS)
   ]);
 }
 

@@ -4,16 +4,17 @@ class Plot {
   /**
    * @param host  element that gets the canvas.  @param x, y  Axis.  @param height  of the canvas, CSS pixels.
    * @param layers  functions (context, plot) that draw inside the axes.
+   * @param valued  what the first column of the saved numbers has.
    * @param hover  (x, y) => {title, rows, at?} or nothing, for the tooltip.  @param name  for those who cannot see
    *     it.
    */
-  constructor(host, {x, y, height = 240, layers, hover, name, margin = {}}) {
-    Object.assign(this, {host, x, y, height, layers, hover});
+  constructor(host, {x, y, height = 240, layers, hover, name, valued = 'series', margin = {}}) {
+    Object.assign(this, {host, x, y, height, layers, hover, name, valued});
     this.margin = {left: 58, right: 14, top: 10, bottom: 40, ...margin};
     this.canvas = element('canvas', {role: 'img', 'aria-label': name});
     this.cursor = element('div', {class: 'cursor', hidden: true});
     host.classList.add('plot');
-    host.append(this.canvas, this.cursor);
+    host.append(this.canvas, this.cursor, saveButtons(this));
     if (hover) this.listen();
     figures.push(this);
     new ResizeObserver(() => {

@@ -34,13 +34,16 @@ function rankingSection(findings) {
             chosen    ? ' ✓' :
                 rival ? ' ≈' :
                         '',
-            element('small', {}, kindOf(findings, name).finding)),
+            element('small', {}, kindOf(findings, name).finding),
+            chosen || rival ? element('small', {class: 'advice'}, kindOf(findings, name).advice) : null),
         element(
             'td', {class: 'error'}, `${rounded(ranked.held_out_rmse * scale.factor)} ${scale.unit}`,
             bar(ranked.held_out_rmse / longest, floor / longest, chosen ? 'after' : 'floor')),
         element('td', {class: 'number'}, percent(ranked.error_removed_percent)),
         element('td', {class: 'minor'}, ranked.significant ? 'yes' : 'no'),
-        element('td', {class: 'number minor'}, coefficientLines(findings, ranked, ranked.stddevs)));
+        element(
+            'td', {class: 'number minor'},
+            ranked.fitted ? coefficientLines(findings, ranked, ranked.stddevs) : 'not fitted'));
   });
   return section(
       'ranking', 'All candidates',

@@ -60,10 +60,10 @@ class TimeView {
       height,
       layers: [heldOut, ...layers],
       name: title,
-      hover: host === hosts.strip ? undefined : x => this.readings(x, names)
+      hover: x => this.readings(x, names)
     });
     this.strip = plot(
-        hosts.strip, 'error', 110, [],
+        hosts.strip, 'error', 110, ['residual_before', 'residual_after'],
         [
           seriesLayer(drive, 'residual_before', 'before', {width: 1, opacity: 0.8}),
           ...after('residual_after', {width: 1}), (context, strip) => this.drawWindow(context, strip)

@@ -4,12 +4,10 @@ function buildVehiclePage() {
   const findings = readFindings();
   showPage(spoken(findings.summary), [
     vehicleVerdictSection(findings), couplingSection(findings), forcesSection(findings), strutsSection(findings),
-    element(
-        'footer', {},
-        element(
-            'p', {},
-            'Forces are per unit of the mass that a strut has of the body. This page needs no other file; those of ' +
-                'the struts lie in the folders beside it.'))
+    originSection(
+        findings,
+        'Forces are per unit of the mass that a strut has of the body. This page needs no other file; those of the ' +
+            'struts lie in the folders beside it.')
   ]);
 }
 

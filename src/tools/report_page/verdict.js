@@ -38,13 +38,14 @@ function headline(findings) {
 
 /** One sentence per effect: its name, where to look, its size. */
 function effectSentence(findings, name) {
-  const {law, finding} = kindOf(findings, name);
+  const {law, finding, advice} = kindOf(findings, name);
   const sizes = numbersOf(findings, name, findings.search.extended, findings.search.extended.stddevs);
   const [what, where] = whatAndWhere(finding);
   return element(
       'p', {class: 'answer'}, element('b', {'data-effect': name}, capitalised(spoken(name))), ', ',
       element('code', {}, law), ` with ${joined(sizes)}. `,
-      `What a workshop would find: ${what}${where ? ` (${where})` : ''}.`);
+      `What a workshop would find: ${what}${where ? ` (${where})` : ''}. `,
+      advice ? element('span', {class: 'advice'}, advice) : null);
 }
 
 /** @param share  of the error that a free-form force of travel and travel rate could explain. */

@@ -82,8 +82,8 @@ function forceCurves(force) {
                      height: 320,
                      name: `force of ${spoken(force.effect)}, seen and by the law`,
                      layers: [
-                       levelLayer(0, 'muted', []), ...branches.map(({points}, i) => dotLayer(points, tones[i])),
-                       ...laws.map(({at, law}) => lineLayer(at, law, 'after', {width: 2.6}))
+                       levelLayer(0, 'muted', []), ...branches.map(({points}, i) => dotLayer(points, tones[i], 'seen')),
+                       ...laws.map(({at, law}) => lineLayer(at, law, 'after', {width: 2.6, label: 'by the law'}))
                      ],
                      hover(x) {
                        const rows = branches.map(({name, points}) => {

@@ -65,6 +65,9 @@ class HoldOut {
   double deviation_ = 0.0;
 };
 
+/// Natural periods without a gap that have eight held-out stretches.
+inline constexpr double kEnoughPeriods = 15.0;
+
 /// @return nothing if there are fewer than eight held-out stretches.
 std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_mass);
 

@@ -30,6 +30,9 @@ class SensorCheck {
   /// of the strut but that of an engine.
   SensorCheck(double gravity_tolerance, double memory, int horizon_samples);
 
+  /// Judges by another gravity_tolerance from now on.
+  void setTolerance(double gravity_tolerance) { tolerance_ = gravity_tolerance; }
+
   void add(const CornerSample& sample);
 
   /// @param la  the estimate at the newest sample.

@@ -36,6 +36,9 @@ class InstrumentalVariables {
   /// @return none while there are too few rows.
   std::optional<BlockSolution> solution() const { return equations_.solution(); }
 
+  /// @return samples without a gap that give enough rows: those that fill the filter, for a model, and for the blocks.
+  int enoughSamples() const { return (1 + kFirstWindows + static_cast<int>(BlockEquations::kFewestBlocks)) * window(); }
+
   /// @return 1 - rms(rest) / rms(z''), means taken out, where rest is what no sum of the forces in the strut on the
   /// wheel explains of the body's motion [-]. Noise in the rows of a short horizon does not lower it. NaN without rows.
   double explained() const;

@@ -15,6 +15,8 @@ namespace suspension_health_monitor {
 template <class Value>
 class EarlyReadings {
  public:
+  static constexpr std::size_t kSpacings = 50;  ///< of each required stream, to tell the sampling time
+
   struct Reading {
     std::size_t stream;
     Stamp stamp;
@@ -64,8 +66,6 @@ class EarlyReadings {
   }
 
  private:
-  static constexpr std::size_t kSpacings = 50;  // of each stream
-
   void keep(Reading reading) {
     if (waiting_.size() == most_) {
       for (const Reading& each : waiting_) rejected_[each.stream].add(RejectReason::kMissingPartner);

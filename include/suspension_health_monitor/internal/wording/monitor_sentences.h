@@ -5,6 +5,7 @@
 
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
+#include "suspension_health_monitor/internal/health/strut_change.h"
 #include "suspension_health_monitor/internal/signal/alignment_judge.h"
 
 namespace suspension_health_monitor {
@@ -20,6 +21,10 @@ std::string describeNoReading(double seconds, const std::vector<std::string>& si
 
 /// @return why readings are resampled; empty if pairing does well.
 std::string describe(AlignmentJudge::Verdict verdict);
+
+/// @return how a strut is, e.g. "damping 18 % below nominal (beyond doubt), stiffness at nominal".
+/// @param healthy  what the change is from.
+std::string describe(const StrutChange& change, const Baseline& healthy);
 
 /// @return one sentence, e.g. "rear_left damping 28 % below the other corners: damage".
 std::string describe(const CornerComparisonReport& report);

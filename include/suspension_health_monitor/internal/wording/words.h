@@ -17,4 +17,8 @@ std::string sizeInPercent(double change);
 /// @return a share in percent, with one decimal below 1 %: "12 %".
 std::string percent(double share);
 
+/// @param seconds  of driving that give enough samples, whatever else may be wrong with them.
+/// @return to be read after what is too short.
+std::string describeEnough(double seconds);
+
 }  // namespace suspension_health_monitor

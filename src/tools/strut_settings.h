@@ -1,0 +1,41 @@
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../ros/shell_options.h"
+#include "suspension_health_monitor/identify.h"
+
+namespace suspension_health_monitor {
+
+/// What `identify` tells of a strut as a whole.
+struct StrutOfDrive {
+  IdentifiedStrut strut;
+  std::string by;        ///< what it was estimated by, in words
+  double horizon = 0.0;  ///< of the integral filter [s]
+};
+
+/// @return the strut by instrumental variables over the whole drive, else, where that is not valid, by LA, else by LS
+/// at the end of the drive; nothing: none is valid.
+std::optional<StrutOfDrive> strutOf(const IdentifyResult& found);
+
+/// @return the healthy strut that is known beforehand: of baseline_file, else nominal values, else nothing.
+/// @throws std::invalid_argument  as LiveBaseline.
+Baseline healthyStrut(const PipelineOptions& options);
+
+/// Says in a sentence how a strut is against the healthy one; nothing where no healthy one is known.
+void printChange(const StrutOfDrive& strut, const Baseline& healthy, const PipelineOptions& options);
+
+/// The text of a file of settings, as the monitor loads it and --config: those that were given, the horizon, and the
+/// strut as the nominal one.
+/// @param drives  names of the bags.
+std::string settingsOf(const StrutOfDrive& strut, const OptionMap& given, const std::vector<std::string>& drives);
+
+/// The same of a vehicle's struts, by name: `struts: {NAME: {...}}`.
+std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, const OptionMap& given,
+                       const std::vector<std::string>& drives);
+
+}  // namespace suspension_health_monitor

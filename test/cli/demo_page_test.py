@@ -1,0 +1,45 @@
+"""What scripts/demo does once all is built: the drives through the nodelets, and their page in a browser."""
+import itertools
+import os
+import subprocess
+import sys
+
+import pytest
+
+import browser
+import imu_bag
+from conftest import HANGS
+
+FOLD = 900  # [px] height of what is seen without scrolling
+
+
+@pytest.fixture(scope="module")
+def demo(tmp_path_factory):
+    """The folder that scripts/demo --quick --output writes."""
+    folder = tmp_path_factory.mktemp("demo")
+    command = [sys.executable, imu_bag.REPOSITORY / "scripts/demo_report.py", "--quick", "--output", folder, "--work",
+               folder / "work"]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=HANGS,
+                          env={**os.environ, "ROS_HOSTNAME": "localhost"})
+    assert done.returncode == 0, done.stdout
+    return folder
+
+
+def test_page_says_how_it_ended_and_leads_to_the_effect(demo):
+    page = browser.shown(demo / "report.html", demo / "profile")
+    verdict = page.one("section", id="verdict")
+    assert verdict.attributes["data-level"] == "ERROR"
+    assert "The failing damper is told in every drive" in verdict.one("h1").text
+    assert "Missing from the model: coulomb_friction." in verdict.text
+    link = verdict.one("a").attributes["href"]
+    assert browser.shown(demo / link, demo / "profile").one("html").attributes["data-ready"] == "yes"
+    assert "/monitor/health" in page.one(id="origin").text and "demo_report.py --quick" in page.one(id="origin").text
+
+
+@pytest.mark.parametrize("name", ["report.html", "effect_report/report.html"])
+@pytest.mark.parametrize("width, dark", itertools.product([1400, 390], [False, True]))
+def test_nothing_is_cut_off_and_the_verdict_is_above_the_fold(demo, name, width, dark):
+    root = browser.measured(demo / name, demo / "measured", width, dark).one("html").attributes
+    assert (root["data-width"], root["data-dark"]) == (str(width), str(dark).lower())
+    assert (root["data-cut"], root["data-scrolls"]) == ("", "0")
+    assert 0 < float(root["data-verdict-ends"]) <= FOLD

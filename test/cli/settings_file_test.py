@@ -1,0 +1,121 @@
+"""identify -o: the horizon and the healthy strut as settings, which the commands load, and how a strut is against it."""
+import json
+import re
+
+import pytest
+import yaml
+
+DRIVE = ["--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100"]
+B1, B0 = 4.0, 40.0  # of the ugv
+
+
+@pytest.fixture(scope="module")
+def bag(program, tmp_path_factory):
+    path = tmp_path_factory.mktemp("healthy") / "drive.bag"
+    program.succeed("simulate", *DRIVE, "-o", path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def worn(program, tmp_path_factory):
+    path = tmp_path_factory.mktemp("worn") / "drive.bag"
+    program.succeed("simulate", *DRIVE, "--set", f"damping_to_mass={0.8 * B1}", "-o", path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def settings(program, bag, tmp_path_factory):
+    path = tmp_path_factory.mktemp("settings") / "my_strut.yaml"
+    told = program.succeed("identify", bag, "-o", path, "--set", "health/damping_warn=0.1", "--set", "sprung_axis=z")
+    assert told.endswith(f"wrote {path}\n")
+    return path
+
+
+def test_file_has_what_was_found_and_what_was_given(program, bag, settings, tmp_path):
+    program.succeed("identify", bag, "--json", tmp_path / "found.json")
+    found = json.loads((tmp_path / "found.json").read_text())
+    written = yaml.safe_load(settings.read_text())
+    assert written["nominal"] == pytest.approx({name: found["iv"][name] for name in ("damping_to_mass", "stiffness_to_mass")},
+                                               rel=1e-5)
+    assert written["nominal"] == pytest.approx({"damping_to_mass": B1, "stiffness_to_mass": B0}, rel=0.01)
+    assert written["integration_horizon"] == pytest.approx(found["horizon_samples"] * found["sample_period"], rel=1e-5)
+    assert written["health"] == {"damping_warn": 0.1} and written["sprung_axis"] == "z"
+    assert set(written) == {"integration_horizon", "nominal", "health", "sprung_axis"}
+
+
+def test_commands_load_it_and_judge_by_it(program, worn, settings):
+    told = program.succeed("health", worn, "--config", settings)
+    assert re.search(r"horizon 26 samples = 0.26 s\n", told), "not one that is proposed"
+    assert re.search(r"^judged by nominal values: damping/mass (3\.9|4\.0)\d* 1/s", told, re.MULTILINE)
+    assert re.search(r"WARN +damping (19|20|21) % below nominal", told)
+
+
+def test_strut_is_told_against_nominal_values_in_a_sentence(program, bag, worn, settings, tmp_path):
+    sentence = re.compile(r"^the strut, over the whole drive, by instrumental variables: (.*)$", re.MULTILINE)
+    assert sentence.search(program.succeed("identify", worn, "--config", settings))[1] == (
+        "damping 20 % below nominal (beyond doubt), stiffness at nominal")
+    assert sentence.search(program.succeed("identify", bag, "--config", settings))[1] == (
+        "damping at nominal, stiffness at nominal")
+    (tmp_path / "baseline.yaml").write_text(f"damping_to_mass: {B1 / 2}\nstiffness_to_mass: {B0}\n")
+    told = sentence.search(program.succeed("identify", bag, "--baseline", tmp_path / "baseline.yaml"))[1]
+    assert told.startswith("damping 100 % above baseline (beyond doubt)")
+    assert not sentence.search(program.succeed("identify", bag)), "nothing to be against"
+
+
+def test_payload_is_told_as_payload(program, bag):
+    told = program.succeed("identify", bag, "--set", f"nominal/damping_to_mass={1.2 * B1}", "--set",
+                           f"nominal/stiffness_to_mass={1.2 * B0}")
+    assert re.search(r"variables: damping at nominal, stiffness at nominal, body mass 20 % above$", told, re.MULTILINE)
+
+
+def test_without_a_valid_estimate_nothing_is_written(program, bag, tmp_path):
+    (tmp_path / "my_strut.yaml").write_text("of yesterday")
+    result = program("identify", bag, "--end", "0.7", "--set", "integration_horizon=0.26", "-o", tmp_path / "my_strut.yaml")
+    assert result.returncode == 4 and "wrote" not in result.stdout
+    assert "no estimate was ever valid: too short (1 s in one piece are enough)" in result.stderr
+    assert (tmp_path / "my_strut.yaml").read_text() == "of yesterday"
+
+
+@pytest.fixture(scope="module")
+def vehicle(program, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("vehicle")
+    program.succeed("simulate", "--vehicle-model", "half_sedan", "--duration", "60", "-o", folder / "drive.bag", "--vehicle-file",
+                    folder / "vehicle.yaml")
+    return folder
+
+
+def test_every_strut_of_a_vehicle_has_its_own(program, vehicle):
+    of, path = [vehicle / "drive.bag", "--vehicle", vehicle / "vehicle.yaml"], vehicle / "struts.yaml"
+    assert program.succeed("identify", *of, "-o", path).endswith(f"wrote {path}\n")
+    written = yaml.safe_load(path.read_text())["struts"]
+    assert set(written) == {"front", "rear"}
+    told = program.succeed("health", *of, "--config", path)
+    for name, strut in written.items():
+        assert f"\n{name}, judged by nominal values: damping/mass {strut['nominal']['damping_to_mass']:.5g} 1/s" in told
+    program.succeed("identify", *of, "--strut", "rear", "-o", path)
+    assert yaml.safe_load(path.read_text())["nominal"] == pytest.approx(written["rear"]["nominal"])
+
+
+def test_what_was_written_is_told_and_a_pipe_is_not(program, bag, tmp_path):
+    told = program.succeed("identify", bag, "--csv", tmp_path / "rows.csv", "--json", "/proc/self/fd/1")
+    assert told.endswith(f"wrote {tmp_path / 'rows.csv'}\n")
+    assert "wrote" not in program.succeed("identify", bag)
+    told = program.succeed("health", bag, "--report", tmp_path / "said")
+    assert told.endswith(f"wrote {tmp_path / 'said' / 'report.html'}\n")
+    told = program.succeed("horizon", "--damping-to-mass", 4, "--stiffness-to-mass", 40, "--json", tmp_path / "h.json")
+    assert told.endswith(f"wrote {tmp_path / 'h.json'}\n")
+
+
+def test_too_short_a_drive_says_what_would_be_enough(program, tmp_path):
+    def refused(duration, command):
+        program.succeed("simulate", *DRIVE, "--duration", duration, "-o", tmp_path / "short.bag")
+        result = program(command, tmp_path / "short.bag")
+        assert result.returncode == 4
+        return result.stderr
+
+    assert "(51 of each are enough)" in refused(0.3, "health")
+    assert "(121 samples, 1.21 s; " in refused(1, "health")
+    assert "two bounces of the body in one piece are enough" in refused(0.3, "identify")
+    enough = float(re.search(r"\((\S+) s in one piece are enough\)", refused(3, "diagnose"))[1])
+    program.succeed("simulate", *DRIVE, "--duration", enough, "-o", tmp_path / "short.bag")
+    program.succeed("diagnose", tmp_path / "short.bag")
