@@ -10,7 +10,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 DOCUMENTS = sorted([REPOSITORY / "README.md", REPOSITORY / "CONTRIBUTING.md", *(REPOSITORY / "doc").glob("*.md")])
 PAGES = [path for path in DOCUMENTS if path.parent.name == "doc"]
 FOLDERS = sorted(path.name for path in REPOSITORY.iterdir() if path.is_dir()
-                 and path.name not in ("build", "devel", "install", "demo_out", ".git"))
+                 and path.name not in ("build", "build_core", "devel", "install", "demo_out", ".git"))
 PATH_IN_FOLDER = re.compile(rf"(?<![\w./$-])(?:{'|'.join(map(re.escape, FOLDERS))})/[\w.*/-]*\w")
 FILE_NAME = re.compile(
     r"(?<![\w/$~-])[\w*][\w*/.-]*\.(?:h|cpp|py|yaml|launch|msg|srv|test|md|rst|txt|xml|csv)\b(?![\w/])")
