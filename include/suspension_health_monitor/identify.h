@@ -51,7 +51,11 @@ struct IdentifyResult {
   std::uint64_t gaps = 0;                         ///< after each of which the filter filled anew
   std::uint64_t clock_jumps = 0;                  ///< times that the clock went back
   std::map<std::string, std::uint64_t> rejected;  ///< readings that were kept out, by reason; only those that occurred
-  std::vector<std::string> warnings;              ///< of sensors and stamps, in words
+  std::vector<std::string> warnings;              ///< of sensors, stamps and a strut that changes, in words
+
+  /// @return false if la at the end is another strut than iv over the whole drive, beyond doubt: it has changed, or no
+  /// strut without effects moves like that.
+  bool isSteady() const;
 };
 
 /// Identifies a strut from recorded drives, through the same code as the live monitor.

@@ -126,6 +126,8 @@ def simulate(output: Optional[Path] = None, *, effect: Optional[Union[str, List[
         options["hidden"] = effect if isinstance(effect, str) else "; ".join(effect)
     with callback(progress, "simulate") as told:
         if output is None:
+            if options.get("vehicle_model") is not None:
+                raise ValueError("vehicle_model is of a bag: output is not given, must be its path")
             return _core.simulate(simulator_keywords(options, False), library(effects_file), told)
         of_vehicle = options.get("vehicle_model") is not None
         files().simulate(os.fspath(output), simulator_keywords({**options, "effects_file": effects_file}, of_vehicle), told)

@@ -99,7 +99,10 @@ class VehicleMonitor:
 
     def __init__(self, struts: Union[Iterable[str], Dict[str, Optional[Sequence[float]]]], *, sample_period: float,
                  config: Optional[Path] = None, **options: Option) -> None:
-        positions = dict(struts) if isinstance(struts, dict) else {name: None for name in struts}
+        names = [] if isinstance(struts, str) else list(struts)
+        if not names or len(set(names)) < len(names) or not all(isinstance(name, str) and name for name in names):
+            raise ValueError(f"struts = {struts!r}, must be names, each once, or a dict of name to position")
+        positions = dict(struts) if isinstance(struts, dict) else dict.fromkeys(names)
         its = [(name, None if at is None else tuple(to_readings(f"position of {name}", at, (3,))))
                for name, at in positions.items()]
         self.struts: Tuple[str, ...] = tuple(positions)

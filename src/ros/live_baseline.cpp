@@ -1,5 +1,6 @@
 #include "live_baseline.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
@@ -103,6 +104,10 @@ Baseline takeBaseline(OptionMap& values) {
 
 Baseline readBaselineFile(const std::string& path) {
   OptionMap values = readYaml(path);
+  const bool is_settings =
+      std::any_of(values.begin(), values.end(), [](const auto& each) { return each.first.rfind("nominal/", 0) == 0; });
+  if (is_settings)
+    throw std::invalid_argument(path + ": these are settings with nominal values, to be given as --config or config:=");
   return prefixed(path + ": ", [&] { return takeBaseline(values); });
 }
 

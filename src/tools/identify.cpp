@@ -139,7 +139,9 @@ void identify(const Arguments& arguments) {
   if (json) json->commit();
   if (csv) csv->commit();
   const std::optional<StrutOfDrive> strut = strutOf(result);
-  if (settings && strut) settings->commit(settingsOf(*strut, gatherOptions(*values), fileNames(options.bags.paths)));
+  const std::string not_nominal = whyNotNominal(result, pipeline.monitor);
+  if (settings && not_nominal.empty())
+    settings->commit(settingsOf(*strut, gatherOptions(*values), fileNames(options.bags.paths)));
   const SuspensionMonitor& monitor = identification.monitor();
   gaps.print();
   printInput(monitor, identification.grid(), options, rejected);
@@ -149,8 +151,8 @@ void identify(const Arguments& arguments) {
   const auto reason = whyNotValid(monitor, ever_valid);
   if (!reason)
     for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
-  printWritten(*values, strut ? outputs : std::vector<std::string>{"csv", "json"});
-  if (settings && !strut && !reason) throw TooLittleError("no estimate is valid: there are no settings to write");
+  printWritten(*values, not_nominal.empty() ? outputs : std::vector<std::string>{"csv", "json"});
+  if (settings && !not_nominal.empty() && !reason) throw TooLittleError("no settings are written: " + not_nominal);
   if (reason) throw TooLittleError(*reason + suspicions(identification) + describeRejected(rejected));
 }
 

@@ -94,7 +94,11 @@ void identifyStruts(const boost::program_options::variables_map& values) {
     printResult("IV", strut.iv, settings.monitor.sprung_mass);
     if (const std::optional<StrutOfDrive> its = strutOf(strut)) {
       printChange(*its, healthy[i], settings);
-      struts.emplace(vehicle.names[i], *its);
+      const std::string not_nominal = whyNotNominal(strut, settings.monitor);
+      if (not_nominal.empty())
+        struts.emplace(vehicle.names[i], *its);
+      else if (settings_file)
+        std::printf("warning: no settings of it are written: %s\n", not_nominal.c_str());
     }
     for (const std::string& warning : strut.warnings) std::printf("warning: %s\n", warning.c_str());
     whole["struts"][vehicle.names[i]] = toJson(strut);

@@ -54,10 +54,28 @@ std::string othersOf(const OptionMap& given) {
 
 std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
   const double horizon = found.horizon_samples * found.sample_period;
-  if (found.iv.valid) return StrutOfDrive{found.iv, "over the whole drive, by instrumental variables", horizon};
+  if (found.iv.valid && found.isSteady())
+    return StrutOfDrive{found.iv, "over the whole drive, by instrumental variables", horizon};
   if (found.la.valid) return StrutOfDrive{found.la, "at the end of the drive, by LA", horizon};
   if (found.ls.valid) return StrutOfDrive{found.ls, "at the end of the drive, by LS", horizon};
   return std::nullopt;
+}
+
+std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {
+  const std::optional<StrutOfDrive> strut = strutOf(found);
+  if (!strut) return "no estimate is valid";
+  if (!found.isSteady()) return "the strut is not the same over the drive";
+  constexpr double kTold = 3.0;  // standard deviations
+  const auto lack = [](const char* name, double value, double stddev, double warn) -> std::string {
+    if (kTold * stddev <= warn * value) return {};
+    return formatted("%s is known to %.2g %% only, and %.2g %% are needed for a warning at %.3g %%", name,
+                     100.0 * stddev / value, 100.0 * warn / kTold, 100.0 * warn);
+  };
+  const IdentifiedStrut& its = strut->strut;
+  const std::string damping =
+      lack("damping/mass", its.damping_to_mass, its.damping_to_mass_stddev, options.damping_warn);
+  if (!damping.empty()) return damping;
+  return lack("stiffness/mass", its.stiffness_to_mass, its.stiffness_to_mass_stddev, options.stiffness_warn);
 }
 
 Baseline healthyStrut(const PipelineOptions& options) {

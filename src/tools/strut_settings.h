@@ -18,9 +18,12 @@ struct StrutOfDrive {
   double horizon = 0.0;  ///< of the integral filter [s]
 };
 
-/// @return the strut by instrumental variables over the whole drive, else, where that is not valid, by LA, else by LS
-/// at the end of the drive; nothing: none is valid.
+/// @return the strut by instrumental variables over the whole drive, else, where that is not valid or not the strut at
+/// the end, by LA, else by LS at the end of the drive; nothing: none is valid.
 std::optional<StrutOfDrive> strutOf(const IdentifyResult& found);
+
+/// @return why that strut cannot be what health is judged by, in words; empty: it can.
+std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options);
 
 /// @return the healthy strut that is known beforehand: of baseline_file, else nominal values, else nothing.
 /// @throws std::invalid_argument  as LiveBaseline.

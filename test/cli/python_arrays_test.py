@@ -149,7 +149,9 @@ def test_a_period_far_below_the_spacing_is_refused(call, drive):
     (lambda: shm.compare(0.01, N, N), "the drives"),
     (lambda: shm.StrutMonitor(memry=3), "the nearest known name is memory"),
     (lambda: shm.StrutMonitor(every=0), "every = 0, must be 1 or more"),
-    (lambda: shm.VehicleMonitor([], sample_period=0.01), ""),
+    *[(lambda its=struts: shm.VehicleMonitor(its, sample_period=0.01), "must be names, each once")
+      for struts in ([], ["a", "a"], ["a", ""], "ab", [1, 2])],
+    (lambda: shm.simulate(vehicle_model="sedan"), "vehicle_model is of a bag: output is not given"),
     (lambda: shm.VehicleMonitor(["a"], sample_period=None), "sample_period is missing"),
     (lambda: shm.VehicleMonitor(["a", "b"], sample_period=0.01).push(T, np.zeros((30, 1)), np.zeros((30, 2))),
      r"body has the shape \(30, 1\), must be \(n, 2\)")])

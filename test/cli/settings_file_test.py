@@ -68,6 +68,25 @@ def test_payload_is_told_as_payload(program, bag):
     assert re.search(r"variables: damping at nominal, stiffness at nominal, body mass 20 % above$", told, re.MULTILINE)
 
 
+# One that wears has no healthy values; of one that the model explains by half nobody knows them.
+@pytest.mark.parametrize("hidden, words", [
+    (["--set", "damping_end_fraction=0.5"], "the strut is not the same over the drive"),
+    (["--effect", "coulomb_friction=1.5,vs=0.01"], r"stiffness/mass is known to \d+ % only, and 5 % are needed"),
+])
+def test_what_is_no_healthy_strut_is_not_written(program, hidden, words, tmp_path):
+    program.succeed("simulate", *DRIVE, "--duration", "120", *hidden, "-o", tmp_path / "drive.bag")
+    result = program("identify", tmp_path / "drive.bag", "-o", tmp_path / "my_strut.yaml")
+    assert result.returncode == 4 and re.search(words, result.stderr)
+    assert not (tmp_path / "my_strut.yaml").exists() and "wrote" not in result.stdout
+    changes = "the strut changes over the drive" in result.stdout
+    assert changes == ("damping_end_fraction=0.5" in hidden)
+
+
+def test_settings_are_no_baseline(program, bag, settings):
+    result = program("health", bag, "--baseline", settings)
+    assert result.returncode == 2 and "settings with nominal values, to be given as --config" in result.stderr
+
+
 def test_without_a_valid_estimate_nothing_is_written(program, bag, tmp_path):
     (tmp_path / "my_strut.yaml").write_text("of yesterday")
     result = program("identify", bag, "--end", "0.7", "--set", "integration_horizon=0.26", "-o", tmp_path / "my_strut.yaml")

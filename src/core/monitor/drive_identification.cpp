@@ -7,6 +7,7 @@
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -105,7 +106,18 @@ IdentifyResult DriveIdentification::result() const {
   const SensorReport& sensor = monitor().report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated)
     result.warnings.push_back(describe(sensor));
+  if (!result.isSteady()) result.warnings.push_back(describeUnsteady(result.iv, result.la));
   return result;
+}
+
+bool IdentifyResult::isSteady() const {
+  constexpr double kCertain = 4.0;  // standard deviations: by chance once in 16 000 drives
+  const auto agree = [this](double IdentifiedStrut::*value, double IdentifiedStrut::*stddev) {
+    return std::abs(iv.*value - la.*value) <= kCertain * std::hypot(iv.*stddev, la.*stddev);
+  };
+  return !iv.valid || !la.valid ||
+         (agree(&IdentifiedStrut::damping_to_mass, &IdentifiedStrut::damping_to_mass_stddev) &&
+          agree(&IdentifiedStrut::stiffness_to_mass, &IdentifiedStrut::stiffness_to_mass_stddev));
 }
 
 }  // namespace suspension_health_monitor

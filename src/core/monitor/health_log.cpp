@@ -24,7 +24,10 @@ void HealthLog::addReport(const MonitorReport& report) {
   reported_ = elapsed();
   sensors_.forget();
   const HealthReport& health = report.health;
-  const bool begins_early = health.early_warning && !newest_.health.early_warning;
+  const auto warns_early = [](const HealthReport& one) {
+    return one.early_warning && one.level == HealthLevel::kOk;  // beside a raised level it is none
+  };
+  const bool begins_early = warns_early(health) && !warns_early(newest_.health);
   newest_ = report;
   if (begins_early) early_warnings_.push_back(momentOf(describe(health)));
   if (health.level != level_)

@@ -20,6 +20,14 @@ std::string describeRejected(const RejectCounts& rejected) {
   return text;
 }
 
+std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut& end) {
+  return formatted(
+      "the strut changes over the drive, or is no plain spring and damper: damping/mass %.4g +- %.2g 1/s and "
+      "stiffness/mass %.4g +- %.2g 1/s^2 over all of it, %.4g +- %.2g and %.4g +- %.2g at its end",
+      whole.damping_to_mass, whole.damping_to_mass_stddev, whole.stiffness_to_mass, whole.stiffness_to_mass_stddev,
+      end.damping_to_mass, end.damping_to_mass_stddev, end.stiffness_to_mass, end.stiffness_to_mass_stddev);
+}
+
 std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected) {
   if (monitor.input().rows > 0) return {};
   std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed (" +

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
@@ -10,6 +11,9 @@
 namespace suspension_health_monitor {
 
 /// What came of a recording, in words for people: of bags and of arrays.
+
+/// @return what a drive says whose strut at the end is not that of the whole.
+std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut& end);
 
 /// @return what was kept out, reason by reason: "; rejected clipped: 12"; empty if nothing was.
 std::string describeRejected(const RejectCounts& rejected);
