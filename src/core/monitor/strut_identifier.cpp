@@ -203,7 +203,7 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
     if (regression_.skew() != nullptr) estimate->clock_skew = regression_.skew()->skew();
   }
-  if (least_absolute_.effectiveRows() > 0.0 && !holdsAll() && stddevs_due_()) describeStddevs(ls, la);
+  if (!holdsAll() && stddevs_due_()) describeStddevs(ls, la);
 }
 
 // The shift by the sensors' noise is taken off from the next description on, by the strut that it leaves now: the fixed
