@@ -22,7 +22,8 @@ class Terminal:
         self.folder = folder
         self.port = free_port()
         self.environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost",
-                                ROS_HOME=str(folder / "ros_home"), ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+                                ROS_HOME=str(folder / "ros_home"), ROSCONSOLE_STDOUT_LINE_BUFFERED="1",
+                                PYTHONUNBUFFERED="1")  # what a process says is there when it says it, as on a terminal
 
     def run(self, command):
         result = subprocess.run(command, shell=True, cwd=self.folder, env=self.environment, timeout=TIMEOUT,
