@@ -1,5 +1,3 @@
-#include <stdexcept>
-
 #include "bindings.h"
 #include "options.h"
 #include "readings.h"
@@ -10,17 +8,6 @@ namespace suspension_health_monitor {
 namespace py = pybind11;
 
 namespace {
-
-Comparison compareArrays(const Recordings& recordings, const MonitorOptions& options, CompareOptions comparing,
-                         LongWork& work) {
-  const double period = periodOf(recordings, options);
-  comparing.sample_period = period;
-  if (options.integration_horizon) comparing.horizon_samples = MonitorSettings(options).horizonSamples(period);
-  comparing.progress = work.callback();
-  Comparison comparison = compare(toDrives(recordings, options, period, shiftOf(recordings), work), comparing);
-  if (!comparison) throw std::invalid_argument("the drives " + comparison.reason);
-  return comparison;
-}
 
 void bindSegment(py::module& module) {
   py::class_<ComparedSegment> segment(module, "ComparedSegment",
@@ -85,7 +72,7 @@ void bindComparison(py::module& module) {
         comparing.model = model;
         comparing.fit = !model;
         LongWork work(progress);
-        return work.run([&] { return compareArrays(recordings, options.monitor, comparing, work); });
+        return work.run([&] { return judgeArrays(&compare, recordings, options.monitor, comparing, work); });
       },
       py::arg("recordings"), py::arg("keywords"), py::arg("model"), py::arg("progress"));
 }

@@ -1,5 +1,3 @@
-#include <stdexcept>
-
 #include "bindings.h"
 #include "options.h"
 #include "readings.h"
@@ -11,17 +9,6 @@ namespace suspension_health_monitor {
 namespace py = pybind11;
 
 namespace {
-
-Diagnosis diagnoseArrays(const Recordings& recordings, const MonitorOptions& options, DiagnoseOptions searching,
-                         LongWork& work) {
-  const double period = periodOf(recordings, options);
-  searching.sample_period = period;
-  if (options.integration_horizon) searching.horizon_samples = MonitorSettings(options).horizonSamples(period);
-  searching.progress = work.callback();
-  Diagnosis found = diagnose(toDrives(recordings, options, period, shiftOf(recordings), work), searching);
-  if (!found) throw std::invalid_argument("the drives " + found.reason);
-  return found;
-}
 
 void bindParts(py::module& module) {
   py::class_<RankedModel>(module, "RankedModel", "The model with effects added, judged by what no fit has seen.")
@@ -76,7 +63,7 @@ void bindDiagnosis(py::module& module) {
         searching.candidates = candidates;
         searching.threads = threads;
         LongWork work(progress);
-        return work.run([&] { return diagnoseArrays(recordings, options.monitor, searching, work); });
+        return work.run([&] { return judgeArrays(&diagnose, recordings, options.monitor, searching, work); });
       },
       py::arg("recordings"), py::arg("keywords"), py::arg("model"), py::arg("candidates"), py::arg("threads"),
       py::arg("progress"));

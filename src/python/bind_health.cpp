@@ -27,21 +27,14 @@ HealthSummary watch(const Recordings& recordings, const ArrayOptions& options, c
                             },
                             {}});
   if (healthy) strut.setBaseline(*healthy);
-  double done = 0.0, all = 0.0;
-  for (const Recording& recording : recordings) all += static_cast<double>(recording.size());
-  for (const Recording& recording : recordings) {
-    recording.forEach([&](Side side, Stamp stamp, double value) {
-      if (side == Side::kRoad) return;
-      log.addReading(indexOf(side), stamp + shift, stamp + shift);
-      strut.push(side, stamp + shift, value);
-      work.step(++done / all);
-    });
-    log.finishRecording();
-  }
+  const auto take = [&](Side side, Stamp stamp, double value) {
+    if (side == Side::kRoad) return;
+    log.addReading(indexOf(side), stamp, stamp);
+    strut.push(side, stamp, value);
+  };
+  forEachReading(recordings, shift, work, take, [&] { log.finishRecording(); });
   if (strut.monitor() == nullptr)
-    throw std::invalid_argument(
-        "the sample period cannot be measured: too few readings with increasing stamps of one of the sensors" +
-        describeRejected(strut.rejected()));
+    throw std::invalid_argument(describeNoStart("of one of the sensors") + describeRejected(strut.rejected()));
   const std::string nothing = describeNoRow(*strut.monitor(), *strut.grid(), strut.rejected());
   if (!nothing.empty()) throw std::invalid_argument(nothing);
   return HealthSummary::of(log, *strut.monitor(), "", strut.rejected(), course, shift);

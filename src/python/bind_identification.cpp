@@ -37,13 +37,8 @@ Identification identify(const Recordings& recordings, MonitorOptions options, co
     if (report.has_row) course.add(report);
   });
   if (model) made.setEffects(model->effects);
-  double done = 0.0, all = 0.0;
-  for (const Recording& recording : recordings) all += static_cast<double>(recording.size());
-  for (const Recording& recording : recordings)
-    recording.forEach([&](Side side, Stamp stamp, double value) {
-      made.push(side, stamp + shift, value);
-      work.step(++done / all);
-    });
+  const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
+  forEachReading(recordings, shift, work, take, [] {});
   return Identification::of(made, made.rejected(), course);
 }
 

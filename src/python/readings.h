@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "long_work.h"
@@ -78,8 +79,39 @@ void requireFittingPeriod(const Recordings& recordings, const MonitorOptions& op
 /// @throws std::invalid_argument  as requireFittingPeriod(), or if there are too few stamps to tell.
 double periodOf(const Recordings& recordings, const MonitorOptions& options);
 
+/// Calls take(side, stamp, value) with all readings, their stamps so much later, and finish() after every recording,
+/// and tells how much is done.
+template <class Take, class Finish>
+void forEachReading(const Recordings& recordings, Stamp shift, LongWork& work, const Take& take, const Finish& finish) {
+  double done = 0.0, all = 0.0;
+  for (const Recording& recording : recordings) all += static_cast<double>(recording.size());
+  for (const Recording& recording : recordings) {
+    recording.forEach([&](Side side, Stamp stamp, double value) {
+      take(side, stamp + shift, value);
+      work.step(++done / all);
+    });
+    finish();
+  }
+}
+
 /// @return the samples of a strut, one drive for each recording, aligned as the live monitor aligns them.
 std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& options, double period, Stamp shift,
                             LongWork& work);
+
+/// @param judge  makes a result of drives and options: compare() or diagnose().
+/// @param judging  its options, all but those that are told here.
+/// @return the result.
+/// @throws std::invalid_argument  as periodOf(), or saying why there is none.
+template <class Judge, class Options>
+auto judgeArrays(const Judge& judge, const Recordings& recordings, const MonitorOptions& options, Options judging,
+                 LongWork& work) {
+  const double period = periodOf(recordings, options);
+  judging.sample_period = period;
+  if (options.integration_horizon) judging.horizon_samples = MonitorSettings(options).horizonSamples(period);
+  judging.progress = work.callback();
+  auto result = judge(toDrives(recordings, options, period, shiftOf(recordings), work), judging);
+  if (!result) throw std::invalid_argument("the drives " + result.reason);
+  return result;
+}
 
 }  // namespace suspension_health_monitor

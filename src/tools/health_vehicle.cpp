@@ -115,10 +115,7 @@ class WatchedVehicle {
   /// @throws TooLittleError  if the drives do not tell how the struts move one another.
   void requireCoupling(const std::vector<std::string>& names) const {
     const VehicleMonitor* monitor = pipeline_.monitor();
-    if (monitor == nullptr)
-      throw TooLittleError("the sample period cannot be measured: too few readings with increasing stamps on one of " +
-                           join(topics_) + " (" + std::to_string(EarlyReadings<double>::kSpacings + 1) +
-                           " of each are enough)");
+    if (monitor == nullptr) throw TooLittleError(describeNoStart("on one of " + join(topics_)));
     if (!monitor->isCoupled()) throw TooLittleError("the drives " + reasonOf(monitor->estimate(), names));
   }
 

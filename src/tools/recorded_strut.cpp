@@ -76,9 +76,7 @@ std::string RecordedMonitor::baselineFile() const {
 
 void RecordedMonitor::requireEnough() const {
   if (pipeline_.monitor() == nullptr)
-    throw TooLittleError(
-        "the sample period cannot be measured: too few readings with increasing stamps on one of the topics (" +
-        std::to_string(EarlyReadings<double>::kSpacings + 1) + " of each are enough)" + describeRejected(rejected()));
+    throw TooLittleError(describeNoStart("on one of the topics") + describeRejected(rejected()));
   requireRows(monitor(), grid(), rejected());
 }
 

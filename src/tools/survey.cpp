@@ -44,11 +44,7 @@ std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
 double measurePeriod(const ImuBags& bags) {
   std::size_t count = kMessagesForPeriod;
   const std::optional<double> period = stampSpacing(bags, count);
-  if (!period)
-    throw TooLittleError("the sample period cannot be measured: fewer than " +
-                         std::to_string(PeriodMeasurement::kFewestOfRecording) +
-                         " increasing stamps on one of the topics (of " + std::to_string(count) + " messages); " +
-                         std::to_string(PeriodMeasurement::kFewestOfRecording + 1) + " messages of each are enough");
+  if (!period) throw TooLittleError(describeNoPeriod(count));
   try {
     MonitorOptions options;
     options.sample_period = period;

@@ -9,6 +9,7 @@
 #include "errors.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
@@ -48,11 +49,7 @@ double measurePeriod(const ImuBags& bags) {
   };
   readTopics(bags, {take, take});
   const std::optional<double> period = measurement.period();
-  if (!period)
-    throw TooLittleError("the sample period cannot be measured: fewer than " +
-                         std::to_string(PeriodMeasurement::kFewestOfRecording) +
-                         " increasing stamps on one of the topics (of " + std::to_string(count) + " messages); " +
-                         std::to_string(PeriodMeasurement::kFewestOfRecording + 1) + " messages of each are enough");
+  if (!period) throw TooLittleError(describeNoPeriod(count));
   return *period;
 }
 

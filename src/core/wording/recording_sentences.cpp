@@ -1,5 +1,7 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
+#include "suspension_health_monitor/internal/signal/early_readings.h"
+#include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/signal/stream_resampler.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -26,6 +28,18 @@ std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut
       "stiffness/mass %.4g +- %.2g 1/s^2 over all of it, %.4g +- %.2g and %.4g +- %.2g at its end",
       whole.damping_to_mass, whole.damping_to_mass_stddev, whole.stiffness_to_mass, whole.stiffness_to_mass_stddev,
       end.damping_to_mass, end.damping_to_mass_stddev, end.stiffness_to_mass, end.stiffness_to_mass_stddev);
+}
+
+std::string describeNoPeriod(std::size_t count) {
+  constexpr std::size_t kFewest = PeriodMeasurement::kFewestOfRecording;
+  return "the sample period cannot be measured: fewer than " + std::to_string(kFewest) +
+         " increasing stamps on one of the topics (of " + std::to_string(count) + " messages); " +
+         std::to_string(kFewest + 1) + " messages of each are enough";
+}
+
+std::string describeNoStart(const std::string& where) {
+  return "the sample period cannot be measured: too few readings with increasing stamps " + where + " (" +
+         std::to_string(EarlyReadings<double>::kSpacings + 1) + " of each are enough)";
 }
 
 std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -18,11 +19,19 @@ std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut
 /// @return what was kept out, reason by reason: "; rejected clipped: 12"; empty if nothing was.
 std::string describeRejected(const RejectCounts& rejected);
 
+/// @return why `count` messages tell no sample period.
+std::string describeNoPeriod(std::size_t count);
+
+/// @param where  there are too few readings: "on one of the topics".
+/// @return why a live monitor has not begun.
+std::string describeNoStart(const std::string& where);
+
 /// @return why the readings have not given one regression row; empty if they have.
 std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected);
 
 /// @param spacing  of the stamps [s]; nothing: they tell none.
-/// @return why a sample period is so far below the spacing that nearly all samples would be made up; empty if it is not.
+/// @return why a sample period is so far below the spacing that nearly all samples would be made up; empty if it is
+/// not.
 std::string describeShortPeriod(double sample_period, const std::optional<double>& spacing);
 
 /// @param file  that the baseline was read from; empty: none was.
