@@ -9,6 +9,7 @@
 
 #include "../ros/conversions.h"
 #include "bag_file.h"
+#include "chunks_ahead.h"
 #include "errors.h"
 #include "long_work.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -105,7 +106,7 @@ bool isLater(const OpenChunk& a, const OpenChunk& b) {
 /// kept as long as they have messages that are later than the beginning of the next one.
 class Delivery {
  public:
-  Delivery(BagFile& file, const ImuBags& bags, const Range& range, const TopicSinks& take)
+  Delivery(const BagFile& file, const ImuBags& bags, const Range& range, const TopicSinks& take)
       : file_(file),
         places_(findPlaces(file, bags)),
         num_imus_(bags.topics.size()),
@@ -113,10 +114,12 @@ class Delivery {
         take_(take),
         gaps_(bags.gaps) {}
 
-  void open(const BagChunk& chunk) {
-    file_.read(chunk, spare_);
-    if (spare_.messages.empty()) return;
-    open_.push_back({std::exchange(spare_, {}), chunk.position, 0});
+  /// Opens the chunk that is coming.
+  void open(ChunksAhead& chunks) {
+    const std::uint64_t position = chunks.coming()->position;
+    ChunkContents contents = chunks.next(std::exchange(spare_, {}));
+    if (contents.messages.empty()) return;
+    open_.push_back({std::move(contents), position, 0});
     std::push_heap(open_.begin(), open_.end(), isLater);
   }
 
@@ -125,18 +128,24 @@ class Delivery {
     while (!open_.empty() && open_.front().message().time < time) {
       std::pop_heap(open_.begin(), open_.end(), isLater);
       OpenChunk& chunk = open_.back();
-      if (!deliver(chunk.message())) return false;
-      if (++chunk.next < chunk.contents.messages.size()) {
-        std::push_heap(open_.begin(), open_.end(), isLater);
-      } else {
-        spare_ = std::move(chunk.contents);
-        open_.pop_back();
-      }
+      const bool is_only = open_.size() == 1;
+      do {
+        if (!deliver(chunk.message())) return false;
+        if (++chunk.next == chunk.contents.messages.size()) break;
+      } while (chunk.message().time < time && (is_only || !isLater(chunk, open_.front())));
+      putBack(chunk);
     }
     return true;
   }
 
  private:
+  /// @param last  of those that are open: it goes back onto the heap, unless all its messages are delivered.
+  void putBack(OpenChunk& last) {
+    if (last.next < last.contents.messages.size()) return std::push_heap(open_.begin(), open_.end(), isLater);
+    spare_ = std::move(last.contents);
+    open_.pop_back();
+  }
+
   bool deliver(const BagMessage& message) {
     Interruption::check();
     const auto place = places_.find(message.connection);
@@ -156,7 +165,7 @@ class Delivery {
     return take(place, decoded, Stamp(static_cast<Stamp::rep>(message.time)));
   }
 
-  BagFile& file_;
+  const BagFile& file_;
   Places places_;
   std::size_t num_imus_;
   Range range_;
@@ -173,14 +182,15 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
   std::stable_sort(chunks.begin(), chunks.end(),
                    [](const BagChunk& a, const BagChunk& b) { return a.start < b.start; });
   const Range range = toRange(bags, chunks.front().start);
+  chunks.erase(std::remove_if(chunks.begin(), chunks.end(), [&](const BagChunk& c) { return !range.overlaps(c); }),
+               chunks.end());
   Delivery delivery(file, bags, range, take);
   Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
-  double done = 0.0;
-  for (const BagChunk& chunk : chunks) {
+  ChunksAhead ahead(file, std::move(chunks));
+  for (double done = 0.0; const BagChunk* chunk = ahead.coming();) {
     progress.update(++done);
-    if (!range.overlaps(chunk)) continue;
-    if (!delivery.deliverBefore(chunk.start)) return false;
-    delivery.open(chunk);
+    if (!delivery.deliverBefore(chunk->start)) return false;
+    delivery.open(ahead);
   }
   return delivery.deliverBefore(std::numeric_limits<std::uint64_t>::max());
 }

@@ -1,7 +1,5 @@
 #include "suspension_health_monitor/internal/identification/skew_profile.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -16,18 +14,6 @@ constexpr double kUsualSteps = 3.0;  // half of all skews are within it beforeha
 constexpr double kMemories = 30.0;   // of the estimator: clocks differ by as much for long
 constexpr double kCertain = 4.0;     // standard deviations
 constexpr double kRounding = 1e-12;  // of squares
-
-/// @return the rest of the squares of psi that the best strut leaves.
-double leastSquares(const Eigen::Matrix3d& moments) {
-  const Eigen::Vector2d products = moments.bottomLeftCorner<2, 1>();
-  return moments(0, 0) - products.dot(moments.bottomRightCorner<2, 2>().ldlt().solve(products));
-}
-
-/// @return the least v' M v / v' N v over the struts v = (1, -b1, -b0), M the moments and N those of the noise.
-double totalLeastSquares(const Eigen::Matrix3d& moments, const Eigen::Matrix3d& noise) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d>(moments, noise, Eigen::EigenvaluesOnly)
-      .eigenvalues()[0];
-}
 
 /// The parabola through three values a step apart; x in steps.
 struct Parabola {
@@ -46,7 +32,8 @@ SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions&
     : step_(mostSkew(filter) / kSteps),
       every_(std::max(1, filter.horizon_samples / kRowsOfHorizon)),
       horizon_rows_(std::max(kFewestRows, filter.horizon_samples)),
-      noise_(noise.covariance()) {
+      noise_of_psi_(noise.covariance()(0, 0)),
+      residuals_(noise.covariance()) {
   for (std::size_t j = 0; j < kNumSkews; ++j) {
     places_.push_back(wheel.place(skewAt(j)));
     prior_[j] = 2.0 * std::log1p(std::pow(skewAt(j) / (kUsualSteps * step_), 2));
@@ -63,18 +50,19 @@ bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, do
     num_ += 1.0;
     output_ += output;
     output_square_ += output * output;
+    Profile damping, stiffness;
     for (std::size_t j = 0; j < kNumSkews; ++j) {
       const WheelRow row = wheel.at(places_[j]);
-      const double damping = row.damping - body[0], stiffness = row.stiffness - body[1];
-      Sums& sums = sums_[j];
-      sums.damping += damping;
-      sums.stiffness += stiffness;
-      sums.damping_square += damping * damping;
-      sums.stiffness_square += stiffness * stiffness;
-      sums.both += damping * stiffness;
-      sums.damping_output += damping * output;
-      sums.stiffness_output += stiffness * output;
+      damping[j] = row.damping - body[0];
+      stiffness[j] = row.stiffness - body[1];
     }
+    sums_.damping += damping;
+    sums_.stiffness += stiffness;
+    sums_.damping_square += damping * damping;
+    sums_.stiffness_square += stiffness * stiffness;
+    sums_.both += damping * stiffness;
+    sums_.damping_output += damping * output;
+    sums_.stiffness_output += stiffness * output;
   }
   if (rows_ % horizon_rows_ != 0) return false;
   closeHorizon();
@@ -83,12 +71,12 @@ bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, do
 }
 
 // About the means, since every block has an offset of its own.
-Eigen::Matrix3d SkewProfile::momentsOf(const Sums& sums) const {
-  const Eigen::Vector3d means = Eigen::Vector3d(output_, sums.damping, sums.stiffness) / num_;
+Eigen::Matrix3d SkewProfile::momentsAt(std::size_t j) const {
+  const Eigen::Vector3d means = Eigen::Vector3d(output_, sums_.damping[j], sums_.stiffness[j]) / num_;
   Eigen::Matrix3d squares;
-  squares << output_square_, sums.damping_output, sums.stiffness_output,  //
-      sums.damping_output, sums.damping_square, sums.both,                //
-      sums.stiffness_output, sums.both, sums.stiffness_square;
+  squares << output_square_, sums_.damping_output[j], sums_.stiffness_output[j],  //
+      sums_.damping_output[j], sums_.damping_square[j], sums_.both[j],            //
+      sums_.stiffness_output[j], sums_.both[j], sums_.stiffness_square[j];
   return squares - num_ * means * means.transpose();
 }
 
@@ -96,29 +84,29 @@ void SkewProfile::closeHorizon() {
   Profile plain, of_noise;
   const double rounding = kRounding * output_square_;
   for (std::size_t j = 0; j < kNumSkews; ++j) {
-    const Eigen::Matrix3d moments = momentsOf(sums_[j]);
-    if (!moments.allFinite()) return;
-    plain[j] = std::max(leastSquares(moments), rounding);
-    of_noise[j] = std::max(totalLeastSquares(moments, noise_), rounding / noise_(0, 0));
+    const ResidualSquares left = residuals_.solve(momentsAt(j));
+    if (!std::isfinite(left.plain)) return;
+    plain[j] = std::max(left.plain, rounding);
+    of_noise[j] = std::max(left.of_noise, rounding / noise_of_psi_);
   }
   const double weight = (num_ - kFitted) / kAlike;
   if (!plain_.take(plain, weight)) return;
   of_noise_.take(of_noise, weight);
-  if (is_known_ && !newestAgrees()) plain_.older = of_noise_.older = {};
+  if (is_known_ && !newestAgrees()) forgetOlder();
   is_known_ = true;
   locate();
 }
 
 bool SkewProfile::Evidence::take(const Profile& rests, double weight) {
-  const double least = *std::min_element(rests.begin(), rests.end());
-  if (!(least > 0.0 && std::isfinite(*std::max_element(rests.begin(), rests.end())))) return false;
-  std::transform(rests.begin(), rests.end(), newest.begin(), [&](double left) { return weight * left / least; });
+  const double least = rests.minCoeff();
+  if (!(least > 0.0 && rests.isFinite().all())) return false;
+  newest = weight / least * rests;
   return true;
 }
 
 void SkewProfile::Evidence::closeBlock(double share) {
-  for (std::size_t j = 0; j < kNumSkews; ++j) older[j] = share * older[j] + newest[j];
-  newest.fill(0.0);
+  older = share * older + newest;
+  newest.setZero();
 }
 
 bool SkewProfile::newestAgrees() const {
@@ -128,13 +116,14 @@ bool SkewProfile::newestAgrees() const {
   const Profile& newest = plain_.newest;
   const Parabola parabola(newest[here - 1], newest[here], newest[here + 1]);
   const double at_skew = parabola.at((skew_ - skewAt(here)) / step_);
-  return at_skew - *std::min_element(newest.begin(), newest.end()) < kCertain * kCertain;
+  return at_skew - newest.minCoeff() < kCertain * kCertain;
 }
 
 SkewProfile::Optimum SkewProfile::optimumOf(const Evidence& evidence) const {
-  Profile total;
-  for (std::size_t j = 0; j < kNumSkews; ++j) total[j] = evidence.older[j] + evidence.newest[j] + prior_[j];
-  const auto best = static_cast<std::size_t>(std::min_element(total.begin(), total.end()) - total.begin());
+  const Profile total = evidence.older + evidence.newest + prior_;
+  Eigen::Index place = 0;
+  total.minCoeff(&place);
+  const auto best = static_cast<std::size_t>(place);
   const double skew = skewAt(best);
   if (best == 0 || best + 1 == kNumSkews) return {skew, 0.0, false};
   const Parabola here(total[best - 1], total[best], total[best + 1]);
@@ -152,14 +141,14 @@ void SkewProfile::locate() {
 void SkewProfile::interrupt() {
   plain_.closeBlock(share_);
   of_noise_.closeBlock(share_);
-  sums_.fill({});
+  sums_ = {};
   output_ = output_square_ = num_ = 0.0;
   rows_ = 0;
 }
 
 void SkewProfile::restart() {
   interrupt();
-  plain_.older = of_noise_.older = {};
+  forgetOlder();
   is_known_ = false;
   is_within_ = true;
   skew_ = variance_ = 0.0;

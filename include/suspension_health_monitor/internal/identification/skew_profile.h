@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "suspension_health_monitor/internal/identification/regressor_noise.h"
+#include "suspension_health_monitor/internal/identification/residual_squares.h"
 #include "suspension_health_monitor/internal/identification/wheel_history.h"
 
 namespace suspension_health_monitor {
@@ -62,18 +62,20 @@ class SkewProfile {
  private:
   static constexpr int kSteps = 15;  // either way
   static constexpr std::size_t kNumSkews = 2 * kSteps + 1;
-  using Profile = std::array<double, kNumSkews>;
+  using Profile = Eigen::Array<double, static_cast<int>(kNumSkews), 1>;  // a value for every skew
 
-  /// Sums over the rows at one skew.
+  static Profile none() { return Profile::Zero(); }
+
+  /// Sums over the rows.
   struct Sums {
-    double damping = 0.0, stiffness = 0.0;                            // of phi_1, phi_0
-    double damping_square = 0.0, stiffness_square = 0.0, both = 0.0;  // of their products
-    double damping_output = 0.0, stiffness_output = 0.0;              // of those with psi
+    Profile damping = none(), stiffness = none();                               // of phi_1, phi_0
+    Profile damping_square = none(), stiffness_square = none(), both = none();  // of their products
+    Profile damping_output = none(), stiffness_output = none();                 // of those with psi
   };
 
   /// D by one way to count what a strut leaves.
   struct Evidence {
-    Profile newest{}, older{};  // of the block, and of those before it
+    Profile newest = none(), older = none();  // of the block, and of those before it
 
     bool take(const Profile& rests, double weight);
     void closeBlock(double share);
@@ -86,19 +88,21 @@ class SkewProfile {
   };
 
   double skewAt(std::size_t j) const { return (static_cast<double>(j) - kSteps) * step_; }
-  Eigen::Matrix3d momentsOf(const Sums& sums) const;
+  Eigen::Matrix3d momentsAt(std::size_t j) const;
   void closeHorizon();
   bool newestAgrees() const;
   Optimum optimumOf(const Evidence& evidence) const;
   void locate();
+  void forgetOlder() { plain_.older = of_noise_.older = none(); }
 
   double step_;  // [s]
   int every_, horizon_rows_;
-  Eigen::Matrix3d noise_;  // what it adds to the moments of psi, phi_1, phi_0 of a row [1 / variance of a sensor]
-  double share_ = 1.0;     // of a block, that is left at the end of the next one
+  double noise_of_psi_;  // what it adds to the square of psi of a row [1 / variance of a sensor]
+  ResidualSolver residuals_;
+  double share_ = 1.0;  // of a block, that is left at the end of the next one
   std::vector<WheelHistory::Place> places_;
-  Profile prior_;                     // -2 log of what is known beforehand
-  std::array<Sums, kNumSkews> sums_;  // of the block
+  Profile prior_;  // -2 log of what is known beforehand
+  Sums sums_;      // of the block
   double output_ = 0.0, output_square_ = 0.0, num_ = 0.0;
   int rows_ = 0;
   Evidence plain_, of_noise_;  // by least squares and by total least squares
