@@ -73,6 +73,7 @@ class LockedVehicle {
   void take(const VehicleSample& sample) {
     if (!has_sample_ && streams_.channels.body_imu) monitor_.setNoise(grid_.noise());
     has_sample_ = true;
+    for (std::size_t i = 0; i < monitor_.numStruts(); ++i) monitor_.setStampErrors(i, grid_.stampErrors(i));
     monitor_.addSample(sample);
   }
 

@@ -68,6 +68,7 @@ void VehiclePipeline::take(const VehicleSample& sample) {
   newest_ = sample.stamp;
   for (std::size_t i = 0; i < recent_.size(); ++i) recent_[i].push(sample.ofStrut(i));
   if (recent_forces_) recent_forces_->push({sample.stamp, sample.forces});
+  for (std::size_t i = 0; i < monitor_->numStruts(); ++i) monitor_->setStampErrors(i, grid_->stampErrors(i));
   monitor_->addSample(sample);
 }
 

@@ -112,6 +112,24 @@ TEST(VehicleGrid, GivesTheSameTopsHoweverTheBodysIMULeans) {
   }
 }
 
+// The body's IMU, whose stamps come late by chance, tells the top; the wheel's come as they should.
+TEST(VehicleGrid, TellsByHowMuchTheStampsOfTopAndWheelMayBeWrong) {
+  std::mt19937 random(3);
+  constexpr double kLatest = 0.004;
+  std::uniform_real_distribution<double> late(0.0, kLatest);
+  GridOptions options;
+  options.alignment = Alignment::kResampled;
+  VehicleGrid grid(kPeriod, streamsAt({1.0, 0.0, 0.0}), options, [](const VehicleSample&) {});
+  for (int k = 0; k < 4000; ++k) {
+    const double t = 100.0 + kPeriod * k;
+    grid.push(0, fromSeconds(t + late(random)),
+              {0.0, 0.0, 9.81 + std::sin(7.0 * t), 0.0, 0.05 * std::cos(7.0 * t), 0.0});
+    grid.push(1, fromSeconds(t), {std::sin(20.0 * t)});
+  }
+  EXPECT_NEAR(grid.stampErrors(0)[0], kLatest / std::sqrt(12.0), 0.1 * kLatest / std::sqrt(12.0));
+  EXPECT_LT(grid.stampErrors(0)[1], 1e-6);
+}
+
 // A drive that ends before gravity is known well is not lost.
 TEST(VehicleGrid, LeadsOnWhatWaitsAtTheEnd) {
   EXPECT_GT(topOf(turn(40.0, {0.0, 1.0, 0.0}), {1.0, 0.0, 0.0}, 500).size(), 400U);

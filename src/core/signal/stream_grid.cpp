@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -89,6 +90,11 @@ std::string StreamGrid::why() const {
 std::string StreamGrid::describeAlignment() const {
   if (!resamples_) return "paired";
   return why().empty() ? "resampled" : "resampled because " + why();
+}
+
+// A spacing has the errors of two stamps.
+double StreamGrid::stampError(std::size_t stream) const {
+  return resamples_ ? gate(stream).timing().jitter() / std::sqrt(2.0) : 0.0;
 }
 
 RejectCounts StreamGrid::rejected(std::size_t stream) const {

@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
-#include <cmath>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -31,11 +30,8 @@ std::optional<CornerSample> UniformGrid::take(const GridInstant* instant) {
   return CornerSample{instant->stamp, values[indexOf(Side::kSprung)], values[indexOf(Side::kUnsprung)]};
 }
 
-// A spacing has the errors of two stamps.
 Eigen::Vector2d UniformGrid::stampErrors() const {
-  if (!resamples()) return Eigen::Vector2d::Zero();
-  return Eigen::Vector2d(gate(Side::kSprung).timing().jitter(), gate(Side::kUnsprung).timing().jitter()) /
-         std::sqrt(2.0);
+  return {streams_.stampError(indexOf(Side::kSprung)), streams_.stampError(indexOf(Side::kUnsprung))};
 }
 
 }  // namespace suspension_health_monitor

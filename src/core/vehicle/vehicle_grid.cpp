@@ -89,6 +89,12 @@ SensorNoise VehicleGrid::noise() const {
   return noiseOfStrutTops(vehicle_, period_, hasHeardNoise() ? deviation(3) / deviation(0) : kUsualGyroNoise);
 }
 
+Eigen::Vector2d VehicleGrid::stampErrors(std::size_t strut) const {
+  const VehicleChannels::Strut& streams = vehicle_.struts[strut];
+  const std::size_t top = streams.sprung ? *streams.sprung : *vehicle_.body_imu;
+  return {grid_.stampError(top), grid_.stampError(streams.unsprung)};
+}
+
 RejectCounts VehicleGrid::rejected(std::size_t sensor) const {
   RejectCounts all;
   for (std::size_t stream = channels_[sensor].first; stream < channels_[sensor].end; ++stream)

@@ -38,8 +38,7 @@ class UniformGrid {
   std::string describeAlignment() const { return streams_.describeAlignment(); }
   std::uint64_t bridged() const { return streams_.bridged(); }
   RejectCounts rejected() const { return streams_.rejected(); }
-  /// @return standard deviations of the stamps' errors, of the sprung and the unsprung sensor, as far as readings that
-  /// were taken regularly tell them [s]; 0 where stamps are not needed: of pairs.
+  /// @return StreamGrid::stampError() of the sprung and the unsprung sensor.
   Eigen::Vector2d stampErrors() const;
   const StreamGate& gate(Side side) const { return streams_.gate(indexOf(side)); }
 

@@ -43,6 +43,9 @@ class VehicleGrid {
   /// @return what timing and losses of a sensor are judged by: all of its streams share their stamps.
   const StreamGate& gate(std::size_t sensor) const { return grid_.gate(channels_[sensor].first); }
 
+  /// @return StreamGrid::stampError() of what measures a strut's top, and of its unsprung IMU.
+  Eigen::Vector2d stampErrors(std::size_t strut) const;
+
   /// @return readings of a sensor that were kept out, and what was lost for want of its readings.
   RejectCounts rejected(std::size_t sensor) const;
   std::uint64_t missed(std::size_t sensor) const;

@@ -36,6 +36,11 @@ class VehicleMonitor {
   /// As more is known of the noise. Allocates.
   void setNoise(const SensorNoise& noise);
 
+  /// As SuspensionMonitor::setStampErrors(); lost while there is no monitor.
+  void setStampErrors(std::size_t strut, const Eigen::Vector2d& stddevs) {
+    if (isCoupled()) struts_[strut].setStampErrors(stddevs);
+  }
+
   /// Takes in the next sample; gaps and clocks that go back begin a new series.
   void addSample(const VehicleSample& sample);
 
