@@ -35,9 +35,11 @@ sourceSystemRos() {
   if [ -f /opt/ros/noetic/setup.bash ]; then sourceSetup /opt/ros/noetic/setup.bash; fi
 }
 
-# buildPackage [TARGET]...: configures and builds in build/. CMAKE_BUILD_PARALLEL_LEVEL: how many compilers at once.
+jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}  # how many compilers, or tests, at once
+
+# buildPackage [TARGET]...: configures and builds in build/.
 buildPackage() {
-  local jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)} cache=$build/CMakeCache.txt
+  local cache=$build/CMakeCache.txt
   sourceSystemRos
   if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$repository" "$cache"; then
     say "build/ was made for another place of this folder: starting it anew"
