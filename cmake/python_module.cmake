@@ -27,6 +27,7 @@ function(add_python_part part directory)
   target_include_directories(${target} PRIVATE ${python_repository}/include)
   target_compile_options(${target} PRIVATE ${strict_warnings})
   target_compile_features(${target} PRIVATE cxx_std_17)
+  target_precompile_headers(${target} PRIVATE <pybind11/eigen.h> <pybind11/numpy.h> <pybind11/stl.h>)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME _${part} LIBRARY_OUTPUT_DIRECTORY ${directory})
 endfunction()
 
