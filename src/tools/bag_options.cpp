@@ -5,14 +5,12 @@
 #include <string>
 #include <utility>
 
-#include "../ros/live_baseline.h"
 #include "../ros/model_file.h"
 #include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
 #include "survey.h"
 #include "suspension_health_monitor/internal/plain_text.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -77,10 +75,9 @@ BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_diffe
   return options;
 }
 
-void takeBaselineFile(const po::variables_map& values, ShellOptions& options) {
-  if (values.count(kBaseline) == 0) return;
-  options.baseline_file = values[kBaseline].as<std::string>();
-  readBaselineFile(options.baseline_file);
+void takeHealthy(const po::variables_map& values, BagOptions& options) {
+  options.healthy = readHealthy(values);
+  if (options.healthy) replaceBaseline(*options.healthy, options.pipeline);
 }
 
 void addEffectsFile(po::options_description& description) {

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "../ros/vehicle_options.h"
 #include "bag_options.h"
 #include "command.h"
 #include "errors.h"
@@ -74,14 +75,16 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   std::optional<VehiclePage> page;
   if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>(), vehicle);
 
-  PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
-  TopicGaps gaps(settings.shell.input_timeout);
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings, gaps);
-  options.sample_period = settings.monitor.sample_period;
-  options.horizon_samples = givenHorizon(settings);
+  VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
+  TopicGaps gaps(settings.common.shell.input_timeout);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings.common, gaps);
+  options.sample_period = settings.common.monitor.sample_period;
   Progress progress("searching", 1.0);
   options.progress = [&](double share) { progress.update(share); };
-  const VehicleDiagnosis found = diagnoseVehicle(drives, vehicle.names, options, models);
+  std::vector<DiagnoseOptions> by_strut(settings.struts.size(), options);
+  for (std::size_t i = 0; i < by_strut.size(); ++i)
+    by_strut[i].horizon_samples = givenHorizon(settings.struts[i], *options.sample_period);
+  const VehicleDiagnosis found = diagnoseVehicle(drives, vehicle.names, by_strut, models);
   gaps.explain([&] { requireOne(found, vehicle); });
   print(found, vehicle);
   if (file) file->commit(toJson(found, vehicle, gaps).dump(2) + '\n');

@@ -85,9 +85,9 @@ void printRejected(const std::string& topic, const RejectCounts& rejected) {
   if (rejected.total() > 0) std::printf("%s%s\n", topic.c_str(), describeRejected(rejected).c_str());
 }
 
-std::optional<int> givenHorizon(const PipelineOptions& options) {
-  if (!options.monitor.integration_horizon) return std::nullopt;
-  return MonitorSettings(options.monitor).horizonSamples(*options.monitor.sample_period);
+std::optional<int> givenHorizon(const PipelineOptions& strut, double sample_period) {
+  if (!strut.monitor.integration_horizon) return std::nullopt;
+  return MonitorSettings(strut.monitor).horizonSamples(sample_period);
 }
 
 }  // namespace suspension_health_monitor

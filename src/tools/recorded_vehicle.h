@@ -45,7 +45,7 @@ std::vector<VehicleDrive> readDrives(const boost::program_options::variables_map
 /// Tells people what became of the messages of the sensors that were kept out.
 void printRejected(const std::string& topic, const RejectCounts& rejected);
 
-/// @return L, if the settings give the horizon.
-std::optional<int> givenHorizon(const PipelineOptions& options);
+/// @return L, if the settings of a strut give the horizon.
+std::optional<int> givenHorizon(const PipelineOptions& strut, double sample_period);
 
 }  // namespace suspension_health_monitor
