@@ -1,6 +1,5 @@
 #include <cstdio>
 
-#include "../ros/vehicle_options.h"
 #include "bag_options.h"
 #include "command.h"
 #include "long_work.h"

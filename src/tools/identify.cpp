@@ -149,7 +149,7 @@ void identify(const Arguments& arguments) {
   printInput(monitor, identification.grid(), options, rejected);
   printTable(digest.items());
   printEnd(identification, result, pipeline.monitor.sprung_mass, !recorded.hasEffects());
-  if (strut) printChange(*strut, healthy, pipeline);
+  printChange(describeChange(result, healthy, pipeline));
   const auto reason = whyNotValid(monitor, ever_valid);
   if (!reason)
     for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());

@@ -41,17 +41,6 @@ std::vector<Baseline> healthyStruts(const boost::program_options::variables_map&
   return healthy;
 }
 
-std::vector<IdentifyOptions> optionsOf(const VehicleOptions& settings) {
-  std::vector<IdentifyOptions> options;
-  for (const PipelineOptions& strut : settings.struts) {
-    IdentifyOptions& its = options.emplace_back();
-    its.sample_period = settings.common.monitor.sample_period;
-    its.horizon_samples = givenHorizon(strut, *its.sample_period);
-    its.memory = strut.monitor.memory;
-  }
-  return options;
-}
-
 std::string settingsText(const std::map<std::string, StrutOfDrive>& struts, const OptionMap& given,
                          const boost::program_options::variables_map& values, const AskedVehicle& vehicle) {
   if (struts.empty()) throw TooLittleError("no estimate is valid: there are no settings to write");
@@ -79,11 +68,11 @@ void identifyStruts(const boost::program_options::variables_map& values) {
                       vehicle.only ? "" : vehicle.names[i]);
   if (csv) RowTable::writeHead(csv->stream(), !vehicle.only);
   std::size_t last = 0;
-  const VehicleIdentification found =
-      identifyVehicle(drives, vehicle.names, optionsOf(settings), [&](std::size_t strut, const MonitorReport& report) {
-        if (strut != last) rows[last].finish();
-        rows[last = strut].add(report);
-      });
+  const VehicleIdentification found = identifyVehicle(drives, vehicle.names, identifyOptionsOf(settings),
+                                                      [&](std::size_t strut, const MonitorReport& report) {
+                                                        if (strut != last) rows[last].finish();
+                                                        rows[last = strut].add(report);
+                                                      });
   rows[last].finish();
   gaps.explain([&] { requireCoupling(found.coupling); });
   printCoupling(found.coupling, vehicle.names);
@@ -104,7 +93,7 @@ void identifyStruts(const boost::program_options::variables_map& values) {
     std::printf("over the whole drive, by instrumental variables:\n");
     printResult("IV", strut.iv, its_settings.monitor.sprung_mass);
     if (const std::optional<StrutOfDrive> its = strutOf(strut)) {
-      printChange(*its, healthy[i], its_settings);
+      printChange(describeChange(*its, healthy[i], its_settings));
       const std::string not_nominal = whyNotNominal(strut, its_settings.monitor);
       if (not_nominal.empty())
         struts.emplace(vehicle.names[i], *its);

@@ -2,24 +2,15 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <sstream>
 
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-std::optional<LogChange> changeOf(double value, double stddev, const std::optional<double>& healthy,
-                                  double healthy_stddev) {
-  if (!healthy || !(value > 0.0)) return std::nullopt;
-  return LogChange{std::log(value / *healthy), std::hypot(stddev / value, healthy_stddev / *healthy)};
-}
 
 std::string head(const std::vector<std::string>& drives, const char* load) {
   return "# By `suspension_bag identify` from " + shortened(join(drives)) + ".\n# " + load +
@@ -68,15 +59,6 @@ OptionMap othersOf(OptionMap given) {
 
 }  // namespace
 
-std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
-  const double horizon = found.horizon_samples * found.sample_period;
-  if (found.iv.valid && found.isSteady())
-    return StrutOfDrive{found.iv, "over the whole drive, by instrumental variables", horizon};
-  if (found.la.valid) return StrutOfDrive{found.la, "at the end of the drive, by LA", horizon};
-  if (found.ls.valid) return StrutOfDrive{found.ls, "at the end of the drive, by LS", horizon};
-  return std::nullopt;
-}
-
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {
   const std::optional<StrutOfDrive> strut = strutOf(found);
   if (!strut) return "no estimate is valid";
@@ -92,17 +74,6 @@ std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& opt
       lack("damping/mass", its.damping_to_mass, its.damping_to_mass_stddev, options.damping_warn);
   if (!damping.empty()) return damping;
   return lack("stiffness/mass", its.stiffness_to_mass, its.stiffness_to_mass_stddev, options.stiffness_warn);
-}
-
-void printChange(const StrutOfDrive& found, const Baseline& healthy, const PipelineOptions& options) {
-  const IdentifiedStrut& strut = found.strut;
-  const StrutChange change = splitChange(changeOf(strut.damping_to_mass, strut.damping_to_mass_stddev,
-                                                  healthy.damping_to_mass, healthy.damping_to_mass_stddev),
-                                         changeOf(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev,
-                                                  healthy.stiffness_to_mass, healthy.stiffness_to_mass_stddev),
-                                         options.monitor.payload_range, 0.0);
-  const std::string text = describe(change, healthy);
-  if (!text.empty()) std::printf("the strut, %s: %s\n", found.by.c_str(), text.c_str());
 }
 
 OptionMap settingsFor(const std::string& strut, OptionMap given) {

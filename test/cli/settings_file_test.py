@@ -5,6 +5,8 @@ import re
 import pytest
 import yaml
 
+import browser
+
 DRIVE = ["--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100"]
 B1, B0 = 4.0, 40.0  # of the ugv
 
@@ -60,6 +62,19 @@ def test_strut_is_told_against_nominal_values_in_a_sentence(program, bag, worn, 
     told = sentence.search(program.succeed("identify", bag, "--baseline", tmp_path / "baseline.yaml"))[1]
     assert told.startswith("damping 100 % above baseline (beyond doubt)")
     assert not sentence.search(program.succeed("identify", bag)), "nothing to be against"
+
+
+def test_diagnose_tells_it_as_well_and_keeps_its_verdict(program, worn, settings, tmp_path):
+    told = program.succeed("diagnose", worn, "--config", settings, "--json", tmp_path / "found.json", "--report", tmp_path)
+    found = json.loads((tmp_path / "found.json").read_text())
+    assert found["verdict"] == "nothing_missing"
+    assert found["change"] == ("the strut, over the whole drive, by instrumental variables: damping 20 % below nominal "
+                               "(beyond doubt), stiffness at nominal")
+    assert f"\n{found['change']}\n" in told
+    page = browser.shown(tmp_path / "report.html", tmp_path / "profile")
+    assert page.one("section", id="verdict").one("p", class_="change").text == f"T{found['change'][1:]}."
+    program.succeed("diagnose", worn, "--json", tmp_path / "found.json")
+    assert "change" not in json.loads((tmp_path / "found.json").read_text())
 
 
 def test_payload_is_told_as_payload(program, bag):
@@ -153,7 +168,13 @@ def test_every_command_takes_the_settings_of_every_strut(program, vehicle, of_st
     program.succeed("compare", *of, "--json", tmp_path / "compared.json")
     compared = json.loads((tmp_path / "compared.json").read_text())["struts"]
     assert [round(compared[name]["one_step"]["horizon_samples"] * period, 3) for name in ("front", "rear")] == [0.5, 0.8]
-    program.succeed("diagnose", *of)
+    told = program.succeed("diagnose", *of, "--json", tmp_path / "searched.json", "--report", tmp_path / "page")
+    assert told.count("variables: damping at nominal, stiffness at nominal") == 2
+    searched = json.loads((tmp_path / "searched.json").read_text())["struts"]
+    assert all(strut["change"].endswith("damping at nominal, stiffness at nominal") for strut in searched.values())
+    struts = browser.shown(tmp_path / "page" / "report.html", tmp_path / "profile").one("section", id="verdict").one("ul")
+    assert [each.text for each in struts.all("small", class_="change")] == [
+        f"T{strut['change'][1:]}" for strut in searched.values()]
     program.refuse(2, ["diagnose", *of[:3], "--set", "struts/middle/memory=3"], ["struts/middle", "front, rear"], tmp_path)
     program.refuse(2, ["identify", *of[:3], "--set", "struts/front/sample_period=0.01"],
                    ["struts/front/sample_period", "of the whole vehicle"], tmp_path)
@@ -200,3 +221,9 @@ def test_too_short_a_drive_says_what_would_be_enough(program, tmp_path):
     enough = float(re.search(r"\((\S+) s in one piece are enough\)", refused(3, "diagnose"))[1])
     program.succeed("simulate", *DRIVE, "--duration", enough, "-o", tmp_path / "short.bag")
     program.succeed("diagnose", tmp_path / "short.bag")
+
+
+def test_a_long_drive_is_not_called_too_short(program, bag):
+    result = program("identify", bag, "--sprung-topic", "/unsprung/imu", "--unsprung-topic", "/sprung/imu")
+    assert result.returncode == 4 and "the data show no damped spring" in result.stderr
+    assert "enough" not in result.stderr
