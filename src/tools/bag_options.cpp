@@ -1,6 +1,9 @@
 #include "bag_options.h"
 
+#include <unistd.h>
+
 #include <array>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -102,7 +105,12 @@ ModelOptions readModelOptions(const po::variables_map& values) {
 
 std::optional<TextFile> outputFile(const po::variables_map& values, const char* option) {
   if (values.count(option) == 0) return std::nullopt;
-  return std::optional<TextFile>(std::in_place, values[option].as<std::string>());
+  const auto path = values[option].as<std::string>();
+  if (path != kStandardOutput) return std::optional<TextFile>(std::in_place, path);
+  std::fflush(stdout);
+  const int output = dup(STDOUT_FILENO);
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  return std::optional<TextFile>(std::in_place, "standard output", output < 0 ? nullptr : fdopen(output, "w"));
 }
 
 std::vector<Drive> readDrives(const BagOptions& options, TopicGaps& gaps) {

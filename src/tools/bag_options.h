@@ -66,7 +66,8 @@ EffectLibrary readEffects(const boost::program_options::variables_map& values);
 /// Adds --effects-file alone.
 void addEffectsFile(boost::program_options::options_description& description);
 
-/// @return the file of an option, begun; nothing: it is not given.
+/// @return the file of an option, begun; nothing: it is not given. Where the file is called "-" it is standard output,
+/// which has nothing else then: what is said to people goes to standard error from now on.
 /// @throws std::runtime_error  naming the file, if it cannot be written.
 std::optional<TextFile> outputFile(const boost::program_options::variables_map& values, const char* option);
 
