@@ -34,6 +34,13 @@ enum class EstimateDoubt {
 /// @return a sentence for people.
 std::string describe(EstimateDoubt doubt);
 
+/// @return of each effect nothing yet.
+inline std::array<double, kMostEffects> unknownCoefficients() {
+  std::array<double, kMostEffects> unknown{};
+  unknown.fill(std::nan(""));
+  return unknown;
+}
+
 /// What one estimator knows of the strut. NaN: nothing yet.
 struct StrutEstimate {
   double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
@@ -43,8 +50,8 @@ struct StrutEstimate {
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
   bool scatter_is_known = false;                   ///< that correlation has been seen; else it is what is usual
   std::size_t num_effects = 0;                     ///< in the model
-  std::array<double, kMostEffects> coefficients{};         ///< c_j [unit of the effect's coefficient]
-  std::array<double, kMostEffects> coefficient_stddevs{};  ///< likewise
+  std::array<double, kMostEffects> coefficients = unknownCoefficients();  ///< c_j [unit of the effect's coefficient]
+  std::array<double, kMostEffects> coefficient_stddevs = unknownCoefficients();  ///< likewise
   double offset = std::nan("");      ///< of the wheel carrier's reading against the body's [m/s^2]; NaN: not estimated
   double clock_skew = std::nan("");  ///< by which the wheel carrier's readings are stamped late, or the body's early
                                      ///< [s]; NaN: not estimated

@@ -100,9 +100,11 @@ struct VehicleIdentification {
 };
 
 /// identify() for every strut of a vehicle; what the coupling does not know is in the standard deviations.
+/// @param options  by strut, or those of all, or none; the sample_period is that of the first.
 /// @param report  IdentifyOptions::report of every strut, one strut after the other.
+/// @throws std::invalid_argument  as separateVehicle() and identify(); for options of another number of struts.
 VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
-                                      const IdentifyOptions& options = {},
+                                      const std::vector<IdentifyOptions>& options = {},
                                       const std::function<void(std::size_t strut, const MonitorReport&)>& report = {});
 
 /// What a search found in a vehicle.
@@ -124,7 +126,9 @@ struct VehicleDiagnosis {
 
 /// diagnose() for every strut of a vehicle. An effect in one strut shows in others: what was found in the strut where
 /// it explains most is taken out of them, before they are searched again, until nothing more is found.
+/// @param options  by strut, or those of all, or none; sample_period and progress are those of the first.
+/// @throws std::invalid_argument  as separateVehicle() and diagnose(); for options of another number of struts.
 VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
-                                 const DiagnoseOptions& options = {}, const KnownModels& models = {});
+                                 const std::vector<DiagnoseOptions>& options = {}, const KnownModels& models = {});
 
 }  // namespace suspension_health_monitor

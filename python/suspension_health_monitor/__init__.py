@@ -13,16 +13,21 @@ compression positive. Wrong use raises ValueError in the words of the command li
 Messages and services of the ROS package are in suspension_health_monitor.msg and .srv. Whoever imports only these does
 not load the rest: it comes with the first name that is asked for.
 """
+from pkgutil import extend_path
 from typing import TYPE_CHECKING
+
+# In a catkin devel space the compiled parts are in another folder, which processes that this one spawns have to find.
+__path__ = extend_path(__path__, __name__)
 
 __all__ = [
     "Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identification", "Recording", "Simulation",
     "StrutModel", "StrutMonitor", "VehicleMonitor", "compare", "diagnose", "effects", "health", "identify", "simulate",
+    "to_dict",
 ]
 
 if TYPE_CHECKING:
     from ._api import (Baseline, Comparison, Diagnosis, Effect, Health, Identification, Recording, Simulation,
-                       StrutModel, StrutMonitor, VehicleMonitor, compare, diagnose, effects, health, identify, simulate)
+                       StrutModel, StrutMonitor, VehicleMonitor, compare, diagnose, effects, health, identify, simulate, to_dict)
 
 
 def __getattr__(name):

@@ -2,10 +2,11 @@
 import os
 from typing import Any, List, Optional, Union
 
-from . import _core, _html, _plots
+from . import _core, _html, _plain, _plots
 from ._core import Baseline, Comparison, Diagnosis, Effect, Health, Identification, Simulation, StrutModel
-from ._models import baseline_file, library, model_file, to_baseline, to_model
+from ._models import healthy_strut, library, model_file, to_model
 from ._monitors import StrutMonitor, VehicleMonitor
+from ._plain import to_dict
 from ._progress import callback
 from ._recording import Recording, is_path, to_source
 from ._settings import array_keywords, files, simulator_keywords
@@ -13,7 +14,7 @@ from ._types import Model, Option, Path, Progress
 
 __all__ = ["Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identification", "Recording", "Simulation",
            "StrutModel", "StrutMonitor", "VehicleMonitor", "compare", "diagnose", "effects", "health", "identify",
-           "simulate"]
+           "simulate", "to_dict"]
 
 _OF_BAGS = ("sprung_topic", "unsprung_topic", "road_topic", "start", "end")
 
@@ -28,7 +29,8 @@ def identify(*drives: Any, model: Model = None, effects_file: Optional[Path] = N
     :param effects_file: path of a YAML file with laws of your own, which the model may have.
     :param progress: called with the share that is done, 0 .. 1; True: a bar.
     :param options: of doc/settings.md, with _ for /: sample_period [s], integration_horizon [s], memory [s],
-        sprung_mass [kg] ... config: path of a YAML file with such. Of bags also sprung_topic, unsprung_topic,
+        sprung_mass [kg] ... config: path of a YAML file with such; of arrays those of messages in it say nothing:
+        axes, frames, ranges, rates and what is published. Of bags also sprung_topic, unsprung_topic,
         road_topic, start [s], end [s]. Left out: the period is measured, the horizon proposed from the data.
     :returns: an Identification: .la, .ls, .iv with .damping_to_mass, .stiffness_to_mass, their _stddev, .valid ...
     :raises ValueError: wrong option, array or file; or too little data, saying what would be enough.
@@ -87,17 +89,16 @@ def health(*drives: Any, baseline: Optional[Union[Baseline, Path]] = None, progr
 
     :param drives: as of identify().
     :param baseline: the healthy strut: a Baseline, such as Health.baseline of an earlier drive, or the path of a file
-        that the monitor has written. None: the nominal values among the options, or what the drive itself teaches.
+        that the monitor has written, or of settings with nominal values. None: the nominal values among the options, or what the drive itself teaches.
     :param progress: as of identify().
     :param options: as of identify(), such as nominal_damping_to_mass [1/s], health_damping_warn, input_timeout [s].
     :returns: a Health: .events (changes of level with their reasons), .end, .seconds by level, .course ...
     :raises ValueError: as identify().
     """
     call = _Call("health", drives, options, ["baseline"], progress)
-    if not call.is_of_bags:
-        return call.of_arrays(_core.health, to_baseline(baseline))
-    with baseline_file(baseline) as file:
-        return call.of_bags(files().health, baseline=file)
+    healthy, file = healthy_strut(baseline)
+    return call.of_bags(files().health, healthy, file) if call.is_of_bags else \
+        call.of_arrays(_core.health, healthy, file)
 
 
 def effects(effects_file: Optional[Path] = None) -> List[Effect]:
@@ -168,3 +169,4 @@ def _flags(**values):
 
 _html.install()
 _plots.install()
+_plain.install()

@@ -12,6 +12,8 @@ class Baseline:
     damping_to_mass: Optional[float]
     damping_to_mass_stddev: float
     learned: bool
+    learned_from: float
+    learned_to: float
     stiffness_to_mass: Optional[float]
     stiffness_to_mass_stddev: float
 
@@ -296,6 +298,7 @@ class StrutModel:
     damping_to_mass: float
     effects: List[str]
     numbers: List[ModelNumber]
+    settings: Dict[str, Any]
     stiffness_to_mass: float
     def yaml(self) -> str: ...
     def _repr_html_(self) -> str: ...

@@ -5,6 +5,7 @@ import tempfile
 from typing import Any
 
 from . import _core
+from ._plain import Restored
 from ._recording import is_path
 from ._settings import files
 
@@ -17,35 +18,26 @@ def library(effects_file: Any = None) -> _core.EffectLibrary:
 def to_model(model: Any, effects_file: Any = None) -> Any:
     """A StrutModel of one, a dict of settings or a file; None: of None."""
     known = library(effects_file)
-    return files().read_model(os.fspath(model), known) if is_path(model) else _core.to_model(model, known)
+    if is_path(model):
+        return files().read_model(os.fspath(model), known)
+    return _core.to_model(model.settings if isinstance(model, Restored) else model, known)
 
 
-def to_baseline(baseline: Any) -> Any:
-    """A Baseline of one or of a file; None: of None."""
-    return files().read_baseline(os.fspath(baseline)) if is_path(baseline) else baseline
+def healthy_strut(baseline: Any) -> Any:
+    """A Baseline, and the file that it was read from; None and no file: of None."""
+    if not is_path(baseline):
+        return baseline, ""
+    file = os.fspath(baseline)
+    return files().read_baseline(file), file
 
 
 @contextlib.contextmanager
-def _written(value, text):
-    """The path of a file that holds a value, or None; a path is one already."""
-    if value is None or is_path(value):
-        yield None if value is None else os.fspath(value)
+def model_file(model, effects_file):
+    """The path of a file with the model, as the code of the command line reads it, or None; a path is one already."""
+    if model is None or is_path(model):
+        yield None if model is None else os.fspath(model)
         return
     with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
-        file.write(text(value))
+        file.write(to_model(model, effects_file).yaml())
         file.flush()
         yield file.name
-
-
-def model_file(model, effects_file):
-    """A model as the code of the command line reads it."""
-    return _written(model, lambda value: to_model(value, effects_file).yaml())
-
-
-def baseline_file(baseline):
-    """A healthy strut, likewise."""
-    def text(value):
-        names = ("damping_to_mass", "stiffness_to_mass", "damping_to_mass_stddev", "stiffness_to_mass_stddev")
-        values = {name: getattr(value, name) for name in names}
-        return "".join(f"{name}: {each!r}\n" for name, each in values.items() if each is not None)
-    return _written(baseline, text)

@@ -4,7 +4,7 @@ from typing import Any, Callable, Dict, Iterable, Optional, Sequence, Tuple, Uni
 import numpy as np
 
 from . import _core
-from ._models import to_baseline, to_model
+from ._models import healthy_strut, to_model
 from ._recording import Recording, check_lengths, to_readings, to_stamps
 from ._settings import array_keywords
 from ._types import Array, Model, Option, Path
@@ -26,6 +26,8 @@ class StrutMonitor:
     def __init__(self, *, model: Model = None, baseline: Optional[Union[_core.Baseline, Path]] = None,
                  on_report: Optional[Callable[[_core.MonitorReport], Any]] = None, every: int = 1, tyre: bool = False,
                  config: Optional[Path] = None, **options: Option) -> None:
+        if on_report is not None and not callable(on_report):
+            raise ValueError(f"on_report = {on_report!r}, must be a function or None")
         arguments = ["model", "baseline", "on_report", "every", "tyre", "config"]
         self._core = _core.StrutMonitor(array_keywords(options, config, arguments), tyre, on_report, every)
         if model is not None:
@@ -51,7 +53,7 @@ class StrutMonitor:
 
     def set_baseline(self, baseline: Union[_core.Baseline, Path]) -> None:
         """Judges health by this from now on."""
-        self._core.set_baseline(to_baseline(baseline))
+        self._core.set_baseline(healthy_strut(baseline)[0])
 
     @property
     def report(self) -> _core.MonitorReport:

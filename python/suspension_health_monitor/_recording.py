@@ -9,10 +9,11 @@ from ._types import Array
 
 _SHORTEST, _LONGEST = 1e-5, 10.0  # [s], as sample_period
 _FARTHEST = 4e9  # [s], 126 years: the difference of two fits into nanoseconds
+_FASTEST, _FEWEST = 1e-4, 10  # [s]: microseconds at 10 Hz and more are closer than that as nanoseconds; stamps to tell
 
 
 class Recording:
-    """Readings of one drive of a strut.
+    """Readings of one drive of a strut. It keeps copies: what becomes of the arrays afterwards does not matter.
 
     Recording(stamps, body, wheel)                       both sensors read at the same instants
     Recording(stamps_body, body, stamps_wheel, wheel)    each at its own
@@ -73,7 +74,7 @@ def to_readings(name, values, shape=None):
         raise ValueError(f"{name} has the shape {array.shape}, must be ({words})")
     if array.shape[0] == 0:
         raise ValueError(f"{name} is empty, must hold readings")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return np.array(array, dtype=np.float64, order="C")
 
 
 def _to_stamps(name, stamps, values, of):
@@ -114,6 +115,11 @@ def to_stamps(name, stamps):
         k = int(back.argmax()) + 1
         raise ValueError(f"{name} go back at {k}: {1e-9 * nanoseconds[k]:.9f} after {1e-9 * nanoseconds[k - 1]:.9f} "
                          "[s], must rise; give what is before and after as two recordings")
+    if np.asarray(stamps).dtype.kind in "iu" and len(nanoseconds) >= _FEWEST:
+        spacing = 1e-9 * np.median(np.diff(nanoseconds))
+        if 0.0 < spacing < _FASTEST:
+            raise ValueError(f"{name} are whole numbers, which are nanoseconds: one every {spacing:.3g} s, must be "
+                             f"{_FASTEST:g} s or more apart; other units are to be given in seconds, as floats")
     return np.ascontiguousarray(nanoseconds)
 
 

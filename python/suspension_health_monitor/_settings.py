@@ -15,12 +15,12 @@ def files():
 
 
 def array_keywords(options, config, arguments):
-    """The options of a monitor, over those of a file."""
+    """The options of a monitor of arrays, over those of a file, which may have those of messages, too."""
     keywords = _core.monitor_keywords(options, arguments)
     if config is None:
         return keywords
     settings = files().read_settings(os.fspath(config))
-    return keywords.with_defaults(_core.monitor_keywords(settings, []))
+    return keywords.with_defaults(_core.monitor_keywords(settings, []).without_messages())
 
 
 def simulator_keywords(options, of_vehicle):

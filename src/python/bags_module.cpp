@@ -4,16 +4,15 @@
 
 #include <stdexcept>
 
-#include "../ros/live_baseline.h"
 #include "../ros/model_file.h"
 #include "../ros/simulated_drive.h"
 #include "../ros/yaml_settings.h"
 #include "../tools/bag_options.h"
 #include "../tools/command.h"
+#include "../tools/healthy_strut.h"
 #include "../tools/identify_tables.h"
 #include "../tools/recorded_strut.h"
 #include "../tools/simulate_vehicle.h"
-#include "../tools/vehicle_commands.h"
 #include "bags_long_work.h"
 #include "opaque.h"
 #include "options.h"
@@ -43,7 +42,6 @@ po::variables_map parsed(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
   addModelOptions(description);
-  description.add_options()(kBaseline, po::value<std::string>());
   return *parse(arguments, "", description, "bag");
 }
 
@@ -62,9 +60,11 @@ Identification identifyBags(const Arguments& arguments, LongWork& work) {
   return Identification::of(made, recorded.rejected(), course);
 }
 
-HealthSummary watchBags(const Arguments& arguments, LongWork& work) {
+HealthSummary watchBags(const Arguments& arguments, const std::optional<HealthyStrut>& healthy, LongWork& work) {
   ToolsWork tools(work, 0);
-  const BagOptions options = readMonitorOptions(parsed(arguments));
+  BagOptions options = readLiveOptions(parsed(arguments));
+  if (healthy) replaceBaseline(*healthy, options.pipeline);
+  options.healthy = healthy;
   Course course;
   RecordedMonitor recorded(
       options, [](const HealthMoment&, const Baseline&) {},
@@ -127,7 +127,16 @@ PYBIND11_MODULE(_bags, module) {
   module.doc() = "Compiled part of suspension_health_monitor: bags and files.";
   pybind11::module::import("suspension_health_monitor._core");  // which has the classes of the results
   defCommand(module, "identify", &identifyBags);
-  defCommand(module, "health", &watchBags);
+  module.def(
+      "health",
+      [](const Arguments& arguments, const std::optional<Baseline>& baseline, const std::string& file,
+         const py::object& progress) {
+        LongWork work(progress);
+        std::optional<HealthyStrut> healthy;
+        if (baseline) healthy = HealthyStrut{*baseline, file};
+        return asCommand([&] { return work.run([&] { return watchBags(arguments, healthy, work); }); });
+      },
+      py::arg("arguments"), py::arg("baseline"), py::arg("file"), py::arg("progress"));
   defCommand(module, "compare", [](const Arguments& arguments, LongWork& work) {
     return withDrives(arguments, work, [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
       return compareBags(options, models, gaps, work.callback());
@@ -156,7 +165,7 @@ PYBIND11_MODULE(_bags, module) {
       "read_model", [](const std::string& path, const EffectLibrary& known) { return readModelFile(path, known); },
       py::arg("path"), py::arg("library"));
   module.def(
-      "read_baseline", [](const std::string& path) { return readBaselineFile(path); }, py::arg("path"));
+      "read_baseline", [](const std::string& path) { return readHealthy(path).baseline; }, py::arg("path"));
   module.def(
       "read_settings", [](const std::string& path) { return toDict(readYaml(path)); }, py::arg("path"));
 }

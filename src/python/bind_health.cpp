@@ -14,7 +14,7 @@ namespace py = pybind11;
 namespace {
 
 HealthSummary watch(const Recordings& recordings, const ArrayOptions& options, const std::optional<Baseline>& healthy,
-                    LongWork& work) {
+                    const std::string& file, LongWork& work) {
   requireFittingPeriod(recordings, options.monitor);
   const Stamp shift = shiftOf(recordings);
   MonitorOptions its = options.monitor;
@@ -37,7 +37,8 @@ HealthSummary watch(const Recordings& recordings, const ArrayOptions& options, c
     throw std::invalid_argument(describeNoStart("of one of the sensors") + describeRejected(strut.rejected()));
   const std::string nothing = describeNoRow(*strut.monitor(), *strut.grid(), strut.rejected());
   if (!nothing.empty()) throw std::invalid_argument(nothing);
-  return HealthSummary::of(log, *strut.monitor(), "", strut.rejected(), course, shift);
+  return HealthSummary::of(log, *strut.monitor(), healthy ? std::optional(file) : std::nullopt, strut.rejected(),
+                           course, shift);
 }
 
 }  // namespace
@@ -67,12 +68,12 @@ void bindHealth(py::module& module) {
   module.def(
       "health",
       [](const Recordings& recordings, const Keywords& keywords, const std::optional<Baseline>& healthy,
-         const py::object& progress) {
+         const std::string& file, const py::object& progress) {
         const ArrayOptions options = ArrayOptions::from(keywords.values);
         LongWork work(progress);
-        return work.run([&] { return watch(recordings, options, healthy, work); });
+        return work.run([&] { return watch(recordings, options, healthy, file, work); });
       },
-      py::arg("recordings"), py::arg("keywords"), py::arg("baseline"), py::arg("progress"));
+      py::arg("recordings"), py::arg("keywords"), py::arg("baseline"), py::arg("file"), py::arg("progress"));
 }
 
 }  // namespace suspension_health_monitor

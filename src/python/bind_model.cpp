@@ -30,6 +30,29 @@ std::vector<EffectDescription> describeEffects(const EffectLibrary& library) {
   return all;
 }
 
+/// What `model=` takes.
+py::dict settingsOf(const StrutModel& model) {
+  py::dict effects, readings, settings;
+  for (const ActiveEffect& active : model.effects) {
+    py::dict numbers;
+    numbers["coefficient"] = active.coefficient;
+    for (std::size_t i = 0; i < active.shapes.size(); ++i)
+      numbers[py::str(active.effect.shapes[i].name)] = active.shapes[i];
+    effects[py::str(active.effect.name)] = numbers;
+  }
+  for (const ActiveMeasurementEffect& active : model.reading) {
+    py::dict numbers;
+    for (std::size_t i = 0; i < active.coefficients.size(); ++i)
+      numbers[py::str(active.effect.coefficients[i].name)] = active.coefficients[i];
+    readings[py::str(active.effect.name)] = numbers;
+  }
+  settings["damping_to_mass"] = model.damping_to_mass;
+  settings["stiffness_to_mass"] = model.stiffness_to_mass;
+  if (!model.effects.empty()) settings["effects"] = effects;
+  if (!model.reading.empty()) settings["readings"] = readings;
+  return settings;
+}
+
 }  // namespace
 
 void bindModel(py::module& module) {
@@ -52,6 +75,7 @@ void bindModel(py::module& module) {
             return names;
           },
           "Names of the effects in it.")
+      .def_property_readonly("settings", &settingsOf, "As a dict, which model= takes as well.")
       .def(
           "yaml", [](const StrutModel& model) { return toYaml(model); },
           "The text of a model file: for model_file, `--model` and model=.");

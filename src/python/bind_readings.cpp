@@ -22,6 +22,7 @@ void bindReadings(py::module& module) {
              self.values.insert(defaults.values.begin(), defaults.values.end());
              return self;
            })
+      .def("without_messages", &Keywords::withoutMessages, "Those that arrays have a use for.")
       .def_property_readonly(
           "assignments", [](const Keywords& self) { return assignmentsOf(self.values); },
           "NAME=VALUE each, for `--set`");

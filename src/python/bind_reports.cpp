@@ -56,7 +56,25 @@ void bindCondition(py::module& module) {
       .def_readonly("stiffness_to_mass", &Baseline::stiffness_to_mass, "b0 [1/s^2], or None")
       .def_readonly("damping_to_mass_stddev", &Baseline::damping_to_mass_stddev, "[1/s]; 0 of a given value")
       .def_readonly("stiffness_to_mass_stddev", &Baseline::stiffness_to_mass_stddev, "[1/s^2]")
-      .def_readonly("learned", &Baseline::learned, "from a drive");
+      .def_readonly("learned", &Baseline::learned, "from a drive")
+      .def_property_readonly(
+          "learned_from", [](const Baseline& self) { return toSeconds(self.from); }, "stamp of its begin [s]")
+      .def_property_readonly(
+          "learned_to", [](const Baseline& self) { return toSeconds(self.to); }, "stamp of its end [s]")
+      .def(py::pickle(
+          [](const Baseline& self) {
+            return py::make_tuple(self.damping_to_mass, self.stiffness_to_mass, self.damping_to_mass_stddev,
+                                  self.stiffness_to_mass_stddev, self.learned, self.from.count(), self.to.count());
+          },
+          [](const py::tuple& state) {
+            return Baseline{state[0].cast<std::optional<double>>(),
+                            state[1].cast<std::optional<double>>(),
+                            state[2].cast<double>(),
+                            state[3].cast<double>(),
+                            state[4].cast<bool>(),
+                            Stamp(state[5].cast<Stamp::rep>()),
+                            Stamp(state[6].cast<Stamp::rep>())};
+          }));
   py::class_<HealthReport>(module, "HealthReport", "What is known of the strut's condition.")
       .def_property_readonly(
           "level", [](const HealthReport& self) { return nameOf(self.level); }, "OK, WARN, ERROR or STALE")

@@ -3,9 +3,12 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "../ros/shell_options.h"  // of its folder the file without ROS
 #include "suspension_health_monitor/internal/model/model_settings.h"
@@ -68,7 +71,26 @@ void flatten(const std::string& group, const py::dict& settings, OptionMap& into
   }
 }
 
+/// What arrays get by an argument of the call.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kArguments{
+    {{"effects", "model"}, {"model_file", "model"}, {"effects_file", "effects_file"}, {"baseline_file", "baseline"}}};
+
+std::optional<std::string_view> argumentFor(std::string_view option) {
+  for (const auto& [name, argument] : kArguments)
+    if (name == option) return argument;
+  return std::nullopt;
+}
+
+bool isOfArrays(const ShellField& field) { return field.name == "input_timeout"; }
+
 }  // namespace
+
+Keywords Keywords::withoutMessages() const {
+  Keywords rest = *this;
+  for (const ShellField& field : kShellFields)
+    if (!isOfArrays(field) && !argumentFor(field.name)) rest.values.erase(std::string(field.name));
+  return rest;
+}
 
 OptionMap toSettings(const py::dict& settings) {
   OptionMap values;
@@ -109,11 +131,14 @@ std::vector<std::string> assignmentsOf(const OptionMap& values) {
 
 ArrayOptions ArrayOptions::from(OptionMap values) {
   ArrayOptions options;
-  for (const ShellField& field : kShellFields)
-    if (field.name != "input_timeout" && values.count(std::string(field.name)) != 0)
-      throw std::invalid_argument(std::string(field.name) +
-                                  " is an option of messages and files, must not come with arrays: these have the "
-                                  "accelerations along the strut");
+  for (const ShellField& field : kShellFields) {
+    if (isOfArrays(field) || values.count(std::string(field.name)) == 0) continue;
+    const std::optional<std::string_view> argument = argumentFor(field.name);
+    throw std::invalid_argument(std::string(field.name) +
+                                " is an option of messages and files, must not come with arrays: " +
+                                (argument ? "for these there is " + std::string(*argument) + '='
+                                          : "these have the accelerations along the strut"));
+  }
   const PipelineOptions all = PipelineOptions::fromValues(std::move(values));
   return {all.monitor, all.shell.input_timeout};
 }

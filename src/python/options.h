@@ -14,6 +14,9 @@ namespace suspension_health_monitor {
 /// Keywords of a call by the full names of the options, to be handed on to one of the functions that do the work.
 struct Keywords {
   OptionMap values;
+
+  /// @return without those that are about messages, of which arrays have none: axes, frames, ranges, rates, publishing.
+  Keywords withoutMessages() const;
 };
 
 /// @param keywords  of a call: an option's name, with _ for / where a Python name is wanted: health_damping_warn. None:
@@ -32,8 +35,8 @@ struct ArrayOptions {
   MonitorOptions monitor;
   double input_timeout;  ///< [s], of the log of health
 
-  /// @throws std::invalid_argument  naming name, value and what is allowed; also for options of messages, which arrays
-  /// have no use for.
+  /// @throws std::invalid_argument  naming name, value and what is allowed; also for options of messages and files,
+  /// which arrays have no use for.
   static ArrayOptions from(OptionMap values);
 };
 

@@ -26,6 +26,12 @@ std::size_t Recording::size() const {
   return sum;
 }
 
+std::size_t sizeOf(const Recordings& recordings) {
+  std::size_t sum = 0;
+  for (const Recording& recording : recordings) sum += recording.size();
+  return sum;
+}
+
 std::optional<Stamp> Recording::earliest() const {
   std::optional<Stamp> first;
   for (const ReadingStream& stream : streams_)
@@ -67,10 +73,7 @@ double periodOf(const Recordings& recordings, const MonitorOptions& options) {
   requireFittingPeriod(recordings, options);
   if (options.sample_period) return *options.sample_period;
   const std::optional<double> period = spacingOf(recordings);
-  if (!period)
-    throw std::invalid_argument("the sample period cannot be measured: fewer than " +
-                                std::to_string(PeriodMeasurement::kFewestOfRecording) +
-                                " increasing stamps of one of the sensors");
+  if (!period) throw std::invalid_argument(describeNoPeriod("of one of the sensors", sizeOf(recordings)));
   MonitorOptions measured;
   measured.sample_period = period;
   validate(measured, kMonitorFields);

@@ -69,6 +69,9 @@ class Recording {
 
 using Recordings = std::vector<Recording>;
 
+/// @return readings of all.
+std::size_t sizeOf(const Recordings& recordings);
+
 /// @return by how much later all stamps have to be for none to be 0 or less: 0 is the stamp that a driver has not set.
 Stamp shiftOf(const Recordings& recordings);
 
@@ -83,8 +86,8 @@ double periodOf(const Recordings& recordings, const MonitorOptions& options);
 /// and tells how much is done.
 template <class Take, class Finish>
 void forEachReading(const Recordings& recordings, Stamp shift, LongWork& work, const Take& take, const Finish& finish) {
-  double done = 0.0, all = 0.0;
-  for (const Recording& recording : recordings) all += static_cast<double>(recording.size());
+  const auto all = static_cast<double>(sizeOf(recordings));
+  double done = 0.0;
   for (const Recording& recording : recordings) {
     recording.forEach([&](Side side, Stamp stamp, double value) {
       take(side, stamp + shift, value);

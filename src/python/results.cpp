@@ -39,8 +39,9 @@ Identification Identification::of(const DriveIdentification& made, const RejectC
   return found;
 }
 
-HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& file,
-                                const RejectCounts& rejected, const Course& course, Stamp shift) {
+HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& monitor,
+                                const std::optional<std::string>& file, const RejectCounts& rejected,
+                                const Course& course, Stamp shift) {
   HealthSummary summary;
   summary.events = shifted(log.events(), shift);
   summary.early_warnings = shifted(log.earlyWarnings(), shift);
@@ -52,11 +53,11 @@ HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& m
   summary.ls = monitor.report().ls;
   summary.la = monitor.report().la;
   summary.baseline = monitor.baseline();
-  if (summary.baseline.learned) {
+  if (summary.baseline.learned && !file) {
     summary.baseline.from -= shift;
     summary.baseline.to -= shift;
   }
-  summary.reference = describeReference(summary.baseline, file);
+  summary.reference = describeReference(summary.baseline, file.value_or(""));
   summary.rejected = rejected.byName();
   summary.course = course;
   return summary;

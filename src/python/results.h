@@ -68,10 +68,11 @@ struct HealthSummary {
   std::map<std::string, std::uint64_t> rejected;
   Course course;
 
-  /// @param file  that the baseline was read from; empty: none was.
+  /// @param file  that the baseline was read from, which was given; empty: of none; nothing: it was not given.
   /// @param shift  that stamps are late by.
-  static HealthSummary of(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& file,
-                          const RejectCounts& rejected, const Course& course, Stamp shift = {});
+  static HealthSummary of(const HealthLog& log, const SuspensionMonitor& monitor,
+                          const std::optional<std::string>& file, const RejectCounts& rejected, const Course& course,
+                          Stamp shift = {});
 };
 
 }  // namespace suspension_health_monitor

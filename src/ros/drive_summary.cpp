@@ -3,8 +3,8 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
-#include <numeric>
 #include <vector>
 
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
@@ -33,17 +33,14 @@ void print(const std::string& line) {
 
 }  // namespace
 
-DriveSummary::DriveSummary(const std::string& strut, double timeout) : strut_(strut), timeout_(timeout) {}
+DriveSummary::DriveSummary(const std::string& strut, double timeout)
+    : strut_(strut), timeout_(timeout), times_(fromSeconds(timeout)) {}
 
 DriveSummary::~DriveSummary() { tell("", &print); }
 
 void DriveSummary::add(const MonitorReport& report) {
-  const double passed = toSeconds(report.stamp - newest_.stamp);
-  if (newest_.stamp > Stamp::zero() && passed > 0.0) {
-    const double known = std::min(passed, timeout_);
-    seconds_[static_cast<std::size_t>(report.health.level)] += known;
-    seconds_[static_cast<std::size_t>(HealthLevel::kStale)] += passed - known;
-  }
+  if (newest_.stamp > Stamp::zero()) times_.pass(std::max(Stamp::zero(), report.stamp - newest_.stamp), [] {});
+  times_.report(report.health.level);
   newest_ = report;
   is_news_ = true;
 }
@@ -61,15 +58,15 @@ void DriveSummary::watchClock() {
 void DriveSummary::tell(const char* until, void (*say)(const std::string& line)) {
   if (!is_news_) return;
   is_news_ = false;
-  const auto lasted = [this](HealthLevel level) { return seconds_[static_cast<std::size_t>(level)]; };
+  const auto lasted = [this](HealthLevel level) { return toSeconds(times_.of(level)); };
   std::vector<std::string> levels;
   for (const HealthLevel level : kLevels)
     if (lasted(level) > 0.0) levels.push_back(formatted("%s %.1f s", nameOf(level), lasted(level)));
   if (levels.empty()) return;
   const auto* const worst =
       std::find_if(kLevels.begin(), kLevels.end(), [&](HealthLevel level) { return lasted(level) > 0.0; });
-  say(formatted("%s: driven for %.1f s%s, worst level %s (%s)", strut_.c_str(),
-                std::accumulate(seconds_.begin(), seconds_.end(), 0.0), until, nameOf(*worst), join(levels).c_str()));
+  say(formatted("%s: driven for %.1f s%s, worst level %s (%s)", strut_.c_str(), toSeconds(times_.elapsed()), until,
+                nameOf(*worst), join(levels).c_str()));
   say(strut_ + ": at the end " + nameOf(newest_.health.level) + ", " + describe(newest_.health));
   say(strut_ + ": " + describe("la", newest_.la));
 }

@@ -2,10 +2,9 @@
 
 #include <ros/time.h>
 
-#include <array>
 #include <string>
 
-#include "suspension_health_monitor/monitor_report.h"
+#include "suspension_health_monitor/internal/monitor/level_times.h"
 
 namespace suspension_health_monitor {
 
@@ -33,10 +32,10 @@ class DriveSummary {
   void tell(const char* until, void (*say)(const std::string& line));
 
   std::string strut_;
-  double timeout_;
+  double timeout_;  // [s]
   MonitorReport newest_;
-  bool is_news_ = false;             // something has come since it was told
-  std::array<double, 4> seconds_{};  // by level
+  bool is_news_ = false;  // something has come since it was told
+  LevelTimes times_;
   ros::Time clock_;
   ros::WallTime stands_since_;
 };

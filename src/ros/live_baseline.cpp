@@ -111,16 +111,15 @@ Baseline readBaselineFile(const std::string& path) {
   return prefixed(path + ": ", [&] { return takeBaseline(values); });
 }
 
-void requireOneReference(const PipelineOptions& options) {
-  if (!options.shell.baseline_file.empty() &&
-      (options.monitor.nominal_damping_to_mass || options.monitor.nominal_stiffness_to_mass))
-    throw std::invalid_argument("baseline_file = \"" + options.shell.baseline_file +
-                                "\" and nominal values are both given, must be one of them");
+void requireOneReference(const std::string& file, const MonitorOptions& options) {
+  if (options.nominal_damping_to_mass || options.nominal_stiffness_to_mass)
+    throw std::invalid_argument((file.empty() ? "a baseline" : "baseline_file = \"" + file + '"') +
+                                " and nominal values are both given, must be one of them");
 }
 
 LiveBaseline::LiveBaseline(const PipelineOptions& options) : path_(options.shell.baseline_file) {
-  requireOneReference(options);
   if (path_.empty()) return;
+  requireOneReference(path_, options.monitor);
   if (std::filesystem::exists(path_)) known_ = readBaselineFile(path_);
 }
 

@@ -47,8 +47,9 @@ std::string toYaml(const Baseline& baseline, double horizon, double sample_perio
 /// @throws std::invalid_argument  naming what is missing, unknown or wrong.
 Baseline takeBaseline(OptionMap& values);
 
-/// @throws std::invalid_argument  if nominal values are given beside a baseline_file.
-void requireOneReference(const PipelineOptions& options);
+/// @param file  of the baseline; empty: it has none.
+/// @throws std::invalid_argument  if nominal values are given beside a baseline.
+void requireOneReference(const std::string& file, const MonitorOptions& options);
 
 /// @throws std::invalid_argument  naming the file and what is wrong in it.
 Baseline readBaselineFile(const std::string& path);

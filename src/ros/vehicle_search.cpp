@@ -14,7 +14,7 @@ namespace {
 /// diagnoseVehicle() of one drive.
 /// @throws std::runtime_error  in words for people, if the samples do not tell the struts apart.
 VehicleDiagnosis searchEffects(const VehicleSearchTask& task) {
-  VehicleDiagnosis found = diagnoseVehicle({task.drive}, task.struts, task.options);
+  VehicleDiagnosis found = diagnoseVehicle({task.drive}, task.struts, {task.options});
   if (found) return found;
   const std::vector<CornerSample>& samples = task.drive.struts.front().samples;
   throw std::runtime_error(formatted("the last %.3g s ", toSeconds(samples.back().stamp - samples.front().stamp)) +

@@ -99,7 +99,11 @@ void WholeFile::commit() {
 }
 
 TextFile::TextFile(const std::string& path)
-    : path_(path), file_(path), stream_(std::fopen(file_.temporaryPath().c_str(), "w")) {
+    : path_(path), file_(path), stream_(std::fopen(file_->temporaryPath().c_str(), "w")) {
+  if (stream_ == nullptr) failToWrite(path_, errno);
+}
+
+TextFile::TextFile(const std::string& name, std::FILE* stream) : path_(name), stream_(stream) {
   if (stream_ == nullptr) failToWrite(path_, errno);
 }
 
@@ -111,7 +115,7 @@ void TextFile::commit() {
   const bool failed = std::ferror(stream_) != 0;
   errno = 0;
   if (std::fclose(std::exchange(stream_, nullptr)) != 0 || failed) failToWrite(path_, errno);
-  file_.commit();
+  if (file_) file_->commit();
 }
 
 }  // namespace suspension_health_monitor

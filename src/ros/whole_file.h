@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdio>
+#include <optional>
 #include <string>
 
 namespace suspension_health_monitor {
@@ -36,11 +37,15 @@ class WholeFile {
 /// signal handler.
 void removeUnfinishedFiles() noexcept;
 
-/// Writes lines of text into a WholeFile.
+/// Writes lines of text into a WholeFile, or into a stream that is open.
 class TextFile {
  public:
   /// @throws std::runtime_error  naming the file, if it cannot be written.
   explicit TextFile(const std::string& path);
+  /// @param name  of the stream, for messages.  @param stream  is closed by commit(), or in the end; nullptr: it could
+  /// not be opened.
+  /// @throws std::runtime_error  if it could not.
+  TextFile(const std::string& name, std::FILE* stream);
   ~TextFile();
 
   std::FILE* stream() { return stream_; }
@@ -56,7 +61,7 @@ class TextFile {
 
  private:
   std::string path_;
-  WholeFile file_;
+  std::optional<WholeFile> file_;
   std::FILE* stream_;
 };
 

@@ -1,18 +1,19 @@
 #include "bag_options.h"
 
+#include <unistd.h>
+
 #include <array>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "../ros/live_baseline.h"
 #include "../ros/model_file.h"
 #include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
 #include "survey.h"
 #include "suspension_health_monitor/internal/plain_text.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -77,10 +78,9 @@ BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_diffe
   return options;
 }
 
-void takeBaselineFile(const po::variables_map& values, ShellOptions& options) {
-  if (values.count(kBaseline) == 0) return;
-  options.baseline_file = values[kBaseline].as<std::string>();
-  readBaselineFile(options.baseline_file);
+void takeHealthy(const po::variables_map& values, BagOptions& options) {
+  options.healthy = readHealthy(values);
+  if (options.healthy) replaceBaseline(*options.healthy, options.pipeline);
 }
 
 void addEffectsFile(po::options_description& description) {
@@ -105,7 +105,12 @@ ModelOptions readModelOptions(const po::variables_map& values) {
 
 std::optional<TextFile> outputFile(const po::variables_map& values, const char* option) {
   if (values.count(option) == 0) return std::nullopt;
-  return std::optional<TextFile>(std::in_place, values[option].as<std::string>());
+  const auto path = values[option].as<std::string>();
+  if (path != kStandardOutput) return std::optional<TextFile>(std::in_place, path);
+  std::fflush(stdout);
+  const int output = dup(STDOUT_FILENO);
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  return std::optional<TextFile>(std::in_place, "standard output", output < 0 ? nullptr : fdopen(output, "w"));
 }
 
 std::vector<Drive> readDrives(const BagOptions& options, TopicGaps& gaps) {

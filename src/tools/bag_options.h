@@ -7,6 +7,7 @@
 
 #include "../ros/shell_options.h"
 #include "../ros/whole_file.h"
+#include "healthy_strut.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/effects.h"
@@ -20,6 +21,7 @@ struct BagOptions {
   PipelineOptions pipeline;
   bool period_measured = false;
   bool horizon_measured = false;
+  std::optional<HealthyStrut> healthy = {};  ///< given beside the settings, to be judged by
 };
 
 /// Adds the common options to a subcommand's own.
@@ -39,10 +41,9 @@ BagOptions readLiveOptions(const boost::program_options::variables_map& values);
 /// @throws std::invalid_argument, InputError, TooLittleError  likewise.
 BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ = false);
 
-/// Takes the file of --baseline for baseline_file.
-/// @throws std::invalid_argument  as readBaselineFile(): a live monitor would learn one if it is not there, and that is
-/// not what was asked for.
-void takeBaselineFile(const boost::program_options::variables_map& values, ShellOptions& options);
+/// Takes the healthy strut of --baseline, if it is given, instead of that of the settings.
+/// @throws std::invalid_argument  as readHealthy() and replaceBaseline().
+void takeHealthy(const boost::program_options::variables_map& values, BagOptions& options);
 
 /// Names of the options that addModelOptions() adds; their values are files that are read.
 inline constexpr const char* kEffectsFile = "effects-file";
@@ -65,7 +66,8 @@ EffectLibrary readEffects(const boost::program_options::variables_map& values);
 /// Adds --effects-file alone.
 void addEffectsFile(boost::program_options::options_description& description);
 
-/// @return the file of an option, begun; nothing: it is not given.
+/// @return the file of an option, begun; nothing: it is not given. Where the file is called "-" it is standard output,
+/// which has nothing else then: what is said to people goes to standard error from now on.
 /// @throws std::runtime_error  naming the file, if it cannot be written.
 std::optional<TextFile> outputFile(const boost::program_options::variables_map& values, const char* option);
 

@@ -82,6 +82,8 @@ void requireSeparateFiles(const po::variables_map& values, const std::vector<std
   taken.erase("");  // an option that was not given
   for (const std::string& option : outputs)
     for (const std::string& path : paths(values, option)) {
+      if (option == kReport && path == kStandardOutput)
+        throw std::invalid_argument("--" + option + " -, must be a folder; ./- is one that is called so");
       const fs::path file = writtenBy(option, path);
       const fs::path full = fs::weakly_canonical(file, error);
       const bool is_new = full.empty() || taken.insert(full).second;
@@ -95,7 +97,8 @@ void printWritten(const po::variables_map& values, const std::vector<std::string
   std::vector<std::string> written;
   for (const std::string& option : outputs)
     for (const std::string& path : paths(values, option))
-      if (const fs::path file = writtenBy(option, path); fs::is_regular_file(file, error)) written.push_back(file);
+      if (const fs::path file = writtenBy(option, path); path != kStandardOutput && fs::is_regular_file(file, error))
+        written.push_back(file);
   if (!written.empty()) std::printf("wrote %s\n", join(written).c_str());
 }
 

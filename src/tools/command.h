@@ -45,11 +45,14 @@ std::string shellQuoted(const std::string& word);
 /// @throws std::invalid_argument  naming what is wrong.
 OptionMap gatherOptions(const boost::program_options::variables_map& values);
 
+/// The name of a file that is standard output.
+inline constexpr const char* kStandardOutput = "-";
+
 /// The option whose value is a folder, and the file that is written there.
 inline constexpr const char* kReport = "report";
 inline constexpr const char* kReportFile = "report.html";
 
-/// Refuses to write a file that is read, too, or to write two results into one file.
+/// Refuses to write a file that is read, too, or to write two results into one file, and a folder called "-".
 /// @param inputs, outputs  names of options with a path, or several, as their value; those not given do not matter.
 /// @throws std::invalid_argument  naming option and path.
 void requireSeparateFiles(const boost::program_options::variables_map& values, const std::vector<std::string>& inputs,

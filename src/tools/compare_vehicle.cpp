@@ -16,10 +16,11 @@ void compareStruts(const boost::program_options::variables_map& values) {
   std::optional<TextFile> file = outputFile(values, "json");
   AskedVehicle vehicle = readVehicle(values);
   const KnownModels models = readModels(values, vehicle, readEffects(values));
-  PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
-  TopicGaps gaps(settings.shell.input_timeout);
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings, gaps);
-  const SeparatedVehicle separated = separateVehicle(drives, vehicle.names, settings.monitor.sample_period, models);
+  VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
+  TopicGaps gaps(settings.common.shell.input_timeout);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings.common, gaps);
+  const double period = *settings.common.monitor.sample_period;
+  const SeparatedVehicle separated = separateVehicle(drives, vehicle.names, period, models);
   gaps.explain([&] { requireCoupling(separated.coupling); });
   printCoupling(separated.coupling, vehicle.names);
   nlohmann::json whole = toJson(separated.coupling, vehicle.names);
@@ -28,8 +29,8 @@ void compareStruts(const boost::program_options::variables_map& values) {
   double done = 0.0;
   for (const std::size_t i : vehicle.asked) {
     CompareOptions options;
-    options.sample_period = settings.monitor.sample_period;
-    options.horizon_samples = givenHorizon(settings);
+    options.sample_period = period;
+    options.horizon_samples = givenHorizon(settings.struts[i], period);
     options.model = models[i];
     options.fit = !models[i];
     options.progress = [&](double share) { progress.update(done + share); };

@@ -1,11 +1,14 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "bag_options.h"
 #include "command.h"
 #include "errors.h"
+#include "healthy_strut.h"
 #include "long_work.h"
 #include "recorded_vehicle.h"
 #include "results.h"
+#include "strut_change.h"
 #include "strut_files.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "vehicle_commands.h"
@@ -26,7 +29,21 @@ void requireOne(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
   throw TooLittleError(vehicle.names[first] + ": the drives " + found.struts[first].reason);
 }
 
-void print(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
+/// @return by strut how it is against the healthy one, as identify says it; empty where none is known.
+std::vector<std::string> changesOf(const std::vector<VehicleDrive>& drives, const AskedVehicle& vehicle,
+                                   const VehicleOptions& settings) {
+  std::vector<std::string> changes;
+  std::vector<Baseline> healthy;
+  for (const PipelineOptions& strut : settings.struts) healthy.push_back(knownHealthy({}, strut));
+  if (std::all_of(healthy.begin(), healthy.end(), [](const Baseline& strut) { return strut.isEmpty(); }))
+    return std::vector<std::string>(healthy.size());
+  const VehicleIdentification identified = identifyVehicle(drives, vehicle.names, identifyOptionsOf(settings));
+  for (std::size_t i = 0; i < healthy.size(); ++i)
+    changes.push_back(describeChange(identified.struts[i], healthy[i], settings.struts[i]));
+  return changes;
+}
+
+void print(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std::vector<std::string>& changes) {
   std::printf("%s\n", found.summary.c_str());
   printCoupling(found.coupling, vehicle.names);
   for (const std::size_t i : vehicle.asked) {
@@ -36,10 +53,12 @@ void print(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
       printSearch(strut);
     else
       std::printf("the drives %s\n", strut.reason.c_str());
+    printChange(changes[i]);
   }
 }
 
-json toJson(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const TopicGaps& gaps) {
+json toJson(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std::vector<std::string>& changes,
+            const TopicGaps& gaps) {
   json whole = toJson(found.coupling, vehicle.names);
   whole["silent"] = gaps.toJson();
   whole["verdict"] = nameOf(found.verdict);
@@ -50,6 +69,7 @@ json toJson(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const To
     json& its = whole["struts"][vehicle.names[i]] = strut ? toJson(strut) : json{{"reason", strut.reason}};
     whole["selected"][vehicle.names[i]] = its["selected"] = found.selected(i);
     if (strut) its["verdict"] = nameOf(found.verdictOn(i));
+    if (!changes[i].empty()) its["change"] = changes[i];
   }
   return whole;
 }
@@ -74,20 +94,23 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   std::optional<VehiclePage> page;
   if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>(), vehicle);
 
-  PipelineOptions settings = PipelineOptions::fromValues(gatherOptions(values));
-  TopicGaps gaps(settings.shell.input_timeout);
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings, gaps);
-  options.sample_period = settings.monitor.sample_period;
-  options.horizon_samples = givenHorizon(settings);
+  VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
+  TopicGaps gaps(settings.common.shell.input_timeout);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings.common, gaps);
+  options.sample_period = settings.common.monitor.sample_period;
   Progress progress("searching", 1.0);
   options.progress = [&](double share) { progress.update(share); };
-  const VehicleDiagnosis found = diagnoseVehicle(drives, vehicle.names, options, models);
+  std::vector<DiagnoseOptions> by_strut(settings.struts.size(), options);
+  for (std::size_t i = 0; i < by_strut.size(); ++i)
+    by_strut[i].horizon_samples = givenHorizon(settings.struts[i], *options.sample_period);
+  const VehicleDiagnosis found = diagnoseVehicle(drives, vehicle.names, by_strut, models);
   gaps.explain([&] { requireOne(found, vehicle); });
-  print(found, vehicle);
-  if (file) file->commit(toJson(found, vehicle, gaps).dump(2) + '\n');
+  const std::vector<std::string> changes = changesOf(drives, vehicle, settings);
+  print(found, vehicle, changes);
+  if (file) file->commit(toJson(found, vehicle, changes, gaps).dump(2) + '\n');
   if (model) model->commit(toYaml(modelsOf(found), vehicle));
   if (page)
-    page->write(found, options,
+    page->write(found, options, changes,
                 {fileNames(values["bag"].as<std::vector<std::string>>()),
                  originOf(values, topicsOf(VehicleStreams(vehicle.layout)))});
 }

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "../ros/conversions.h"
-#include "../ros/live_baseline.h"
 #include "../ros/live_model.h"
 #include "../ros/vehicle_options.h"
 #include "../ros/vehicle_pipeline.h"
@@ -13,10 +12,10 @@
 #include "errors.h"
 #include "health_page.h"
 #include "health_results.h"
+#include "healthy_strut.h"
 #include "long_work.h"
 #include "recorded_vehicle.h"
 #include "report_page.h"
-#include "strut_files.h"
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
@@ -35,30 +34,19 @@ namespace po = boost::program_options;
 /// What a strut is watched with, as live.
 struct WatchedStrut {
   LiveModel model;
-  std::optional<Baseline> healthy;  ///< of a file
-  std::string file;                 ///< that file
+  std::optional<HealthyStrut> healthy;
 };
 
 /// Reads the files of all struts; that of --baseline takes the place of baseline_file.
 std::vector<WatchedStrut> readWatched(const po::variables_map& values, const AskedVehicle& vehicle,
                                       VehicleOptions& options) {
-  std::vector<std::optional<Baseline>> given(vehicle.names.size());
-  const std::string file = values.count(kBaseline) != 0 ? values[kBaseline].as<std::string>() : "";
-  if (!file.empty()) given = readBaselines(file, vehicle);
+  const std::vector<std::optional<HealthyStrut>> healthy = takeHealthy(values, vehicle, options);
   std::vector<WatchedStrut> watched;
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    PipelineOptions& its = options.struts[i];
+  for (std::size_t i = 0; i < healthy.size(); ++i)
     prefixed("struts/" + vehicle.names[i] + ": ", [&] {
-      if (given[i]) {
-        its.shell.baseline_file = file;
-        requireOneReference(its);
-        watched.push_back({LiveModel(its.shell, options.model_of[i]), given[i], file});
-      } else {
-        watched.push_back(
-            {LiveModel(its.shell, options.model_of[i]), LiveBaseline(its).known(), its.shell.baseline_file});
-      }
+      const PipelineOptions& its = options.struts[i];
+      watched.push_back({LiveModel(its.shell, options.model_of[i]), beforehand(healthy[i], its)});
     });
-  }
   return watched;
 }
 
@@ -127,7 +115,7 @@ class WatchedVehicle {
     for (std::size_t i = 0; i < watched_.size(); ++i) {
       const LiveModel& model = watched_[i].model;
       monitor.setEffects(i, model.effects(), model.strutFor(model.effects()));
-      if (watched_[i].healthy) monitor.setBaseline(i, *watched_[i].healthy);
+      if (watched_[i].healthy) monitor.setBaseline(i, watched_[i].healthy->baseline);
     }
   }
 
@@ -174,7 +162,8 @@ void watchStruts(const po::variables_map& values) {
   std::vector<HealthContent> contents;
   for (const std::size_t i : vehicle.asked) {
     const SuspensionMonitor& strut = *recorded.monitor().strut(i);
-    const std::string reference = describeReference(strut.baseline(), watched[i].healthy ? watched[i].file : "");
+    const std::string reference =
+        describeReference(strut.baseline(), watched[i].healthy ? watched[i].healthy->file : "");
     whole["struts"][vehicle.names[i]] = toJson(recorded.log(i), strut);
     contents.push_back(
         {recorded.log(i), files.course(placeInFiles(i)), strut, recordings, reference, vehicle.names[i]});

@@ -7,6 +7,7 @@
 #include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
+#include "healthy_strut.h"
 #include "identify_tables.h"
 #include "long_work.h"
 #include "recorded_strut.h"
@@ -100,7 +101,8 @@ void identify(const Arguments& arguments) {
   add("csv", po::value<std::string>(), "write a line per regression row, full precision");
   add("output,o", po::value<std::string>(),
       "write horizon and nominal values, with the settings given, as YAML for the monitor and --config");
-  add(kBaseline, po::value<std::string>(), "YAML file with the healthy strut, to say how this one is against it");
+  add(kBaseline, po::value<std::string>(),
+      "YAML file with the healthy strut, or settings with its nominal values, to say how this one is against it");
   const auto values = parse(arguments, "identify BAG... [OPTION]...", description, "bag");
   if (!values) return;
   const std::vector<std::string> outputs{"csv", "json", "output"};
@@ -110,8 +112,8 @@ void identify(const Arguments& arguments) {
     return printWritten(*values, outputs);
   }
   BagOptions options = readBagOptions(*values);
-  takeBaselineFile(*values, options.pipeline.shell);
-  const Baseline healthy = healthyStrut(options.pipeline);
+  takeHealthy(*values, options);
+  const Baseline healthy = knownHealthy(options.healthy, options.pipeline);
 
   const Interruption interruption;
   std::optional<TextFile> csv = outputFile(*values, "csv"), json = outputFile(*values, "json"),
@@ -147,7 +149,7 @@ void identify(const Arguments& arguments) {
   printInput(monitor, identification.grid(), options, rejected);
   printTable(digest.items());
   printEnd(identification, result, pipeline.monitor.sprung_mass, !recorded.hasEffects());
-  if (strut) printChange(*strut, healthy, pipeline);
+  printChange(describeChange(result, healthy, pipeline));
   const auto reason = whyNotValid(monitor, ever_valid);
   if (!reason)
     for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());

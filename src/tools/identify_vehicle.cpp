@@ -4,13 +4,14 @@
 #include "bag_options.h"
 #include "command.h"
 #include "errors.h"
+#include "healthy_strut.h"
 #include "identify_tables.h"
 #include "long_work.h"
 #include "recorded_vehicle.h"
 #include "report_page.h"
 #include "row_table.h"
-#include "strut_files.h"
 #include "strut_settings.h"
+#include "suspension_health_monitor/internal/prefixed.h"
 #include "vehicle_commands.h"
 #include "vehicle_tables.h"
 
@@ -31,12 +32,12 @@ nlohmann::json toJson(const IdentifyResult& found) {
 }
 
 std::vector<Baseline> healthyStruts(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
-                                    const PipelineOptions& settings) {
-  std::vector<Baseline> healthy(vehicle.names.size(), healthyStrut(settings));
-  if (values.count(kBaseline) == 0) return healthy;
-  const auto given = readBaselines(values[kBaseline].as<std::string>(), vehicle);
+                                    VehicleOptions& settings) {
+  const std::vector<std::optional<HealthyStrut>> given = takeHealthy(values, vehicle, settings);
+  std::vector<Baseline> healthy;
   for (std::size_t i = 0; i < given.size(); ++i)
-    if (given[i]) healthy[i] = *given[i];
+    prefixed("struts/" + vehicle.names[i] + ": ",
+             [&] { healthy.push_back(knownHealthy(given[i], settings.struts[i])); });
   return healthy;
 }
 
@@ -44,7 +45,9 @@ std::string settingsText(const std::map<std::string, StrutOfDrive>& struts, cons
                          const boost::program_options::variables_map& values, const AskedVehicle& vehicle) {
   if (struts.empty()) throw TooLittleError("no estimate is valid: there are no settings to write");
   const std::vector<std::string> drives = fileNames(values["bag"].as<std::vector<std::string>>());
-  return vehicle.only ? settingsOf(struts.begin()->second, given, drives) : settingsOf(struts, given, drives);
+  if (!vehicle.only) return settingsOf(struts, given, drives);
+  const auto& [name, strut] = *struts.begin();
+  return settingsOf(strut, settingsFor(name, given), drives);
 }
 
 }  // namespace
@@ -55,25 +58,21 @@ void identifyStruts(const boost::program_options::variables_map& values) {
                           settings_file = outputFile(values, "output");
   AskedVehicle vehicle = readVehicle(values);
   const OptionMap given = gatherOptions(values);
-  PipelineOptions settings = PipelineOptions::fromValues(given);
+  VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, given);
   const std::vector<Baseline> healthy = healthyStruts(values, vehicle, settings);
-  TopicGaps gaps(settings.shell.input_timeout);
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings, gaps);
-  IdentifyOptions options;
-  options.sample_period = settings.monitor.sample_period;
-  options.horizon_samples = givenHorizon(settings);
-  options.memory = settings.monitor.memory;
+  TopicGaps gaps(settings.common.shell.input_timeout);
+  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings.common, gaps);
   std::vector<RowTable> rows;
   for (std::size_t i = 0; i < vehicle.names.size(); ++i)
     rows.emplace_back(csv && (!vehicle.only || *vehicle.only == i) ? csv->stream() : nullptr,
                       vehicle.only ? "" : vehicle.names[i]);
   if (csv) RowTable::writeHead(csv->stream(), !vehicle.only);
   std::size_t last = 0;
-  const VehicleIdentification found =
-      identifyVehicle(drives, vehicle.names, options, [&](std::size_t strut, const MonitorReport& report) {
-        if (strut != last) rows[last].finish();
-        rows[last = strut].add(report);
-      });
+  const VehicleIdentification found = identifyVehicle(drives, vehicle.names, identifyOptionsOf(settings),
+                                                      [&](std::size_t strut, const MonitorReport& report) {
+                                                        if (strut != last) rows[last].finish();
+                                                        rows[last = strut].add(report);
+                                                      });
   rows[last].finish();
   gaps.explain([&] { requireCoupling(found.coupling); });
   printCoupling(found.coupling, vehicle.names);
@@ -87,14 +86,15 @@ void identifyStruts(const boost::program_options::variables_map& values) {
   std::map<std::string, StrutOfDrive> struts;
   for (const std::size_t i : vehicle.asked) {
     const IdentifyResult& strut = found.struts[i];
+    const PipelineOptions& its_settings = settings.struts[i];
     std::printf("\n%s, at the end, over the last %.0f rows:\n", vehicle.names[i].c_str(), strut.la.rows);
-    printResult("LS", strut.ls, settings.monitor.sprung_mass);
-    printResult("LA", strut.la, settings.monitor.sprung_mass);
+    printResult("LS", strut.ls, its_settings.monitor.sprung_mass);
+    printResult("LA", strut.la, its_settings.monitor.sprung_mass);
     std::printf("over the whole drive, by instrumental variables:\n");
-    printResult("IV", strut.iv, settings.monitor.sprung_mass);
+    printResult("IV", strut.iv, its_settings.monitor.sprung_mass);
     if (const std::optional<StrutOfDrive> its = strutOf(strut)) {
-      printChange(*its, healthy[i], settings);
-      const std::string not_nominal = whyNotNominal(strut, settings.monitor);
+      printChange(describeChange(*its, healthy[i], its_settings));
+      const std::string not_nominal = whyNotNominal(strut, its_settings.monitor);
       if (not_nominal.empty())
         struts.emplace(vehicle.names[i], *its);
       else if (settings_file)

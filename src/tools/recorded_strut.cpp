@@ -39,7 +39,7 @@ RejectCounts RecordedIdentification::rejected() const {
 RecordedMonitor::RecordedMonitor(const BagOptions& options, const Row& row,
                                  const std::function<void(const MonitorReport&)>& report)
     : options_(options),
-      baseline_(options.pipeline),
+      healthy_(beforehand(options.healthy, options.pipeline)),
       log_(fromSeconds(options.pipeline.shell.input_timeout), {options.bags.topics[0], options.bags.topics[1]},
            [this, row](const HealthMoment& moment) { row(moment, pipeline_.strut().baseline()); }),
       pipeline_(
@@ -50,7 +50,7 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, const Row& row,
           },
           options.bags.transforms.get()) {
   pipeline_.strut().setEffects(LiveModel(options.pipeline.shell).effects());
-  if (baseline_.known()) pipeline_.strut().setBaseline(*baseline_.known());
+  if (healthy_) pipeline_.strut().setBaseline(healthy_->baseline);
 }
 
 std::vector<HealthContent::Recording> RecordedMonitor::read(TopicGaps& gaps) {
@@ -70,10 +70,6 @@ std::vector<HealthContent::Recording> RecordedMonitor::read(TopicGaps& gaps) {
   return recordings;
 }
 
-std::string RecordedMonitor::baselineFile() const {
-  return baseline_.known() ? options_.pipeline.shell.baseline_file : "";
-}
-
 void RecordedMonitor::requireEnough() const {
   if (pipeline_.monitor() == nullptr)
     throw TooLittleError(describeNoStart("on one of the topics") + describeRejected(rejected()));
@@ -82,7 +78,7 @@ void RecordedMonitor::requireEnough() const {
 
 BagOptions readMonitorOptions(const boost::program_options::variables_map& values) {
   BagOptions options = readLiveOptions(values);
-  takeBaselineFile(values, options.pipeline.shell);
+  takeHealthy(values, options);
   return options;
 }
 

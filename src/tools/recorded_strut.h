@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "../ros/imu_pipeline.h"
-#include "../ros/live_baseline.h"
 #include "../ros/strut_sensors.h"
 #include "bag_options.h"
 #include "health_page.h"
@@ -63,19 +62,19 @@ class RecordedMonitor {
   RejectCounts rejected() const { return pipeline_.rejected(); }
 
   /// @return the file that the baseline was read from; empty: none was.
-  std::string baselineFile() const;
+  std::string baselineFile() const { return healthy_ ? healthy_->file : ""; }
 
   /// @throws TooLittleError  if the bags hold too little for one estimate.
   void requireEnough() const;
 
  private:
   BagOptions options_;
-  LiveBaseline baseline_;
+  std::optional<HealthyStrut> healthy_;  // known beforehand
   HealthLog log_;
   ImuPipeline pipeline_;
 };
 
-/// @return the options as a live monitor would have them, with the file of --baseline for baseline_file.
+/// @return the options as a live monitor would have them, with the healthy strut of --baseline.
 BagOptions readMonitorOptions(const boost::program_options::variables_map& values);
 
 /// `suspension_bag compare`.

@@ -85,9 +85,20 @@ void printRejected(const std::string& topic, const RejectCounts& rejected) {
   if (rejected.total() > 0) std::printf("%s%s\n", topic.c_str(), describeRejected(rejected).c_str());
 }
 
-std::optional<int> givenHorizon(const PipelineOptions& options) {
-  if (!options.monitor.integration_horizon) return std::nullopt;
-  return MonitorSettings(options.monitor).horizonSamples(*options.monitor.sample_period);
+std::vector<IdentifyOptions> identifyOptionsOf(const VehicleOptions& settings) {
+  std::vector<IdentifyOptions> options;
+  for (const PipelineOptions& strut : settings.struts) {
+    IdentifyOptions& its = options.emplace_back();
+    its.sample_period = settings.common.monitor.sample_period;
+    its.horizon_samples = givenHorizon(strut, *its.sample_period);
+    its.memory = strut.monitor.memory;
+  }
+  return options;
+}
+
+std::optional<int> givenHorizon(const PipelineOptions& strut, double sample_period) {
+  if (!strut.monitor.integration_horizon) return std::nullopt;
+  return MonitorSettings(strut.monitor).horizonSamples(sample_period);
 }
 
 }  // namespace suspension_health_monitor

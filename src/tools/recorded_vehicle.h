@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../ros/shell_options.h"
+#include "../ros/vehicle_options.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
@@ -45,7 +45,11 @@ std::vector<VehicleDrive> readDrives(const boost::program_options::variables_map
 /// Tells people what became of the messages of the sensors that were kept out.
 void printRejected(const std::string& topic, const RejectCounts& rejected);
 
-/// @return L, if the settings give the horizon.
-std::optional<int> givenHorizon(const PipelineOptions& options);
+/// @return what identifyVehicle() takes of the settings, by strut.
+/// @param settings  with a sample_period.
+std::vector<IdentifyOptions> identifyOptionsOf(const VehicleOptions& settings);
+
+/// @return L, if the settings of a strut give the horizon.
+std::optional<int> givenHorizon(const PipelineOptions& strut, double sample_period);
 
 }  // namespace suspension_health_monitor

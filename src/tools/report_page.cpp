@@ -25,6 +25,7 @@ std::string sourceOf(const ReportContent& content) {
 json findingsOf(const ReportContent& content) {
   json findings{{"search", toJson(content.found)},
                 {"source", sourceOf(content)},
+                {"change", content.source.change},
                 {"effects", effectsJson(content.library)},
                 {"parameters", parametersJson(content)},
                 {"drives", drivesJson(content)},

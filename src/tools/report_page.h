@@ -21,6 +21,7 @@ struct InVehicle {
 struct PageSource {
   std::vector<std::string> drive_names;  ///< one per drive
   nlohmann::json origin;                 ///< as originOf()
+  std::string change = {};               ///< how the strut is against the healthy one, in words; empty: not known
 };
 
 /// All that the page of a search is made of.

@@ -58,6 +58,8 @@ void simulate(const Arguments& arguments) {
   if (!values) return;
 
   requireSeparateFiles(*values, {"config", "effects-file", "vehicle-model"}, {"output", "vehicle-file"});
+  if ((*values)["output"].as<std::string>() == kStandardOutput)
+    throw std::invalid_argument("--output -, must be a file, which a bag is written to; ./- is one that is called so");
   OptionMap settings = gatherOptions(*values);
   for (const char* flag : kFlags)
     if (values->count(flag) != 0) settings[flag] = (*values)[flag].as<std::string>();

@@ -6,6 +6,7 @@
 
 #include "../ros/vehicle_messages.h"
 #include "../ros/whole_bag.h"
+#include "bag_options.h"
 #include "long_work.h"
 #include "suspension_health_monitor/internal/model/effect_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
@@ -91,10 +92,9 @@ void simulateVehicle(const boost::program_options::variables_map& values, const 
   VehicleMessageSource drive(options, fromSeconds(options.playing.start_time));
   writeBag(drive, options.drive.duration, options.playing.start_time, path);
   std::string written = path;
-  if (values.count("vehicle-file") != 0) {
-    const auto file = values["vehicle-file"].as<std::string>();
-    TextFile(file).commit(vehicleFile(options));
-    written += " and " + file;
+  if (std::optional<TextFile> file = outputFile(values, "vehicle-file")) {
+    file->commit(vehicleFile(options));
+    written += " and " + values["vehicle-file"].as<std::string>();
   }
   std::printf("%s: %s, %g s at %g Hz, class %s at %g m/s, %s tracks, seed %d\n", written.c_str(),
               shortened(options.model).c_str(), options.drive.duration, options.drive.rate,

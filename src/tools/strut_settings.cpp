@@ -2,22 +2,15 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <cmath>
-#include <cstdio>
+#include <iterator>
+#include <sstream>
 
-#include "../ros/live_baseline.h"
 #include "suspension_health_monitor/internal/plain_text.h"
-#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-std::optional<LogChange> changeOf(double value, double stddev, const std::optional<double>& healthy,
-                                  double healthy_stddev) {
-  if (!healthy || !(value > 0.0)) return std::nullopt;
-  return LogChange{std::log(value / *healthy), std::hypot(stddev / value, healthy_stddev / *healthy)};
-}
 
 std::string head(const std::vector<std::string>& drives, const char* load) {
   return "# By `suspension_bag identify` from " + shortened(join(drives)) + ".\n# " + load +
@@ -34,32 +27,37 @@ std::string ownSettings(const StrutOfDrive& found, const char* indent) {
                    strut.stiffness_to_mass_stddev);
 }
 
-/// The given settings that the identified ones do not replace, nested.
-std::string othersOf(const OptionMap& given) {
-  YAML::Node others(YAML::NodeType::Map);
-  for (const auto& [name, value] : given) {
+bool isIdentified(const std::string& name) {
+  return name == "integration_horizon" || name == "baseline_file" || name.rfind("nominal/", 0) == 0;
+}
+
+/// Settings of one strut, or of all, nested and indented.
+std::string nested(const OptionMap& settings, const char* indent) {
+  YAML::Node groups(YAML::NodeType::Map);
+  for (const auto& [name, value] : settings) {
     const auto* text = std::get_if<std::string>(&value);
-    if (text == nullptr || name == "integration_horizon" || name == "baseline_file" || name.rfind("nominal/", 0) == 0)
-      continue;
+    if (text == nullptr) continue;
     const std::size_t slash = name.find('/');
     if (slash == std::string::npos)
-      others[name] = *text;
+      groups[name] = *text;
     else
-      others[name.substr(0, slash)][name.substr(slash + 1)] = *text;
+      groups[name.substr(0, slash)][name.substr(slash + 1)] = *text;
   }
-  return others.size() > 0 ? YAML::Dump(others) + '\n' : "";
+  if (groups.size() == 0) return "";
+  std::istringstream lines(YAML::Dump(groups));
+  std::string result;
+  for (std::string line; std::getline(lines, line);) result += indent + line + '\n';
+  return result;
+}
+
+/// Without the settings that the identified ones replace.
+OptionMap othersOf(OptionMap given) {
+  for (auto entry = given.begin(); entry != given.end();)
+    entry = isIdentified(entry->first) ? given.erase(entry) : std::next(entry);
+  return given;
 }
 
 }  // namespace
-
-std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
-  const double horizon = found.horizon_samples * found.sample_period;
-  if (found.iv.valid && found.isSteady())
-    return StrutOfDrive{found.iv, "over the whole drive, by instrumental variables", horizon};
-  if (found.la.valid) return StrutOfDrive{found.la, "at the end of the drive, by LA", horizon};
-  if (found.ls.valid) return StrutOfDrive{found.ls, "at the end of the drive, by LS", horizon};
-  return std::nullopt;
-}
 
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {
   const std::optional<StrutOfDrive> strut = strutOf(found);
@@ -78,36 +76,29 @@ std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& opt
   return lack("stiffness/mass", its.stiffness_to_mass, its.stiffness_to_mass_stddev, options.stiffness_warn);
 }
 
-Baseline healthyStrut(const PipelineOptions& options) {
-  const LiveBaseline live(options);
-  if (live.known()) return *live.known();
-  Baseline nominal;
-  nominal.damping_to_mass = options.monitor.nominal_damping_to_mass;
-  nominal.stiffness_to_mass = options.monitor.nominal_stiffness_to_mass;
-  return nominal;
-}
-
-void printChange(const StrutOfDrive& found, const Baseline& healthy, const PipelineOptions& options) {
-  const IdentifiedStrut& strut = found.strut;
-  const StrutChange change = splitChange(changeOf(strut.damping_to_mass, strut.damping_to_mass_stddev,
-                                                  healthy.damping_to_mass, healthy.damping_to_mass_stddev),
-                                         changeOf(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev,
-                                                  healthy.stiffness_to_mass, healthy.stiffness_to_mass_stddev),
-                                         options.monitor.payload_range, 0.0);
-  const std::string text = describe(change, healthy);
-  if (!text.empty()) std::printf("the strut, %s: %s\n", found.by.c_str(), text.c_str());
+OptionMap settingsFor(const std::string& strut, OptionMap given) {
+  OptionMap own = takeGroups(given, "struts")[strut];
+  own.insert(given.begin(), given.end());
+  return own;
 }
 
 std::string settingsOf(const StrutOfDrive& strut, const OptionMap& given, const std::vector<std::string>& drives) {
   return head(drives, "For `config:=` of monitor.launch and replay.launch, and `suspension_bag ... --config`.") +
-         ownSettings(strut, "") + othersOf(given);
+         ownSettings(strut, "") + nested(othersOf(given), "");
 }
 
 std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, const OptionMap& given,
                        const std::vector<std::string>& drives) {
-  std::string text = head(drives, "For `strut_config:=` of vehicle.launch, and `suspension_bag health --config`.");
-  text += othersOf(given) + "struts:\n";
-  for (const auto& [name, strut] : struts) text += "  " + name + ":\n" + ownSettings(strut, "    ");
+  OptionMap common = given;
+  std::map<std::string, OptionMap> own = takeGroups(common, "struts");
+  std::string text =
+      head(drives, "For `strut_config:=` of vehicle.launch, and `suspension_bag ... --vehicle ... --config`.");
+  text += nested(othersOf(common), "") + "struts:\n";
+  for (const auto& [name, strut] : struts) {
+    text += "  " + name + ":\n" + ownSettings(strut, "    ") + nested(othersOf(own[name]), "    ");
+    own.erase(name);
+  }
+  for (const auto& [name, settings] : own) text += "  " + name + ":\n" + nested(settings, "    ");
   return text;
 }
 

@@ -30,6 +30,9 @@ constexpr int kStretch = 2500;  // [samples]
 
 constexpr std::size_t kLookedAt = 40000;  // samples, for an offset of the clocks
 
+// Two bounces of the slowest body, whose springs a weight presses down by a metre [s]: 2 * 2 pi sqrt(1 m / g).
+constexpr double kTwoBounces = 4.0;
+
 // @param count  messages to look at; becomes those that there were.
 std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
   PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording);
@@ -44,7 +47,7 @@ std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
 double measurePeriod(const ImuBags& bags) {
   std::size_t count = kMessagesForPeriod;
   const std::optional<double> period = stampSpacing(bags, count);
-  if (!period) throw TooLittleError(describeNoPeriod(count));
+  if (!period) throw TooLittleError(describeNoPeriod("on one of the topics", count));
   try {
     MonitorOptions options;
     options.sample_period = period;
@@ -61,13 +64,14 @@ struct Surveyed {
   UniformGrid grid;
   double period;
   std::size_t samples, gaps;
+  std::size_t longest;  // samples in one piece
   RejectCounts rejected;
 };
 
 Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOptions& options) {
   const Stamp period = fromSeconds(*options.monitor.sample_period);
   std::optional<Stamp> last;
-  std::size_t count = 0, gaps = 0;
+  std::size_t count = 0, gaps = 0, piece = 0, longest = 0;
   RejectCounts too_soon;
   Drive drive;
   ReadSamples read = readSamples(bags, options, [&](const CornerSample& sample) {
@@ -75,11 +79,13 @@ Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOpti
     const bool is_extra = follows == Continuity::kTooSoon;
     if (follows == Continuity::kGap || follows == Continuity::kClockJumped) {
       ++gaps;
+      piece = 0;
       survey.interrupt();
     }
     if (is_extra) too_soon.add(RejectReason::kTooSoon);
     if (!is_extra) {
       survey.push(sample);
+      longest = std::max(longest, ++piece);
       if (count < kLookedAt) drive.samples.push_back(sample);
     }
     last = sample.stamp;
@@ -87,7 +93,7 @@ Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOpti
     return true;
   });
   read.rejected += too_soon;
-  return {std::move(drive), std::move(read.grid), *options.monitor.sample_period, count, gaps, read.rejected};
+  return {std::move(drive), std::move(read.grid), *options.monitor.sample_period, count, gaps, longest, read.rejected};
 }
 
 std::string describeClockLag(double lag) {
@@ -99,12 +105,13 @@ std::string describeClockLag(double lag) {
 
 [[noreturn]] void refuse(const Surveyed& surveyed, const HorizonSurvey& survey,
                          const std::optional<LaggedStrut>& lagged) {
+  const bool is_short = static_cast<double>(surveyed.longest) * surveyed.period < kTwoBounces;
   throw TooLittleError(
       "no horizon can be proposed: " +
       std::string(surveyed.samples == 0 ? "no pair of readings can be used" : "the data show no damped spring") +
       " (samples " + std::to_string(surveyed.samples) +
       formatted(" in %.3g s", static_cast<double>(surveyed.samples) * surveyed.period) + ", gaps " +
-      std::to_string(surveyed.gaps) + "; two bounces of the body in one piece are enough" +
+      std::to_string(surveyed.gaps) + (is_short ? "; two bounces of the body in one piece are enough" : "") +
       describeRejected(surveyed.rejected) + ")" +
       (lagged ? describeClockLag(lagged->model.reading.front().coefficients.front())
               : describeSuspicions(surveyed.grid, survey.dampingIsNegative())) +

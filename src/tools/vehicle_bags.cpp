@@ -49,7 +49,7 @@ double measurePeriod(const ImuBags& bags) {
   };
   readTopics(bags, {take, take});
   const std::optional<double> period = measurement.period();
-  if (!period) throw TooLittleError(describeNoPeriod(count));
+  if (!period) throw TooLittleError(describeNoPeriod("on one of the topics", count));
   return *period;
 }
 

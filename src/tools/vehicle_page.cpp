@@ -78,18 +78,21 @@ VehiclePage::VehiclePage(const std::string& folder, const AskedVehicle& vehicle)
 }
 
 void VehiclePage::writeStrut(std::size_t place, const VehicleDiagnosis& found, const DiagnoseOptions& options,
-                             const PageSource& source) {
+                             const std::string& change, PageSource source) {
+  source.change = change;
   const InVehicle in{vehicle_.names[place], vehicle_.file, partnersOf(place, found.coupling, vehicle_.names),
                      page_.has_value()};
   struts_.at(place).write(found.struts[place], found.drives[place], options, source, &in);
 }
 
-void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const PageSource& source) {
-  if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, source);
+void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options,
+                        const std::vector<std::string>& changes, const PageSource& source) {
+  if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, changes[*vehicle_.only], source);
   json struts = json::array();
   for (std::size_t i = 0; i < vehicle_.names.size(); ++i) {
-    if (found.struts[i]) writeStrut(i, found, options, source);
+    if (found.struts[i]) writeStrut(i, found, options, changes[i], source);
     struts.push_back(strutJson(vehicle_.layout.struts[i], i, found, static_cast<bool>(found.struts[i])));
+    struts.back()["change"] = changes[i];
   }
   page_->write(vehicleTemplate(), shortened({{"source", sourceOf(found, *options.sample_period, source.drive_names)},
                                              {"verdict", nameOf(found.verdict)},

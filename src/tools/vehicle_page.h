@@ -18,12 +18,14 @@ class VehiclePage {
   VehiclePage(const std::string& folder, const AskedVehicle& vehicle);
 
   /// @param options  of the search, with sample_period.
+  /// @param changes  by strut how it is against the healthy one, in words; empty: not known.
   /// @throws std::runtime_error  naming the file that cannot be written.
-  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const PageSource& source);
+  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const std::vector<std::string>& changes,
+             const PageSource& source);
 
  private:
   void writeStrut(std::size_t place, const VehicleDiagnosis& found, const DiagnoseOptions& options,
-                  const PageSource& source);
+                  const std::string& change, PageSource source);
 
   const AskedVehicle& vehicle_;
   std::optional<HtmlPage> page_;              // before those of the struts, whose folders are in its folder

@@ -1,4 +1,5 @@
 """A page as a browser shows it: headless Chromium, without a network."""
+import base64
 import html.parser
 import json
 import os
@@ -118,6 +119,26 @@ def saved(path, profile):
     profile.mkdir(exist_ok=True)
     (profile / "page.html").write_text(path.read_text().replace("</body>", SAVE + "</body>"))
     return json.loads("".join(shown(profile / "page.html", profile / "browser").one(id="saved").children))
+
+
+# The same of the drawing, which becomes an image first.
+SAVE_DRAWING = """<script>(() => {
+HTMLCanvasElement.prototype.toBlob = function() {
+  const place = document.createElement('pre');
+  place.id = 'saved';
+  place.textContent = this.toDataURL('image/png');
+  document.body.append(place);
+};
+document.querySelector('svg').parentNode.querySelector('.saving button').click();
+})();</script>"""
+
+
+def saved_drawing(path, profile):
+    """The PNG that the button below the first drawing saves."""
+    profile.mkdir(exist_ok=True)
+    (profile / "page.html").write_text(path.read_text().replace("</body>", SAVE_DRAWING + "</body>"))
+    text = "".join(shown(profile / "page.html", profile / "browser").one(id="saved").children)
+    return base64.b64decode(text.split(",")[1])
 
 
 def measured(path, profile, width, dark):

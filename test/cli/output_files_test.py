@@ -35,6 +35,34 @@ def test_an_output_is_never_an_input(program, paper_bag, tmp_path, option):
                        tmp_path)
 
 
+def run_apart(program, *arguments):
+    """Standard output and standard error of a run."""
+    result = program(*arguments)
+    assert result.returncode == 0, result.stderr
+    return result.stdout, result.stderr
+
+
+@pytest.mark.parametrize("command, option", [("identify", "--json"), ("identify", "--csv"), ("identify", "-o"),
+                                             ("health", "--json"), ("health", "--csv"), ("compare", "--json"),
+                                             ("diagnose", "--json"), ("diagnose", "-o")])
+def test_a_result_called_minus_is_all_of_standard_output(program, paper_bag, tmp_path, monkeypatch, command, option):
+    monkeypatch.chdir(tmp_path)
+    of = [command, paper_bag, *SETTINGS, "--end", "40"]
+    words, _ = run_apart(program, *of)
+    program.succeed(*of, option, tmp_path / "result")
+    output, errors = run_apart(program, *of, option, "-")
+    assert output == (tmp_path / "result").read_text()
+    assert errors == words
+    assert list(tmp_path.iterdir()) == [tmp_path / "result"]
+
+
+def test_what_is_no_text_has_a_name(program, paper_bag, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    program.refuse(2, ["identify", paper_bag, "--json", "-", "--csv", "-"], ["--json -", "of its own"], tmp_path)
+    program.refuse(2, ["simulate", "-o", "-"], ["--output -, must be a file"], tmp_path)
+    program.refuse(2, ["health", paper_bag, "--report", "-"], ["--report -, must be a folder"], tmp_path)
+
+
 def test_two_results_do_not_share_a_file(program, paper_bag, tmp_path):
     path = tmp_path / "result"
     program.refuse(2, ["identify", paper_bag, "--csv", path, "--json", path], [path, "of its own"], tmp_path)

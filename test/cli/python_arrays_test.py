@@ -68,6 +68,35 @@ def test_several_recordings_are_taken_one_after_the_other(drive):
         numbers(shm.identify(*drive, **OPTIONS))
 
 
+def test_a_recording_keeps_what_it_was_given(drive):
+    arrays = [array.copy() for array in drive]
+    across = np.zeros((len(arrays[0]), 4))
+    recording = shm.Recording(*arrays, stamps_road=arrays[0], road=arrays[2], across=across)
+    expected = [array.copy() for array in (recording.stamps_body, recording.body, recording.wheel, recording.road, recording.across)]
+    nanoseconds = np.round(1e9 * arrays[0]).astype(np.int64)
+    whole = shm.Recording(nanoseconds, arrays[1], arrays[2])
+    for array in (*arrays, across, nanoseconds):
+        array[:] = 7
+    for now, before in zip((recording.stamps_body, recording.body, recording.wheel, recording.road, recording.across), expected):
+        np.testing.assert_array_equal(now, before)
+    np.testing.assert_array_equal(whole.stamps_body, expected[0])
+
+
+@pytest.mark.parametrize("unit, words", [(1e2, "one every 1e-09 s"), (1e3, "one every 1e-08 s"), (1e6, "one every 1e-05 s")])
+@pytest.mark.parametrize("call", [shm.identify, shm.compare, shm.diagnose, shm.health])
+def test_whole_numbers_of_another_unit_are_told_as_nanoseconds(drive, unit, words, call):
+    """Counts, milliseconds, microseconds; units a second."""
+    stamps = np.round(unit * drive[0]).astype(int)
+    with pytest.raises(ValueError, match=f"^stamps are whole numbers, which are nanoseconds: {words}, must be 0.0001 s or"):
+        call(stamps, *drive[1:])
+
+
+def test_fast_stamps_are_taken_as_floats_and_datetimes(drive):
+    fast = np.round(1e6 * drive[0]).astype(np.int64)
+    for stamps in (1e-9 * fast, fast.astype("datetime64[ns]")):
+        assert shm.identify(stamps, *drive[1:], integration_horizon=0.0003).sample_period == pytest.approx(1e-5)
+
+
 N = np.zeros(30)
 T = 0.01 * np.arange(30)
 
@@ -91,7 +120,7 @@ T = 0.01 * np.arange(30)
     ((1e18 * T, N, N), r"stamps\[1\] = 1e\+16, must be finite seconds below 4e\+09"),
     ((0.0, N, N), r"stamps = 0 \[s\], must be a period in \[1e-05, 10\]"),
     ((float("nan"), N, N), r"stamps = nan \[s\]"),
-    ((T[:5], N[:5], N[:5]), "the sample period cannot be measured: fewer than 10"),
+    ((T[:5], N[:5], N[:5]), r"cannot be measured: fewer than 10 .* of one of the sensors \(of 10 readings; 11 of each are enough\)"),
     ((0 * T, N, N), "the sample period cannot be measured"),
     ((T, N, N), "no horizon can be proposed"),
     ((3, 4), "2 arrays"),
@@ -113,7 +142,8 @@ def test_what_is_no_recording_is_refused(arrays, words):
     ({"memory": 1 << 80}, r"memory = 1.2089258\d*e\+24"),
     ({"health_damping_warn": 0.2, "health/damping_warn": 0.3}, "health/damping_warn is given twice"),
     ({"horizon_samples": 30}, "horizon_samples is no option any more: integration_horizon"),
-    ({"sprung_axis": "x"}, "sprung_axis is an option of messages and files, must not come with arrays"),
+    ({"sprung_axis": "x"}, "sprung_axis is an option of messages and files, must not come with arrays: these have the acc"),
+    ({"effects": "coulomb_friction"}, "effects is an option of .* with arrays: for these there is model="),
     ({"start": 3.0}, "start is an option of bags, must not come with arrays"),
     ({"progress": 3}, "progress = 3, must be True, None or a function")])
 def test_wrong_options_are_refused_by_name(call, options, words, drive):
@@ -149,6 +179,7 @@ def test_a_period_far_below_the_spacing_is_refused(call, drive):
     (lambda: shm.compare(0.01, N, N), "the drives"),
     (lambda: shm.StrutMonitor(memry=3), "the nearest known name is memory"),
     (lambda: shm.StrutMonitor(every=0), "every = 0, must be 1 or more"),
+    (lambda: shm.StrutMonitor(on_report=3), "on_report = 3, must be a function or None"),
     *[(lambda its=struts: shm.VehicleMonitor(its, sample_period=0.01), "must be names, each once")
       for struts in ([], ["a", "a"], ["a", ""], "ab", [1, 2])],
     (lambda: shm.simulate(vehicle_model="sedan"), "vehicle_model is of a bag: output is not given"),

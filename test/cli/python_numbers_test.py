@@ -141,8 +141,38 @@ def test_health_by_a_baseline(program, tmp_path, worn_bag):
     (tmp_path / "healthy.yaml").write_text("damping_to_mass: 3.0\nstiffness_to_mass: 25.0\n")
     expected = said(program, tmp_path, "health", worn_bag, "--baseline", tmp_path / "healthy.yaml")
     expected.pop("early_warnings")
-    for healthy in (tmp_path / "healthy.yaml", shm.Baseline(damping_to_mass=3.0, stiffness_to_mass=25.0)):
-        assert_same(shm.health(worn_bag, baseline=healthy), expected)
+    found = shm.health(worn_bag, baseline=tmp_path / "healthy.yaml")
+    assert_same(found, expected)
+    assert found.reference.startswith(f"the baseline of {tmp_path / 'healthy.yaml'}: damping/mass 3 1/s")
+
+
+def test_health_by_what_somebody_has_given(program, tmp_path, worn_bag):
+    expected = said(program, tmp_path, "health", worn_bag, "--set", "nominal/damping_to_mass=3", "--set",
+                    "nominal/stiffness_to_mass=25")
+    expected.pop("early_warnings")
+    settings = tmp_path / "settings.yaml"
+    settings.write_text("nominal: {damping_to_mass: 3, stiffness_to_mass: 25}\nsprung_axis: z\n")
+    given = shm.Baseline(damping_to_mass=3.0, stiffness_to_mass=25.0)
+    for found in (shm.health(worn_bag, baseline=given), shm.health(worn_bag, baseline=settings)):
+        assert_same(found, expected)
+        assert found.reference == "nominal values: damping/mass 3 1/s, stiffness/mass 25 1/s^2"
+    for healthy in (given, settings):
+        with pytest.raises(ValueError, match="nominal values are both given, must be one of them"):
+            shm.health(worn_bag, baseline=healthy, nominal_damping_to_mass=3.0)
+
+
+def test_health_by_what_an_earlier_drive_has_taught(worn_bag):
+    """As arrays, whose stamps begin before 0, as well: these are no part of what the earlier drive was."""
+    learned = shm.health(worn_bag, end=40, baseline_learn_time=20).baseline
+    assert learned.learned and 15.0 < learned.learned_to - learned.learned_from < 40.0
+    stamps_body, body, stamps_wheel, wheel = arrays_of(worn_bag)
+    early = stamps_body[0] + 10**12
+    for found in (shm.health(worn_bag, baseline=learned),
+                  shm.health(stamps_body - early, body, stamps_wheel - early, wheel, baseline=learned)):
+        assert found.reference.startswith(
+            f"the baseline learned from {learned.learned_from:.2f} s to {learned.learned_to:.2f} s: ")
+        assert "baseline" in found.end.message
+        assert (found.baseline.learned_from, found.baseline.learned_to) == (learned.learned_from, learned.learned_to)
 
 
 def arrays_of(bag):
@@ -207,6 +237,23 @@ def test_laws_of_ones_own(tmp_path):
             assert shm.compare(of, model=found.model, effects_file=laws).free_run.rmse < \
                 0.8 * shm.compare(of).free_run.rmse
             assert not shm.identify(of, model=found.model, effects_file=laws).iv.valid  # it knows the plain strut only
+
+
+def test_a_file_of_settings_of_a_robot_is_for_arrays_too(tmp_path, rough_bag):
+    """What is about its messages has no meaning there; what changes the result is refused."""
+    file = tmp_path / "strut.yaml"
+    file.write_text("sprung_axis: z\ntarget_frame: strut\nsprung_range: 160\nexpected_rate: {sprung: 100}\nmax_lag: 0.1\n"
+                    "publish_every: 5\ndiagnose: {window: 60}\ntyre: {road_axis: y}\ninput_timeout: 3\nmemory: 5\n"
+                    "nominal: {damping_to_mass: 4}\n")
+    arrays = arrays_of(rough_bag)
+    by_file, by_name = shm.health(*arrays, config=file), shm.health(*arrays, memory=5, nominal_damping_to_mass=4)
+    assert by_file.la.damping_to_mass == by_name.la.damping_to_mass and by_file.reference == by_name.reference
+    assert shm.StrutMonitor(config=file, sample_period=0.01).sample_period == 0.01
+    for line, argument in (("baseline_file: b.yaml", "baseline"), ("model_file: m.yaml", "model"),
+                           ("effects_file: l.yaml", "effects_file"), ("effects: [coulomb_friction]", "model")):
+        file.write_text(line + "\n")
+        with pytest.raises(ValueError, match=f"{line.split(':')[0]} is an option of .*for these there is {argument}="):
+            shm.identify(*arrays, config=file)
 
 
 def test_options_of_a_file(tmp_path, rough_bag):

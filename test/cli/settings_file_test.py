@@ -5,6 +5,8 @@ import re
 import pytest
 import yaml
 
+import browser
+
 DRIVE = ["--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100"]
 B1, B0 = 4.0, 40.0  # of the ugv
 
@@ -62,6 +64,19 @@ def test_strut_is_told_against_nominal_values_in_a_sentence(program, bag, worn, 
     assert not sentence.search(program.succeed("identify", bag)), "nothing to be against"
 
 
+def test_diagnose_tells_it_as_well_and_keeps_its_verdict(program, worn, settings, tmp_path):
+    told = program.succeed("diagnose", worn, "--config", settings, "--json", tmp_path / "found.json", "--report", tmp_path)
+    found = json.loads((tmp_path / "found.json").read_text())
+    assert found["verdict"] == "nothing_missing"
+    assert found["change"] == ("the strut, over the whole drive, by instrumental variables: damping 20 % below nominal "
+                               "(beyond doubt), stiffness at nominal")
+    assert f"\n{found['change']}\n" in told
+    page = browser.shown(tmp_path / "report.html", tmp_path / "profile")
+    assert page.one("section", id="verdict").one("p", class_="change").text == f"T{found['change'][1:]}."
+    program.succeed("diagnose", worn, "--json", tmp_path / "found.json")
+    assert "change" not in json.loads((tmp_path / "found.json").read_text())
+
+
 def test_payload_is_told_as_payload(program, bag):
     told = program.succeed("identify", bag, "--set", f"nominal/damping_to_mass={1.2 * B1}", "--set",
                            f"nominal/stiffness_to_mass={1.2 * B0}")
@@ -82,8 +97,20 @@ def test_what_is_no_healthy_strut_is_not_written(program, hidden, words, tmp_pat
     assert changes == ("damping_end_fraction=0.5" in hidden)
 
 
-def test_settings_are_no_baseline(program, bag, settings):
-    result = program("health", bag, "--baseline", settings)
+def test_baseline_takes_the_nominal_values_of_settings(program, worn, settings, tmp_path):
+    told = program.succeed("health", worn, "--baseline", settings, "--set", "integration_horizon=0.26")
+    assert re.search(r"^judged by nominal values: damping/mass (3\.9|4\.0)\d* 1/s", told, re.MULTILINE)
+    assert "damping 20 % below nominal" in program.succeed("identify", worn, "--baseline", settings)
+    program.refuse(2, ["identify", worn, "--baseline", settings, "--set", "nominal/damping_to_mass=3"],
+                   [settings, "nominal values are both given, must be one of them"], tmp_path)
+    wrong = tmp_path / "wrong.yaml"
+    wrong.write_text("nominal: {damping_to_mass: 4}\nhealt: {damping_warn: 0.1}\n")
+    program.refuse(2, ["identify", worn, "--baseline", wrong], [wrong, "healt/damping_warn"], tmp_path)
+
+
+def test_a_live_baseline_file_is_not_to_be_settings(program, worn, settings):
+    """The monitor writes that file."""
+    result = program("health", worn, "--set", f"baseline_file={settings}")
     assert result.returncode == 2 and "settings with nominal values, to be given as --config" in result.stderr
 
 
@@ -115,6 +142,62 @@ def test_every_strut_of_a_vehicle_has_its_own(program, vehicle):
     assert yaml.safe_load(path.read_text())["nominal"] == pytest.approx(written["rear"]["nominal"])
 
 
+@pytest.fixture(scope="module")
+def of_struts(program, vehicle):
+    """Settings of all struts, with horizons that nobody would propose, and what is of one strut or of all."""
+    path = vehicle / "of_struts.yaml"
+    given = {"struts/front/integration_horizon": 0.5, "struts/rear/integration_horizon": 0.8, "memory": 4,
+             "struts/front/memory": 6, "struts/rear/health/damping_warn": 0.1}
+    program.succeed("identify", vehicle / "drive.bag", "--vehicle", vehicle / "vehicle.yaml", "-o", path,
+                    *[word for name, value in given.items() for word in ("--set", f"{name}={value}")])
+    return path
+
+
+def test_every_command_takes_the_settings_of_every_strut(program, vehicle, of_struts, tmp_path):
+    written = yaml.safe_load(of_struts.read_text())
+    assert written["memory"] == 4 and written["struts"]["front"]["memory"] == 6
+    assert written["struts"]["rear"]["health"] == {"damping_warn": 0.1}
+    of = [vehicle / "drive.bag", "--vehicle", vehicle / "vehicle.yaml", "--config", of_struts]
+    told = program.succeed("identify", *of, "--json", tmp_path / "found.json")
+    found = json.loads((tmp_path / "found.json").read_text())["struts"]
+    period = found["front"]["sample_period"]
+    assert [round(found[name]["horizon_samples"] * period, 3) for name in ("front", "rear")] == [0.5, 0.8]
+    rows = {name: int(n) for name, n in re.findall(r"^(\w+), at the end, over the last (\d+) rows", told, re.MULTILINE)}
+    assert rows["front"] == pytest.approx(6 / 4 * rows["rear"], rel=0.01), "by their memories"
+    assert told.count("variables: damping at nominal, stiffness at nominal") == 2
+    program.succeed("compare", *of, "--json", tmp_path / "compared.json")
+    compared = json.loads((tmp_path / "compared.json").read_text())["struts"]
+    assert [round(compared[name]["one_step"]["horizon_samples"] * period, 3) for name in ("front", "rear")] == [0.5, 0.8]
+    told = program.succeed("diagnose", *of, "--json", tmp_path / "searched.json", "--report", tmp_path / "page")
+    assert told.count("variables: damping at nominal, stiffness at nominal") == 2
+    searched = json.loads((tmp_path / "searched.json").read_text())["struts"]
+    assert all(strut["change"].endswith("damping at nominal, stiffness at nominal") for strut in searched.values())
+    struts = browser.shown(tmp_path / "page" / "report.html", tmp_path / "profile").one("section", id="verdict").one("ul")
+    assert [each.text for each in struts.all("small", class_="change")] == [
+        f"T{strut['change'][1:]}" for strut in searched.values()]
+    program.refuse(2, ["diagnose", *of[:3], "--set", "struts/middle/memory=3"], ["struts/middle", "front, rear"], tmp_path)
+    program.refuse(2, ["identify", *of[:3], "--set", "struts/front/sample_period=0.01"],
+                   ["struts/front/sample_period", "of the whole vehicle"], tmp_path)
+
+
+def test_baseline_takes_the_nominal_values_of_every_strut(program, vehicle, of_struts, tmp_path):
+    of = [vehicle / "drive.bag", "--vehicle", vehicle / "vehicle.yaml"]
+    worn = yaml.safe_load(of_struts.read_text())
+    worn["struts"]["rear"]["nominal"]["damping_to_mass"] *= 1.5
+    (tmp_path / "new.yaml").write_text(yaml.safe_dump(worn))
+    told = program.succeed("identify", *of, "--baseline", tmp_path / "new.yaml")
+    assert re.search(r"\nrear, (.*\n)+the strut, .*: damping 3\d % below nominal", told)
+    assert re.search(r"\nfront, (.*\n)+?the strut, .*: damping at nominal", told)
+    told = program.succeed("health", *of, "--baseline", tmp_path / "new.yaml")
+    for name, strut in worn["struts"].items():
+        assert f"\n{name}, judged by nominal values: damping/mass {strut['nominal']['damping_to_mass']:.5g} 1/s" in told
+    (tmp_path / "rear.yaml").write_text(yaml.safe_dump(worn["struts"]["rear"]))
+    told = program.succeed("identify", *of, "--strut", "rear", "--baseline", tmp_path / "rear.yaml")
+    assert "below nominal" in told
+    program.refuse(2, ["identify", *of, "--baseline", tmp_path / "new.yaml", "--config", of_struts],
+                   ["struts/front: baseline_file", "must be one of them"], tmp_path)
+
+
 def test_what_was_written_is_told_and_a_pipe_is_not(program, bag, tmp_path):
     told = program.succeed("identify", bag, "--csv", tmp_path / "rows.csv", "--json", "/proc/self/fd/1")
     assert told.endswith(f"wrote {tmp_path / 'rows.csv'}\n")
@@ -138,3 +221,9 @@ def test_too_short_a_drive_says_what_would_be_enough(program, tmp_path):
     enough = float(re.search(r"\((\S+) s in one piece are enough\)", refused(3, "diagnose"))[1])
     program.succeed("simulate", *DRIVE, "--duration", enough, "-o", tmp_path / "short.bag")
     program.succeed("diagnose", tmp_path / "short.bag")
+
+
+def test_a_long_drive_is_not_called_too_short(program, bag):
+    result = program("identify", bag, "--sprung-topic", "/unsprung/imu", "--unsprung-topic", "/sprung/imu")
+    assert result.returncode == 4 and "the data show no damped spring" in result.stderr
+    assert "enough" not in result.stderr

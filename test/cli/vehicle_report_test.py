@@ -1,9 +1,11 @@
 """suspension_bag diagnose --vehicle --report: what the pages of a vehicle show in a browser."""
+import io
 import itertools
 import json
 import re
 import types
 
+import matplotlib.image
 import pytest
 import yaml
 
@@ -99,6 +101,20 @@ def test_wheels_stand_as_on_the_vehicle(report):
         ahead, left = (positions[name][i] - positions["front_left"][i] for i in range(2))
         assert x - places["front_left"][0] == pytest.approx(-scale * left, abs=0.11)
         assert y - places["front_left"][1] == pytest.approx(-scale * ahead, abs=0.11)
+
+
+def test_drawing_can_be_saved_as_it_looks(report, tmp_path):
+    """Each wheel in the colour of its verdict, on the colour of the page."""
+    image = matplotlib.image.imread(io.BytesIO(browser.saved_drawing(report.path, tmp_path / "saved")), format="png")
+    scale = image.shape[1] / 360
+    assert scale > 1.5, "it may be printed"
+    colours = {name: tuple(image[round(scale * float(each["data-y"])), round(scale * float(each["data-x"])), :3])
+               for name, each in wheels(report).items()}
+    verdicts = {name: each["data-verdict"] for name, each in wheels(report).items()}
+    card = tuple(image[0, 0, :3])
+    assert card not in colours.values() and card != (0, 0, 0)
+    for one, other in itertools.permutations(colours, 2):
+        assert (colours[one] == colours[other]) == (verdicts[one] == verdicts[other])
 
 
 def test_anti_roll_bar_ties_its_struts(report):

@@ -53,6 +53,26 @@ std::string levels(const HealthLog& log) {
   return names;
 }
 
+TEST(LevelTimes, AReportHoldsUntilTheNextOrTheTimeOut) {
+  LevelTimes times(kTimeout);
+  int gone_stale = 0;
+  const auto pass = [&](double seconds) { times.pass(fromSeconds(seconds), [&] { ++gone_stale; }); };
+  pass(5.0);  // nothing is known yet
+  times.report(HealthLevel::kWarn);
+  pass(1.5);
+  EXPECT_EQ(times.level(), HealthLevel::kWarn);
+  times.report(HealthLevel::kOk);
+  pass(0.5);
+  pass(4.0);  // 1.5 s of which are known
+  EXPECT_EQ(times.level(), HealthLevel::kStale);
+  pass(1.0);
+  EXPECT_EQ(gone_stale, 1);
+  EXPECT_EQ(times.of(HealthLevel::kWarn), fromSeconds(1.5));
+  EXPECT_EQ(times.of(HealthLevel::kOk), fromSeconds(2.0));
+  EXPECT_EQ(times.of(HealthLevel::kStale), fromSeconds(5.0 + 2.5 + 1.0));
+  EXPECT_EQ(times.elapsed(), fromSeconds(12.0));
+}
+
 TEST(HealthLog, EachLevelHoldsUntilTheNext) {
   HealthLog log(kTimeout, kSensors);
   drive(log, 10.0, 14.9, HealthLevel::kStale);

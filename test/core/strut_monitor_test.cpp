@@ -47,6 +47,24 @@ MonitorOptions withPeriod() {
   return options;
 }
 
+TEST(StrutMonitor, KnowsNoErrorOfWhatItDoesNotKnow) {
+  StrutMonitor monitor(withPeriod());
+  bool was_known = false;
+  int rows = 0;
+  for (const CornerSample& sample : drive(1500)) {
+    push(monitor, sample);
+    rows += monitor.report().has_row;
+    for (const StrutEstimate& estimate : {monitor.report().ls, monitor.report().la})
+      for (const auto& [value, stddev] : {std::pair(estimate.damping_to_mass, estimate.damping_to_mass_stddev),
+                                          std::pair(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev)}) {
+        ASSERT_TRUE(std::isnan(stddev) || (std::isfinite(value) && stddev > 0.0)) << value << " +- " << stddev;
+        was_known = was_known || stddev > 0.0;
+      }
+  }
+  EXPECT_TRUE(was_known);
+  EXPECT_GT(rows, 1000);
+}
+
 TEST(StrutMonitor, ReportsWhatItsPartsReport) {
   int reports = 0;
   StrutMonitor monitor(withPeriod(), [&](const MonitorReport&) { ++reports; });

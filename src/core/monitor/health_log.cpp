@@ -15,13 +15,14 @@ void HealthLog::addReading(std::size_t sensor, Stamp stamp, Stamp recorded) {
   if (in_recording_) return;
   in_recording_ = true;
   now_ = newest_reading_;
-  if (events_.empty()) changeTo(HealthLevel::kStale, describe(newest_.health));
+  if (events_.empty()) noteChange(describe(newest_.health));
 }
 
 void HealthLog::addReport(const MonitorReport& report) {
   // One that is newer than all readings of this recording is about the end of the one before.
   goTo(std::min(report.stamp, newest_reading_.stamp));
-  reported_ = elapsed();
+  const HealthLevel before = times_.level();
+  times_.report(report.health.level);
   sensors_.forget();
   const HealthReport& health = report.health;
   const auto warns_early = [](const HealthReport& one) {
@@ -30,9 +31,9 @@ void HealthLog::addReport(const MonitorReport& report) {
   const bool begins_early = warns_early(health) && !warns_early(newest_.health);
   newest_ = report;
   if (begins_early) early_warnings_.push_back(momentOf(describe(health)));
-  if (health.level != level_)
-    changeTo(health.level, describe(health));
-  else if (reported_ >= due_)
+  if (health.level != before)
+    noteChange(describe(health));
+  else if (elapsed() >= due_)
     write(momentOf(describe(health)));
 }
 
@@ -43,11 +44,11 @@ void HealthLog::finishRecording() {
 }
 
 HealthMoment HealthLog::latest() const {
-  return momentOf(elapsed() > reported_ + timeout_ ? silence(elapsed()) : describe(newest_.health));
+  return momentOf(times_.isOld() ? silence(times_.age()) : describe(newest_.health));
 }
 
-std::string HealthLog::silence(Stamp until) const {
-  return describeNoReading(toSeconds(until - reported_), sensors_.ofLate(), describe(newest_.health));
+std::string HealthLog::silence(Stamp duration) const {
+  return describeNoReading(toSeconds(duration), sensors_.ofLate(), describe(newest_.health));
 }
 
 std::size_t HealthLog::count(HealthLevel level) const {
@@ -67,22 +68,15 @@ void HealthLog::advance(Stamp stamp) {
   const Stamp recorded = newest_reading_.recorded - now_.recorded;
   Stamp step = stamp - now_.stamp;
   if (step > timeout_) step = std::clamp(recorded, Stamp::zero(), step);
-  const Stamp until = elapsed() + step, old_at = std::max(elapsed(), reported_ + timeout_);
-  if (until > old_at && level_ != HealthLevel::kStale) {
-    pass(old_at - elapsed());
-    changeTo(HealthLevel::kStale, silence(until));
-  }
-  pass(until - elapsed());
+  const Stamp silent = times_.age() + step, begin = elapsed();
+  times_.pass(step, [&] {
+    now_.stamp += elapsed() - begin;
+    noteChange(silence(silent));
+  });
   now_.stamp = stamp;
 }
 
-void HealthLog::pass(Stamp duration) {
-  durations_[static_cast<std::size_t>(level_)] += duration;
-  now_.stamp += duration;
-}
-
-void HealthLog::changeTo(HealthLevel level, const std::string& message) {
-  level_ = level;
+void HealthLog::noteChange(const std::string& message) {
   events_.push_back(momentOf(message));
   write(events_.back());
 }

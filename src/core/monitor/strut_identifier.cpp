@@ -203,7 +203,10 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
     if (regression_.skew() != nullptr) estimate->clock_skew = regression_.skew()->skew();
   }
-  if (!holdsAll() && stddevs_due_()) describeStddevs(ls, la);
+  if (holdsAll()) return;
+  // Of the start values there is no error to tell, and the first estimate comes with its own.
+  const bool is_due = stddevs_due_() || std::isnan(la.damping_to_mass_stddev);
+  if (is_due && la.effective_rows > 0.0) describeStddevs(ls, la);
 }
 
 // The shift by the sensors' noise is taken off from the next description on, by the strut that it leaves now: the fixed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "options_by_strut.h"
 #include "separator.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 
@@ -42,18 +43,19 @@ Verdict VehicleDiagnosis::verdictOn(std::size_t strut) const {
 }
 
 VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
-                                      const IdentifyOptions& options,
+                                      const std::vector<IdentifyOptions>& options,
                                       const std::function<void(std::size_t strut, const MonitorReport&)>& report) {
-  const Separator separator(drives, names, options.sample_period);
+  const std::vector<IdentifyOptions> by_strut = optionsByStrut(options, names.size());
+  const Separator separator(drives, names, samplePeriodOf(options));
   VehicleIdentification result{separator.coupling(), {}};
   if (!result) return result;
   const auto separated = separator.separate();
   const std::vector<LinearStrut> stddevs = separator.modelStddevs();
   for (std::size_t i = 0; i < separated.size(); ++i) {
-    IdentifyOptions strut = options;
+    IdentifyOptions strut = by_strut[i];
     strut.sample_period = separator.period();
     if (report) strut.report = [&report, i](const MonitorReport& each) { report(i, each); };
-    if (!options.horizon_samples) strut.horizon_samples = horizonFor(separator.models()[i], separator.period());
+    if (!strut.horizon_samples) strut.horizon_samples = horizonFor(separator.models()[i], separator.period());
     IdentifyResult& identified = result.struts.emplace_back(identify(separated[i], strut));
     const auto [damping, stiffness] = stddevs[i];
     for (IdentifiedStrut* estimate : {&identified.ls, &identified.la, &identified.iv}) {

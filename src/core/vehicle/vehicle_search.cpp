@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include "options_by_strut.h"
 #include "separator.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/vehicle.h"
@@ -31,8 +32,8 @@ Verdict worstOf(const VehicleDiagnosis& found) {
 /// The search in all struts: what one lacks is named where it explains most, and the others are judged anew without it.
 class VehicleSearch {
  public:
-  VehicleSearch(Separator separator, const DiagnoseOptions& options, const KnownModels& models)
-      : separator_(std::move(separator)), options_(options), models_(models) {
+  VehicleSearch(Separator separator, std::vector<DiagnoseOptions> options, const KnownModels& models)
+      : separator_(std::move(separator)), options_(std::move(options)), models_(models) {
     separator_.fitGiven(models_);
     result_.coupling = separator_.coupling();
     result_.struts.resize(size());
@@ -43,6 +44,7 @@ class VehicleSearch {
 
  private:
   std::size_t size() const { return separator_.models().size(); }
+  const std::function<void(double)>& progress() const { return options_.front().progress; }
   bool isSettled(std::size_t strut) const {
     return std::find(settled_.begin(), settled_.end(), strut) != settled_.end();
   }
@@ -52,7 +54,7 @@ class VehicleSearch {
   void dropMarginal();
 
   Separator separator_;
-  const DiagnoseOptions& options_;
+  std::vector<DiagnoseOptions> options_;  // by strut
   const KnownModels& models_;
   VehicleDiagnosis result_;
   std::vector<std::size_t> settled_;  // struts that lack something, in the order in which it was found
@@ -60,11 +62,11 @@ class VehicleSearch {
 };
 
 void VehicleSearch::judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects) {
-  DiagnoseOptions options = options_;
+  DiagnoseOptions options = options_[strut];
   options.most_effects = most_effects;
   options.sample_period = separator_.period();
   options.model = models_.empty() ? std::nullopt : models_[strut];
-  if (options_.progress) options.progress = [&](double share) { options_.progress(done_ + share * step); };
+  if (progress()) options.progress = [&](double share) { progress()(done_ + share * step); };
   Diagnosis& found = result_.struts[strut];
   found = diagnose(drives, options);
   result_.drives[strut] = std::move(drives);
@@ -80,7 +82,7 @@ void VehicleSearch::settleOpen() {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < size(); ++i) {
       if (isSettled(i)) continue;
-      judge(i, std::move(separated[i]), step, options_.most_effects);
+      judge(i, std::move(separated[i]), step, options_[i].most_effects);
       const Diagnosis& found = result_.struts[i];
       if (names(found) && (!best || explainedPower(found) > explainedPower(result_.struts[*best]))) best = i;
     }
@@ -96,7 +98,7 @@ void VehicleSearch::reconsider() {
   const std::vector<std::size_t> before = std::exchange(settled_, {});
   const double step = (1.0 - done_) / (static_cast<double>(before.size()) + 1.0);
   for (const std::size_t strut : before) {
-    judge(strut, std::move(separator_.separateForSearch()[strut]), step, options_.most_effects);
+    judge(strut, std::move(separator_.separateForSearch()[strut]), step, options_[strut].most_effects);
     if (!names(result_.struts[strut])) continue;
     settled_.push_back(strut);
     separator_.setModel(strut, result_.struts[strut].model());
@@ -117,16 +119,17 @@ VehicleDiagnosis VehicleSearch::run(const std::vector<std::string>& strut_names)
   dropMarginal();
   result_.verdict = worstOf(result_);
   result_.summary = summaryOf(result_, strut_names);
-  if (options_.progress) options_.progress(1.0);
+  if (progress()) progress()(1.0);
   return result_;
 }
 
 }  // namespace
 
 VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& strut_names,
-                                 const DiagnoseOptions& options, const KnownModels& models) {
-  Separator separator(drives, strut_names, options.sample_period, models);
-  if (separator.coupling()) return VehicleSearch(std::move(separator), options, models).run(strut_names);
+                                 const std::vector<DiagnoseOptions>& options, const KnownModels& models) {
+  std::vector<DiagnoseOptions> by_strut = optionsByStrut(options, strut_names.size());
+  Separator separator(drives, strut_names, samplePeriodOf(options), models);
+  if (separator.coupling()) return VehicleSearch(std::move(separator), std::move(by_strut), models).run(strut_names);
   VehicleDiagnosis nothing;
   nothing.coupling = separator.coupling();
   nothing.summary = "The drives " + nothing.coupling.reason + ".";

@@ -30,11 +30,10 @@ std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut
       end.damping_to_mass, end.damping_to_mass_stddev, end.stiffness_to_mass, end.stiffness_to_mass_stddev);
 }
 
-std::string describeNoPeriod(std::size_t count) {
+std::string describeNoPeriod(const std::string& where, std::size_t count) {
   constexpr std::size_t kFewest = PeriodMeasurement::kFewestOfRecording;
-  return "the sample period cannot be measured: fewer than " + std::to_string(kFewest) +
-         " increasing stamps on one of the topics (of " + std::to_string(count) + " messages); " +
-         std::to_string(kFewest + 1) + " messages of each are enough";
+  return "the sample period cannot be measured: fewer than " + std::to_string(kFewest) + " increasing stamps " + where +
+         " (of " + std::to_string(count) + " readings; " + std::to_string(kFewest + 1) + " of each are enough)";
 }
 
 std::string describeNoStart(const std::string& where) {

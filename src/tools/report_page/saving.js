@@ -11,14 +11,35 @@ function download(name, blob) {
 
 const fileName = (title, ending) => `${title.toLowerCase().replace(/[^a-z0-9]+/g, '_')}.${ending}`;
 
-/** The picture on the colour that it stands on: a canvas alone is transparent. */
-function savePicture(plot) {
-  const copy = element('canvas', {width: plot.canvas.width, height: plot.canvas.height});
+/** Saves an image on the colour that it stands on: alone it is transparent. */
+function savePicture(name, image, width, height) {
+  const copy = element('canvas', {width, height});
   const context = copy.getContext('2d');
   context.fillStyle = colour('card');
   context.fillRect(0, 0, copy.width, copy.height);
-  context.drawImage(plot.canvas, 0, 0);
-  copy.toBlob(blob => download(fileName(plot.name, 'png'), blob));
+  context.drawImage(image, 0, 0, copy.width, copy.height);
+  copy.toBlob(blob => download(fileName(name, 'png'), blob));
+}
+
+/** A drawing alone knows no style sheet: what that makes of its parts goes with them. */
+function withItsStyles(svg) {
+  const copy = svg.cloneNode(true);
+  const originals = svg.querySelectorAll('*');
+  copy.querySelectorAll('*').forEach((part, i) => {
+    const style = getComputedStyle(originals[i]);
+    for (const name of ['fill', 'stroke', 'stroke-width', 'stroke-linecap', 'font', 'text-anchor'])
+      part.style.setProperty(name, style.getPropertyValue(name));
+  });
+  return copy;
+}
+
+/** Twice as large as it is shown, for print. */
+function saveDrawing(name, svg) {
+  const [width, height] = [2 * svg.clientWidth, 2 * svg.clientHeight];
+  const copy = filled(withItsStyles(svg), {width, height});
+  const image = new Image();
+  image.addEventListener('load', () => savePicture(name, image, width, height));
+  image.src = `data:image/svg+xml,${encodeURIComponent(new XMLSerializer().serializeToString(copy))}`;
 }
 
 const csvCell = value => {
@@ -34,14 +55,17 @@ function numbersShown(plot) {
   return [heads, ...rows].map(row => row.map(csvCell).join(',')).join('\n') + '\n';
 }
 
+const saveButton = (text, title, name, save) =>
+    element('button', {type: 'button', title, 'aria-label': `${title}: ${name}`, onclick: save}, text);
+
+const pictureButton = (name, save) => saveButton('PNG', 'save the picture', name, save);
+
 function saveButtons(plot) {
-  const button = (text, title, save) =>
-      element('button', {type: 'button', title, 'aria-label': `${title}: ${plot.name}`, onclick: save}, text);
+  const {name, canvas} = plot;
+  const saveNumbers = () => download(fileName(name, 'csv'), new Blob([numbersShown(plot)], {type: 'text/csv'}));
   return element(
-      'div', {class: 'saving'}, button('PNG', 'save the picture', () => savePicture(plot)),
-      button(
-          'CSV', 'save the numbers',
-          () => download(fileName(plot.name, 'csv'), new Blob([numbersShown(plot)], {type: 'text/csv'}))));
+      'div', {class: 'saving'}, pictureButton(name, () => savePicture(name, canvas, canvas.width, canvas.height)),
+      saveButton('CSV', 'save the numbers', name, saveNumbers));
 }
 
 /** A layer that can tell its points: [series, x, y, low, high]. */

@@ -100,10 +100,10 @@ function antiRollBar({struts: [first, second]}, struts, pixels) {
 
 function vehicleDrawing({struts, anti_roll_bars: bars}) {
   const {pixels, height} = layOut(placesOf(struts));
-  const half = halfWidth(pixels);
-  return drawn(
-      'svg',
-      {viewBox: `0 0 ${DRAWING.width} ${height.toFixed(1)}`, role: 'img', 'aria-label': 'the vehicle from above'},
+  const half = halfWidth(pixels), name = 'the vehicle from above';
+  const svg = drawn(
+      'svg', {viewBox: `0 0 ${DRAWING.width} ${height.toFixed(1)}`, role: 'img', 'aria-label': name},
       outline(half, height), bars.map(bar => antiRollBar(bar, struts, pixels)),
       struts.map((strut, i) => wheel(strut, pixels[i], half)));
+  return element('div', {}, svg, element('div', {class: 'saving'}, pictureButton(name, () => saveDrawing(name, svg))));
 }

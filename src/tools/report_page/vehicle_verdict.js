@@ -13,12 +13,13 @@ function strutName({name, has_page: hasPage}) {
 }
 
 function strutItem(strut) {
-  const {name, verdict, selected = []} = strut;
+  const {name, verdict, selected = [], change} = strut;
   const found = foundIn(strut);
   return element(
       'li', {'data-strut': name, 'data-verdict': verdict}, element('b', {}, strutName(strut)), ' ',
       element('span', {class: 'word'}, verdictWord(verdict, selected.length)),
-      found ? element('small', {}, capitalised(found)) : null);
+      found ? element('small', {}, capitalised(found)) : null,
+      change ? element('small', {class: 'change'}, capitalised(change)) : null);
 }
 
 function barSentence({struts: [first, second], stiffness_to_mass: stiffness}, struts) {

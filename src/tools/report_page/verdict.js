@@ -125,6 +125,7 @@ function verdictSection(findings) {
       element(
           'h1', {}, element('span', {class: 'pill'}, verdictWord(verdict, selected.length)), element('br'),
           headline(findings)),
-      ofVehicle(findings), selected.map(name => effectSentence(findings, name)), nextSteps(findings),
+      ofVehicle(findings), findings.change ? element('p', {class: 'change'}, `${capitalised(findings.change)}.`) : null,
+      selected.map(name => effectSentence(findings, name)), nextSteps(findings),
       keyFigures(findings));
 }

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "suspension_health_monitor/internal/monitor/level_times.h"
 #include "suspension_health_monitor/internal/signal/silent_sensors.h"
 #include "suspension_health_monitor/monitor_report.h"
 
@@ -38,7 +37,7 @@ class HealthLog {
   /// @param sensors  names, topics, of all whose readings the strut needs.
   /// @param sink  called with every change of level and with the first report of every second between.
   HealthLog(Stamp timeout, const std::vector<std::string>& sensors, Sink sink = {})
-      : timeout_(timeout), sink_(std::move(sink)), sensors_(sensors, timeout) {}
+      : timeout_(timeout), sink_(std::move(sink)), sensors_(sensors, timeout), times_(timeout) {}
 
   /// Notes that a sensor of the strut has given a reading, whether or not it will be accepted.
   /// @param sensor  its place.  @param recorded  when it was recorded, by any clock.
@@ -60,10 +59,10 @@ class HealthLog {
   HealthMoment latest() const;
 
   /// @return how long a level held; the four of them add up to elapsed().
-  Stamp duration(HealthLevel level) const { return durations_[static_cast<std::size_t>(level)]; }
+  Stamp duration(HealthLevel level) const { return times_.of(level); }
 
   /// @return the time covered.
-  Stamp elapsed() const { return std::accumulate(durations_.begin(), durations_.end(), Stamp::zero()); }
+  Stamp elapsed() const { return times_.elapsed(); }
 
   /// @return how many of the events are changes to a level.
   std::size_t count(HealthLevel level) const;
@@ -71,12 +70,11 @@ class HealthLog {
  private:
   void goTo(Stamp stamp);
   void advance(Stamp stamp);
-  void pass(Stamp duration);
-  void changeTo(HealthLevel level, const std::string& message);
+  void noteChange(const std::string& message);
   void write(const HealthMoment& moment);
-  std::string silence(Stamp until) const;
+  std::string silence(Stamp duration) const;
   HealthMoment momentOf(const std::string& message) const {
-    return {now_.stamp, elapsed(), level_, message, newest_.la};
+    return {now_.stamp, elapsed(), times_.level(), message, newest_.la};
   }
 
   struct Instant {
@@ -88,10 +86,9 @@ class HealthLog {
   SilentSensors sensors_;  // of late: since the newest report
   bool in_recording_ = false;
   Instant now_, newest_reading_;
-  Stamp reported_{}, due_{};  // elapsed() at the newest report; at the next second
-  HealthLevel level_ = HealthLevel::kStale;
+  LevelTimes times_;
+  Stamp due_{};  // elapsed() at the next second
   MonitorReport newest_;
-  std::array<Stamp, 4> durations_{};  // by level
   std::vector<HealthMoment> events_, early_warnings_;
 };
 

@@ -19,10 +19,11 @@ std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut
 /// @return what was kept out, reason by reason: "; rejected clipped: 12"; empty if nothing was.
 std::string describeRejected(const RejectCounts& rejected);
 
-/// @return why `count` messages tell no sample period.
-std::string describeNoPeriod(std::size_t count);
-
 /// @param where  there are too few readings: "on one of the topics".
+/// @return why `count` readings tell no sample period.
+std::string describeNoPeriod(const std::string& where, std::size_t count);
+
+/// @param where  likewise.
 /// @return why a live monitor has not begun.
 std::string describeNoStart(const std::string& where);
 

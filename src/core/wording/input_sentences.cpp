@@ -1,0 +1,98 @@
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+
+// What is the matter with the readings, and with estimates that are not valid.
+
+std::string describe(AlignmentJudge::Verdict verdict) {
+  switch (verdict) {
+    case AlignmentJudge::Verdict::kApart: return "the sensors read at different instants";
+    case AlignmentJudge::Verdict::kLoneReadings: return "many readings find no partner: the sensors' rates differ";
+    case AlignmentJudge::Verdict::kInterrupted:
+      return "readings are lost so often that the integral filter would hardly ever be full";
+    case AlignmentJudge::Verdict::kDoesWell: break;
+  }
+  return "";
+}
+
+std::string describe(EstimateDoubt doubt) {
+  switch (doubt) {
+    case EstimateDoubt::kNone: return "valid";
+    case EstimateDoubt::kNoRows: return "the filter is filling after a start or a gap";
+    case EstimateDoubt::kSensorStuck: return "the body's acceleration does not change: sensor stuck, or nothing moves";
+    case EstimateDoubt::kWrongPeriod: return "stamps do not fit sample_period";
+    case EstimateDoubt::kFewRows: return "too few samples yet";
+    case EstimateDoubt::kNotExcited: return "parked: no excitation of damping and stiffness, estimates held";
+    case EstimateDoubt::kDampingNotExcited: return "no excitation of damping, its estimate is held";
+    case EstimateDoubt::kStiffnessNotExcited: return "no excitation of stiffness, its estimate is held";
+    case EstimateDoubt::kUndersampled:
+      return "an IMU shakes at half the sampling rate and beyond: sample faster, or filter before sampling";
+    case EstimateDoubt::kOutsideForce:
+      return "something else than the wheel moves the body, or did so just now: wind, loading, a sensor that is not on "
+             "the wheel";
+    case EstimateDoubt::kNotExplained: return "the model does not explain the measured acceleration";
+    case EstimateDoubt::kNotAStrut: return "the estimates are not those of a spring and a damper";
+    case EstimateDoubt::kClockSkew:
+      return "the clocks of the two IMUs differ by too much for the estimation: synchronise them, diagnose tells "
+             "by how much";
+    case EstimateDoubt::kNoSpread: return "the estimates' standard deviation cannot be told";
+    case EstimateDoubt::kFreeRunFails:
+      return "the model, driven by the wheel, fits the body's motion worse than a constant";
+  }
+  return "unknown";
+}
+
+std::string describeShaking(const InputStatus& input) {
+  constexpr double kMostBeyond = 0.5, kLeastLevel = 0.3;  // of the power; [m/s^2]: more than a sensor's noise
+  std::vector<std::string> found;
+  for (const Side side : {Side::kUnsprung, Side::kSprung}) {
+    const InputStatus::SamplingLimit& limit = input.sampling_limit[static_cast<std::size_t>(side)];
+    if (limit.isReached())
+      found.push_back(
+          formatted("the %s IMU shakes near half the sampling rate (power density there %.0f %% of its mean "
+                    "one): sample faster or filter before sampling",
+                    side == Side::kSprung ? "sprung" : "unsprung", 100.0 * limit.density));
+  }
+  if (input.beyond_strut > kMostBeyond && input.beyond_strut_level > kLeastLevel)
+    found.push_back(
+        formatted("the sprung IMU shakes above the strut's band (%.0f %% of its power, %.2g m/s^2): engine?",
+                  100.0 * input.beyond_strut, input.beyond_strut_level));
+  return join(found, "; ");
+}
+
+std::string describe(const SensorReport& report) {
+  const auto& [sprung, unsprung] = report.mean;
+  const auto stuck = [](const char* one, const char* other) {
+    return formatted("the %s IMU reads one value while the %s one moves: stuck", one, other);
+  };
+  const auto off = [](const char* sensor, double mean) {
+    return formatted("the %s IMU reads %.2f m/s^2 on average, neither 9.81 nor 0: gain, offset or mount", sensor, mean);
+  };
+  const auto in_g = [](const char* sensor) {
+    return formatted("the %s IMU reads about 1 where the other reads gravity: it is in g, must be in m/s^2", sensor);
+  };
+  switch (report.fault) {
+    case SensorFault::kNone: return {};
+    case SensorFault::kSprungStuck: return stuck("sprung", "unsprung");
+    case SensorFault::kUnsprungStuck: return stuck("unsprung", "sprung");
+    case SensorFault::kSprungGravity: return off("sprung", sprung);
+    case SensorFault::kUnsprungGravity: return off("unsprung", unsprung);
+    case SensorFault::kGravityOnOneSide:
+      return formatted("mean readings %.2f (sprung) and %.2f m/s^2 (unsprung): only one of the IMUs reads gravity",
+                       sprung, unsprung);
+    case SensorFault::kGravityOpposed:
+      return "one IMU reads gravity upward, the other downward: "
+             "one is mounted upside down, or its axis has the wrong sign";
+    case SensorFault::kSprungInG: return in_g("sprung");
+    case SensorFault::kUnsprungInG: return in_g("unsprung");
+    case SensorFault::kNegativeDamping:
+      return "damping is negative: are the IMUs swapped, or is an axis the wrong way up?";
+    case SensorFault::kUnrelated:
+      return "both IMUs move, but no strut makes the one of the other: "
+             "sensor fault, wrong axis, wrong topic, or the two swapped";
+  }
+  return {};
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,81 @@
+#include "healthy_strut.h"
+
+#include <algorithm>
+
+#include "../ros/live_baseline.h"
+#include "../ros/yaml_settings.h"
+#include "strut_files.h"
+#include "vehicle_commands.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+/// A baseline file has no nominal values, in no group.
+bool areSettings(const OptionMap& values) {
+  return std::any_of(values.begin(), values.end(), [](const auto& value) {
+    const std::size_t place = value.first.find("nominal/");
+    return place == 0 || (place != std::string::npos && value.first[place - 1] == '/');
+  });
+}
+
+Baseline nominalOf(const PipelineOptions& options) {
+  Baseline nominal;
+  nominal.damping_to_mass = options.monitor.nominal_damping_to_mass;
+  nominal.stiffness_to_mass = options.monitor.nominal_stiffness_to_mass;
+  return nominal;
+}
+
+}  // namespace
+
+HealthyStrut readHealthy(const std::string& path) {
+  OptionMap values = readYaml(path);
+  return prefixed(path + ": ", [&]() -> HealthyStrut {
+    if (areSettings(values)) return {nominalOf(PipelineOptions::fromValues(values)), path};
+    return {takeBaseline(values), path};
+  });
+}
+
+std::optional<HealthyStrut> readHealthy(const boost::program_options::variables_map& values) {
+  if (values.count(kBaseline) == 0) return std::nullopt;
+  return readHealthy(values[kBaseline].as<std::string>());
+}
+
+void replaceBaseline(const HealthyStrut& healthy, PipelineOptions& options) {
+  requireOneReference(healthy.file, options.monitor);
+  options.shell.baseline_file.clear();
+}
+
+std::vector<std::optional<HealthyStrut>> takeHealthy(const boost::program_options::variables_map& values,
+                                                     const AskedVehicle& vehicle, VehicleOptions& options) {
+  std::vector<std::optional<HealthyStrut>> healthy(vehicle.names.size());
+  if (values.count(kBaseline) == 0) return healthy;
+  const auto path = values[kBaseline].as<std::string>();
+  std::vector<std::optional<Baseline>> baselines;
+  if (const OptionMap settings = readYaml(path); areSettings(settings))
+    prefixed(path + ": ", [&] {
+      for (const PipelineOptions& strut : VehicleOptions::fromValues(vehicle.layout, settings).struts)
+        baselines.emplace_back(nominalOf(strut));
+    });
+  else
+    baselines = readBaselines(path, vehicle);
+  for (std::size_t i = 0; i < healthy.size(); ++i)
+    if (baselines[i] && !baselines[i]->isEmpty()) {
+      healthy[i] = HealthyStrut{*baselines[i], path};
+      prefixed("struts/" + vehicle.names[i] + ": ", [&] { replaceBaseline(*healthy[i], options.struts[i]); });
+    }
+  return healthy;
+}
+
+std::optional<HealthyStrut> beforehand(const std::optional<HealthyStrut>& given, const PipelineOptions& options) {
+  if (given) return given;
+  const LiveBaseline live(options);
+  if (!live.known()) return std::nullopt;
+  return HealthyStrut{*live.known(), options.shell.baseline_file};
+}
+
+Baseline knownHealthy(const std::optional<HealthyStrut>& given, const PipelineOptions& options) {
+  const std::optional<HealthyStrut> known = beforehand(given, options);
+  return known ? known->baseline : nominalOf(options);
+}
+
+}  // namespace suspension_health_monitor

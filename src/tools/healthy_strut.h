@@ -1,0 +1,46 @@
+#pragma once
+
+#include <boost/program_options.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../ros/vehicle_options.h"
+#include "recorded_vehicle.h"
+#include "suspension_health_monitor/monitor_report.h"
+
+namespace suspension_health_monitor {
+
+/// The healthy strut as it is given beside the settings.
+struct HealthyStrut {
+  Baseline baseline;
+  std::string file;  ///< that it was read from; empty: none
+};
+
+/// @param path  of a file that the monitor has written; or of settings, whose nominal values are taken.
+/// @throws std::invalid_argument  naming the file and what is wrong in it.
+HealthyStrut readHealthy(const std::string& path);
+
+/// @return that of --baseline, if it is given. A live monitor would learn one if the file is not there; that is not
+/// what was asked for.
+/// @throws std::invalid_argument  likewise.
+std::optional<HealthyStrut> readHealthy(const boost::program_options::variables_map& values);
+
+/// Takes it instead of baseline_file.
+/// @throws std::invalid_argument  if nominal values are among the settings, too.
+void replaceBaseline(const HealthyStrut& healthy, PipelineOptions& options);
+
+/// Takes those of --baseline for the struts of a vehicle.
+/// @return by strut; nothing of a strut that the file does not have.
+/// @throws std::invalid_argument  as readHealthy() and replaceBaseline().
+std::vector<std::optional<HealthyStrut>> takeHealthy(const boost::program_options::variables_map& values,
+                                                     const AskedVehicle& vehicle, VehicleOptions& options);
+
+/// @return the healthy strut as it is given, else that of baseline_file; nominal values are among the settings.
+/// @throws std::invalid_argument  as LiveBaseline.
+std::optional<HealthyStrut> beforehand(const std::optional<HealthyStrut>& given, const PipelineOptions& options);
+
+/// @return the same, else the nominal values, else nothing.
+Baseline knownHealthy(const std::optional<HealthyStrut>& given, const PipelineOptions& options);
+
+}  // namespace suspension_health_monitor

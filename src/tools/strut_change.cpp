@@ -1,0 +1,48 @@
+#include "strut_change.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+std::optional<LogChange> changeOf(double value, double stddev, const std::optional<double>& healthy,
+                                  double healthy_stddev) {
+  if (!healthy || !(value > 0.0)) return std::nullopt;
+  return LogChange{std::log(value / *healthy), std::hypot(stddev / value, healthy_stddev / *healthy)};
+}
+
+}  // namespace
+
+std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
+  const double horizon = found.horizon_samples * found.sample_period;
+  if (found.iv.valid && found.isSteady())
+    return StrutOfDrive{found.iv, "over the whole drive, by instrumental variables", horizon};
+  if (found.la.valid) return StrutOfDrive{found.la, "at the end of the drive, by LA", horizon};
+  if (found.ls.valid) return StrutOfDrive{found.ls, "at the end of the drive, by LS", horizon};
+  return std::nullopt;
+}
+
+std::string describeChange(const StrutOfDrive& found, const Baseline& healthy, const PipelineOptions& options) {
+  const IdentifiedStrut& strut = found.strut;
+  const StrutChange change = splitChange(changeOf(strut.damping_to_mass, strut.damping_to_mass_stddev,
+                                                  healthy.damping_to_mass, healthy.damping_to_mass_stddev),
+                                         changeOf(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev,
+                                                  healthy.stiffness_to_mass, healthy.stiffness_to_mass_stddev),
+                                         options.monitor.payload_range, 0.0);
+  const std::string text = describe(change, healthy);
+  return text.empty() ? "" : "the strut, " + found.by + ": " + text;
+}
+
+std::string describeChange(const IdentifyResult& found, const Baseline& healthy, const PipelineOptions& options) {
+  const std::optional<StrutOfDrive> strut = strutOf(found);
+  return strut ? describeChange(*strut, healthy, options) : "";
+}
+
+void printChange(const std::string& change) {
+  if (!change.empty()) std::printf("%s\n", change.c_str());
+}
+
+}  // namespace suspension_health_monitor
