@@ -10,9 +10,13 @@ from suspension_health_monitor.fleet.errors import FleetError, UsageError  # noq
 
 
 def estimate(strut, damping, valid=True):
-    return dict(strut=strut, estimator="iv", damping_to_mass=damping, damping_to_mass_stddev=0.1, stiffness_to_mass=60.0,
-                stiffness_to_mass_stddev=0.5, damping_excitation=None, stiffness_excitation=None, offset=0.01,
+    return dict(strut=strut, estimator="iv", damping_to_mass=damping, damping_to_mass_stddev=0.1,
+                stiffness_to_mass=60.0, stiffness_to_mass_stddev=0.5, damping_excitation=None, stiffness_excitation=None, offset=0.01,
                 temperature=None, valid=valid, reason=None if valid else "parked")
+
+
+def bag(key, path="a.bag", **more):
+    return database.Bag(key, path, "robot", **more)
 
 
 def drive(start, damping, valid=True):
@@ -37,27 +41,27 @@ def count_all(engine):
 
 
 def test_a_bag_is_written_once(engine):
-    assert not database.is_known(engine, "k")
-    assert database.write(engine, "k", "a.bag", "robot", drive(0.0, 4.0))
-    assert database.is_known(engine, "k")
+    assert not database.is_known(engine, bag("k"))
+    assert database.write(engine, bag("k"), drive(0.0, 4.0))
+    assert database.is_known(engine, bag("k"))
     before = count_all(engine)
     assert before == {"fleet_schema": 1, "drives": 1, "struts": 2, "events": 1, "findings": 1}
-    assert not database.write(engine, "k", "b.bag", "robot", drive(0.0, 3.0)), "known by content, whatever its name"
+    assert not database.write(engine, bag("k", "b.bag"), drive(0.0, 3.0)), "known by content, whatever its name"
     assert count_all(engine) == before
 
 
 def test_what_is_known_is_replaced_if_asked(engine):
-    database.write(engine, "k", "a.bag", "robot", drive(0.0, 4.0))
-    database.write(engine, "other", "c.bag", "robot", drive(9.0, 4.0))
-    assert database.write(engine, "k", "b.bag", "robot", database.Drive(database.UNREADABLE, "cut off"), replace=True)
+    database.write(engine, bag("k"), drive(0.0, 4.0))
+    database.write(engine, bag("other", "c.bag"), drive(9.0, 4.0))
+    assert database.write(engine, bag("k", "b.bag"), database.Drive(database.UNREADABLE, "cut off"), again=True)
     assert count_all(engine) == {"fleet_schema": 1, "drives": 2, "struts": 2, "events": 1, "findings": 1}
     assert database.counts(engine) == {"ok": 1, "unreadable": 1}
 
 
 def test_a_lost_worker_says_nothing_about_the_bag(engine):
-    assert database.write(engine, "k", "a.bag", "robot", database.Drive(database.LOST, "its worker ended"))
-    assert not database.is_known(engine, "k")
-    assert database.write(engine, "k", "a.bag", "robot", drive(0.0, 4.0))
+    assert database.write(engine, bag("k"), database.Drive(database.UNREAD, "its worker ended"))
+    assert not database.is_known(engine, bag("k"))
+    assert database.write(engine, bag("k"), drive(0.0, 4.0))
     assert database.counts(engine) == {"ok": 1}
 
 
@@ -65,7 +69,7 @@ def test_all_of_a_bag_or_nothing(engine):
     broken = database.Drive(database.OK, start=0.0, struts=[estimate("left", 4.0)],
                             events=[dict(strut="left", time=None, level="OK", message="no time")])
     with pytest.raises(Exception, match="events.time"):
-        database.write(engine, "k", "a.bag", "robot", broken)
+        database.write(engine, bag("k"), broken)
     assert count_all(engine) == {"fleet_schema": 1, "drives": 0, "struts": 0, "events": 0, "findings": 0}
 
 
@@ -75,7 +79,7 @@ def test_clients_at_once_write_every_bag_once(tmp_path):
 
     def client():
         engine = database.connect(url, create=True)
-        written.extend(database.write(engine, str(k), f"{k}.bag", "robot", drive(float(k), 4.0)) for k in range(20))
+        written.extend(database.write(engine, bag(str(k), f"{k}.bag"), drive(float(k), 4.0)) for k in range(20))
 
     clients = [threading.Thread(target=client) for _ in range(3)]
     for each in clients:
@@ -83,7 +87,8 @@ def test_clients_at_once_write_every_bag_once(tmp_path):
     for each in clients:
         each.join()
     assert sorted(written) == [False] * 40 + [True] * 20
-    assert count_all(database.connect(url)) == {"fleet_schema": 1, "drives": 20, "struts": 40, "events": 20, "findings": 20}
+    assert count_all(database.connect(url)) == {"fleet_schema": 1, "drives": 20, "struts": 40, "events": 20,
+                                                "findings": 20}
 
 
 def test_a_newer_schema_is_refused(tmp_path):
@@ -114,10 +119,10 @@ def test_what_is_no_fleet_is_refused(tmp_path):
 
 def test_histories(engine):
     pytest.importorskip("suspension_health_monitor.fleet.history")
-    database.write(engine, "late", "late.bag", "robot", drive(2000.0, 3.0))
-    database.write(engine, "bad", "bad.bag", "robot", database.Drive(database.UNREADABLE, "cut off"))
-    database.write(engine, "early", "early.bag", "robot", drive(1000.0, 4.0))
-    database.write(engine, "parked", "parked.bag", "robot", drive(1500.0, 9.0, valid=False))
+    database.write(engine, bag("late", "late.bag"), drive(2000.0, 3.0))
+    database.write(engine, bag("bad", "bad.bag"), database.Drive(database.UNREADABLE, "cut off"))
+    database.write(engine, bag("early", "early.bag"), drive(1000.0, 4.0))
+    database.write(engine, bag("parked", "parked.bag"), drive(1500.0, 9.0, valid=False))
     left, right = database.histories(engine)
     assert (left.vehicle, left.strut, right.strut) == ("robot", "left", "right")
     assert left.time.tolist() == [1000.0, 2000.0] and right.time.tolist() == [1000.0, 1500.0, 2000.0]

@@ -17,18 +17,18 @@ from .errors import FleetError, UsageError
 SCHEMA_VERSION = 1
 LOCK_TIMEOUT = 60  # [s] that a client waits while others write into the same SQLite file
 
-# Of a drive: all struts identified as far as they can be; no strut could be; no bag that can be read; the program
-# ended with a signal or took too long; the worker was lost, which says nothing about the bag.
-OK, POOR, UNREADABLE, CRASHED, LOST = STATUSES = ("ok", "poor", "unreadable", "crashed", "lost")
+# Of a drive: at least one strut is identified; none is; no bag, or none with what was asked for; the program was ended
+# by a signal or took too long; the file was not to be had or the worker was lost, which says nothing about the bag.
+OK, POOR, UNREADABLE, CRASHED, UNREAD = STATUSES = ("ok", "poor", "unreadable", "crashed", "unread")
 
 metadata = MetaData()
 schema = Table("fleet_schema", metadata, Column("version", Integer, primary_key=True, autoincrement=False))
 drives = Table(
     "drives", metadata, Column("id", Integer, primary_key=True),
     Column("key", String(64), nullable=False, unique=True), Column("path", Text, nullable=False),
-    Column("vehicle", Text, nullable=False, index=True), Column("start", Float), Column("duration", Float),
+    Column("vehicle", Text, index=True), Column("start", Float), Column("duration", Float),
     Column("status", String(16), nullable=False), Column("reason", Text), Column("diagnosed", Boolean, nullable=False),
-    Column("scanned_at", Float, nullable=False))
+    Column("options", String(64), nullable=False), Column("scanned_at", Float, nullable=False))
 
 
 def _of_drive():
@@ -77,12 +77,12 @@ def connect(url, create=False):
                          "postgresql://user@host/fleet") from error
     try:
         if not create and not _has_tables(engine):
-            raise FleetError(f"{_shown(engine)} has no fleet in it: `suspension_fleet scan` makes one")
+            raise FleetError(f"{shown(engine)} has no fleet in it: `suspension_fleet scan` makes one")
         if create:
             _make_tables(engine)
         _check_version(engine)
     except SQLAlchemyError as error:
-        raise FleetError(f"{_shown(engine)}: {in_words(error)}") from error
+        raise FleetError(f"{shown(engine)}: {in_words(error)}") from error
     return engine
 
 
@@ -91,8 +91,9 @@ def in_words(error):
     return " ".join(str(getattr(error, "orig", None) or error).split())
 
 
-def _shown(engine):
-    return repr(engine.url)  # without the password
+def shown(engine):
+    """Its URL without the password."""
+    return repr(engine.url)
 
 
 def _has_tables(engine):
@@ -125,42 +126,64 @@ def _check_version(engine):
     with engine.begin() as connection:
         (version,) = connection.execute(text("SELECT max(version) FROM fleet_schema")).fetchone()
     if version != SCHEMA_VERSION:
-        raise FleetError(f"{_shown(engine)} has schema version {version}, this program knows {SCHEMA_VERSION}: "
+        raise FleetError(f"{shown(engine)} has schema version {version}, this program knows {SCHEMA_VERSION}: "
                          "use the suspension_fleet that has written it, or a newer one")
 
 
-def is_known(engine, key):
-    """Whether a bag of this key has been read. One whose worker was lost has not."""
+@dataclasses.dataclass(frozen=True)
+class Bag:
+    """A bag, and how it is to be read."""
+    key: str                # of its content
+    path: str
+    vehicle: Optional[str]  # None: its path does not say
+    options: str = ""       # a hash of all of them
+    diagnose: bool = False
+
+
+def is_known(engine, bag):
+    """Whether the database has what reading a bag would tell. One that failed may not fail with other options."""
     with engine.begin() as connection:
-        row = connection.execute(text("SELECT status FROM drives WHERE key = :key"), {"key": key}).fetchone()
-    return row is not None and row[0] != LOST
+        return _is_known(connection, bag)
 
 
-def write(engine, key, path, vehicle, drive, replace=False):
-    """Writes all rows of a bag, or none.
+def _is_known(connection, bag):
+    row = connection.execute(text("SELECT status, diagnosed, options FROM drives WHERE key = :key"),
+                             {"key": bag.key}).fetchone()
+    if row is None or row[0] == UNREAD:
+        return False
+    status, diagnosed, options = row
+    return bool(diagnosed) or not bag.diagnose if status == OK else options == bag.options
 
-    :param replace: what is there of this key. Else only that of a lost worker is.
+
+def write(engine, bag, drive, again=False):
+    """Writes all rows of a bag, or none; instead of those of the same bag, or of another one at its path that was none.
+
+    :param again: also if the bag is known.
     :returns: False if another client was faster.
     """
-    row = dict(key=key, path=path, vehicle=vehicle, start=drive.start, duration=drive.duration, status=drive.status,
-               reason=drive.reason, diagnosed=drive.diagnosed, scanned_at=time.time())
+    row = dict(key=bag.key, path=bag.path, vehicle=bag.vehicle, start=drive.start, duration=drive.duration,
+               status=drive.status, reason=drive.reason, diagnosed=drive.diagnosed, options=bag.options,
+               scanned_at=time.time())
     try:
         with engine.begin() as connection:
-            _forget(connection, key, replace)
+            if not again and _is_known(connection, bag):
+                return False
+            _forget(connection, bag)
             (drive_id,) = connection.execute(drives.insert().values(**row)).inserted_primary_key
             for table, rows in ((struts, drive.struts), (events, drive.events), (findings, drive.findings)):
                 if rows:
                     connection.execute(table.insert(), [dict(each, drive_id=drive_id) for each in rows])
     except IntegrityError:
-        if not is_known(engine, key):
+        if not is_known(engine, bag):
             raise
         return False
     return True
 
 
-def _forget(connection, key, known):
-    which = "SELECT id FROM drives WHERE key = :key" + ("" if known else " AND status = :lost")
-    values = {"key": key} if known else {"key": key, "lost": LOST}
+def _forget(connection, bag):
+    which = ("SELECT id FROM drives WHERE key = :key OR path = :path AND "
+             f"status IN ('{UNREADABLE}', '{CRASHED}', '{UNREAD}')")
+    values = {"key": bag.key, "path": bag.path}
     for table in (struts, events, findings):
         connection.execute(text(f"DELETE FROM {table.name} WHERE drive_id IN ({which})"), values)
     connection.execute(text(f"DELETE FROM drives WHERE id IN ({which})"), values)
@@ -175,13 +198,16 @@ def counts(engine):
 _ESTIMATES = """
     SELECT d.vehicle, s.strut, d.start, s.damping_to_mass, s.damping_to_mass_stddev, s.stiffness_to_mass,
            s.stiffness_to_mass_stddev, d.path, s.valid
-    FROM drives d JOIN struts s ON s.drive_id = d.id WHERE d.start IS NOT NULL ORDER BY d.start"""
+    FROM drives d JOIN struts s ON s.drive_id = d.id
+    WHERE d.start IS NOT NULL AND d.vehicle IS NOT NULL ORDER BY d.start"""
 _EVENTS = """
     SELECT d.vehicle, e.strut, e.time, e.level, e.message, d.path
-    FROM drives d JOIN events e ON e.drive_id = d.id ORDER BY e.time, e.id"""
+    FROM drives d JOIN events e ON e.drive_id = d.id
+    WHERE d.vehicle IS NOT NULL ORDER BY e.time, e.id"""
 _FINDINGS = """
     SELECT d.vehicle, f.strut, d.start, f.verdict, f.effects, d.path, f.page
-    FROM drives d JOIN findings f ON f.drive_id = d.id WHERE d.start IS NOT NULL ORDER BY d.start"""
+    FROM drives d JOIN findings f ON f.drive_id = d.id
+    WHERE d.start IS NOT NULL AND d.vehicle IS NOT NULL ORDER BY d.start"""
 
 
 def _by_strut(connection, query):

@@ -1,0 +1,74 @@
+"""Bags to rows: what is not known yet is read on the cluster, and written as it comes."""
+import collections
+import contextlib
+import hashlib
+import os
+import sys
+
+from . import database
+from .bag_key import bag_key
+from .cluster import read_bags
+from .find_bags import find_bags
+
+KNOWN = "known"
+
+
+class Scan:
+    """One scan: how bags are read, and what has become of them so far."""
+
+    def __init__(self, engine, work, options, vehicle_of, again=False, progress=None):
+        """:param options: a hash of all options. :param progress: a tqdm, or what has its update() and write()."""
+        self._engine, self._work, self._options, self._again = engine, work, options, again
+        self._vehicle_of, self._progress = vehicle_of, progress
+        self.counts = collections.Counter()
+
+    def run(self, client, paths):
+        """:returns: {status, or "known": how many bags}."""
+        for bag, drive in read_bags(client, self._unknown(paths), self._work):
+            self._write(bag, drive)
+        return self.counts
+
+    def _unknown(self, paths):
+        for path in paths:
+            bag, doubt = self._bag(path)
+            if not self._again and database.is_known(self._engine, bag):
+                self._count(KNOWN)
+            elif doubt:
+                self._write(bag, database.Drive(database.UNREAD, doubt))
+            else:
+                yield bag
+
+    def _bag(self, path):
+        """(Bag, why it is not read, if it is not). One that cannot be opened is known by its path for the time being."""
+        vehicle, doubt = self._vehicle_of(path), None
+        if vehicle is None:
+            doubt = "--vehicle-pattern does not match its path"
+        try:
+            key = bag_key(path)
+        except OSError as error:
+            key, doubt = hashlib.sha256(os.fsencode(path)).hexdigest(), error.strerror
+        return database.Bag(key, path, vehicle, self._options, self._work.diagnose), doubt
+
+    def _write(self, bag, drive):
+        written = database.write(self._engine, bag, drive, self._again)
+        self._count(drive.status if written else KNOWN)
+        if self._progress is not None and drive.reason and written:
+            self._progress.write(f"{bag.path}: {drive.reason}", file=sys.stderr)
+
+    def _count(self, what):
+        self.counts[what] += 1
+        if self._progress is not None:
+            self._progress.update()
+
+
+@contextlib.contextmanager
+def progress_bar(paths):
+    """A bar with rate and time left, on a terminal only; nothing where tqdm is not installed."""
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        yield None
+        return
+    total = sum(1 for _ in find_bags(paths))
+    with tqdm(total=total, unit="bag", disable=None) as bar:
+        yield bar
