@@ -15,11 +15,13 @@ _INDEX_POSITION = re.compile(rb"index_pos=(.{8})", re.DOTALL)
 
 
 def bag_key(path):
-    """:returns: 64 hexadecimal digits. :raises OSError: it cannot be opened or read."""
+    """:returns: 64 hexadecimal digits. :raises OSError: it cannot be opened or read, or is empty."""
     if stat.S_ISFIFO(os.stat(path).st_mode):
         raise OSError(errno.EINVAL, "is a pipe, must be a file", path)  # to open it would wait for a writer
     with open(path, "rb") as bag:
         size = bag.seek(0, os.SEEK_END)
+        if size == 0:
+            raise OSError(errno.ENODATA, "is empty", path)  # as others are: that is no content to be known by
         bag.seek(0)
         head = bag.read(BLOCK)
         key = hashlib.sha256(struct.pack("<Q", size) + head)

@@ -1,6 +1,5 @@
 """Bags to rows: what is not known yet is read on the cluster, and written as it comes."""
 import collections
-import contextlib
 import hashlib
 import os
 import sys
@@ -16,27 +15,27 @@ KNOWN = "known"
 class Scan:
     """One scan: how bags are read, and what has become of them so far."""
 
-    def __init__(self, engine, work, options, vehicle_of, again=False, progress=None):
-        """:param options: a hash of all options. :param progress: a tqdm, or what has its update() and write()."""
+    def __init__(self, engine, work, options, vehicle_of, again, progress):
+        """:param options: a hash of all options. :param progress: of progress.bar()."""
         self._engine, self._work, self._options, self._again = engine, work, options, again
         self._vehicle_of, self._progress = vehicle_of, progress
-        self.counts = collections.Counter()
+        self.counts = collections.Counter()  # {status, or KNOWN: how many bags}
 
-    def run(self, client, paths):
-        """:returns: {status, or "known": how many bags}."""
-        for bag, drive in read_bags(client, self._unknown(paths), self._work):
-            self._write(bag, drive)
-        return self.counts
-
-    def _unknown(self, paths):
+    def unknown(self, paths):
+        """The bags that are to be read."""
         for path in paths:
-            bag, doubt = self._bag(path)
+            bag, doubt = self._bag(os.path.abspath(path))
             if not self._again and database.is_known(self._engine, bag):
                 self._count(KNOWN)
             elif doubt:
                 self._write(bag, database.Drive(database.UNREAD, doubt))
             else:
                 yield bag
+
+    def read(self, client, bags):
+        """Reads bags on a cluster, and writes what they say as it comes."""
+        for bag, drive in read_bags(client, bags, self._work):
+            self._write(bag, drive)
 
     def _bag(self, path):
         """(Bag, why it is not read, if it is not). One that cannot be opened is known by its path for the time being."""
@@ -52,23 +51,9 @@ class Scan:
     def _write(self, bag, drive):
         written = database.write(self._engine, bag, drive, self._again)
         self._count(drive.status if written else KNOWN)
-        if self._progress is not None and drive.reason and written:
+        if written and drive.reason:
             self._progress.write(f"{bag.path}: {drive.reason}", file=sys.stderr)
 
     def _count(self, what):
         self.counts[what] += 1
-        if self._progress is not None:
-            self._progress.update()
-
-
-@contextlib.contextmanager
-def progress_bar(paths):
-    """A bar with rate and time left, on a terminal only; nothing where tqdm is not installed."""
-    try:
-        from tqdm import tqdm
-    except ImportError:
-        yield None
-        return
-    total = sum(1 for _ in find_bags(paths))
-    with tqdm(total=total, unit="bag", disable=None) as bar:
-        yield bar
+        self._progress.update()
