@@ -1,9 +1,11 @@
 """The fleet's database on PostgreSQL: a server of the test's own, and two clients that scan at once."""
 import glob
 import os
+import pathlib
 import shutil
 import signal
 import subprocess
+import tempfile
 
 import pytest
 
@@ -16,31 +18,29 @@ BAGS = 12
 
 
 @pytest.fixture(scope="module")
-def server(tmp_path_factory):
-    """The URL of a database of an empty server, which listens in its folder and at a port of this machine."""
+def server():
+    """The URL of a database of an empty server."""
     if not PROGRAMS:
         pytest.skip("PostgreSQL is not installed (Debian: postgresql)")
-    folder = tmp_path_factory.mktemp("postgres", numbered=False)
     user = ["runuser", "-u", "postgres", "--"] if os.geteuid() == 0 else []  # it refuses to run as root
-    if user:
-        for path in (folder, folder.parent):
-            path.chmod(0o755)
-        shutil.chown(folder, "postgres")
-    port = fleet.free_port()
-    programs = os.path.dirname(PROGRAMS[-1])
+    programs, port = os.path.dirname(PROGRAMS[-1]), fleet.free_port()
+    with tempfile.TemporaryDirectory(prefix="postgres.") as folder:  # pytest's own is closed to other users
+        if user:
+            shutil.chown(folder, "postgres")
 
-    def call(program, *arguments):
-        done = subprocess.run([*user, f"{programs}/{program}", *arguments], cwd=folder, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=conftest.HANGS)
-        assert done.returncode == 0, done.stdout
-    call("initdb", "-D", f"{folder}/data", "-A", "trust", "-U", "fleet", "--no-sync")
-    call("pg_ctl", "-D", f"{folder}/data", "-w", "-l", f"{folder}/log", "-o",
-         f"-k {folder} -p {port} -h 127.0.0.1 -F", "start")
-    try:
-        call("createdb", "-h", str(folder), "-p", str(port), "-U", "fleet", "fleet")
-        yield f"postgresql://fleet:secret@127.0.0.1:{port}/fleet"
-    finally:
-        call("pg_ctl", "-D", f"{folder}/data", "-m", "immediate", "stop")
+        def call(program, *arguments):
+            done = subprocess.run([*user, f"{programs}/{program}", *arguments], cwd=folder, stdin=subprocess.DEVNULL,
+                                  stdout=log, stderr=log, timeout=conftest.HANGS)
+            assert done.returncode == 0, pathlib.Path(log.name).read_text()
+
+        with open(os.path.join(folder, "log"), "w") as log:
+            call("initdb", "-D", f"{folder}/data", "-A", "trust", "-U", "fleet", "--no-sync")
+            call("pg_ctl", "-D", f"{folder}/data", "-w", "-o", f"-k {folder} -p {port} -h 127.0.0.1 -F", "start")
+            try:
+                call("createdb", "-h", folder, "-p", str(port), "-U", "fleet", "fleet")
+                yield f"postgresql://fleet:secret@127.0.0.1:{port}/fleet"
+            finally:
+                call("pg_ctl", "-D", f"{folder}/data", "-m", "immediate", "stop")
 
 
 @pytest.fixture(scope="module")
