@@ -5,27 +5,34 @@ from typing import List, Optional
 import numpy as np
 
 from . import change_points, wear
+from .errors import UsageError
 from .history import MONTH, YEAR, StrutHistory, effect_spans, series
 from .segments import lay_out
 
 PARTS = ("damping", "stiffness")
 _FALLS = {"damping": 1, "stiffness": 2}  # index into wear.KINDS: b1/b0 rises when the spring wears
-_SIGN = {"damping": 1.0, "stiffness": -1.0}  # of its loss in log(b1/b0)
+SIGN = {"damping": 1.0, "stiffness": -1.0}  # of its loss in log(b1/b0)
+
+
+def _option(default, low, high, meaning):
+    return dataclasses.field(default=default, metadata={"range": (low, high), "meaning": meaning})
 
 
 @dataclasses.dataclass(frozen=True)
 class Options:
-    threshold: float = 0.30  # of a part, worn: its end
-    level: float = 0.90  # of every interval
-    season: float = 0.04  # the yearly swing of damping, standard deviation of its sine and its cosine
-    false_dates: float = 0.02  # share of healthy struts that ever get a date
-    false_changes: float = 1 / 200  # [1/year] of a strut
+    """:raises UsageError: a value that is not allowed."""
+    threshold: float = _option(0.3, 0.01, 0.9, "share of a new part's damping or stiffness that is lost when it must go")
+    level: float = _option(0.9, 0.5, 0.99, "probability of the intervals")
+    season: float = _option(0.04, 0, 0.5, "yearly swing of the damping: standard deviation of its sine and its cosine")
+    false_dates: float = _option(0.02, 1e-6, 0.5, "share of healthy struts that ever get a date, at most")
+    false_changes: float = _option(0.005, 1e-6, 1, "changes a year of a strut that are none, at most")
 
     def __post_init__(self):
-        for name, least, most in (("threshold", 0, 1), ("level", 0, 1), ("season", -1e-300, 1), ("false_dates", 0, 1),
-                                  ("false_changes", 0, np.inf)):
-            if not least < getattr(self, name) < most:
-                raise ValueError(f"{name} = {getattr(self, name)}, must lie between {max(least, 0)} and {most}")
+        for field in dataclasses.fields(self):
+            value, (low, high) = getattr(self, field.name), field.metadata["range"]
+            if not low <= value <= high:
+                raise UsageError(f"--{field.name.replace('_', '-')} {value:g}, must lie in [{low:g}, {high:g}]: "
+                                 f"{field.metadata['meaning']}")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -43,9 +50,9 @@ class Wear:
     """Of one part since it was new: the first drive, or the last change that made it new."""
     since: float  # [s since 1970]
     loss: tuple  # quantiles (low, median, high) of the worn share at the last drive
-    rate: float  # [1/month] of what it was after the last change; median where it wears
+    rate: float  # [1/month] of what it was after the last change, if it wears
     rate_stddev: float
-    date: tuple  # quantiles (early, median, late) of when the threshold is reached, if the part wears [s since 1970]
+    date: tuple  # quantiles of when the threshold is reached, if it wears [s since 1970]
     probability: float  # that it wears
 
 
@@ -54,10 +61,13 @@ class Prognosis:
     vehicle: str
     strut: str
     drives: int
+    first: float  # drive [s since 1970]
+    last: float
     changes: List[ChangePoint]
     wear: dict  # of PARTS
     dated: Optional[str]  # the part whose date is known, of PARTS
     season_or_wear: bool  # without a season there would be a date
+    stiffer_or_softer: bool  # b1/b0 rises certainly: damping grows, or the spring wears
     both_fall: bool  # b1/M and b0/M: payload, or both parts worn
     effects: list
     options: Options
@@ -84,19 +94,29 @@ def prognosis(history: StrutHistory, options: Options = Options()) -> Optional[P
     found = {part: _wear(part, ratio, draws, changes, options) for part in PARTS}
     if dated and both_fall:
         found[dated] = _earlier(found[dated], _wear_alone(own[dated], falls[dated], options))
-    season_or_wear = not dated and options.season > 0 and wear.posterior(
+    rises = draws.probability["rises"] >= certain and not dated
+    season_or_wear = not dated and not rises and options.season > 0 and wear.posterior(
         ratio, starts, 0.0, options.threshold).probability["falls"] >= certain
-    return Prognosis(history.vehicle, history.strut, len(ratio.time), changes, found, dated, season_or_wear, both_fall,
-                     effect_spans(history.findings), options, draws)
+    return Prognosis(history.vehicle, history.strut, len(ratio.time), float(ratio.time[0]), float(ratio.time[-1]), changes, found,
+                     dated, season_or_wear, rises, both_fall, effect_spans(history.findings), options, draws)
 
 
 def _side(options):
     return (1 + options.level) / 2
 
 
-def _quantiles(draws, options):
-    ordered = np.sort(draws)  # not between two of them: one may be infinite
-    return tuple(float(ordered[int(share * len(ordered))]) for share in (1 - _side(options), 0.5, _side(options)))
+def quantiles(values, weights, options):
+    """(low, median, high), each one of the values: between two of them may be infinity."""
+    order = np.argsort(values)
+    reached = np.cumsum(weights[order]) / weights.sum()
+    places = np.searchsorted(reached, [1 - _side(options), 0.5, _side(options)])
+    return tuple(float(each) for each in values[order[np.minimum(places, len(order) - 1)]])
+
+
+def _average(values, weights):
+    """(mean, standard deviation)."""
+    mean = np.average(values, weights=weights)
+    return float(mean), float(np.sqrt(np.average((values - mean) ** 2, weights=weights)))
 
 
 def _changes(ratio, stiffness, draws, options):
@@ -109,29 +129,34 @@ def _changes(ratio, stiffness, draws, options):
     found = []
     for segment in range(1, len(starts)):
         column = layout.step(segment)
-        steps = draws.coefficients[:, column]
-        step, stddev = steps.mean(), steps.std()
+        step, stddev = _average(draws.coefficients[:, column], draws.weight)
         there, variance = fits.coefficients[best, column], fits.covariance[best, column, column] + stddev ** 2
         log_odds = ((there + step) ** 2 - there ** 2) / (2 * variance)
         limit = np.log(_side(options) / (1 - _side(options)))
         part = "damping" if log_odds > limit else "stiffness" if log_odds < -limit else None
         start = starts[segment]
-        found.append(ChangePoint(float(ratio.time[start]), float(ratio.time[start - 1]), float(step), float(stddev), part))
+        found.append(ChangePoint(float(ratio.time[start]), float(ratio.time[start - 1]), step, stddev, part))
     return found
 
 
+def _is_of(part, change):
+    """Whether a step counts for a part. What may be either is the damper's: springs break seldom, and never grow stiffer."""
+    return change.part == part or (change.part is None and part == "damping")
+
+
 def _carried(part, draws, changes, options):
-    """(segment that began new, draws of what the logarithm has lost from there to the last change)."""
-    layout, sign = draws.layout, _SIGN[part]
+    """(segment that began new, draws of what the part's logarithm has lost from there to the last change)."""
+    layout, sign = draws.layout, SIGN[part]
     segment = 0
     for place, change in enumerate(changes, start=1):
-        rises = np.mean(sign * draws.coefficients[:, layout.step(place)] > 0) >= _side(options)
-        if rises and change.part in (None, part):
+        rises = np.average(sign * draws.coefficients[:, layout.step(place)] > 0, weights=draws.weight)
+        if rises >= _side(options) and _is_of(part, change):
             segment = place
     carried = np.zeros(len(draws.kind))
     for place in range(segment, len(changes)):
-        carried += sign * draws.coefficients[:, layout.slope(place)] * draws.lengths[place]
-        if changes[place].part in (None, part):
+        worn = sign * draws.coefficients[:, layout.slope(place)] * draws.lengths[place]
+        carried += np.minimum(worn, 0)  # what rises is the other part's wear
+        if _is_of(part, changes[place]):
             carried += sign * draws.coefficients[:, layout.step(place + 1)]
     return segment, carried
 
@@ -148,16 +173,15 @@ def _wear_alone(own, draws, options):
 def _of_draws(kind, values, draws, segment, carried, options):
     starts = draws.layout.starts
     begin, last = values.time[starts[-1]], values.time[-1]
-    falls = draws.kind == kind
-    rate = np.where(falls, draws.rate, 0.0)
-    now = carried + np.log1p(-np.minimum(rate * (last - begin) / YEAR, 1 - 1e-9))
-    left = -np.expm1(np.log1p(-options.threshold) - carried)  # share that is still to be worn at the last change
-    with np.errstate(divide="ignore", invalid="ignore"):
-        elapsed = np.where(left <= 0, 0.0, left / rate)
-    wears = falls if falls.any() else np.ones_like(falls)  # no draw at all: as those that stay as they are, never
-    return Wear(float(values.time[starts[segment]]), _quantiles(-np.expm1(now), options),
-                float(np.median(rate[wears])) * MONTH / YEAR, float(rate[wears].std()) * MONTH / YEAR,
-                _quantiles((begin + YEAR * elapsed)[wears], options), float(falls.mean()))
+    wears = draws.kind == kind
+    rate = np.where(wears, draws.rate, 0.0)
+    loss = -np.expm1(carried + wear.change_of_logarithm(1, rate, (last - begin) / YEAR))
+    left = -np.expm1(np.log1p(-options.threshold) - carried[wears])  # to be worn after the last change
+    dates = begin + YEAR * np.maximum(left, 0) / rate[wears]
+    alike = np.ones(len(dates))  # of one kind
+    mean, stddev = _average(rate[wears] * MONTH / YEAR, alike)
+    return Wear(float(values.time[starts[segment]]), quantiles(loss, draws.weight, options), mean, stddev,
+                quantiles(dates, alike, options), draws.probability[wear.KINDS[kind]])
 
 
 def _earlier(one, other):

@@ -44,18 +44,21 @@ def fit(values, offsets, scales, design, precision):
     covariance = np.linalg.inv(information)
     spread = np.sqrt(np.einsum("cii->ci", covariance))
     coefficients = np.full((count, size), np.inf)
-    weights = scales ** -2
+    variances, weights, moving = scales ** 2, scales ** -2, np.arange(count)
     for _ in range(_MOST_STEPS):
-        before = coefficients
-        normal = (weights @ products).reshape(count, size, size) + prior
-        coefficients = np.linalg.solve(normal, ((weights * target) @ design)[..., None])[..., 0]
-        residuals = target - coefficients @ design.T
-        if np.all(np.abs(coefficients - before) <= _TOLERANCE * spread):
+        before = coefficients[moving]
+        normal = (weights @ products).reshape(-1, size, size) + prior
+        after = np.linalg.solve(normal, ((weights * target[moving]) @ design)[..., None])[..., 0]
+        coefficients[moving] = after
+        moving = moving[np.any(np.abs(after - before) > _TOLERANCE * spread[moving], axis=1)]
+        if not len(moving):
             break
-        weights = (DEGREES_OF_FREEDOM + 1) / (DEGREES_OF_FREEDOM * scales ** 2 + residuals ** 2)
+        residuals = target[moving] - coefficients[moving] @ design.T
+        weights = (DEGREES_OF_FREEDOM + 1) / (DEGREES_OF_FREEDOM * variances[moving] + residuals ** 2)
     proper = precision > 0
     log_prior = (0.5 * np.log(precision[proper] / (2 * np.pi)).sum()
                  - 0.5 * (precision * coefficients ** 2).sum(axis=1))
+    residuals = target - coefficients @ design.T
     log_evidence = (log_density(residuals, scales).sum(axis=1) + log_prior + 0.5 * size * np.log(2 * np.pi)
                     - 0.5 * np.linalg.slogdet(information)[1])
     return Fits(log_evidence, coefficients, covariance)
