@@ -8,28 +8,34 @@ from . import student_t
 from .segments import SLOPE_STDDEV, STEP_STDDEV, Layout, design, lay_out, precision, scales, scatter_grid, years
 
 LEAST_DRIVES = 3  # of a segment: fewer may be single wrong drives
+YEARS_OF_A_PART = 5.0
 _CANDIDATES = 6  # that are looked at closely; the others count as nothing, which only makes a change harder to prove
 
 
 def find(series, season, false_rate):
-    """First drives of all segments, [0, ...].
+    """(first drives of all segments, [0, ...]; the drive of a change that is likely, but not proven, or None).
 
     A change at drive k is judged by its Bayes factor L_k, the evidence of a model with a step and another slope there over that
     of one without. Without a change the sum of L_k over all k has the expectation of their number, and first exceeds A after
     A drives in the mean at least (Shiryaev-Roberts; Pollak 1985). So a false change in 1 / false_rate strut-years needs
-    A = drives a year / false_rate.
+    A = drives a year / false_rate. It is likely once it is more probable than none, if parts are renewed every
+    YEARS_OF_A_PART.
 
-    @param false_rate  [1/year]
+    :param false_rate: [1/year]
     """
     starts = [0]
-    count = len(series.time)
-    while count >= 2 * LEAST_DRIVES:
-        log_threshold = np.log(count / years(series)[-1] / false_rate)
+    time = years(series)
+    while time[-1] > 0:
         factors = _bayes_factors(series, starts, season)
-        if not factors or np.logaddexp.reduce([*factors.values()]) < log_threshold:
+        if not factors:
             break
-        starts = sorted([*starts, max(factors, key=factors.get)])
-    return starts
+        drives, logarithms = np.array([*factors]), np.array([*factors.values()])
+        best = int(drives[logarithms.argmax()])
+        if np.logaddexp.reduce(logarithms) < np.log(len(time) / time[-1] / false_rate):
+            expected = (time[drives] - time[drives - 1]) / YEARS_OF_A_PART
+            return starts, best if np.sum(expected * np.exp(logarithms)) > 1 else None
+        starts = sorted([*starts, best])
+    return starts, None
 
 
 def _bayes_factors(series, starts, season):

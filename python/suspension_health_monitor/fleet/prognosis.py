@@ -64,6 +64,7 @@ class Prognosis:
     first: float  # drive [s since 1970]
     last: float
     changes: List[ChangePoint]
+    likely_change: Optional[float]  # first drive after a change that is more probable than none [s since 1970]
     wear: dict  # of PARTS
     dated: Optional[str]  # the part whose date is known, of PARTS
     season_or_wear: bool  # without a season there would be a date
@@ -80,25 +81,28 @@ def prognosis(history: StrutHistory, options: Options = Options()) -> Optional[P
     if not len(ratio.time):
         return None
     own = dict(zip(PARTS, own))
-    starts = change_points.find(ratio, options.season, options.false_changes)
+    starts, likely = change_points.find(ratio, options.season, options.false_changes)
     draws = wear.posterior(ratio, starts, options.season, options.threshold)
     changes = _changes(ratio, own["stiffness"], draws, options)
-    certain = 1 / (1 + options.false_dates)  # its odds: by Markov's inequality a Bayes factor this large is no more frequent
     falls = {part: wear.posterior(own[part], starts, 0.0, options.threshold) for part in PARTS}
-    dated = None
-    if draws.probability["falls"] >= certain:
+    certain = 1 / (1 + options.false_dates)  # its odds: by Markov's inequality a Bayes factor this large is no more frequent
+    trends = {kind for kind, probability in draws.probability.items() if likely is None and probability >= certain}
+    dated = None  # a trend across a change that is likely says nothing
+    if "falls" in trends:
         dated = "damping"
-    elif draws.probability["rises"] >= certain and falls["stiffness"].probability["falls"] >= _side(options):
+    elif "rises" in trends and falls["stiffness"].probability["falls"] >= _side(options):
         dated = "stiffness"  # not without a sign of it in b0/M: damping may rise by itself, springs do not grow stiffer
     both_fall = all(each.probability["falls"] >= certain for each in falls.values())
     found = {part: _wear(part, ratio, draws, changes, options) for part in PARTS}
     if dated and both_fall:
         found[dated] = _earlier(found[dated], _wear_alone(own[dated], falls[dated], options))
-    rises = draws.probability["rises"] >= certain and not dated
-    season_or_wear = not dated and not rises and options.season > 0 and wear.posterior(
-        ratio, starts, 0.0, options.threshold).probability["falls"] >= certain
-    return Prognosis(history.vehicle, history.strut, len(ratio.time), float(ratio.time[0]), float(ratio.time[-1]), changes, found,
-                     dated, season_or_wear, rises, both_fall, effect_spans(history.findings), options, draws)
+    without_season = wear.posterior(ratio, starts, 0.0, options.threshold).probability["falls"]
+    return Prognosis(
+        history.vehicle, history.strut, len(ratio.time), float(ratio.time[0]), float(ratio.time[-1]), changes,
+        None if likely is None else float(ratio.time[likely]), found, dated,
+        season_or_wear=not trends and likely is None and options.season > 0 and without_season >= certain,
+        stiffer_or_softer="rises" in trends and not dated, both_fall=both_fall, effects=effect_spans(history.findings),
+        options=options, draws=draws)
 
 
 def _side(options):

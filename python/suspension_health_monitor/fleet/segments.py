@@ -15,6 +15,7 @@ STEP_STDDEV = 0.3
 SLOPE_STDDEV = 0.05 * YEAR / MONTH  # [1/year]
 MOST_WORN = 0.95  # of a part, where its logarithm is looked at
 _POINTS = 12
+_ROUNDS = 3  # from straight lines on: the second is right to a per cent of the bend
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,11 +81,12 @@ def scatter_grid(series, matrix, prior):
 
 def lay_out(series, starts, season):
     """The layout of these segments, whose rates are those that its own fit finds; with grid and fits."""
-    layout = Layout(starts, len(starts) * [0.0])
-    for _ in range(3):  # from a straight line on; the second round is right to a per cent of the bend
-        grid, fits = scatter_grid(series, design(series, layout), precision(layout, season))
-        slopes = np.abs(fits.coefficients[grid.log_density.argmax(), 1:1 + len(starts)])
-        bounds = years(series)[[*starts, -1]]
-        layout = Layout(starts, [min(slope, MOST_WORN / max(length, 1e-9))
-                                 for slope, length in zip(slopes, np.diff(bounds))])
+    lengths = np.maximum(np.diff(years(series)[[*starts, -1]]), 1e-9)
+    rates = np.zeros(len(starts))
+    for _ in range(_ROUNDS):
+        layout = Layout(starts, [*rates])
+        matrix = design(series, layout)
+        grid, fits = scatter_grid(series, matrix, precision(layout, season))
+        slopes = fits.coefficients[grid.log_density.argmax(), 1:1 + len(starts)]
+        rates = -np.expm1(-np.abs(slopes) * matrix[-1, 1:1 + len(starts)]) / lengths  # of what each loses in all
     return layout, grid, fits
