@@ -81,7 +81,8 @@ def test_grid_closes_in_on_a_peak(stddev):
 
 
 def test_wear_of_the_numerator_falls_and_of_the_denominator_rises():
-    falls, rises, healthy = (wear.change_of_logarithm(kind, 0.3, 0.5) for kind in (1, 2, 0))
+    assert wear.worn(0.3, 2.0, 1.0, 1.0) == 0.15 and wear.worn(0.3, 2.0, 1.7, 2.0) == pytest.approx(0.3)
+    falls, rises, healthy = (wear.change_of_logarithm(kind, 0.15) for kind in (1, 2, 0))
     assert (falls, rises, healthy) == (pytest.approx(np.log(0.85)), pytest.approx(-np.log(0.85)), 0)
 
 
@@ -110,16 +111,26 @@ def fieller(time, ratio, stddev, threshold, level=0.9):
     return np.sort(np.roots([excess[1, 1], 2 * threshold * excess[0, 1], threshold ** 2 * excess[0, 0]]))
 
 
-def test_interval_is_fiellers():
+def test_interval_of_linear_wear_is_fiellers():
     """Of the ratio of two normal numbers; in the mean, since Student's t weighs every drive in another way."""
     time, stddev, differences = np.linspace(0, 3, 80), 0.03, []
     for seed in range(10):
         damping = (1 - 0.1 * time) * noise(seed, 80, stddev)
-        found = prognosis.prognosis(strut(time, damping, stddev=stddev / np.sqrt(2)), NO_SEASON).wear["damping"]
-        early, late = BEGIN + YEAR * fieller(time, damping, stddev * (1 - 0.1 * time), 0.3)
-        differences.append([(found.date[0] - early) / (late - early), (found.date[2] - late) / (late - early)])
+        values = Series(BEGIN + YEAR * time, np.log(damping), np.full(80, stddev))
+        draws = wear.posterior(values, [0], 0.0, 0.3)
+        early, late = fieller(time, damping, stddev * (1 - 0.1 * time), 0.3)
+        found = np.quantile(draws.life[draws.kind == 1], [0.05, 0.95])
+        differences.append((found - [early, late]) / (late - early))
     assert np.mean(differences, axis=0) == pytest.approx([-0.03, 0.03], abs=0.09)  # 0.13 is what they scatter by alone
     assert np.std(differences) < 0.25
+
+
+def test_interval_holds_the_date_of_wear_that_is_not_linear():
+    time = np.linspace(0, 2, 60)
+    for power in (0.7, 1.6):
+        damping = (1 - 0.2 * (time / 2) ** power) * noise(21, 60)
+        early, _, late = prognosis.prognosis(strut(time, damping)).wear["damping"].date
+        assert early <= BEGIN + YEAR * 2 * (0.3 / 0.2) ** (1 / power) <= late
 
 
 def test_payload_changes_nothing():
@@ -302,7 +313,7 @@ def test_words_of_a_date():
     time = np.linspace(0, 2, 60)
     found = prognosis.prognosis(strut(time, (1 - 0.12 * time) * noise(19, 60)))
     said = wording.outlook(found)
-    assert said.startswith("damping falls 1.0") and "% a month, reaches -30 % between " in said
+    assert said.startswith("damping falls ") and " ± " in said and "% a month, reaches -30 % between " in said
     early, _, late = found.wear["damping"].date
     assert wording.day(late) in said and early < BEGIN + 2.5 * YEAR < late
     assert wording.days(0, 86400 * 40) == "1 January and 10 February 1970"

@@ -3,7 +3,6 @@ import numpy as np
 
 from .history import YEAR
 from .prognosis import PARTS, SIGN, quantiles
-from .wear import change_of_logarithm
 
 _POINTS = 25
 _MOST_AHEAD = 5.0  # [years] of a picture
@@ -38,7 +37,7 @@ def fan(prognosis):
     begin = prognosis.changes[-1].time if prognosis.changes else prognosis.first
     times = np.linspace(begin, _end(prognosis, begin), _POINTS)
     start = levels(prognosis)[-1] - new_level(prognosis)
-    found = [quantiles(np.exp(sign * (start + change_of_logarithm(draws.kind, draws.rate, (time - begin) / YEAR))),
+    found = [quantiles(np.exp(sign * (start + draws.change((time - begin) / YEAR))),
                        draws.weight, prognosis.options) for time in times]
     return times, np.array(found).T
 

@@ -1,7 +1,7 @@
 """Integrals of peaked densities over a box, by a grid that closes in on the peak."""
 import numpy as np
 
-_LEFT_OUT = 12.0  # what is that many nats below the peak is not looked at: exp(-12) of it
+LEFT_OUT = 12.0  # what is that many nats below the peak is not looked at: exp(-12) of it
 _MOST_ROUNDS = 8
 
 
@@ -29,7 +29,7 @@ def close_in(evaluate, lower, upper, points):
         axes = [low + width * (0.5 + np.arange(count)) for low, width, count in zip(lower, widths, points)]
         centres = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(points))
         log_density, found = evaluate(centres)
-        inside = centres[log_density > log_density.max() - _LEFT_OUT]
+        inside = centres[log_density > log_density.max() - LEFT_OUT]
         before = upper - lower
         lower = np.maximum(least, inside.min(axis=0) - 1.5 * widths)
         upper = np.minimum(most, inside.max(axis=0) + 1.5 * widths)

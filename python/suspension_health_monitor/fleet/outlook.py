@@ -29,16 +29,18 @@ def prognosis_options(options):
 def outlook(options):
     """[(StrutHistory, Prognosis or None)] of the database."""
     its_options = prognosis_options(options)
-    histories = database.histories(database.connect(options.db))
-    return sorted(_all(histories, its_options, options.workers), key=urgency)
+    return in_order(database.histories(database.connect(options.db)), its_options, options.workers)
 
 
-def _all(histories, options, workers):
+def in_order(histories, options, workers):
+    """The same of any histories."""
     work = functools.partial(prognosis, options=options)
+    results = []
     with bar(len(histories), "strut") as progress, concurrent.futures.ProcessPoolExecutor(workers) as pool:
-        for history, result in zip(histories, pool.map(work, histories, chunksize=4)):
+        for result in pool.map(work, histories, chunksize=4):
             progress.update()
-            yield history, result
+            results.append(result)
+    return sorted(zip(histories, results), key=urgency)
 
 
 def urgency(pair):

@@ -50,7 +50,7 @@ class Wear:
     """Of one part since it was new: the first drive, or the last change that made it new."""
     since: float  # [s since 1970]
     loss: tuple  # quantiles (low, median, high) of the worn share at the last drive
-    rate: float  # [1/month] of what it was after the last change, if it wears
+    rate: float  # [1/month] of what it was after the last change, if it wears: in the mean until the threshold
     rate_stddev: float
     date: tuple  # quantiles of when the threshold is reached, if it wears [s since 1970]
     probability: float  # that it wears
@@ -82,7 +82,7 @@ def prognosis(history: StrutHistory, options: Options = Options()) -> Optional[P
         return None
     own = dict(zip(PARTS, own))
     starts, likely = change_points.find(ratio, options.season, options.false_changes)
-    draws = wear.posterior(ratio, starts, options.season, options.threshold)
+    draws = wear.posterior(ratio, starts, options.season, options.threshold, bent=True)
     changes = _changes(ratio, own["stiffness"], draws, options)
     falls = {part: wear.posterior(own[part], starts, 0.0, options.threshold) for part in PARTS}
     certain = 1 / (1 + options.false_dates)  # its odds: by Markov's inequality a Bayes factor this large is no more frequent
@@ -178,14 +178,14 @@ def _of_draws(kind, values, draws, segment, carried, options):
     starts = draws.layout.starts
     begin, last = values.time[starts[-1]], values.time[-1]
     wears = draws.kind == kind
-    rate = np.where(wears, draws.rate, 0.0)
-    loss = -np.expm1(carried + wear.change_of_logarithm(1, rate, (last - begin) / YEAR))
+    # On another kind's way the part itself does not change.
+    change = np.where(wears, wear.change_of_logarithm(1, draws.worn((last - begin) / YEAR)), 0.0)
     left = -np.expm1(np.log1p(-options.threshold) - carried[wears])  # to be worn after the last change
-    dates = begin + YEAR * np.maximum(left, 0) / rate[wears]
-    alike = np.ones(len(dates))  # of one kind
-    mean, stddev = _average(rate[wears] * MONTH / YEAR, alike)
-    return Wear(float(values.time[starts[segment]]), quantiles(loss, draws.weight, options), mean, stddev,
-                quantiles(dates, alike, options), draws.probability[wear.KINDS[kind]])
+    life = draws.life[wears] * (np.maximum(left, 0) / options.threshold) ** (1 / draws.power[wears])
+    alike = np.ones(len(life))  # of one kind
+    mean, stddev = _average(options.threshold / draws.life[wears] * MONTH / YEAR, alike)
+    return Wear(float(values.time[starts[segment]]), quantiles(-np.expm1(carried + change), draws.weight, options), mean,
+                stddev, quantiles(begin + YEAR * life, alike, options), draws.probability[wear.KINDS[kind]])
 
 
 def _earlier(one, other):

@@ -34,7 +34,7 @@ function drawMap(open) {
     marker: {symbol: 'circle-open', size: 10, color: colour('ring'), line: {width: 2}}
   };
   const layout = layoutOf({
-    height: 40 + ROW * vehicles.length, margin: {l: 10, r: 10, t: 30, b: 10}, clickmode: 'event', dragmode: false,
+    height: 52 + ROW * vehicles.length, margin: {l: 10, r: 22, t: 30, b: 22}, clickmode: 'event', dragmode: false,
     xaxis: numbered(strutNames, {side: 'top', range: [-0.5, strutNames.length - 0.5]}),
     yaxis: numbered(vehicles, {range: [vehicles.length - 0.5, -0.5]})
   });

@@ -58,7 +58,7 @@ function drawHistory(strut, place) {
   ];
   const named = text => ({text, font: {size: 12}});
   Plotly.react(place, traces, layoutOf({
-    height: 760, margin: {l: 55, r: 10, t: 10, b: 40}, shapes: marks(strut, limit), dragmode: 'pan',
+    height: 760, margin: {l: 55, r: 22, t: 22, b: 40}, shapes: marks(strut, limit), dragmode: 'pan',
     xaxis: axis({type: 'date', anchor: 'y3'}),
     yaxis: axis({domain: [0.5, 1], range, title: named(`${strut.part} / ${other} [% of new]`)}),
     yaxis2: axis({domain: [0.25, 0.44], title: named('b1 [1/s]')}),
