@@ -4,10 +4,10 @@ import os
 import signal
 import sys
 
-from . import scan_command, simulate_command
+from . import report, scan_command, show, simulate_command
 from .errors import FleetError
 
-COMMANDS = {"scan": scan_command, "simulate": simulate_command}
+COMMANDS = {"scan": scan_command, "show": show, "report": report, "simulate": simulate_command}
 EPILOG = "doc/fleet.md tells more. Exit status: 0 done, 2 wrong usage, 3 unreadable or wrong input."
 
 

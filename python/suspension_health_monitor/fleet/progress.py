@@ -14,12 +14,12 @@ class _Silent:
 
 
 @contextlib.contextmanager
-def bar(total):
-    """:returns: something with update() for each bag, and write(line, file)."""
+def bar(total, unit="bag"):
+    """:returns: something with update() for each of them, and write(line, file)."""
     try:
         from tqdm import tqdm
     except ImportError:
         yield _Silent()
         return
-    with tqdm(total=total, unit="bag", disable=None, file=sys.stderr) as result:
+    with tqdm(total=total, unit=unit, disable=None, file=sys.stderr) as result:
         yield result
