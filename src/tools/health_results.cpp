@@ -85,6 +85,8 @@ json estimatesJson(const SuspensionMonitor& monitor) {
     estimates[name] = toJson(atTheEnd(estimate));
     estimates[name]["offset"] = estimate.offset;
     estimates[name]["clock_skew"] = estimate.clock_skew;
+    estimates[name]["damping_excitation"] = estimate.damping_excitation;
+    estimates[name]["stiffness_excitation"] = estimate.stiffness_excitation;
   };
   add("la", monitor.report().la);
   add("ls", monitor.report().ls);

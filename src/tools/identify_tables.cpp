@@ -86,13 +86,15 @@ void printResult(const char* name, const IdentifiedStrut& estimate, const std::o
 }
 
 nlohmann::json toJson(const IdentifiedStrut& estimate) {
-  return {{"damping_to_mass", estimate.damping_to_mass},
-          {"stiffness_to_mass", estimate.stiffness_to_mass},
-          {"damping_to_mass_stddev", estimate.damping_to_mass_stddev},
-          {"stiffness_to_mass_stddev", estimate.stiffness_to_mass_stddev},
-          {"natural_frequency", estimate.naturalFrequency()},
-          {"damping_ratio", estimate.dampingRatio()},
-          {"valid", estimate.valid}};
+  nlohmann::json result = {{"damping_to_mass", estimate.damping_to_mass},
+                           {"stiffness_to_mass", estimate.stiffness_to_mass},
+                           {"damping_to_mass_stddev", estimate.damping_to_mass_stddev},
+                           {"stiffness_to_mass_stddev", estimate.stiffness_to_mass_stddev},
+                           {"natural_frequency", estimate.naturalFrequency()},
+                           {"damping_ratio", estimate.dampingRatio()},
+                           {"valid", estimate.valid}};
+  if (!estimate.valid) result["reason"] = estimate.reason;
+  return result;
 }
 
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut) {

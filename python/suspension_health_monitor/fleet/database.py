@@ -1,0 +1,235 @@
+"""The fleet's database: what every bag has said, one transaction for each. Any database that SQLAlchemy reaches.
+
+doc/fleet.md has a line for every column. Queries are plain SQL, which SQLAlchemy 1.3 to 2 take alike.
+"""
+import collections
+import dataclasses
+import time
+from typing import Any, Dict, List, Optional
+
+import numpy as np
+from sqlalchemy import (Boolean, Column, Float, ForeignKey, Integer, MetaData, String, Table, Text, create_engine,
+                        inspect, text)
+from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
+
+from .errors import FleetError, UsageError
+from .history import Event, Finding, StrutHistory
+
+SCHEMA_VERSION = 1
+LOCK_TIMEOUT = 60  # [s] that a client waits while others write into the same SQLite file
+
+# Of a drive: at least one strut is identified; none is; no bag, or none with what was asked for; the program was ended
+# by a signal or took too long; the file was not to be had or the worker was lost, which says nothing about the bag.
+OK, POOR, UNREADABLE, CRASHED, UNREAD = STATUSES = ("ok", "poor", "unreadable", "crashed", "unread")
+
+metadata = MetaData()
+schema = Table("fleet_schema", metadata, Column("version", Integer, primary_key=True, autoincrement=False))
+drives = Table(
+    "drives", metadata, Column("id", Integer, primary_key=True),
+    Column("key", String(64), nullable=False, unique=True), Column("path", Text, nullable=False),
+    Column("vehicle", Text, index=True), Column("start", Float), Column("duration", Float),
+    Column("status", String(16), nullable=False), Column("reason", Text), Column("diagnosed", Boolean, nullable=False),
+    Column("options", String(64), nullable=False), Column("scanned_at", Float, nullable=False))
+
+
+def _of_drive():
+    return Column("drive_id", Integer, ForeignKey("drives.id"), nullable=False, index=True)
+
+
+struts = Table(
+    "struts", metadata, Column("id", Integer, primary_key=True), _of_drive(), Column("strut", Text, nullable=False),
+    Column("estimator", String(2)), Column("damping_to_mass", Float), Column("damping_to_mass_stddev", Float),
+    Column("stiffness_to_mass", Float), Column("stiffness_to_mass_stddev", Float), Column("damping_excitation", Float),
+    Column("stiffness_excitation", Float), Column("offset", Float), Column("temperature", Float),
+    Column("valid", Boolean, nullable=False), Column("reason", Text))
+events = Table(
+    "events", metadata, Column("id", Integer, primary_key=True), _of_drive(), Column("strut", Text, nullable=False),
+    Column("time", Float, nullable=False), Column("level", String(8), nullable=False),
+    Column("message", Text, nullable=False))
+findings = Table(
+    "findings", metadata, Column("id", Integer, primary_key=True), _of_drive(), Column("strut", Text, nullable=False),
+    Column("verdict", Text, nullable=False), Column("effects", Text, nullable=False), Column("page", Text))
+
+
+@dataclasses.dataclass(frozen=True)
+class Drive:
+    """What a bag has said. struts, events, findings: rows of their tables, without drive_id."""
+    status: str
+    reason: Optional[str] = None
+    start: Optional[float] = None     # [s] since 1970: the bag's first stamp
+    duration: Optional[float] = None  # [s]
+    diagnosed: bool = False
+    struts: List[Dict[str, Any]] = dataclasses.field(default_factory=list)
+    events: List[Dict[str, Any]] = dataclasses.field(default_factory=list)
+    findings: List[Dict[str, Any]] = dataclasses.field(default_factory=list)
+
+
+def connect(url, create=False):
+    """An engine of a database that has our tables.
+
+    :param create: make the tables, and a SQLite file, that are not there yet.
+    :raises FleetError: no such database, or one of a newer schema. UsageError: no URL.
+    """
+    try:
+        sqlite = url.startswith("sqlite:")
+        engine = create_engine(url, **({"connect_args": {"timeout": LOCK_TIMEOUT}} if sqlite else {}))
+    except (ArgumentError, NoSuchModuleError, ImportError) as error:
+        raise UsageError(f"--db {url}: {error}; must be a URL such as sqlite:///fleet.db or "
+                         "postgresql://user@host/fleet") from error
+    try:
+        if not create and not _has_tables(engine):
+            raise FleetError(f"{shown(engine)} has no fleet in it: `suspension_fleet scan` makes one")
+        if create:
+            _make_tables(engine)
+        _check_version(engine)
+    except SQLAlchemyError as error:
+        raise FleetError(f"{shown(engine)}: {in_words(error)}") from error
+    return engine
+
+
+def in_words(error):
+    """What the database itself says, without SQLAlchemy's frame around it."""
+    return " ".join(str(getattr(error, "orig", None) or error).split())
+
+
+def shown(engine):
+    """Its URL without the password."""
+    return repr(engine.url)
+
+
+def _has_tables(engine):
+    if engine.url.drivername.startswith("sqlite") and engine.url.database not in (None, "", ":memory:"):
+        try:
+            open(engine.url.database, "rb").close()  # to connect would make an empty file
+        except OSError as error:
+            raise FleetError(f"{engine.url.database}: {error.strerror}") from error
+    return inspect(engine).has_table(schema.name) if hasattr(inspect(engine), "has_table") \
+        else engine.has_table(schema.name)
+
+
+def _make_tables(engine):
+    """Two clients may do so at once: then one of them fails, and finds the tables of the other."""
+    try:
+        _try_to_make_tables(engine)
+    except SQLAlchemyError:
+        _try_to_make_tables(engine)
+
+
+def _try_to_make_tables(engine):
+    with engine.begin() as connection:
+        schema.create(connection, checkfirst=True)
+        if connection.execute(text("SELECT version FROM fleet_schema")).fetchone() is None:
+            metadata.create_all(connection)
+            connection.execute(schema.insert().values(version=SCHEMA_VERSION))
+
+
+def _check_version(engine):
+    with engine.begin() as connection:
+        (version,) = connection.execute(text("SELECT max(version) FROM fleet_schema")).fetchone()
+    if version != SCHEMA_VERSION:
+        raise FleetError(f"{shown(engine)} has schema version {version}, this program knows {SCHEMA_VERSION}: "
+                         "use the suspension_fleet that has written it, or a newer one")
+
+
+@dataclasses.dataclass(frozen=True)
+class Bag:
+    """A bag, and how it is to be read."""
+    key: str                # of its content
+    path: str
+    vehicle: Optional[str]  # None: its path does not say
+    options: str = ""       # a hash of all of them
+    diagnose: bool = False
+
+
+def is_known(engine, bag):
+    """Whether the database has what reading a bag would tell. One that failed may not fail with other options."""
+    with engine.begin() as connection:
+        return _is_known(connection, bag)
+
+
+def _is_known(connection, bag):
+    row = connection.execute(text("SELECT status, diagnosed, options FROM drives WHERE key = :key"),
+                             {"key": bag.key}).fetchone()
+    if row is None or row[0] == UNREAD:
+        return False
+    status, diagnosed, options = row
+    return bool(diagnosed) or not bag.diagnose if status == OK else options == bag.options
+
+
+def write(engine, bag, drive, again=False):
+    """Writes all rows of a bag, or none; instead of those of the same bag, or of another one at its path that was none.
+
+    :param again: also if the bag is known.
+    :returns: False if another client was faster.
+    """
+    row = dict(key=bag.key, path=bag.path, vehicle=bag.vehicle, start=drive.start, duration=drive.duration,
+               status=drive.status, reason=drive.reason, diagnosed=drive.diagnosed, options=bag.options,
+               scanned_at=time.time())
+    try:
+        with engine.begin() as connection:
+            if not again and _is_known(connection, bag):
+                return False
+            _forget(connection, bag)
+            (drive_id,) = connection.execute(drives.insert().values(**row)).inserted_primary_key
+            for table, rows in ((struts, drive.struts), (events, drive.events), (findings, drive.findings)):
+                if rows:
+                    connection.execute(table.insert(), [dict(each, drive_id=drive_id) for each in rows])
+    except IntegrityError:
+        if not is_known(engine, bag):
+            raise
+        return False
+    return True
+
+
+def _forget(connection, bag):
+    which = ("SELECT id FROM drives WHERE key = :key OR path = :path AND "
+             f"status IN ('{UNREADABLE}', '{CRASHED}', '{UNREAD}')")
+    values = {"key": bag.key, "path": bag.path}
+    for table in (struts, events, findings):
+        connection.execute(text(f"DELETE FROM {table.name} WHERE drive_id IN ({which})"), values)
+    connection.execute(text(f"DELETE FROM drives WHERE id IN ({which})"), values)
+
+
+def counts(engine):
+    """{status: how many drives}."""
+    with engine.begin() as connection:
+        return dict(map(tuple, connection.execute(text("SELECT status, count(*) FROM drives GROUP BY status"))))
+
+
+_ESTIMATES = """
+    SELECT d.vehicle, s.strut, d.start, s.damping_to_mass, s.damping_to_mass_stddev, s.stiffness_to_mass,
+           s.stiffness_to_mass_stddev, d.path, s.valid
+    FROM drives d JOIN struts s ON s.drive_id = d.id
+    WHERE d.start IS NOT NULL AND d.vehicle IS NOT NULL ORDER BY d.start"""
+_EVENTS = """
+    SELECT d.vehicle, e.strut, e.time, e.level, e.message, d.path
+    FROM drives d JOIN events e ON e.drive_id = d.id
+    WHERE d.vehicle IS NOT NULL ORDER BY e.time, e.id"""
+_FINDINGS = """
+    SELECT d.vehicle, f.strut, d.start, f.verdict, f.effects, d.path, f.page
+    FROM drives d JOIN findings f ON f.drive_id = d.id
+    WHERE d.start IS NOT NULL AND d.vehicle IS NOT NULL ORDER BY d.start"""
+
+
+def _by_strut(connection, query):
+    """{(vehicle, strut): the other columns of its rows}."""
+    rows = collections.defaultdict(list)
+    for vehicle, strut, *rest in connection.execute(text(query)):
+        rows[vehicle, strut].append(rest)
+    return rows
+
+
+def histories(engine):
+    """A StrutHistory of every strut, by vehicle and name. Arrays have the drives whose estimate is valid; a finding's
+    effects are a list of names."""
+    with engine.begin() as connection:
+        estimates, happened, found = (_by_strut(connection, query) for query in (_ESTIMATES, _EVENTS, _FINDINGS))
+    result = []
+    for vehicle, strut in sorted({*estimates, *happened, *found}):
+        rows = [row for row in estimates[vehicle, strut] if row[-1]]
+        numbers = np.array([row[:5] for row in rows], dtype=float).reshape(len(rows), 5).T
+        result.append(StrutHistory(vehicle, strut, *numbers, [row[5] for row in rows],
+                                   [Event(*row) for row in happened[vehicle, strut]],
+                                   [Finding(when, verdict, effects.split(), path, page)
+                                    for when, verdict, effects, path, page in found[vehicle, strut]]))
+    return result

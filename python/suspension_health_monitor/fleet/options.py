@@ -1,0 +1,48 @@
+"""What the commands of suspension_fleet share: types of options, the database, the program that reads and writes bags."""
+import argparse
+import datetime
+import os
+import shutil
+import sys
+
+from .errors import FleetError
+
+
+def add_db(command):
+    command.add_argument("--db", metavar="URL", default="sqlite:///fleet.db",
+                         help="of the database, such as postgresql://user@host/fleet; default: %(default)s")
+
+
+def at_least_one(text):
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{number}, must be at least 1")
+    return number
+
+
+def above_zero(text):
+    number = float(text)
+    if not 0.0 < number < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text}, must be above 0")
+    return number
+
+
+def date(text):
+    """Midnight of that day, UTC [s since 1970]."""
+    try:
+        day = datetime.datetime.strptime(text, "%Y-%m-%d")
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text}, must be a day such as 2026-01-05") from None
+    return day.replace(tzinfo=datetime.timezone.utc).timestamp()
+
+
+def find_program():
+    """suspension_bag: $SUSPENSION_BAG, or where catkin puts it: beside suspension_fleet, or below a workspace."""
+    prefixes = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
+    places = [os.environ.get("SUSPENSION_BAG"), os.path.join(os.path.dirname(sys.argv[0]), "suspension_bag"),
+              *(os.path.join(prefix, "lib/suspension_health_monitor/suspension_bag") for prefix in prefixes),
+              shutil.which("suspension_bag")]
+    for place in filter(None, places):
+        if os.access(place, os.X_OK) and os.path.isfile(place):
+            return os.path.abspath(place)
+    raise FleetError("suspension_bag is not found: source the workspace's setup.bash, or set SUSPENSION_BAG to its path")

@@ -1,0 +1,54 @@
+"""The prognoses of a fleet, the most urgent strut first."""
+import concurrent.futures
+import dataclasses
+import functools
+import math
+import os
+
+from . import database
+from .options import add_db, at_least_one
+from .progress import bar
+from .prognosis import Options, prognosis
+
+
+def add_options(command):
+    add_db(command)
+    for field in dataclasses.fields(Options):
+        low, high = field.metadata["range"]
+        command.add_argument("--" + field.name.replace("_", "-"), type=float, default=field.default, metavar="X",
+                             help=f"{field.metadata['meaning']} [{low:g}, {high:g}]; default: %(default)g")
+    command.add_argument("--workers", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
+                         help="processes; default: this machine's cores")
+
+
+def prognosis_options(options):
+    """:raises UsageError: a value that is not allowed."""
+    return Options(**{field.name: getattr(options, field.name) for field in dataclasses.fields(Options)})
+
+
+def outlook(options):
+    """[(StrutHistory, Prognosis or None)] of the database."""
+    its_options = prognosis_options(options)
+    return in_order(database.histories(database.connect(options.db)), its_options, options.workers)
+
+
+def in_order(histories, options, workers):
+    """The same of any histories."""
+    work = functools.partial(prognosis, options=options)
+    results = []
+    with bar(len(histories), "strut") as progress, concurrent.futures.ProcessPoolExecutor(workers) as pool:
+        for result in pool.map(work, histories, chunksize=4):
+            progress.update()
+            results.append(result)
+    return sorted(zip(histories, results), key=urgency)
+
+
+def urgency(pair):
+    """By when somebody must look at it: the date's early end, or the error that the health monitor has said and not taken
+    back; then by what is worn, then by name."""
+    history, result = pair
+    when = result.wear[result.dated].date[0] if result and result.dated else math.inf
+    if history.events and history.events[-1].level == "ERROR":
+        when = min(when, history.events[-1].time)
+    worn = max(each.loss[1] for each in result.wear.values()) if result else -math.inf
+    return when, -worn, history.vehicle, history.strut

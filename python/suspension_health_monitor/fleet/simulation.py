@@ -1,0 +1,127 @@
+"""Bags of a simulated fleet, and the truth about it."""
+import concurrent.futures
+import dataclasses
+import datetime
+import json
+import os
+import subprocess
+import tempfile
+
+from .errors import FleetError
+from .fleet_model import ROBOT, fleet, strut_numbers, vehicle_of_drive
+
+TEMPERATURE_TOPIC = "/temperature"
+VEHICLE_FILE = "vehicle.yaml"
+TRUTH_FILE = "truth.json"
+
+
+def read_model(path):
+    """The numbers of a vehicle that `suspension_bag simulate --vehicle-model` takes. None: a robot of our own."""
+    if path is None:
+        return ROBOT
+    import yaml
+    try:
+        with open(path) as file:
+            model = yaml.safe_load(file)
+    except (OSError, yaml.YAMLError) as error:
+        raise FleetError(f"{path}: {error}") from error
+    if not (isinstance(model, dict) and isinstance(model.get("struts"), dict) and "mass" in model):
+        raise FleetError(f"{path}: must have mass and struts, as doc/simulation.md says")
+    return model
+
+
+class Simulation:
+    """Writes DIR/VEHICLE/DAY.bag, DIR/vehicle.yaml for scan, and DIR/truth.json."""
+
+    def __init__(self, program, folder, model, laws, vehicles, duration, rate):
+        self._program, self._folder, self._model = program, folder, model
+        self._duration, self._rate = duration, rate
+        self.truth = fleet(model, laws, vehicles)
+        self._laws = laws
+
+    def drives(self):
+        """[(path of the bag, DriveTruth)] by day, so that a simulation that is ended has something of every vehicle."""
+        result = [(os.path.join(self._folder, name, _day(drive.start) + ".bag"), drive)
+                  for name, vehicle in self.truth.items() for drive in vehicle.drives]
+        return sorted(result, key=lambda each: each[1].start)
+
+    def write_truth(self):
+        vehicles = {}
+        for name, vehicle in self.truth.items():
+            of_vehicle = dataclasses.asdict(vehicle)
+            for row, drive in zip(of_vehicle["drives"], vehicle.drives):
+                row["path"] = os.path.join(name, _day(drive.start) + ".bag")
+                for strut, numbers in strut_numbers(vehicle_of_drive(self._model, drive)).items():
+                    row["struts"][strut].update(zip(("damping_to_mass", "stiffness_to_mass"), numbers))
+            vehicles[name] = of_vehicle
+        os.makedirs(self._folder, exist_ok=True)
+        _write_whole(os.path.join(self._folder, TRUTH_FILE), json.dumps(
+            {"laws": dataclasses.asdict(self._laws), "vehicles": vehicles}, indent=1))
+
+    def write_bags(self, workers, progress=lambda: None):
+        """Bags that are there already stay. :raises FleetError: in the simulator's words."""
+        self.write_truth()
+        with concurrent.futures.ThreadPoolExecutor(workers) as pool:
+            waiting = [pool.submit(self._write_bag, path, drive) for path, drive in self.drives()]
+            try:
+                for done in concurrent.futures.as_completed(waiting):
+                    done.result()
+                    progress()
+            finally:
+                for each in waiting:
+                    each.cancel()
+
+    def _write_bag(self, path, drive):
+        if os.path.exists(path):
+            return
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".part.", dir=self._folder) as folder:
+            bag = os.path.join(folder, "drive.bag")
+            if drive.bad in ("empty", "no_bag"):
+                with open(bag, "w") as file:
+                    file.write("" if drive.bad == "empty" else f"{drive.seed}: no bag\n")
+            else:
+                self._simulate(bag, drive, folder)
+            os.replace(bag, path)
+
+    def _simulate(self, bag, drive, folder):
+        model, vehicle_file = os.path.join(folder, "model.yaml"), os.path.join(folder, VEHICLE_FILE)
+        vehicle = vehicle_of_drive(self._model, drive)
+        if drive.bad == "parked":
+            vehicle = dict(vehicle, speed=0.01, iso_class="A")
+        with open(model, "w") as file:
+            json.dump(vehicle, file)  # which is YAML, too
+        done = subprocess.run([self._program, "simulate", "--vehicle-model", model, "--vehicle-file", vehicle_file,
+                               "--duration", str(self._duration), "--rate", str(self._rate), "--seed", str(drive.seed),
+                               "--set", f"start_time={drive.start:.3f}", "-o", bag],
+                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        if done.returncode != 0:
+            raise FleetError(done.stderr.strip())
+        with open(vehicle_file) as file:
+            _write_whole(os.path.join(self._folder, VEHICLE_FILE), file.read().partition("\n")[2])  # without its origin
+        _add_temperature(bag, drive, self._duration)
+        if drive.bad == "cut_off":
+            os.truncate(bag, os.path.getsize(bag) // 2)
+
+
+def _day(time):
+    return datetime.datetime.fromtimestamp(time, datetime.timezone.utc).strftime("%Y-%m-%d")
+
+
+def _write_whole(path, text):
+    with tempfile.NamedTemporaryFile("w", dir=os.path.dirname(path), prefix=".part.", delete=False) as file:
+        file.write(text.rstrip("\n") + "\n")
+    os.chmod(file.name, 0o644)
+    os.replace(file.name, path)
+
+
+def _add_temperature(bag, drive, duration):
+    """A thermometer beside the dampers, read every ten seconds."""
+    import genpy
+    import rosbag
+    from sensor_msgs.msg import Temperature
+    with rosbag.Bag(bag, "a") as file:
+        for second in range(0, max(1, int(duration)), 10):
+            message = Temperature(temperature=drive.temperature)
+            message.header.stamp = genpy.Time.from_sec(drive.start + second)
+            file.write(TEMPERATURE_TOPIC, message, message.header.stamp)

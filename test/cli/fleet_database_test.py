@@ -1,0 +1,135 @@
+"""The fleet's database: one transaction for each bag, whoever else writes; and what histories are made of."""
+import sqlite3
+import threading
+
+import pytest
+
+pytest.importorskip("sqlalchemy")
+from suspension_health_monitor.fleet import database  # noqa: E402  after the reason to skip
+from suspension_health_monitor.fleet.errors import FleetError, UsageError  # noqa: E402
+
+
+def estimate(strut, damping, valid=True):
+    return dict(strut=strut, estimator="iv", damping_to_mass=damping, damping_to_mass_stddev=0.1,
+                stiffness_to_mass=60.0, stiffness_to_mass_stddev=0.5, damping_excitation=None, stiffness_excitation=None, offset=0.01,
+                temperature=None, valid=valid, reason=None if valid else "parked")
+
+
+def bag(key, path="a.bag", **more):
+    return database.Bag(key, path, "robot", **more)
+
+
+def drive(start, damping, valid=True):
+    return database.Drive(
+        database.OK, start=start, duration=120.0, struts=[estimate("left", damping, valid), estimate("right", 5.0)],
+        events=[dict(strut="left", time=start + 7, level="WARN", message="damping low")],
+        findings=[dict(strut="left", verdict="effect_found", effects="bump_stop coulomb_friction", page=None)])
+
+
+@pytest.fixture
+def engine(tmp_path):
+    return database.connect(f"sqlite:///{tmp_path / 'fleet.db'}", create=True)
+
+
+def rows(engine, table):
+    with engine.begin() as connection:
+        return connection.execute(database.text(f"SELECT count(*) FROM {table}")).fetchone()[0]
+
+
+def count_all(engine):
+    return {table.name: rows(engine, table.name) for table in database.metadata.sorted_tables}
+
+
+def test_a_bag_is_written_once(engine):
+    assert not database.is_known(engine, bag("k"))
+    assert database.write(engine, bag("k"), drive(0.0, 4.0))
+    assert database.is_known(engine, bag("k"))
+    before = count_all(engine)
+    assert before == {"fleet_schema": 1, "drives": 1, "struts": 2, "events": 1, "findings": 1}
+    assert not database.write(engine, bag("k", "b.bag"), drive(0.0, 3.0)), "known by content, whatever its name"
+    assert count_all(engine) == before
+
+
+def test_what_is_known_is_replaced_if_asked(engine):
+    database.write(engine, bag("k"), drive(0.0, 4.0))
+    database.write(engine, bag("other", "c.bag"), drive(9.0, 4.0))
+    assert database.write(engine, bag("k", "b.bag"), database.Drive(database.UNREADABLE, "cut off"), again=True)
+    assert count_all(engine) == {"fleet_schema": 1, "drives": 2, "struts": 2, "events": 1, "findings": 1}
+    assert database.counts(engine) == {"ok": 1, "unreadable": 1}
+
+
+def test_a_lost_worker_says_nothing_about_the_bag(engine):
+    assert database.write(engine, bag("k"), database.Drive(database.UNREAD, "its worker ended"))
+    assert not database.is_known(engine, bag("k"))
+    assert database.write(engine, bag("k"), drive(0.0, 4.0))
+    assert database.counts(engine) == {"ok": 1}
+
+
+def test_all_of_a_bag_or_nothing(engine):
+    broken = database.Drive(database.OK, start=0.0, struts=[estimate("left", 4.0)],
+                            events=[dict(strut="left", time=None, level="OK", message="no time")])
+    with pytest.raises(Exception, match="events.time"):
+        database.write(engine, bag("k"), broken)
+    assert count_all(engine) == {"fleet_schema": 1, "drives": 0, "struts": 0, "events": 0, "findings": 0}
+
+
+def test_clients_at_once_write_every_bag_once(tmp_path):
+    url = f"sqlite:///{tmp_path / 'fleet.db'}"
+    written = []
+
+    def client():
+        engine = database.connect(url, create=True)
+        written.extend(database.write(engine, bag(str(k), f"{k}.bag"), drive(float(k), 4.0)) for k in range(20))
+
+    clients = [threading.Thread(target=client) for _ in range(3)]
+    for each in clients:
+        each.start()
+    for each in clients:
+        each.join()
+    assert sorted(written) == [False] * 40 + [True] * 20
+    assert count_all(database.connect(url)) == {"fleet_schema": 1, "drives": 20, "struts": 40, "events": 20,
+                                                "findings": 20}
+
+
+def test_a_newer_schema_is_refused(tmp_path):
+    url = f"sqlite:///{tmp_path / 'fleet.db'}"
+    database.connect(url, create=True)
+    with sqlite3.connect(tmp_path / "fleet.db") as connection:
+        connection.execute("UPDATE fleet_schema SET version = 2")
+    for create in (False, True):
+        with pytest.raises(FleetError, match="fleet.db has schema version 2, this program knows 1"):
+            database.connect(url, create)
+
+
+def test_what_is_no_fleet_is_refused(tmp_path):
+    with pytest.raises(FleetError, match="No such file"):
+        database.connect(f"sqlite:///{tmp_path / 'none.db'}")
+    assert not (tmp_path / "none.db").exists()
+    (tmp_path / "text.db").write_text("no database\n" * 100)
+    for create in (False, True):
+        with pytest.raises(FleetError, match="text.db.*not a database"):
+            database.connect(f"sqlite:///{tmp_path / 'text.db'}", create)
+    sqlite3.connect(tmp_path / "empty.db").execute("CREATE TABLE other (x INTEGER)")
+    with pytest.raises(FleetError, match="suspension_fleet scan"):
+        database.connect(f"sqlite:///{tmp_path / 'empty.db'}")
+    for url in ("fleet.db", "nosuch://host/fleet"):
+        with pytest.raises(UsageError, match="sqlite:///fleet.db"):
+            database.connect(url)
+
+
+def test_histories(engine):
+    database.write(engine, bag("late", "late.bag"), drive(2000.0, 3.0))
+    database.write(engine, bag("bad", "bad.bag"), database.Drive(database.UNREADABLE, "cut off"))
+    database.write(engine, bag("early", "early.bag"), drive(1000.0, 4.0))
+    database.write(engine, bag("parked", "parked.bag"), drive(1500.0, 9.0, valid=False))
+    left, right = database.histories(engine)
+    assert (left.vehicle, left.strut, right.strut) == ("robot", "left", "right")
+    assert left.time.tolist() == [1000.0, 2000.0] and right.time.tolist() == [1000.0, 1500.0, 2000.0]
+    assert left.damping_to_mass.tolist() == [4.0, 3.0] and left.damping_to_mass_stddev.tolist() == [0.1, 0.1]
+    assert left.stiffness_to_mass.tolist() == [60.0, 60.0] and left.stiffness_to_mass_stddev.tolist() == [0.5, 0.5]
+    assert left.path == ["early.bag", "late.bag"]
+    assert [event.time for event in left.events] == [1007.0, 1507.0, 2007.0] and right.events == []
+    assert (left.events[0].level, left.events[0].message, left.events[0].path) == ("WARN", "damping low", "early.bag")
+    assert [finding.time for finding in left.findings] == [1000.0, 1500.0, 2000.0]
+    assert (left.findings[0].verdict, left.findings[0].effects, left.findings[0].page) == (
+        "effect_found", ["bump_stop", "coulomb_friction"], None)

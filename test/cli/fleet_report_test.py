@@ -1,0 +1,230 @@
+"""suspension_fleet show and report: what is said of a fleet, in a terminal, in JSON and in a browser."""
+import base64
+import dataclasses
+import itertools
+import json
+import re
+import shutil
+import types
+
+import numpy as np
+import pytest
+
+import browser
+
+pytest.importorskip("sqlalchemy")
+from suspension_health_monitor.fleet import database, outlook, report_data, show  # noqa: E402
+from suspension_health_monitor.fleet.command import main  # noqa: E402  after the reason to skip
+from suspension_health_monitor.fleet.history import YEAR, series  # noqa: E402
+
+BEGIN, DRIVES = 1.6e9, 60
+HOSTILE = 'robot <b>&"\' 1'
+MOST_BYTES = 3_000_000
+
+
+def write_fleet(engine, folder):
+    """Three vehicles: left worn by 12 % a year, right renewed after a year, and one that has only just come."""
+    random = np.random.default_rng(1)
+    for vehicle, drives in ((HOSTILE, DRIVES), ("robot_2", DRIVES), ("new", 2)):
+        for k in range(drives):
+            time = 2 * k / DRIVES
+            wears = time if vehicle == HOSTILE else 0.0
+            shares = {"left": 1 - 0.12 * wears, "right": 1 - 0.2 * wears if time < 1 else 1.0}
+            load = random.uniform(1, 1.3)
+            struts = [dict(strut=name, estimator="iv", damping_to_mass=4 * share * np.exp(0.01 * random.normal()) / load,
+                           damping_to_mass_stddev=0.04, stiffness_to_mass=60 / load, stiffness_to_mass_stddev=0.6,
+                           offset=0.0, temperature=None, valid=True, reason=None) for name, share in shares.items()]
+            last = k == drives - 1 and vehicle == HOSTILE
+            start = BEGIN + YEAR * time
+            events = [dict(strut="left", time=start + 5, level="WARN", message="damping <i>21 %</i> low")] if last else []
+            findings = [dict(strut="left", verdict="effect_found", effects="bump_stop coulomb_friction",
+                             page=str(folder / "pages" / "a:<b>&" / "report.html"))] if last else []
+            bag = database.Bag(f"{vehicle} {k}", f"{vehicle}/{k}.bag", vehicle)
+            database.write(engine, bag, database.Drive(database.OK, start=start, duration=60.0, struts=struts,
+                                                       events=events, findings=findings))
+
+
+@pytest.fixture(scope="module")
+def fleet(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("fleet")
+    url = f"sqlite:///{folder / 'fleet.db'}"
+    write_fleet(database.connect(url, create=True), folder)
+    assert main(["show", "--db", url, "--json", str(folder / "fleet.json")]) == 0
+    assert main(["report", "--db", url, "-o", str(folder / "page")]) == 0
+    return types.SimpleNamespace(folder=folder, url=url, page=folder / "page" / "index.html",
+                                 told=json.loads((folder / "fleet.json").read_text()),
+                                 histories=database.histories(database.connect(url)))
+
+
+def shown(fleet, address=""):
+    """The page with a strut open: by the address after #, which a file's URL is given as a frame here."""
+    copy = fleet.folder / f"shown{address[1:]}"
+    if not copy.exists():
+        shutil.copytree(str(fleet.page.parent), str(copy))
+        text = fleet.page.read_text().replace("<script>\n(() => {", f"<script>location.hash = '{address}';\n(() => {{", 1)
+        (copy / "index.html").write_text(text)
+    return copy / "index.html"
+
+
+def page_of(fleet, address=""):
+    return browser.shown(shown(fleet, address), fleet.folder / "profile")
+
+
+# Terminal and JSON -------------------------------------------------------------------------------------------------
+
+def test_most_urgent_comes_first(fleet):
+    names = [(each["vehicle"], each["strut"]) for each in fleet.told]
+    assert names[0] == (HOSTILE, "left") and len(names) == 6
+    assert [each["dated"] for each in fleet.told] == ["damping"] + 5 * [None]
+
+
+def test_json_tells_times_shares_and_rates(fleet):
+    worn = fleet.told[0]
+    early, middle, late = worn["wear"]["damping"]["date"]
+    assert early < middle < late and early <= BEGIN + YEAR * 0.3 / 0.12 <= late
+    assert worn["wear"]["damping"]["rate"] == pytest.approx(0.01, rel=0.15)
+    assert worn["wear"]["damping"]["loss"][1] == pytest.approx(0.24, abs=0.03)
+    assert worn["last_event"]["level"] == "WARN" and worn["drives"] == DRIVES
+    assert [each["name"] for each in worn["effects"]] == ["bump_stop", "coulomb_friction"]
+    renewed = next(each for each in fleet.told if (each["vehicle"], each["strut"]) == (HOSTILE, "right"))
+    (change,) = renewed["changes"]
+    assert change["time"] == BEGIN + YEAR and change["part"] == "damping"
+    assert change["step"] == pytest.approx(-np.log(0.8), abs=0.04)
+
+
+def test_table_fits_the_terminal_and_cuts_nothing_off(fleet, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "130")
+    assert main(["show", "--db", fleet.url]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 130
+    assert lines[0].split() == ["vehicle", "strut", "drives", "damping", "stiffness", "outlook", "last", "event", "effects"]
+    assert lines[1].startswith(f"{HOSTILE}  left") and "WARN on " in lines[1]
+    words = " ".join(" ".join(lines).split())
+    for word in fleet.told[0]["outlook"].split():
+        assert word in words
+
+
+def test_json_goes_to_standard_output(fleet, capsys):
+    assert main(["show", "--db", fleet.url, "--json", "-"]) == 0
+    assert json.loads(capsys.readouterr().out) == fleet.told
+
+
+@pytest.mark.parametrize("command, words", [
+    (["show", "--threshold", "2"], ["--threshold 2", "[0.01, 0.9]"]),
+    (["report", "-o", "page", "--level", "nan"], ["--level nan", "[0.5, 0.99]"])])
+def test_wrong_options_are_refused(fleet, capsys, tmp_path, monkeypatch, command, words):
+    monkeypatch.chdir(tmp_path)
+    assert main([*command, "--db", fleet.url]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and all(word in said for word in words)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_cannot_be_written_is_refused(fleet, capsys, tmp_path):
+    (tmp_path / "file").write_text("here first")
+    for folder in (tmp_path / "file", tmp_path / "no" / "folder"):
+        assert main(["report", "--db", fleet.url, "-o", str(folder)]) == 3
+        assert f"{folder}: cannot be made" in capsys.readouterr().err
+    assert main(["show", "--db", fleet.url, "--json", str(tmp_path / "no" / "x.json")]) == 3
+
+
+def test_struts_without_a_valid_drive_are_listed(fleet):
+    empty = dataclasses.replace(fleet.histories[0], time=np.zeros(0), damping_to_mass=np.zeros(0),
+                                damping_to_mass_stddev=np.zeros(0), stiffness_to_mass=np.zeros(0),
+                                stiffness_to_mass_stddev=np.zeros(0), path=[])
+    pair = (empty, None)
+    assert "no drive whose estimates are valid" in show.table([pair], 120)
+    assert show.as_dict(*pair)["drives"] == 0
+    assert outlook.urgency(pair)[0] == float("inf")
+    assert "drives" not in report_data.page_data([pair], fleet.folder)["struts"][0]
+
+
+# Page --------------------------------------------------------------------------------------------------------------
+
+def test_scripts_run_without_an_error(fleet):
+    for address in ("", "#1", "#6"):
+        page = page_of(fleet, address)
+        assert page.one(id="script-errors").text == ""
+        assert page.one("html").attributes["data-ready"] == "yes"
+
+
+def test_page_loads_plotly_from_beside_it_and_nothing_else(fleet):
+    assert sorted(path.name for path in fleet.page.parent.iterdir()) == ["index.html", "plotly.min.js"]
+    text = re.sub("http://www.w3.org/2000/svg", "", fleet.page.read_text())
+    assert re.findall(r"(?:src|href)=\"([^\"]*)\"", text) == ["plotly.min.js"]
+    assert not re.search(r"@import|url\(|fetch\(|XMLHttpRequest|https?://", text)
+
+
+def test_a_large_fleet_is_small_enough(fleet):
+    """500 struts of 365 drives, by what one of these takes and by what a drive of it takes."""
+    history, result = next(pair for pair in outlook.in_order(fleet.histories, outlook.Options(), 1) if pair[1].dated)
+    sizes = []
+    for copies in (1, 6):
+        more = dataclasses.replace(history, path=copies * history.path, **{
+            name: np.tile(getattr(history, name), copies) for name in (
+                "time", "damping_to_mass", "damping_to_mass_stddev", "stiffness_to_mass", "stiffness_to_mass_stddev")})
+        sizes.append(len(json.dumps(report_data.page_data([(more, result)], fleet.folder), separators=(",", ":"))))
+    of_drive = (sizes[1] - sizes[0]) / (5 * DRIVES)
+    assert of_drive < 11
+    assert 500 * (sizes[0] + (365 - DRIVES) * of_drive) < MOST_BYTES
+
+
+def test_map_and_list_have_every_strut(fleet):
+    page = page_of(fleet)
+    assert page.one("h1").text == "One strut has a date for the workshop"
+    rows = [row for row in page.one(id="list").all("tr") if "data-strut" in row.attributes]
+    assert [row.attributes["data-strut"] for row in rows] == [f"{each['vehicle']} {each['strut']}" for each in fleet.told]
+    assert [list(row.all("td"))[2].text for row in rows] == [each["outlook"] for each in fleet.told]
+    labels = {text.text for text in page.one(id="map").all("text")}
+    assert {HOSTILE, "robot_2", "new", "left", "right"} <= labels
+    assert page.one(id="strut").text == ""
+
+
+def test_strut_is_opened_with_its_history(fleet):
+    page = page_of(fleet, "#1")
+    section = page.one(id="strut")
+    assert section.one("h2").text == f"{HOSTILE} left"
+    assert section.one("p", class_="answer").text == fleet.told[0]["outlook"]
+    assert "damping <i>21 %</i> low" in section.text and "bump stop coulomb friction" in section.text
+    (link,) = section.all("a", href="../pages/a%3A%3Cb%3E%26/report.html")
+    drawn = [path for path in section.all("path", class_="point")]
+    assert len(drawn) == 3 * DRIVES
+    assert len([path for path in section.all("path") if "errorbar" in path.attributes.get("class", "")
+                or "yerror" in path.attributes.get("class", "")]) == 3 * DRIVES
+    assert len(list(section.all("path", class_="js-fill"))) == 1
+
+
+def test_changes_are_marked(fleet):
+    marks = []
+    for i, each in enumerate(fleet.told, start=1):
+        if each["vehicle"] == HOSTILE:
+            section = page_of(fleet, f"#{i}").one(id="strut")
+            shapes = [path for path in section.all("path") if "data-index" in path.attributes]
+            marks.append((each["strut"], len(shapes), [remark in section.text for remark in each["remarks"]]))
+    assert sorted(marks) == [("left", 1, []), ("right", 2, [True])]  # one is the threshold
+
+
+def test_packed_numbers_are_those_of_the_drives(fleet):
+    """As the page unpacks them: a bar's length to 3 %, everything else to less than a pixel."""
+    history = next(each for each in fleet.histories if (each.vehicle, each.strut) == (HOSTILE, "left"))
+    packed = report_data.page_data([(history, None)], fleet.folder)
+    drives = report_data._drives(history)
+    raw = np.frombuffer(base64.b64decode(drives["drives"]), dtype="u1")
+    count = drives["count"]
+    time, b1, b0 = (raw[2 * k * count:2 * (k + 1) * count].view(kind).astype(float) for k, kind in enumerate(("<u2", "<i2", "<i2")))
+    spread = packed["stddev_least"] * np.exp(packed["stddev_step"] * raw[6 * count:].astype(float))
+    _, damping, stiffness = series(history)
+    assert drives["from"] + drives["span"] * time / 65535 == pytest.approx(history.time, abs=YEAR / 10000)
+    assert drives["first"][0] + packed["logarithm_step"] * b1 == pytest.approx(damping.value, abs=1e-4)
+    assert drives["first"][1] + packed["logarithm_step"] * b0 == pytest.approx(stiffness.value, abs=1e-4)
+    assert spread == pytest.approx(np.concatenate([damping.stddev, stiffness.stddev]), rel=0.02)
+
+
+@pytest.mark.parametrize("width, dark", itertools.product([1400, 390], [False, True]))
+def test_nothing_is_cut_off(fleet, width, dark):
+    profile = fleet.folder / f"measured_{width}_{dark}"
+    profile.mkdir()
+    shutil.copy(str(fleet.page.parent / "plotly.min.js"), str(profile))
+    root = browser.measured(shown(fleet, "#1"), profile, width, dark).one("html").attributes
+    assert (root["data-width"], root["data-dark"]) == (str(width), str(dark).lower())
+    assert root["data-cut"] == ""
