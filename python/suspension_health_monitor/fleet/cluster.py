@@ -16,7 +16,9 @@ from .errors import FleetError
 PER_THREAD = 2  # bags under way for each thread: one that is read, one that waits for it
 # What a scheduler keeps of tasks that are done; by default the last 100 000, which is memory that grows with a scan.
 KEPT = {"distributed.scheduler.transition-log-length": 100, "distributed.scheduler.events-log-length": 100,
-        "distributed.admin.log-length": 100, "distributed.worker.memory.spill": False}
+        "distributed.admin.log-length": 100, "distributed.diagnostics.computations.max-history": 1,
+        "distributed.worker.profile.interval": "1 day", "distributed.worker.profile.cycle": "1 day",
+        "distributed.worker.memory.spill": False}
 
 
 @contextlib.contextmanager
@@ -26,7 +28,8 @@ def open_client(workers=None, scheduler=None, patience=60):
     :param patience: [s] that a scheduler may be away, such as while it is started anew.
     :raises FleetError: no scheduler answers.
     """
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters ends in a row, or is raised
+    for name in ("distributed", "distributed.client", "tornado", "tornado.application", "asyncio"):
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)  # what matters ends in a row, or is raised
     with contextlib.ExitStack() as stack:
         stack.enter_context(dask.config.set(KEPT))
         if scheduler is None:

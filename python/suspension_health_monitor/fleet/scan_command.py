@@ -1,4 +1,5 @@
 """suspension_fleet scan: bags into the database."""
+import dataclasses
 import hashlib
 import itertools
 import os
@@ -53,7 +54,7 @@ def _work(options):
 
 def _hash(work):
     """Of all options, and of what is in the files that they name."""
-    digest = hashlib.sha256(repr(work).encode())
+    digest = hashlib.sha256(repr(dataclasses.replace(work, program="")).encode())
     for path in work.files:
         try:
             with open(path, "rb") as file:

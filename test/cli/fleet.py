@@ -1,0 +1,104 @@
+"""What the tests of suspension_fleet share: the command, small bags by the dozen, what a database holds."""
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+import pytest
+
+import conftest
+
+for module in ("distributed", "sqlalchemy"):
+    pytest.importorskip(module)
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+COMMAND = [sys.executable, str(REPOSITORY / "python/suspension_fleet")]
+TOPICS = {"sprung": "/sprung/imu", "unsprung": "/unsprung/imu"}
+
+
+def start(folder, *arguments, program=None, **keywords):
+    """The command as a process, in a folder; program: instead of suspension_bag."""
+    environment = dict(os.environ, PYTHONDONTWRITEBYTECODE="1", **({"SUSPENSION_BAG": str(program)} if program else {}))
+    return subprocess.Popen([*COMMAND, *map(str, arguments)], cwd=folder, env=environment, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True, preexec_fn=_as_at_a_terminal, **keywords)
+
+
+def _as_at_a_terminal():
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def finish(process):
+    """(exit status, standard output, standard error)"""
+    output, error = process.communicate(timeout=conftest.HANGS)
+    return process.returncode, output, error
+
+
+def run(folder, *arguments, **keywords):
+    return finish(start(folder, *arguments, **keywords))
+
+
+def succeed(folder, *arguments, **keywords):
+    status, output, error = run(folder, *arguments, **keywords)
+    assert status == 0, error
+    assert "Traceback" not in error
+    return output
+
+
+def copies(bag, folder, count, first=0):
+    """Bags that differ in the padding of their header only: as many contents of the same drive."""
+    content = pathlib.Path(bag).read_bytes()
+    padding = content.index(b" " * 8)
+    folder.mkdir(parents=True, exist_ok=True)
+    for number in range(first, first + count):
+        (folder / f"{number}.bag").write_bytes(content[:padding] + b"%08d" % number + content[padding + 8:])
+
+
+def rows(url, query):
+    """All rows of a query, as tuples."""
+    import sqlalchemy
+    engine = sqlalchemy.create_engine(url)
+    try:
+        with engine.begin() as connection:
+            return [tuple(row) for row in connection.execute(sqlalchemy.text(query))]
+    finally:
+        engine.dispose()
+
+
+def statuses(url):
+    return dict(rows(url, "SELECT status, count(*) FROM drives GROUP BY status"))
+
+
+def require_whole(url):
+    """Every drive has its struts once, and nothing is left of a drive that is not there."""
+    assert rows(url, "SELECT key FROM drives GROUP BY key HAVING count(*) > 1") == []
+    assert rows(url, "SELECT drive_id, strut FROM struts GROUP BY drive_id, strut HAVING count(*) > 1") == []
+    for table in ("struts", "events", "findings"):
+        assert rows(url, f"SELECT id FROM {table} WHERE drive_id NOT IN (SELECT id FROM drives)") == []
+    assert rows(url, "SELECT id FROM drives WHERE status = 'ok' AND id NOT IN (SELECT drive_id FROM struts)") == []
+
+
+def write_program(path, lines):
+    """A program instead of suspension_bag; $1 is the command, $2 the bag."""
+    path.write_text("#!/bin/sh\n" + lines + '\nexec "$REAL" "$@"\n')
+    path.chmod(0o755)
+    return path
+
+
+def wait_until(predicate):
+    deadline = time.monotonic() + conftest.HANGS
+    while not predicate():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+def is_zombie(process_id):
+    return "\nState:\tZ" in pathlib.Path(f"/proc/{process_id}/status").read_text()
+
+
+def free_port():
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        return listener.getsockname()[1]

@@ -1,0 +1,186 @@
+"""suspension_fleet scan: every bag a row, once, whoever is killed on the way."""
+import contextlib
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+
+import pytest
+
+import fleet
+
+CORRUPT = 3
+GOOD = 21
+
+
+@pytest.fixture(scope="module")
+def bag(program, tmp_path_factory):
+    path = tmp_path_factory.mktemp("bag") / "drive.bag"
+    program.succeed("simulate", "--duration", "20", "-o", path)
+    return path
+
+
+@pytest.fixture
+def bags(bag, tmp_path):
+    """Of two vehicles, and some that are none."""
+    fleet.copies(bag, tmp_path / "bags/robot_1", 10)
+    fleet.copies(bag, tmp_path / "bags/robot_2", GOOD - 10, first=10)
+    content = bag.read_bytes()
+    (tmp_path / "bags/robot_1/cut.bag").write_bytes(content[:len(content) // 2])
+    (tmp_path / "bags/robot_1/text.bag").write_text("no bag\n")
+    (tmp_path / "bags/robot_2/empty.bag").touch()
+    return tmp_path / "bags"
+
+
+@pytest.fixture
+def url(tmp_path):
+    return f"sqlite:///{tmp_path / 'fleet.db'}"
+
+
+@pytest.fixture
+def counting(program, tmp_path, monkeypatch):
+    """suspension_bag, and a function that tells which bags it has identified."""
+    monkeypatch.setenv("REAL", program.path)
+    log = tmp_path / "read"
+    log.touch()
+    path = fleet.write_program(tmp_path / "counting", f'[ "$1" = identify ] && basename "$2" >> {log}')
+    return path, lambda: sorted(log.read_text().split())
+
+
+def slow(program, folder, monkeypatch, seconds="0.2"):
+    monkeypatch.setenv("REAL", program.path)
+    return fleet.write_program(folder / "slow", f'[ "$1" = identify ] && sleep {seconds}')
+
+
+def require_all(url):
+    assert fleet.statuses(url) == {"ok": GOOD, "unreadable": 2, "unread": 1}
+    fleet.require_whole(url)
+    assert fleet.rows(url, "SELECT vehicle, count(*) FROM drives GROUP BY vehicle ORDER BY vehicle") == [
+        ("robot_1", 12), ("robot_2", 12)]
+    reasons = dict(fleet.rows(url, "SELECT path, reason FROM drives WHERE reason IS NOT NULL"))
+    assert {os.path.basename(path): words for path, words in reasons.items() if "bag of format" not in words} == {
+        "cut.bag": "is cut off (rosbag reindex saves what is left)", "empty.bag": "is empty"}
+    assert len(reasons) == CORRUPT
+
+
+def test_every_bag_is_a_row_and_is_read_once(bags, url, tmp_path, counting):
+    program, read = counting
+    output = fleet.succeed(tmp_path, "scan", bags, "--db", url, "--workers", 2, program=program)
+    assert output.splitlines()[0] == "24 bags: 21 ok, 1 unread, 2 unreadable"
+    require_all(url)
+    assert len(read()) == GOOD + 2, "the empty one is not worth a process"
+    output = fleet.succeed(tmp_path, "scan", "bags", "--db", url, program=program)
+    assert output.splitlines()[0] == "24 bags: 23 known, 1 unread"
+    assert len(read()) == GOOD + 2, "none is read again"
+    require_all(url)
+    fleet.copies(bags / "robot_1/0.bag", bags / "robot_2", 1, first=99)  # a new one,
+    (bags / "robot_1/text.bag").write_bytes((bags / "robot_1/0.bag").read_bytes().replace(b"00000000", b"00000088", 1))
+    output = fleet.succeed(tmp_path, "scan", "bags/*/*", "--db", url, program=program)
+    assert output.splitlines()[0] == "25 bags: 22 known, 2 ok, 1 unread"
+    assert len(read()) == GOOD + 4 and {"99.bag", "text.bag"} <= set(read())
+    assert fleet.statuses(url) == {"ok": GOOD + 2, "unreadable": 1, "unread": 1}, "what was at that path is forgotten"
+
+
+def test_what_failed_may_not_fail_with_other_options(bag, url, tmp_path):
+    fleet.copies(bag, tmp_path / "robot", 2)
+    assert "2 unreadable" in fleet.succeed(tmp_path, "scan", "robot", "--db", url, "--sprung-topic", "/none")
+    assert "2 ok" in fleet.succeed(tmp_path, "scan", "robot", "--db", url)
+    assert "2 known" in fleet.succeed(tmp_path, "scan", "robot", "--db", url, "--set", "memory=3")
+    assert "2 ok" in fleet.succeed(tmp_path, "scan", "robot", "--db", url, "--set", "memory=3", "--again")
+    assert fleet.statuses(url) == {"ok": 2}
+    fleet.require_whole(url)
+
+
+def test_wrong_options_end_it_and_write_nothing(bags, url, tmp_path):
+    for arguments, status, words in (
+            (["--set", "no_option=1"], 2, "unknown option no_option"), (["--workers", "0"], 2, "--workers"),
+            (["--vehicle-pattern", "robot"], 2, "has no group"), (["--config", "none.yaml"], 3, "none.yaml"),
+            (["--pages", "pages"], 2, "--diagnose"), (["--scheduler", "tcp://127.0.0.1:1"], 3, "no scheduler at")):
+        found, output, error = fleet.run(tmp_path, "scan", bags / "robot_1/0.bag", "--db", url, *arguments)
+        assert (found, output) == (status, ""), error
+        assert words in error and "Traceback" not in error
+        assert not pathlib.Path(url[len("sqlite:///"):]).exists() or fleet.statuses(url) == {}
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_a_scan_that_is_ended_goes_on_where_it_was(program, bags, url, tmp_path, number, monkeypatch, counting):
+    process = fleet.start(tmp_path, "scan", bags, "--db", url, program=slow(program, tmp_path, monkeypatch))
+    fleet.wait_until(lambda: has_rows(url, 6))
+    process.send_signal(number)
+    status, output, error = fleet.finish(process)
+    assert (status, output) == (-number, "") and "Traceback" not in error, error
+    done = sum(fleet.statuses(url).values())
+    assert 6 <= done < GOOD + CORRUPT
+    fleet.require_whole(url)
+    again, read = counting
+    fleet.succeed(tmp_path, "scan", bags, "--db", url, program=again)
+    assert len(read()) <= GOOD + CORRUPT - done
+    require_all(url)
+
+
+def has_rows(url, count):
+    return pathlib.Path(url[len("sqlite:///"):]).exists() and tables_are_there(url) and \
+        fleet.rows(url, "SELECT count(*) FROM drives")[0][0] >= count
+
+
+def tables_are_there(url):
+    return fleet.rows(url, "SELECT name FROM sqlite_master WHERE name = 'drives'") != []
+
+
+@contextlib.contextmanager
+def dask(folder, name, *arguments):
+    with open(folder / f"{name}.log", "w") as log:
+        process = subprocess.Popen([sys.executable, "-m", f"distributed.cli.dask_{name}", *map(str, arguments),
+                                    "--no-dashboard"], cwd=folder, stdout=log, stderr=log)
+    try:
+        yield process
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def workers(stack, folder, address):
+    """Two of them, started by hand; their processes."""
+    return [stack.enter_context(dask(folder, "worker", address, "--nthreads", 1, "--no-nanny", "--local-directory",
+                                     folder / f"local_{number}")) for number in range(2)]
+
+
+def test_a_worker_and_the_scheduler_are_killed(program, bags, url, tmp_path, monkeypatch):
+    port, path = fleet.free_port(), slow(program, tmp_path, monkeypatch)  # workers, too, have its environment
+    address = f"tcp://127.0.0.1:{port}"
+    scheduler = ["scheduler", "--host", "127.0.0.1", "--port", port]
+    with contextlib.ExitStack() as stack:
+        first = stack.enter_context(dask(tmp_path, *scheduler))
+        of_first = workers(stack, tmp_path, address)
+        process = fleet.start(tmp_path, "scan", bags, "--db", url, "--scheduler", address, program=path)
+        fleet.wait_until(lambda: has_rows(url, 4))
+        of_first[0].kill()
+        fleet.wait_until(lambda: has_rows(url, 8))
+        first.kill()
+        first.wait()
+        stack.enter_context(dask(tmp_path, *scheduler))
+        workers(stack, tmp_path, address)
+        status, output, error = fleet.finish(process)
+    assert status == 0, error
+    assert output.splitlines()[0] == "24 bags: 21 ok, 1 unread, 2 unreadable"
+    require_all(url)
+
+
+def test_a_bag_that_kills_its_process_takes_no_other(program, bags, url, tmp_path, monkeypatch):
+    monkeypatch.setenv("REAL", program.path)
+    deadly = fleet.write_program(tmp_path / "deadly", 'case "$2" in */7.bag) kill -9 $$;; esac')
+    fleet.succeed(tmp_path, "scan", bags, "--db", url, program=deadly)
+    assert fleet.statuses(url) == {"ok": GOOD - 1, "crashed": 1, "unreadable": 2, "unread": 1}
+    ((path, reason),) = fleet.rows(url, "SELECT path, reason FROM drives WHERE status = 'crashed'")
+    assert path.endswith("/7.bag") and "SIGKILL" in reason
+
+
+def test_a_bag_that_kills_its_workers_ends_as_a_row(bag, url, tmp_path, monkeypatch):
+    """With the worker that runs it: no worker is left in the end, and yet the scan ends."""
+    fleet.copies(bag, tmp_path / "robot", 1)
+    monkeypatch.setenv("DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES", "0")
+    deadly = fleet.write_program(tmp_path / "deadly", "kill -9 $PPID")
+    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, "--workers", 1, program=deadly)
+    assert (status, output.splitlines()[0]) == (0, "1 bags: 1 unread"), error
+    assert fleet.rows(url, "SELECT reason FROM drives") == [("the workers that were to read it have ended",)]
