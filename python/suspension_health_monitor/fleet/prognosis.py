@@ -24,7 +24,7 @@ class Prognosis:
     dated: Optional[str]  # the part whose date is known, of PARTS
     season_or_wear: bool  # without a season there would be a date
     stiffer_or_softer: bool  # b1/b0 rises certainly: damping grows, or the spring wears
-    both_fall: bool  # b1/M and b0/M: payload, or both parts worn
+    both_fall: bool  # b1/M and b0/M, probably: payload, or both parts worn; a date is then as early as that says
     effects: list
     options: Options
     trend: Optional[Trend]  # as a picture has it
@@ -47,10 +47,11 @@ def prognosis(history: StrutHistory, options: Options = Options()) -> Optional[P
         dated = "damping"
     elif "rises" in trends and falls["stiffness"].probability["falls"] >= side(options):
         dated = "stiffness"  # not without a sign of it in b0/M: damping may rise by itself, springs do not grow stiffer
-    both_fall = all(each.probability["falls"] >= certain for each in falls.values())
     found = {part: wear_of_part(part, ratio, draws, changes, options) for part in PARTS}
-    if dated and both_fall:
+    other = falls[PARTS[dated == PARTS[0]]].probability["falls"]
+    if dated and other > 0.5:
         found[dated] = earlier_of(found[dated], wear_alone(own[dated], falls[dated], options))
+    both_fall = bool(dated) and other > 0.5 or all(each.probability["falls"] >= certain for each in falls.values())
     season_or_wear = bool(
         not trends and likely is None and options.season > 0
         and wear.posterior(ratio, starts, 0.0, options.threshold).probability["falls"] >= certain)
