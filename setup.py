@@ -5,5 +5,6 @@ from setuptools import setup
 setup(**generate_distutils_setup(
     packages=["suspension_health_monitor", "suspension_health_monitor.fleet"],
     package_dir={"": "python"},
-    package_data={"suspension_health_monitor": ["py.typed", "*.pyi"]},
+    package_data={"suspension_health_monitor": ["py.typed", "*.pyi"],
+                  "suspension_health_monitor.fleet": ["report_page/*"]},
 ))

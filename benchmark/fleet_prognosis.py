@@ -9,7 +9,8 @@ import sys
 import numpy as np
 
 from suspension_health_monitor.fleet.history import MONTH, YEAR, StrutHistory
-from suspension_health_monitor.fleet.prognosis import Options, prognosis
+from suspension_health_monitor.fleet.part_wear import Options
+from suspension_health_monitor.fleet.prognosis import prognosis
 
 BEGIN = 1.6e9  # [s since 1970]
 KINDS = ("healthy", "wearing", "repaired", "spring")
@@ -147,7 +148,8 @@ def table(random, struts, rows, options=Options()):
 
 
 ROWS = {
-    "fleet": [("any of them", None, {}), *((kind, kind, {}) for kind in KINDS)],
+    "fleet": [("any of them", None, {}), *((kind, kind, {}) for kind in KINDS),
+              ("repaired at drive 40 of 60", "repaired", {"drives": 60, "first_new": 40})],
     "law": [("faster and faster, power 1.5", "wearing", {"law": 1.5}), ("slower and slower, 0.7", "wearing", {"law": 0.7})],
     "doubt": [("healthy, weather 2 %", "healthy", {"weather": 0.02}), ("wearing, weather 2 %", "wearing", {"weather": 0.02}),
               ("healthy, season 8 %", "healthy", {"season": 0.08}), ("wearing, season 8 %", "wearing", {"season": 0.08})],

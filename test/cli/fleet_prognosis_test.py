@@ -10,7 +10,7 @@ import imu_bag
 from suspension_health_monitor.fleet import change_points, grid, history, prognosis, student_t, wear, wording
 from suspension_health_monitor.fleet.errors import UsageError
 from suspension_health_monitor.fleet.history import MONTH, YEAR, Finding, Series, StrutHistory
-from suspension_health_monitor.fleet.prognosis import Options
+from suspension_health_monitor.fleet.part_wear import Options
 
 NEW_DAMPING, NEW_STIFFNESS = 4.0, 60.0
 BEGIN = 1.6e9

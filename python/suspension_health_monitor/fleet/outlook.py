@@ -7,8 +7,9 @@ import os
 
 from . import database
 from .options import add_db, at_least_one
+from .part_wear import Options
 from .progress import bar
-from .prognosis import Options, prognosis
+from .prognosis import prognosis
 
 
 def add_options(command):

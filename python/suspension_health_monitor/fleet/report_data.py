@@ -6,7 +6,6 @@ import urllib.parse
 import numpy as np
 
 from . import wording
-from .fan import earlier, fan, new_level, shown_part
 from .history import series
 
 LOGARITHM_STEP = 1e-4  # of log b1 and log b0
@@ -30,18 +29,16 @@ def _strut(history, prognosis, folder):
         "outlook": wording.NO_DRIVES if prognosis is None else wording.outlook(prognosis)}
     if prognosis is None:
         return found
-    part = shown_part(prognosis)
-    times, quantiles = fan(prognosis)
-    return {**found, **_drives(history), "part": part, "dated": prognosis.dated is not None,
-            "change": round(-100 * prognosis.wear[part].loss[1], 1),
-            "dates": [round(time) for time in prognosis.wear[part].date] if prognosis.dated else None,
-            "threshold": prognosis.options.threshold, "new": round(new_level(prognosis), 5),
+    trend = prognosis.trend
+    return {**found, **_drives(history), "part": trend.part, "dated": prognosis.dated is not None,
+            "change": round(-100 * prognosis.wear[trend.part].loss[1], 1), "threshold": prognosis.options.threshold,
+            "new": round(trend.new, 5),
             "remarks": wording.remarks(prognosis), "effects": [wording.effect(each) for each in prognosis.effects],
             "changes": [[round(each.before), round(each.time)] for each in prognosis.changes],
-            "fan": {"from": round(times[0]), "to": round(times[-1]),
-                    "shares": [[round(1000 * float(share)) for share in row] for row in quantiles]},
+            "fan": {"from": round(trend.times[0]), "to": round(trend.times[-1]),
+                    "shares": [[round(1000 * float(share)) for share in row] for row in trend.shares]},
             "earlier": [[round(begin), round(end), round(first, 3), round(last, 3)]
-                        for begin, end, first, last in earlier(prognosis)]}
+                        for begin, end, first, last in trend.earlier]}
 
 
 def _link(page, folder):

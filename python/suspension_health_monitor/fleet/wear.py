@@ -10,6 +10,7 @@ from .segments import LEAST_SCATTER, MOST_SCATTER, Layout, design, lay_out, prec
 
 # A part wears so that it lasts between a month and the life of a vehicle, on no scale in between rather than on another.
 SHORTEST_LIFE, LONGEST_LIFE = MONTH / YEAR, 25.0  # [years] until the threshold
+BENT = 0.1  # share of wear that is not linear; with more of it the intervals of linear wear hold more than they say
 POWER_STDDEV = 0.35  # of its logarithm: wear that goes with time to the power of 0.5 to 2, where it is not linear
 _POINTS = (14, 9)  # of life and scatter
 _POINTS_BENT = (12, 7, 7)  # of life, scatter and power
@@ -53,7 +54,7 @@ def change_of_logarithm(kind, share):
 def posterior(series, starts, season, threshold, bent=False, seed=0):
     """Healthy, falling and rising after the last change have 1/2, 1/4 and 1/4 before the drives are looked at.
 
-    :param bent: wear goes linearly with time in one half of the cases, with a power of it in the other; else in all.
+    :param bent: look at wear that is not linear, too.
     """
     layout, _, _ = lay_out(series, starts, season)
     matrix, prior = design(series, layout), precision(layout, season)
@@ -79,9 +80,8 @@ def posterior(series, starts, season, threshold, bent=False, seed=0):
 
 
 def _evidence(found):
-    """Of every kind: the mean over its models."""
-    return np.array([np.logaddexp.reduce([share + grid.log_integral for share, (grid, _) in models]) - np.log(len(models))
-                     for models in found])
+    """Of every kind."""
+    return np.array([np.logaddexp.reduce([share + grid.log_integral for share, (grid, _) in models]) for models in found])
 
 
 def _of_wear(kind, bent, series, starts, matrix, prior, threshold):
@@ -97,8 +97,8 @@ def _of_wear(kind, bent, series, starts, matrix, prior, threshold):
         (SHORTEST_LIFE, LEAST_SCATTER), (LONGEST_LIFE, MOST_SCATTER))]
     constant = -np.log(upper[0] - lower[0])
     if not bent:
-        return constant, close_in(evaluate, lower, upper, _POINTS)
-    return constant - 0.5 * np.log(2 * np.pi * POWER_STDDEV ** 2), close_in(
+        return constant + np.log1p(-BENT), close_in(evaluate, lower, upper, _POINTS)
+    return constant + np.log(BENT) - 0.5 * np.log(2 * np.pi * POWER_STDDEV ** 2), close_in(
         evaluate, [*lower, -3 * POWER_STDDEV], [*upper, 3 * POWER_STDDEV], _POINTS_BENT)
 
 

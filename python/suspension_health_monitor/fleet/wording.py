@@ -57,7 +57,7 @@ def remarks(prognosis):
     """What else is to be known of it, a sentence each."""
     said = [change(each) for each in prognosis.changes]
     if prognosis.both_fall:
-        said.append("damping and stiffness per mass fall alike: a payload that grows, or both parts wear; "
+        said.append("damping and stiffness per mass probably both fall: a payload that grows, or both parts wear; "
                     "one strut alone cannot tell")
     return said
 
