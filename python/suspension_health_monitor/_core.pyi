@@ -282,6 +282,7 @@ class Simulation:
 class StrutEstimate:
     clock_skew: float
     coefficients: Numbers
+    damping_excitation: float
     damping_ratio: float
     damping_to_mass: float
     damping_to_mass_stddev: float
@@ -290,6 +291,7 @@ class StrutEstimate:
     offset: float
     reason: str
     rows: float
+    stiffness_excitation: float
     stiffness_to_mass: float
     stiffness_to_mass_stddev: float
     valid: bool

@@ -19,6 +19,9 @@ void bindEstimates(py::module& module) {
       .def_readonly("clock_skew", &StrutEstimate::clock_skew,
                     "by which the wheel carrier's readings are stamped late [s]")
       .def_readonly("rows", &StrutEstimate::effective_rows, "regression rows in the memory")
+      .def_readonly("damping_excitation", &StrutEstimate::damping_excitation,
+                    "information on b1 that the motion of late gives, over that of noise [-]")
+      .def_readonly("stiffness_excitation", &StrutEstimate::stiffness_excitation, "the same on b0 [-]")
       .def_readonly("explained", &StrutEstimate::explained, "share of the body's motion that the strut explains")
       .def_property_readonly(
           "coefficients",
