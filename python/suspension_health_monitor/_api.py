@@ -1,6 +1,6 @@
 """The functions of the module. Each takes arrays, recordings or bags, and options by the names of doc/settings.md."""
 import os
-from typing import Any, List, Optional, Union
+from typing import Any, Dict, List, Optional, Union, overload
 
 from . import _core, _html, _plain, _plots
 from ._core import Baseline, Comparison, Diagnosis, Effect, Health, Identification, Simulation, StrutModel
@@ -16,15 +16,21 @@ __all__ = ["Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identific
            "StrutModel", "StrutMonitor", "VehicleMonitor", "compare", "diagnose", "effects", "health", "identify",
            "simulate", "to_dict"]
 
-_OF_BAGS = ("sprung_topic", "unsprung_topic", "road_topic", "start", "end")
+_OF_BAGS = ("sprung_topic", "unsprung_topic", "road_topic", "start", "end", "vehicle", "strut")
 
 
-def identify(*drives: Any, model: Model = None, effects_file: Optional[Path] = None, progress: Progress = None,
-             **options: Option) -> Identification:
+@overload
+def identify(*drives: Any, vehicle: Path, **options: Any) -> Dict[str, Identification]: ...
+@overload
+def identify(*drives: Any, vehicle: None = None, model: Model = None, effects_file: Optional[Path] = None,
+             progress: Progress = None, **options: Option) -> Identification: ...
+def identify(*drives: Any, vehicle: Optional[Path] = None, model: Model = None, effects_file: Optional[Path] = None,
+             progress: Progress = None, **options: Option) -> Any:
     """Damping/mass b1 [1/s] and stiffness/mass b0 [1/s^2] of a strut from recorded drives.
 
     :param drives: arrays, as Recording takes them: stamps (n,), body (n,), wheel (n,), or stamps_body, body,
         stamps_wheel, wheel; or Recordings; or paths of bags. All of one strut, taken one after the other.
+    :param vehicle: of bags the path of the YAML file with the IMUs of a whole vehicle, instead of topics.
     :param model: with effects that are in the model of ls and la; a StrutModel, a dict or a model file.
     :param effects_file: path of a YAML file with laws of your own, which the model may have.
     :param progress: called with the share that is done, 0 .. 1; True: a bar.
@@ -32,73 +38,99 @@ def identify(*drives: Any, model: Model = None, effects_file: Optional[Path] = N
         sprung_mass [kg] ... config: path of a YAML file with such; of arrays those of messages in it say nothing:
         axes, frames, ranges, rates and what is published. Of bags also sprung_topic, unsprung_topic,
         road_topic, start [s], end [s]. Left out: the period is measured, the horizon proposed from the data.
-    :returns: an Identification: .la, .ls, .iv with .damping_to_mass, .stiffness_to_mass, their _stddev, .valid ...
+        strut: of the vehicle, the only one that is wanted.
+    :returns: an Identification: .la, .ls, .iv with .damping_to_mass, .stiffness_to_mass, their _stddev, .valid ...; of a
+        vehicle a dict of them by strut.
     :raises ValueError: wrong option, array or file; or too little data, saying what would be enough.
     """
-    call = _Call("identify", drives, options, ["model", "effects_file"], progress)
+    call = _Call("identify", drives, vehicle, options, ["model", "effects_file"], progress)
     if not call.is_of_bags:
         return call.of_arrays(_core.identify, to_model(model, effects_file))
+    if call.is_of_vehicle and (model is not None or effects_file is not None):
+        raise ValueError("model and effects_file beside vehicle, must be left out: its struts are taken as linear")
     with model_file(model, effects_file) as file:
         settings = {"effects_file": effects_file, "model_file": file}
-        return call.of_bags(files().identify, settings={k: v for k, v in settings.items() if v is not None})
+        return call.of_bags("identify", settings={k: v for k, v in settings.items() if v is not None})
 
 
-def compare(*drives: Any, model: Model = None, effects_file: Optional[Path] = None, progress: Progress = None,
-            **options: Option) -> Comparison:
+@overload
+def compare(*drives: Any, vehicle: Path, **options: Any) -> Dict[str, Comparison]: ...
+@overload
+def compare(*drives: Any, vehicle: None = None, model: Model = None, effects_file: Optional[Path] = None,
+            progress: Progress = None, **options: Option) -> Comparison: ...
+def compare(*drives: Any, vehicle: Optional[Path] = None, model: Model = None, effects_file: Optional[Path] = None,
+            progress: Progress = None, **options: Option) -> Any:
     """How far a model is from the measurement, and where it fails.
 
-    :param drives: as of identify().
+    :param drives, vehicle: as of identify().
     :param model: whose numbers are judged as they are: a StrutModel, such as Diagnosis.model, a dict of settings or
-        the path of a model file. None: the linear strut, fitted.
+        the path of a model file, of a vehicle one with its struts. None: the linear strut, fitted.
     :param effects_file, progress, options: as of identify().
-    :returns: a Comparison: .free_run.rmse [m/s^2], .where (sentences, worst first), .views, .segments ...
+    :returns: a Comparison: .free_run.rmse [m/s^2], .where (sentences, worst first), .views, .segments ...; of a
+        vehicle a dict of them by strut.
     :raises ValueError: as identify().
     """
-    call = _Call("compare", drives, options, ["model", "effects_file"], progress)
+    call = _Call("compare", drives, vehicle, options, ["model", "effects_file"], progress)
     if not call.is_of_bags:
         return call.of_arrays(_core.compare, to_model(model, effects_file))
     with model_file(model, effects_file) as file:
-        return call.of_bags(files().compare, model=file, effects_file=effects_file)
+        return call.of_bags("compare", model=file, effects_file=effects_file)
 
 
-def diagnose(*drives: Any, model: Model = None, effects_file: Optional[Path] = None, threads: Optional[int] = None,
-             progress: Progress = None, **options: Option) -> Diagnosis:
+@overload
+def diagnose(*drives: Any, vehicle: Path, **options: Any) -> Dict[str, Diagnosis]: ...
+@overload
+def diagnose(*drives: Any, vehicle: None = None, model: Model = None, effects_file: Optional[Path] = None,
+             threads: Optional[int] = None, progress: Progress = None, **options: Option) -> Diagnosis: ...
+def diagnose(*drives: Any, vehicle: Optional[Path] = None, model: Model = None, effects_file: Optional[Path] = None,
+             threads: Optional[int] = None, progress: Progress = None, **options: Option) -> Any:
     """Which physical effect the model misses, and how sure that is.
 
-    :param drives: as of identify(); two minutes on a road are enough for most effects.
+    :param drives, vehicle: as of identify(); two minutes on a road are enough for most effects.
     :param model: to start with: the search is for what is missing beside its effects.
     :param effects_file: path of a YAML file with laws of your own, tried beside the catalogue.
     :param threads: processor cores to use, 1 or more; None: all. The result is the same for any number.
     :param progress, options: as of identify().
-    :returns: a Diagnosis: .verdict, .summary (a sentence), .selected (names), .model, .ranking ...
+    :returns: a Diagnosis: .verdict, .summary (a sentence), .selected (names), .model, .ranking ...; of a
+        vehicle a dict of them by strut.
     :raises ValueError: as identify().
     """
-    call = _Call("diagnose", drives, options, ["model", "effects_file", "threads"], progress)
+    call = _Call("diagnose", drives, vehicle, options, ["model", "effects_file", "threads"], progress)
     threads = os.cpu_count() or 1 if threads is None else threads
     if not isinstance(threads, int) or isinstance(threads, bool):
         raise ValueError(f"threads = {threads!r}, must be a whole number")
     if not call.is_of_bags:
         return call.of_arrays(_core.diagnose, to_model(model, effects_file), library(effects_file), threads)
     with model_file(model, effects_file) as file:
-        return call.of_bags(files().diagnose, threads, model=file, effects_file=effects_file)
+        return call.of_bags("diagnose", threads, model=file, effects_file=effects_file)
 
 
-def health(*drives: Any, baseline: Optional[Union[Baseline, Path]] = None, progress: Progress = None,
-           **options: Option) -> Health:
+@overload
+def health(*drives: Any, vehicle: Path, **options: Any) -> Dict[str, Health]: ...
+@overload
+def health(*drives: Any, vehicle: None = None, baseline: Optional[Union[Baseline, Path]] = None,
+           progress: Progress = None, **options: Option) -> Health: ...
+def health(*drives: Any, vehicle: Optional[Path] = None, baseline: Optional[Union[Baseline, Path]] = None,
+           progress: Progress = None, **options: Option) -> Any:
     """What the monitor would have said over recorded drives, and when.
 
-    :param drives: as of identify().
+    :param drives, vehicle: as of identify().
     :param baseline: the healthy strut: a Baseline, such as Health.baseline of an earlier drive, or the path of a file
-        that the monitor has written, or of settings with nominal values. None: the nominal values among the options, or what the drive itself teaches.
+        that the monitor has written, or of settings with nominal values. None: the nominal values among the options, or
+        what the drive itself teaches. Of a vehicle the path of such a file with its struts.
     :param progress: as of identify().
     :param options: as of identify(), such as nominal_damping_to_mass [1/s], health_damping_warn, input_timeout [s].
-    :returns: a Health: .events (changes of level with their reasons), .end, .seconds by level, .course ...
+    :returns: a Health: .events (changes of level with their reasons), .end, .seconds by level, .course ...;
+        of a vehicle a dict of them by strut.
     :raises ValueError: as identify().
     """
-    call = _Call("health", drives, options, ["baseline"], progress)
+    call = _Call("health", drives, vehicle, options, ["baseline"], progress)
+    if call.is_of_vehicle:
+        if not (baseline is None or is_path(baseline)):
+            raise ValueError("baseline of a vehicle, must be the path of a file with its struts")
+        return call.of_bags("health", baseline=baseline)
     healthy, file = healthy_strut(baseline)
-    return call.of_bags(files().health, healthy, file) if call.is_of_bags else \
-        call.of_arrays(_core.health, healthy, file)
+    return call.of_bags("health", healthy, file) if call.is_of_bags else call.of_arrays(_core.health, healthy, file)
 
 
 def effects(effects_file: Optional[Path] = None) -> List[Effect]:
@@ -138,18 +170,22 @@ def simulate(output: Optional[Path] = None, *, effect: Optional[Union[str, List[
 class _Call:
     """One call of a function: what it is about, and its options."""
 
-    def __init__(self, name, drives, options, arguments, progress):
+    def __init__(self, name, drives, vehicle, options, arguments, progress):
         self._name, self._progress = name, progress
         kind, self._source = to_source(drives)
         self.is_of_bags = kind == "bags"
         self._of_bags = {key: options.pop(key) for key in _OF_BAGS if key in options}
+        self.is_of_vehicle = vehicle is not None
+        if self.is_of_vehicle:
+            self._of_bags["vehicle"] = vehicle
         if self._of_bags and not self.is_of_bags:
             raise ValueError(f"{next(iter(self._of_bags))} is an option of bags, must not come with arrays")
         self._config = options.pop("config", None)
         self._keywords = array_keywords(options, None if self.is_of_bags else self._config,
                                         [*_OF_BAGS, "config", "progress", *arguments])
 
-    def of_bags(self, command, *more, settings=(), **flags):
+    def of_bags(self, name, *more, settings=(), **flags):
+        command = getattr(files(), f"{name}_struts" if self.is_of_vehicle else name)
         paths = [f"./{path}" if path.startswith("-") else path for path in self._source]
         assignments = [*self._keywords.assignments, *(f"{name}={value}" for name, value in dict(settings).items())]
         with callback(self._progress, self._name) as told:

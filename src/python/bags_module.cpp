@@ -8,13 +8,11 @@
 #include "../ros/simulated_drive.h"
 #include "../ros/yaml_settings.h"
 #include "../tools/bag_options.h"
-#include "../tools/command.h"
 #include "../tools/healthy_strut.h"
 #include "../tools/identify_tables.h"
 #include "../tools/recorded_strut.h"
 #include "../tools/simulate_vehicle.h"
-#include "bags_long_work.h"
-#include "opaque.h"
+#include "bags_call.h"
 #include "options.h"
 #include "results.h"
 
@@ -23,27 +21,6 @@ namespace {
 
 namespace py = pybind11;
 namespace po = boost::program_options;
-
-/// Runs what the command line runs; its errors are ValueError.
-template <class Work>
-auto asCommand(const Work& work) {
-  try {
-    return work();
-  } catch (const py::error_already_set&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw py::value_error(error.what());
-  }
-}
-
-po::variables_map parsed(const Arguments& arguments) {
-  po::options_description description("options");
-  addBagOptions(description);
-  addModelOptions(description);
-  return *parse(arguments, "", description, "bag");
-}
 
 Identification identifyBags(const Arguments& arguments, LongWork& work) {
   ToolsWork tools(work, 0);
@@ -107,18 +84,6 @@ py::dict toDict(const OptionMap& values) {
   return settings;
 }
 
-/// Adds a function of arguments as on the command line, and of a callback.
-template <class Work>
-void defCommand(py::module& module, const char* name, const Work& work) {
-  module.def(
-      name,
-      [work](const Arguments& arguments, const py::object& progress) {
-        LongWork long_work(progress);
-        return asCommand([&] { return long_work.run([&] { return work(arguments, long_work); }); });
-      },
-      py::arg("arguments"), py::arg("progress"));
-}
-
 }  // namespace
 }  // namespace suspension_health_monitor
 
@@ -137,6 +102,7 @@ PYBIND11_MODULE(_bags, module) {
         return asCommand([&] { return work.run([&] { return watchBags(arguments, healthy, work); }); });
       },
       py::arg("arguments"), py::arg("baseline"), py::arg("file"), py::arg("progress"));
+  bindVehicles(module);
   defCommand(module, "compare", [](const Arguments& arguments, LongWork& work) {
     return withDrives(arguments, work, [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
       return compareBags(options, models, gaps, work.callback());

@@ -28,11 +28,7 @@ void compareStruts(const boost::program_options::variables_map& values) {
   Progress progress("comparing", static_cast<double>(vehicle.asked.size()));
   double done = 0.0;
   for (const std::size_t i : vehicle.asked) {
-    CompareOptions options;
-    options.sample_period = period;
-    options.horizon_samples = givenHorizon(settings.struts[i], period);
-    options.model = models[i];
-    options.fit = !models[i];
+    CompareOptions options = compareOptionsOf(settings.struts[i], period, models[i]);
     options.progress = [&](double share) { progress.update(done + share); };
     const Comparison comparison = compare(separated.struts[i], options);
     requireEnough(comparison.shortcoming, comparison.reason);

@@ -97,13 +97,9 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
   TopicGaps gaps(settings.common.shell.input_timeout);
   const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings.common, gaps);
-  options.sample_period = settings.common.monitor.sample_period;
   Progress progress("searching", 1.0);
   options.progress = [&](double share) { progress.update(share); };
-  std::vector<DiagnoseOptions> by_strut(settings.struts.size(), options);
-  for (std::size_t i = 0; i < by_strut.size(); ++i)
-    by_strut[i].horizon_samples = givenHorizon(settings.struts[i], *options.sample_period);
-  const VehicleDiagnosis found = diagnoseVehicle(drives, vehicle.names, by_strut, models);
+  const VehicleDiagnosis found = diagnoseVehicle(drives, vehicle.names, diagnoseOptionsOf(settings, options), models);
   gaps.explain([&] { requireOne(found, vehicle); });
   const std::vector<std::string> changes = changesOf(drives, vehicle, settings);
   print(found, vehicle, changes);

@@ -96,6 +96,24 @@ std::vector<IdentifyOptions> identifyOptionsOf(const VehicleOptions& settings) {
   return options;
 }
 
+CompareOptions compareOptionsOf(const PipelineOptions& strut, double sample_period,
+                                const std::optional<StrutModel>& model) {
+  CompareOptions options;
+  options.sample_period = sample_period;
+  options.horizon_samples = givenHorizon(strut, sample_period);
+  options.model = model;
+  options.fit = !model;
+  return options;
+}
+
+std::vector<DiagnoseOptions> diagnoseOptionsOf(const VehicleOptions& settings, DiagnoseOptions& options) {
+  options.sample_period = settings.common.monitor.sample_period;
+  std::vector<DiagnoseOptions> by_strut(settings.struts.size(), options);
+  for (std::size_t i = 0; i < by_strut.size(); ++i)
+    by_strut[i].horizon_samples = givenHorizon(settings.struts[i], *options.sample_period);
+  return by_strut;
+}
+
 std::optional<int> givenHorizon(const PipelineOptions& strut, double sample_period) {
   if (!strut.monitor.integration_horizon) return std::nullopt;
   return MonitorSettings(strut.monitor).horizonSamples(sample_period);

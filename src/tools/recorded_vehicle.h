@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../ros/vehicle_options.h"
+#include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
@@ -48,6 +49,15 @@ void printRejected(const std::string& topic, const RejectCounts& rejected);
 /// @return what identifyVehicle() takes of the settings, by strut.
 /// @param settings  with a sample_period.
 std::vector<IdentifyOptions> identifyOptionsOf(const VehicleOptions& settings);
+
+/// @return the same of compare() for one strut.
+/// @param model  that is judged as it is; nothing: the linear one, fitted.
+CompareOptions compareOptionsOf(const PipelineOptions& strut, double sample_period,
+                                const std::optional<StrutModel>& model);
+
+/// @return the same of diagnoseVehicle(), by strut.
+/// @param options  what is the same for all; gets the sample_period.
+std::vector<DiagnoseOptions> diagnoseOptionsOf(const VehicleOptions& settings, DiagnoseOptions& options);
 
 /// @return L, if the settings of a strut give the horizon.
 std::optional<int> givenHorizon(const PipelineOptions& strut, double sample_period);

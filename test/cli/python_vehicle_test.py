@@ -1,4 +1,5 @@
-"""VehicleMonitor of the Python module says of arrays what `suspension_bag health --vehicle` says of their bag."""
+"""Vehicles in Python: VehicleMonitor says of arrays what `suspension_bag health --vehicle` says of their bag, and the functions
+say of bags what the commands say with --vehicle."""
 import json
 
 import numpy as np
@@ -53,3 +54,65 @@ def test_a_vehicle_is_the_command_lines(program, tmp_path, model, settings):
     for name, report in monitor.reports.items():
         for number in ("damping_to_mass", "stiffness_to_mass"):
             assert getattr(report.la, number) == pytest.approx(expected[name]["la"][number], rel=1e-9), name
+
+
+@pytest.fixture(scope="module")
+def half_car(program, tmp_path_factory):
+    """A bag and the file of its vehicle; the front has an effect that the model lacks."""
+    return drive(program, tmp_path_factory.mktemp("half"), "half_sedan", "--effect", "front/quadratic_damping=2")
+
+
+def said(program, folder, command, half_car, *options):
+    program(command, half_car[0], "--vehicle", half_car[1], *options, "--json", folder / "said.json")
+    return json.loads((folder / "said.json").read_text())["struts"]
+
+
+def test_every_strut_of_a_bag_is_the_command_lines(program, tmp_path, half_car):
+    bag, vehicle = half_car
+    expected = {command: said(program, tmp_path, command, half_car)
+                for command in ("identify", "compare", "diagnose", "health")}
+    found = {command: getattr(shm, command)(bag, vehicle=vehicle) for command in expected}
+    for command, struts in expected.items():
+        assert list(found[command]) == sorted(struts) == ["front", "rear"], command
+    for name in ("front", "rear"):
+        identified, compared, searched, watched = (found[command][name] for command in expected)
+        its = {command: struts[name] for command, struts in expected.items()}
+        for estimator in ("ls", "la", "iv"):
+            for number in ("damping_to_mass", "stiffness_to_mass", "damping_to_mass_stddev"):
+                assert getattr(getattr(identified, estimator), number) == pytest.approx(
+                    its["identify"][estimator][number], rel=1e-12)
+        assert identified.course.damping_to_mass[-1] == pytest.approx(identified.la.damping_to_mass, rel=0.02)
+        assert compared.free_run.rmse == pytest.approx(its["compare"]["free_run"]["rmse"], rel=1e-12)
+        assert (searched.verdict, searched.selected) == (its["diagnose"]["verdict"], its["diagnose"]["selected"])
+        assert searched.base.held_out_rmse == pytest.approx(its["diagnose"]["base"]["held_out_rmse"], rel=1e-12)
+        assert [event.message for event in watched.events] == [event["message"] for event in its["health"]["events"]]
+        assert watched.la.stiffness_to_mass == pytest.approx(its["health"]["la"]["stiffness_to_mass"], rel=1e-12)
+        assert len(watched.course.time) > 100
+    assert found["diagnose"]["front"].selected == ["quadratic_damping"] and found["diagnose"]["rear"].selected == []
+
+
+def test_options_of_a_strut_stand_in_its_file(program, tmp_path, half_car):
+    bag, vehicle = half_car
+    settings = tmp_path / "struts.yaml"
+    settings.write_text("memory: 4\nstruts: {rear: {integration_horizon: 0.8, nominal: {damping_to_mass: 9}}}\n")
+    found = shm.identify(bag, vehicle=vehicle, strut="rear", config=settings)
+    assert list(found) == ["rear"]
+    assert found["rear"].horizon_samples * found["rear"].sample_period == pytest.approx(0.8)
+    for options in ({"config": settings}, {"baseline": settings}):
+        watched = shm.health(bag, vehicle=vehicle, **options)
+        assert watched["rear"].reference == "nominal values: damping/mass 9 1/s"
+        assert "below nominal" in watched["rear"].end.message
+        assert "learned" in watched["front"].reference or "nothing" in watched["front"].reference
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda bag, vehicle: shm.identify([0.0], [0.0], [0.0], vehicle=vehicle), "vehicle is an option of bags"),
+    (lambda bag, vehicle: shm.identify(bag, strut="rear"), "--strut rear without --vehicle"),
+    (lambda bag, vehicle: shm.compare(bag, vehicle=vehicle, strut="middle"), "--strut middle, must be one of front, rear"),
+    (lambda bag, vehicle: shm.health(bag, vehicle=vehicle, sprung_topic="/a"), "--sprung-topic beside --vehicle"),
+    (lambda bag, vehicle: shm.identify(bag, vehicle=vehicle, model="m.yaml"), "model and effects_file beside vehicle"),
+    (lambda bag, vehicle: shm.health(bag, vehicle=vehicle, baseline=shm.Baseline(damping_to_mass=3.0)), "must be the path"),
+    (lambda bag, vehicle: shm.diagnose(bag, vehicle="none.yaml"), "none.yaml: cannot be read")])
+def test_what_is_of_no_vehicle_is_refused(half_car, call, words):
+    with pytest.raises(ValueError, match=words):
+        call(*half_car)

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <boost/program_options.hpp>
+#include <stdexcept>
+
+#include "../tools/command.h"
+#include "bags_long_work.h"
+#include "opaque.h"
+
+namespace suspension_health_monitor {
+
+/// @param arguments  as on the command line, of any of the commands.
+boost::program_options::variables_map parsed(const Arguments& arguments);
+
+/// Runs what the command line runs; its errors are ValueError.
+template <class Work>
+auto asCommand(const Work& work) {
+  try {
+    return work();
+  } catch (const pybind11::error_already_set&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw pybind11::value_error(error.what());
+  }
+}
+
+/// Adds a function of arguments as on the command line, and of a callback.
+template <class Work>
+void defCommand(pybind11::module& module, const char* name, const Work& work) {
+  module.def(
+      name,
+      [work](const Arguments& arguments, const pybind11::object& progress) {
+        LongWork long_work(progress);
+        return asCommand([&] { return long_work.run([&] { return work(arguments, long_work); }); });
+      },
+      pybind11::arg("arguments"), pybind11::arg("progress"));
+}
+
+/// Adds what is of the struts of a vehicle.
+void bindVehicles(pybind11::module& module);
+
+}  // namespace suspension_health_monitor

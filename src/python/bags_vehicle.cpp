@@ -1,0 +1,156 @@
+// The struts of a vehicle in bags, as the commands have them with --vehicle: a result by strut.
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../ros/vehicle_options.h"
+#include "../tools/bag_options.h"
+#include "../tools/errors.h"
+#include "../tools/recorded_vehicle.h"
+#include "../tools/strut_files.h"
+#include "../tools/vehicle_bags.h"
+#include "../tools/vehicle_tables.h"
+#include "../tools/watched_vehicle.h"
+#include "bags_call.h"
+#include "results.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+namespace po = boost::program_options;
+
+template <class Result>
+using ByStrut = std::map<std::string, Result>;
+
+/// The drives, read and not told of.
+struct RecordedVehicle {
+  AskedVehicle vehicle;
+  VehicleOptions settings;
+  TopicGaps gaps;
+  std::vector<VehicleDrive> drives;
+  std::string alignment;  ///< of the last
+
+  explicit RecordedVehicle(const po::variables_map& values)
+      : vehicle(readVehicle(values)),
+        settings(VehicleOptions::fromValues(vehicle.layout, gatherOptions(values))),
+        gaps(settings.common.shell.input_timeout) {
+    ImuBags bags = readBags(values);
+    if (!settings.common.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+    for (VehicleBag& bag : readVehicleDrives(bags, settings.common, vehicle.layout, gaps)) {
+      drives.push_back(std::move(bag.drive));
+      alignment = bag.alignment;
+    }
+  }
+};
+
+ByStrut<Identification> identifyStrutsOf(const Arguments& arguments, LongWork& work) {
+  const ToolsWork tools(work, 0);
+  RecordedVehicle recorded(parsed(arguments));
+  const std::vector<std::string>& names = recorded.vehicle.names;
+  std::vector<Course> courses(names.size());
+  const VehicleIdentification found = identifyVehicle(recorded.drives, names, identifyOptionsOf(recorded.settings),
+                                                      [&](std::size_t strut, const MonitorReport& report) {
+                                                        if (report.has_row) courses[strut].add(report);
+                                                        work.step();
+                                                      });
+  recorded.gaps.explain([&] { requireCoupling(found.coupling); });
+  ByStrut<Identification> results;
+  for (const std::size_t i : recorded.vehicle.asked) {
+    Identification& result = results[names[i]];
+    static_cast<IdentifyResult&>(result) = found.struts[i];
+    result.mean_period = std::nan("");  // of the sensors' grid, not of one strut
+    result.alignment = recorded.alignment;
+    result.sprung_mass = recorded.settings.struts[i].monitor.sprung_mass;
+    result.course = courses[i];
+  }
+  return results;
+}
+
+ByStrut<Comparison> compareStrutsOf(const Arguments& arguments, LongWork& work) {
+  const ToolsWork tools(work, 0);
+  const po::variables_map values = parsed(arguments);
+  RecordedVehicle recorded(values);
+  const auto& [vehicle, settings, gaps, drives, alignment] = recorded;
+  const KnownModels models = readModels(values, vehicle, readEffects(values));
+  const double period = *settings.common.monitor.sample_period;
+  const SeparatedVehicle separated = separateVehicle(drives, vehicle.names, period, models);
+  gaps.explain([&, &coupling = separated.coupling] { requireCoupling(coupling); });
+  ByStrut<Comparison> results;
+  for (const std::size_t i : vehicle.asked) {
+    CompareOptions options = compareOptionsOf(settings.struts[i], period, models[i]);
+    const double done = static_cast<double>(results.size()), all = static_cast<double>(vehicle.asked.size());
+    options.progress = [&](double share) { work.update((done + share) / all); };
+    Comparison& comparison = results[vehicle.names[i]] = compare(separated.struts[i], options);
+    requireEnough(comparison.shortcoming, comparison.reason);
+  }
+  return results;
+}
+
+ByStrut<Diagnosis> diagnoseStrutsOf(const Arguments& arguments, int threads, LongWork& work) {
+  const ToolsWork tools(work, 0);
+  const po::variables_map values = parsed(arguments);
+  RecordedVehicle recorded(values);
+  const std::vector<std::string>& names = recorded.vehicle.names;
+  DiagnoseOptions options;
+  options.candidates = readEffects(values);
+  options.threads = threads;
+  options.progress = work.callback();
+  const KnownModels models = readModels(values, recorded.vehicle, options.candidates);
+  const VehicleDiagnosis found =
+      diagnoseVehicle(recorded.drives, names, diagnoseOptionsOf(recorded.settings, options), models);
+  recorded.gaps.explain([&] { requireCoupling(found.coupling); });
+  ByStrut<Diagnosis> results;
+  for (const std::size_t i : recorded.vehicle.asked) {
+    Diagnosis& result = results[names[i]] = found.struts[i];
+    if (!result) throw TooLittleError(names[i] + ": the drives " + result.reason);
+    result.verdict = found.verdictOn(i);
+    result.selected = found.selected(i);
+  }
+  return results;
+}
+
+ByStrut<HealthSummary> watchStrutsOf(const Arguments& arguments, LongWork& work) {
+  const ToolsWork tools(work, 0);
+  const po::variables_map values = parsed(arguments);
+  AskedVehicle vehicle = readVehicle(values);
+  VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
+  const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
+  TopicGaps gaps(options.common.shell.input_timeout);
+  ImuBags bags = readBags(values);
+  if (!options.common.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+  const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
+  bags.gaps = &gaps;
+  std::vector<Course> courses(vehicle.names.size());
+  WatchedVehicle recorded(
+      options, streams, watched, bags.transforms.get(), [](std::size_t, const HealthMoment&, const Baseline&) {},
+      [&](std::size_t strut, const MonitorReport& report) {
+        if (report.has_row) courses[strut].add(report);
+      });
+  recorded.read(bags);
+  gaps.explain([&] { recorded.requireCoupling(vehicle.names); });
+  ByStrut<HealthSummary> results;
+  for (const std::size_t i : vehicle.asked)
+    results[vehicle.names[i]] =
+        HealthSummary::of(recorded.log(i), *recorded.monitor().strut(i),
+                          watched[i].healthy ? watched[i].healthy->file : "", recorded.rejected(), courses[i]);
+  return results;
+}
+
+}  // namespace
+
+void bindVehicles(pybind11::module& module) {
+  defCommand(module, "identify_struts", &identifyStrutsOf);
+  defCommand(module, "compare_struts", &compareStrutsOf);
+  defCommand(module, "health_struts", &watchStrutsOf);
+  module.def(
+      "diagnose_struts",
+      [](const Arguments& arguments, int threads, const pybind11::object& progress) {
+        LongWork work(progress);
+        return asCommand([&] { return work.run([&] { return diagnoseStrutsOf(arguments, threads, work); }); });
+      },
+      pybind11::arg("arguments"), pybind11::arg("threads"), pybind11::arg("progress"));
+}
+
+}  // namespace suspension_health_monitor
