@@ -11,7 +11,7 @@ import shlex
 import sys
 import time
 
-from report import hidden_effect
+from report import fleet, hidden_effect
 from report.accuracy import find_program, seed_medians
 from report.experiments import DURATION, EXPERIMENTS, RunFailed, paper_drive, read_settings, run_drives
 from report.page import page, write_whole
@@ -70,6 +70,11 @@ def search_hidden_effect(options):
     return hidden_effect.search(hidden_bag(options), options.output, options.work.resolve())
 
 
+def drive_fleet(options):
+    print("== weeks of a small fleet", flush=True)
+    return fleet.run(options.output, options.work.resolve(), options.quick)
+
+
 def origin():
     made = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M:%S UTC")
     return (("made", made), ("command", shlex.join([pathlib.Path(sys.argv[0]).name, *sys.argv[1:]])),
@@ -85,7 +90,7 @@ def main():
         settings = read_settings(CONFIG)
         recordings = drive_and_read(options, settings)
         results = Results(settings, EXPERIMENTS, recordings, medians(options, recordings), options.seed, options.seeds,
-                          search_hidden_effect(options))
+                          search_hidden_effect(options), drive_fleet(options))
     except (RunFailed, IncompleteRecording) as error:
         sys.exit(f"error: {error}")
     except KeyboardInterrupt:

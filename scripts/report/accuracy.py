@@ -48,13 +48,13 @@ def ramp_lag(recording, estimator):
     return float(numpy.mean((rows.damping_to_mass - truth)[falling]) / -numpy.mean(rate[falling]))
 
 
-def find_program():
-    """suspension_bag of the workspace that is set up."""
+def find_program(name="suspension_bag"):
+    """A program of the workspace that is set up."""
     for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep):
-        program = pathlib.Path(prefix) / "lib/suspension_health_monitor/suspension_bag"
+        program = pathlib.Path(prefix) / "lib/suspension_health_monitor" / name
         if program.is_file():
             return program
-    raise RunFailed("suspension_bag is not built in any workspace on CMAKE_PREFIX_PATH: source its setup.bash")
+    raise RunFailed(f"{name} is not built in any workspace on CMAKE_PREFIX_PATH: source its setup.bash")
 
 
 def run(command):

@@ -3,7 +3,7 @@ import dataclasses
 
 import numpy
 
-from . import figures, hidden_effect
+from . import figures, fleet, hidden_effect
 from .accuracy import ESTIMATORS, SETTLED, ramp_lag, recording_accuracy
 from .experiments import DURATION, Settings
 from .page import Figure, Section
@@ -26,6 +26,7 @@ class Results:
     seed: int
     seeds: int
     search: hidden_effect.Search = None  # of the drive with a hidden effect
+    robots: fleet.Fleet = None
 
     def __post_init__(self):
         self.accuracies = {scenario: recording_accuracy(recording) for scenario, recording in self.recordings.items()}
@@ -207,4 +208,5 @@ def report_sections(results):
     """All sections, in the order of the page."""
     sections = [section(results)
                 for section in (verdict, introduction, errors, data_loss, end_stops, no_fault, health, prediction)]
-    return sections + ([hidden_effect.section(results.search)] if results.search else [])
+    sections += [hidden_effect.section(results.search)] if results.search else []
+    return sections + ([fleet.section(results.robots)] if results.robots else [])

@@ -36,6 +36,14 @@ def test_page_says_how_it_ended_and_leads_to_the_effect(demo):
     assert "/monitor/health" in page.one(id="origin").text and "demo_report.py --quick" in page.one(id="origin").text
 
 
+def test_page_leads_to_the_fleet(demo):
+    page = browser.shown(demo / "report.html", demo / "profile")
+    section = next(each for each in page.all("section") if "Weeks of a fleet" in each.text)
+    assert "24 bags: " in section.text and "damping falls" in section.text
+    assert (demo / section.one("a").attributes["href"]).stat().st_size > 10000
+    assert (demo / "fleet/plotly.min.js").exists() and not list((demo / "work").rglob("*.bag")), "bags are deleted again"
+
+
 @pytest.mark.parametrize("name", ["report.html", "effect_report/report.html"])
 @pytest.mark.parametrize("width, dark", itertools.product([1400, 390], [False, True]))
 def test_nothing_is_cut_off_and_the_verdict_is_above_the_fold(demo, name, width, dark):

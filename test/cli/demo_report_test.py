@@ -11,7 +11,7 @@ import pytest
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "scripts"))
 
-from report import accuracy, drawing, hidden_effect, page, recording, sections, table  # noqa: E402
+from report import accuracy, drawing, fleet, hidden_effect, page, recording, sections, table  # noqa: E402
 from report.experiments import EXPERIMENTS, Claim, read_settings  # noqa: E402
 
 PERIOD = 0.02
@@ -259,6 +259,14 @@ def test_file_is_written_whole_or_not_at_all(tmp_path):
         page.write_whole(path, "new" * 100000 + "\ud800")
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_fleet_names_what_wears_and_leads_to_its_page():
+    struts = [{"vehicle": "robot_1", "strut": name, "outlook": f"{name} <outlook>"} for name in ("left", "right")]
+    section = fleet.section(fleet.Fleet("2 bags: 1 ok & 1 bad", struts, {("robot_1", "left"): 0.1, ("robot_1", "right"): 0.0}))
+    text = section.to_html()
+    assert "left &lt;outlook&gt;" in text and "right &lt;outlook&gt;" not in text, "only those that wear"
+    assert "2 bags: 1 ok &amp; 1 bad" in text and 'href="fleet/index.html"' in text and "1 of their dampers" in text
 
 
 def search_result(**extended):

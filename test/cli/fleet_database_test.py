@@ -118,7 +118,6 @@ def test_what_is_no_fleet_is_refused(tmp_path):
 
 
 def test_histories(engine):
-    pytest.importorskip("suspension_health_monitor.fleet.history")
     database.write(engine, bag("late", "late.bag"), drive(2000.0, 3.0))
     database.write(engine, bag("bad", "bad.bag"), database.Drive(database.UNREADABLE, "cut off"))
     database.write(engine, bag("early", "early.bag"), drive(1000.0, 4.0))

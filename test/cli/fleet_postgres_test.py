@@ -75,7 +75,6 @@ def has_rows(url, count):
 
 def test_histories(server):
     from suspension_health_monitor.fleet import database
-    pytest.importorskip("suspension_health_monitor.fleet.history")
     (history,) = database.histories(database.connect(server))
     assert (history.vehicle, history.strut, len(history.time)) == ("robot", "strut", BAGS)
     assert set(history.damping_to_mass) == {history.damping_to_mass[0]} and history.damping_to_mass[0] > 0

@@ -36,8 +36,8 @@ def open_client(workers=None, scheduler=None, patience=60):
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="suspension_fleet."))
             with _deaf_to_interrupts():
                 cluster = distributed.LocalCluster(n_workers=workers or os.cpu_count() or 1, threads_per_worker=1,
-                                                   memory_limit=0, dashboard_address=None, local_directory=folder,
-                                                   silence_logs=logging.CRITICAL)
+                                                   memory_limit=0, dashboard_address="127.0.0.1:0",
+                                                   local_directory=folder, silence_logs=logging.CRITICAL)
             scheduler = stack.enter_context(contextlib.closing(cluster))
         try:
             client = distributed.Client(scheduler, timeout=patience)

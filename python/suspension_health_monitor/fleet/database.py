@@ -13,6 +13,7 @@ from sqlalchemy import (Boolean, Column, Float, ForeignKey, Integer, MetaData, S
 from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
 
 from .errors import FleetError, UsageError
+from .history import Event, Finding, StrutHistory
 
 SCHEMA_VERSION = 1
 LOCK_TIMEOUT = 60  # [s] that a client waits while others write into the same SQLite file
@@ -221,7 +222,6 @@ def _by_strut(connection, query):
 def histories(engine):
     """A StrutHistory of every strut, by vehicle and name. Arrays have the drives whose estimate is valid; a finding's
     effects are a list of names."""
-    from .history import Event, Finding, StrutHistory
     with engine.begin() as connection:
         estimates, happened, found = (_by_strut(connection, query) for query in (_ESTIMATES, _EVENTS, _FINDINGS))
     result = []
