@@ -4,6 +4,7 @@ import dataclasses
 import functools
 import math
 import os
+import signal
 
 from . import database
 from .options import add_db, at_least_one
@@ -37,7 +38,8 @@ def in_order(histories, options, workers):
     """The same of any histories."""
     work = functools.partial(prognosis, options=options)
     results = []
-    with bar(len(histories), "strut") as progress, concurrent.futures.ProcessPoolExecutor(workers) as pool:
+    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}  # Ctrl-C is for us to take
+    with bar(len(histories), "strut") as progress, concurrent.futures.ProcessPoolExecutor(workers, **quiet) as pool:
         for result in pool.map(work, histories, chunksize=4):
             progress.update()
             results.append(result)

@@ -74,7 +74,7 @@ def _change(wear):
 def as_dict(history, prognosis):
     """For programs: times in seconds since 1970, shares of 1, rates per month; null where there is none."""
     found = {"vehicle": history.vehicle, "strut": history.strut, "drives": 0, "outlook": wording.NO_DRIVES, "dated": None,
-             "wear": None, "changes": [], "remarks": [], "effects": [], "last_event": None}
+             "wear": None, "changes": [], "likely_change": None, "remarks": [], "effects": [], "last_event": None}
     if history.events:
         event = history.events[-1]
         found["last_event"] = {"time": event.time, "level": event.level, "message": event.message, "path": event.path}
@@ -86,7 +86,7 @@ def as_dict(history, prognosis):
                      for part, each in prognosis.wear.items()},
             "changes": [{"before": each.before, "time": each.time, "step": each.step, "step_stddev": each.step_stddev,
                          "part": each.part} for each in prognosis.changes],
-            "remarks": wording.remarks(prognosis),
+            "likely_change": prognosis.likely_change, "remarks": wording.remarks(prognosis),
             "effects": [{"name": each.name, "first": each.first, "last": each.last, "present": each.present}
                         for each in prognosis.effects]}
 
