@@ -73,8 +73,8 @@ def _change(wear):
 
 def as_dict(history, prognosis):
     """For programs: times in seconds since 1970, shares of 1, rates per month; null where there is none."""
-    found = {"vehicle": history.vehicle, "strut": history.strut, "drives": 0, "outlook": wording.NO_DRIVES, "dated": None,
-             "wear": None, "changes": [], "likely_change": None, "remarks": [], "effects": [], "last_event": None}
+    found = {"vehicle": history.vehicle, "strut": history.strut, "drives": 0, "outlook": wording.NO_DRIVES,
+             "dated": None, "wear": None, "changes": [], "likely_change": None, "remarks": [], "effects": [], "last_event": None}
     if history.events:
         event = history.events[-1]
         found["last_event"] = {"time": event.time, "level": event.level, "message": event.message, "path": event.path}

@@ -65,9 +65,9 @@ def remarks(prognosis):
 def change(point):
     """A step of log(b1/b0), in terms of the part that it is of."""
     between = f"between {days(point.before, point.time)}"
-    size = {"damping": f"damping {percent(math.expm1(point.step))}",
-            "stiffness": f"stiffness {percent(math.expm1(-point.step))}",
-            None: f"damping {percent(math.expm1(point.step))} or stiffness {percent(math.expm1(-point.step))}"}[point.part]
+    damping = f"damping {percent(math.expm1(point.step))}"
+    stiffness = f"stiffness {percent(math.expm1(-point.step))}"
+    size = {"damping": damping, "stiffness": stiffness, None: f"{damping} or {stiffness}"}[point.part]
     if abs(point.step) < 2 * point.step_stddev:
         return f"another trend {between}"
     return f"{size} at once, {between}"
