@@ -104,7 +104,7 @@ class Tally:
     told: int = 0  # earliest dates: of all but those that have probably changed
     bounds: int = 0  # that the truth is not before
     years: float = 0.0
-    false_changes: int = 0
+    false_changes: int = 0  # more than 3 drives from a repair
     repairs: int = 0
     found: int = 0  # of them repairs, within 3 drives
 
@@ -112,7 +112,7 @@ class Tally:
         result = prognosis(history, options)
         self.struts += 1
         self.years += truth.span
-        near = {history.time[k] for k in range(truth.first_new - 1, truth.first_new + 2) if k > 0}
+        near = set(history.time[max(0, truth.first_new - 3):truth.first_new + 4])
         self.false_changes += sum(truth.kind != "repaired" or change.time not in near for change in result.changes)
         part = "stiffness" if truth.kind == "spring" else "damping"
         true_date = history.time[truth.first_new] + YEAR * truth.life(options.threshold)

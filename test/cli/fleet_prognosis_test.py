@@ -317,4 +317,8 @@ def test_words_of_a_date():
     assert wording.day(late) in said and early < BEGIN + 2.5 * YEAR < late
     assert wording.days(0, 86400 * 40) == "1 January and 10 February 1970"
     assert wording.days(0, 86400 * 400) == "1 January 1970 and 5 February 1971"
+    low, _, high = found.wear["damping"].loss
+    assert wording.span(found.wear["damping"]) in (f"{-100 * high:+.0f} .. {-100 * low:+.0f} %",
+                                                   f"{-100 * high:+.1f} .. {-100 * low:+.1f} %")
+    assert wording.span(found.wear["stiffness"]) == "0 .. 0 %"
     assert (wording.percent(-0.1234), wording.percent(0.0512)) == ("-12 %", "+5.1 %")

@@ -28,6 +28,14 @@ def percent(share):
     return f"{number:+.1f} %" if abs(number) < 9.95 else f"{number:+.0f} %"
 
 
+def span(wear):
+    """What the part has changed by since it was new, from .. to."""
+    low, _, high = wear.loss
+    decimals = 0 if high - low > 0.02 else 1
+    ends = (f"{-100 * share:+.{decimals}f}" for share in (high, low))
+    return " .. ".join("0" if float(end) == 0 else end for end in ends) + " %"
+
+
 def rate(wear):
     """2.1 ± 0.4 % a month, to the first digit that is known."""
     decimals = max(0, min(3, -math.floor(math.log10(max(100 * wear.rate_stddev, 1e-3)))))

@@ -56,6 +56,6 @@ function listStruts() {
       (strut, i) => element(
           'tr', {'data-strut': `${strut.vehicle} ${strut.strut}`},
           element('td', {}, element('a', {href: address(i)}, `${strut.vehicle} ${strut.strut}`)),
-          element('td', {class: 'number'}, strut.change === undefined ? '-' : `${strut.change.toFixed(1)} %`),
+          element('td', {class: 'number'}, strut.worn ?? '-'),
           element('td', {}, strut.outlook))));
 }
