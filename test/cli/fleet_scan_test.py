@@ -3,6 +3,7 @@ import contextlib
 import os
 import pathlib
 import signal
+import sqlite3
 import subprocess
 import sys
 
@@ -80,6 +81,22 @@ def test_every_bag_is_a_row_and_is_read_once(bags, url, tmp_path, counting):
     assert output.splitlines()[0] == "25 bags: 22 known, 2 ok, 1 unread"
     assert len(read()) == GOOD + 4 and {"99.bag", "text.bag"} <= set(read())
     assert fleet.statuses(url) == {"ok": GOOD + 2, "unreadable": 1, "unread": 1}, "what was at that path is forgotten"
+
+
+def test_a_bag_that_lies_there_twice_is_one(bag, url, tmp_path):
+    for name in ("a", "b", "c"):
+        fleet.copies(bag, tmp_path / name, 1)
+    assert "3 bags: 2 known, 1 ok" in fleet.succeed(tmp_path, "scan", ".", "--db", url)
+    assert fleet.statuses(url) == {"ok": 1}
+
+
+def test_a_database_that_is_lost_is_said_in_words(bag, url, tmp_path):
+    fleet.copies(bag, tmp_path / "robot", 1)
+    fleet.succeed(tmp_path, "scan", "robot", "--db", url)
+    with sqlite3.connect(tmp_path / "fleet.db") as connection:
+        connection.execute("DROP TABLE struts")
+    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, "--again")
+    assert (status, output) == (3, "") and "no such table: struts" in error and "Traceback" not in error
 
 
 def test_what_failed_may_not_fail_with_other_options(bag, url, tmp_path):

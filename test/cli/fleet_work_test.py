@@ -131,6 +131,16 @@ def test_poor_and_broken_bags_are_rows_with_a_reason(program, bag, tmp_path):
     assert other.status == "unreadable" and "/none" in other.reason
 
 
+def test_struts_that_are_not_known_say_why(program, tmp_path):
+    vehicle = tmp_path / "vehicle.yaml"
+    program.succeed("simulate", "--vehicle-model", "sedan", "--duration", "2", "--vehicle-file", vehicle, "-o",
+                    tmp_path / "short.bag")
+    drive = bag_work.read_bag(str(tmp_path / "short.bag"), "key", work(program, options=("--vehicle", str(vehicle))))
+    assert [row["strut"] for row in drive.struts] == ["front_left", "front_right", "rear_left", "rear_right"]
+    assert all((row["valid"], row["estimator"], row["damping_to_mass"]) == (False, None, None) for row in drive.struts)
+    assert {row["reason"] for row in drive.struts} == {drive.reason} and "filling" in drive.reason
+
+
 def test_what_is_no_matter_of_the_bag_ends_the_scan(program, bag, tmp_path):
     for options, words in ((("--set", "no_option=1"), "no_option"), (("--config", str(tmp_path / "none.yaml")), "none.yaml")):
         with pytest.raises(UsageError, match=words):

@@ -1,9 +1,12 @@
 """The engine: Dask distributed, a cluster on this machine or a scheduler that runs somewhere."""
+import asyncio
+import concurrent.futures
 import contextlib
 import itertools
 import logging
 import os
 import signal
+import sys
 import tempfile
 
 import dask
@@ -43,7 +46,10 @@ def open_client(workers=None, scheduler=None, patience=60):
             client = distributed.Client(scheduler, timeout=patience)
         except (OSError, ValueError) as error:
             raise FleetError(f"no scheduler at {scheduler}: {error}") from error
-        yield stack.enter_context(contextlib.closing(client))
+        stack.enter_context(contextlib.closing(client))
+        if not client.nthreads():
+            print(f"no worker at {scheduler} yet: waiting", file=sys.stderr)
+        yield client
 
 
 @contextlib.contextmanager
@@ -60,50 +66,56 @@ def read_bags(client, bags, work):
     """Reads bags on the cluster, a bounded number at a time. A bag whose worker, or scheduler, is lost is read again.
 
     :param bags: of type Bag, taken as there is room for them.
-    :returns: (Bag, Drive) of each, in the order in which they are done.
+    :returns: (Bag, Drive) of each, in the order in which they are done; (Bag, None) of one that is read already, by
+        another path.
     :raises FleetError: what is no matter of a bag; or the scheduler is gone for good.
     """
     bags = iter(bags)
     under_way = {}
     finished = distributed.as_completed()
+
+    def submit(bag):
+        under_way[bag.key] = bag
+        # By content and options: clients of one scheduler that ask for the same get the same.
+        finished.add(client.submit(read_bag, bag.path, bag.key, work, key=f"bag-{bag.options}-{bag.key}"))
+
     while True:
         for bag in itertools.islice(bags, _room(client, under_way)):
-            if bag.key not in under_way:
-                under_way[bag.key] = bag
-                finished.add(_submit(client, bag, work))
+            if bag.key in under_way:
+                yield bag, None
+            else:
+                submit(bag)
         if not under_way:
             return
         future = next(finished)
         bag = under_way.pop(future.key.rpartition("-")[2])
-        if future.status in ("cancelled", "lost"):
-            _require_connection(client)
-            under_way[bag.key] = bag
-            finished.add(_submit(client, bag, work))
-            continue
-        yield bag, _outcome(future)
+        drive = _outcome(future)
+        if drive is not None:
+            yield bag, drive
+        elif client.status in ("running", "connecting"):
+            submit(bag)
+        else:
+            raise FleetError("the scheduler is gone; what has been read is in the database, the next scan goes on from there")
 
 
 def _room(client, under_way):
-    threads = sum(client.nthreads().values()) if client.status == "running" else 0
+    try:
+        threads = sum(client.nthreads().values()) if client.status == "running" else 0
+    except OSError:  # the scheduler is lost just now
+        threads = 0
     return max(0, PER_THREAD * max(1, threads) - len(under_way))
 
 
-def _submit(client, bag, work):
-    """By content and options: clients of one scheduler that ask for the same get the same."""
-    return client.submit(read_bag, bag.path, bag.key, work, key=f"bag-{bag.options}-{bag.key}")
-
-
 def _outcome(future):
-    error = future.exception()
-    if error is None:
-        return future.result()
-    if isinstance(error, FleetError):
-        raise error
-    if isinstance(error, distributed.KilledWorker):
-        return Drive(UNREAD, "the workers that were to read it have ended")
-    return Drive(UNREAD, f"{type(error).__name__}: {error}")
-
-
-def _require_connection(client):
-    if client.status not in ("running", "connecting"):
-        raise FleetError("the scheduler is gone; what has been read is in the database, the next scan goes on from there")
+    """A Drive; None if it has been lost with its worker or scheduler."""
+    if future.status == "error":
+        error = future.exception()
+        if isinstance(error, FleetError):
+            raise error
+        if isinstance(error, distributed.KilledWorker):
+            return Drive(UNREAD, "the workers that were to read it have ended")
+        return Drive(UNREAD, f"{type(error).__name__}: {error}")
+    try:
+        return future.result() if future.status == "finished" else None
+    except (OSError, asyncio.CancelledError, concurrent.futures.CancelledError):
+        return None

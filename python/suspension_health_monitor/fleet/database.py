@@ -3,6 +3,7 @@
 doc/fleet.md has a line for every column. Queries are plain SQL, which SQLAlchemy 1.3 to 2 take alike.
 """
 import collections
+import contextlib
 import dataclasses
 import time
 from typing import Any, Dict, List, Optional
@@ -76,20 +77,22 @@ def connect(url, create=False):
     except (ArgumentError, NoSuchModuleError, ImportError) as error:
         raise UsageError(f"--db {url}: {error}; must be a URL such as sqlite:///fleet.db or "
                          "postgresql://user@host/fleet") from error
-    try:
+    with in_words(engine):
         if not create and not _has_tables(engine):
             raise FleetError(f"{shown(engine)} has no fleet in it: `suspension_fleet scan` makes one")
         if create:
             _make_tables(engine)
         _check_version(engine)
-    except SQLAlchemyError as error:
-        raise FleetError(f"{shown(engine)}: {in_words(error)}") from error
     return engine
 
 
-def in_words(error):
-    """What the database itself says, without SQLAlchemy's frame around it."""
-    return " ".join(str(getattr(error, "orig", None) or error).split())
+@contextlib.contextmanager
+def in_words(engine):
+    """:raises FleetError: of what the database itself says, without SQLAlchemy's frame around it."""
+    try:
+        yield
+    except SQLAlchemyError as error:
+        raise FleetError(f"{shown(engine)}: {' '.join(str(getattr(error, 'orig', None) or error).split())}") from error
 
 
 def shown(engine):

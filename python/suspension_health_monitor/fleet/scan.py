@@ -35,7 +35,10 @@ class Scan:
     def read(self, client, bags):
         """Reads bags on a cluster, and writes what they say as it comes."""
         for bag, drive in read_bags(client, bags, self._work):
-            self._write(bag, drive)
+            if drive is None:
+                self._count(KNOWN)
+            else:
+                self._write(bag, drive)
 
     def _bag(self, path):
         """(Bag, why it is not read, if it is not). One that cannot be opened is known by its path for the time being."""

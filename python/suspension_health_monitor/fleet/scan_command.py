@@ -74,7 +74,7 @@ def run(options):
     if work.pages:
         os.makedirs(work.pages, exist_ok=True)
     engine = database.connect(options.db, create=True)
-    with bar(sum(1 for _ in find_bags(options.paths))) as progress:
+    with bar(sum(1 for _ in find_bags(options.paths))) as progress, database.in_words(engine):
         scan = Scan(engine, work, token, vehicle_of, options.again, progress)
         bags = scan.unknown(find_bags(options.paths))
         first = next(bags, None)
