@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How right the prognosis is on fleets whose truth is known: the tables of doc/fleet_prognosis.md.
 
-    source devel/setup.bash && benchmark/fleet_prognosis.py [fleet|law|doubt [STRUTS [SEED]]]
+    source devel/setup.bash && benchmark/fleet_prognosis.py STRUTS SEED [ROW...]
 """
 import dataclasses
 import sys
@@ -104,7 +104,7 @@ class Tally:
     told: int = 0  # earliest dates: of all but those that have probably changed
     bounds: int = 0  # that the truth is not before
     years: float = 0.0
-    false_changes: int = 0
+    false_changes: int = 0  # more than 3 drives from a repair
     repairs: int = 0
     found: int = 0  # of them repairs, within 3 drives
 
@@ -112,7 +112,7 @@ class Tally:
         result = prognosis(history, options)
         self.struts += 1
         self.years += truth.span
-        near = {history.time[k] for k in range(truth.first_new - 1, truth.first_new + 2) if k > 0}
+        near = set(history.time[max(0, truth.first_new - 3):truth.first_new + 4])
         self.false_changes += sum(truth.kind != "repaired" or change.time not in near for change in result.changes)
         part = "stiffness" if truth.kind == "spring" else "damping"
         true_date = history.time[truth.first_new] + YEAR * truth.life(options.threshold)
@@ -133,28 +133,31 @@ def percent(part, whole):
     return f"{100 * part / whole:.1f}" if whole else "-"
 
 
-def table(random, struts, rows, options=Options()):
-    print("| struts | number | with a date | interval right [%] | earliest date right [%] | strut-years | false changes | "
-          "repair found within 3 drives [%] |")
-    print("|---|---|---|---|---|---|---|---|")
-    for name, kind, changed in rows:
-        tally = Tally()
-        for _ in range(struts):
-            truth = draw_truth(random, kind, **changed)
-            tally.add(make(random, truth), truth, options)
-        print(f"| {name} | {tally.struts} | {tally.dates} | {percent(tally.right, tally.dates)} | "
-              f"{percent(tally.bounds, tally.told)} | {tally.years:.0f} | {tally.false_changes} | "
-              f"{percent(tally.found, tally.repairs)} |", flush=True)
-
-
 ROWS = {
-    "fleet": [("any of them", None, {}), *((kind, kind, {}) for kind in KINDS),
-              ("repaired at drive 40 of 60", "repaired", {"drives": 60, "first_new": 40})],
-    "law": [("faster and faster, power 1.5", "wearing", {"law": 1.5}), ("slower and slower, 0.7", "wearing", {"law": 0.7})],
-    "doubt": [("healthy, weather 2 %", "healthy", {"weather": 0.02}), ("wearing, weather 2 %", "wearing", {"weather": 0.02}),
-              ("healthy, season 8 %", "healthy", {"season": 0.08}), ("wearing, season 8 %", "wearing", {"season": 0.08})],
+    "any": (None, {}), **{kind: (kind, {}) for kind in KINDS},
+    "repaired-at-40-of-60": ("repaired", {"drives": 60, "first_new": 40}),
+    "power-1.5": ("wearing", {"law": 1.5}), "power-0.7": ("wearing", {"law": 0.7}),
+    "weather-healthy": ("healthy", {"weather": 0.02}), "weather-wearing": ("wearing", {"weather": 0.02}),
+    "season-healthy": ("healthy", {"season": 0.08}), "season-wearing": ("wearing", {"season": 0.08}),
 }
+HEAD = """| struts | number | with a date | interval right [%] | earliest date right [%] | strut-years | \
+false changes | repair found within 3 drives [%] |
+|---|---|---|---|---|---|---|---|"""
+
+
+def row(name, struts, seed, options=Options()):
+    kind, changed = ROWS[name]
+    random, tally = np.random.default_rng([seed, *name.encode()]), Tally()
+    for _ in range(struts):
+        truth = draw_truth(random, kind, **changed)
+        tally.add(make(random, truth), truth, options)
+    return (f"| {name} | {tally.struts} | {tally.dates} | {percent(tally.right, tally.dates)} | "
+            f"{percent(tally.bounds, tally.told)} | {tally.years:.0f} | {tally.false_changes} | "
+            f"{percent(tally.found, tally.repairs)} |")
+
 
 if __name__ == "__main__":
-    name, number, seed = [*sys.argv[1:], *("fleet", "200", "1")[len(sys.argv) - 1:]]
-    table(np.random.default_rng(int(seed)), int(number), ROWS[name])
+    number, seed = int(sys.argv[1]), int(sys.argv[2])
+    print(HEAD)
+    for each in sys.argv[3:] or ROWS:
+        print(row(each, number, seed), flush=True)

@@ -25,12 +25,11 @@ def battery():
     return module
 
 
-def strut(time, damping=1.0, stiffness=1.0, stddev=0.01, load=0.0, findings=()):
+def strut(time, damping=1.0, stiffness=1.0, stddev=0.01, load=0.0):
     """Parts as shares of new ones over time [years]; load over the empty mass."""
     ones = np.ones(len(time))
     b1, b0 = NEW_DAMPING * damping / (1 + load) * ones, NEW_STIFFNESS * stiffness / (1 + load) * ones
-    return StrutHistory("vehicle", "strut", BEGIN + YEAR * time, b1, stddev * b1, b0, stddev * b0, len(time) * ["a.bag"],
-                        findings=list(findings))
+    return StrutHistory("vehicle", "strut", BEGIN + YEAR * time, b1, stddev * b1, b0, stddev * b0, len(time) * ["a.bag"])
 
 
 def noise(seed, size, stddev=0.01):
@@ -291,8 +290,8 @@ def test_fleets_whose_truth_is_known():
 # Words and options -------------------------------------------------------------------------------------------------
 
 def test_effects_come_and_go():
-    findings = [Finding(3.0, "effect_found", ["friction", "bump_stop"], "c"), Finding(1.0, "effect_found", ["friction"], "a"),
-                Finding(2.0, "nothing_missing", [], "b")]
+    findings = [Finding(3.0, "effect_found", ["friction", "bump_stop"], "c"),
+                Finding(1.0, "effect_found", ["friction"], "a"), Finding(2.0, "nothing_missing", [], "b")]
     spans = {span.name: (span.first, span.last, span.present) for span in history.effect_spans(findings)}
     assert spans == {"friction": (1, 3, True), "bump_stop": (3, 3, True)}
     gone = history.effect_spans([*findings, Finding(4 * 86400.0, "nothing_missing", [], "d")])
@@ -300,8 +299,8 @@ def test_effects_come_and_go():
     assert wording.effect(gone[0]) == "friction on 1 January 1970"
 
 
-@pytest.mark.parametrize("name, value", [("threshold", 0.0), ("level", 1.0), ("season", -0.1), ("false_dates", float("nan")),
-                                         ("false_changes", 0.0)])
+@pytest.mark.parametrize("name, value", [("threshold", 0.0), ("level", 1.0), ("season", -0.1),
+                                         ("false_dates", float("nan")), ("false_changes", 0.0)])
 def test_wrong_options_are_refused_with_name_value_and_range(name, value):
     with pytest.raises(UsageError) as refused:
         Options(**{name: value})
@@ -318,4 +317,8 @@ def test_words_of_a_date():
     assert wording.day(late) in said and early < BEGIN + 2.5 * YEAR < late
     assert wording.days(0, 86400 * 40) == "1 January and 10 February 1970"
     assert wording.days(0, 86400 * 400) == "1 January 1970 and 5 February 1971"
+    low, _, high = found.wear["damping"].loss
+    assert wording.span(found.wear["damping"]) in (f"{-100 * high:+.0f} .. {-100 * low:+.0f} %",
+                                                   f"{-100 * high:+.1f} .. {-100 * low:+.1f} %")
+    assert wording.span(found.wear["stiffness"]) == "0 .. 0 %"
     assert (wording.percent(-0.1234), wording.percent(0.0512)) == ("-12 %", "+5.1 %")

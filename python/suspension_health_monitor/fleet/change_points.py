@@ -15,11 +15,11 @@ _CANDIDATES = 6  # that are looked at closely; the others count as nothing, whic
 def find(series, season, false_rate):
     """(first drives of all segments, [0, ...]; the drive of a change that is likely, but not proven, or None).
 
-    A change at drive k is judged by its Bayes factor L_k, the evidence of a model with a step and another slope there over that
-    of one without. Without a change the sum of L_k over all k has the expectation of their number, and first exceeds A after
-    A drives in the mean at least (Shiryaev-Roberts; Pollak 1985). So a false change in 1 / false_rate strut-years needs
-    A = drives a year / false_rate. It is likely once it is more probable than none, if parts are renewed every
-    YEARS_OF_A_PART.
+    A change at drive k is judged by its Bayes factor L_k, the evidence of a model with a step and another slope there
+    over that of one without. Without a change the sum of L_k over all k has the expectation of their number, and first
+    exceeds A after A drives in the mean at least (Shiryaev-Roberts; Pollak 1985). So a false change in 1 / false_rate
+    strut-years needs A = drives a year / false_rate. It is likely once it is more probable than none, if parts are
+    renewed every YEARS_OF_A_PART.
 
     :param false_rate: [1/year]
     """
@@ -86,5 +86,5 @@ def _likely(series, layout, season, grid, fits):
 
 def _allowed(count, starts):
     """Drives that leave LEAST_DRIVES to both sides within their segment."""
-    parts = [np.arange(begin + LEAST_DRIVES, end - LEAST_DRIVES + 1) for begin, end in zip(starts, [*starts[1:], count])]
-    return np.concatenate(parts)
+    ends = [*starts[1:], count]
+    return np.concatenate([np.arange(begin + LEAST_DRIVES, end - LEAST_DRIVES + 1) for begin, end in zip(starts, ends)])

@@ -27,8 +27,9 @@ def trend(prognosis, draws):
     levels, ends = _levels(draws)
     new = float(np.average(levels[begins.index(prognosis.wear[part].since)], weights=draws.weight))
     times = np.linspace(begins[-1], _end(prognosis, begins[-1]), _POINTS)
-    shares = [quantiles(np.exp(SIGN[part] * (levels[-1] - new + draws.change((time - begins[-1]) / YEAR))), draws.weight,
-                        prognosis.options) for time in times]
+    since = (times - begins[-1]) / YEAR
+    shares = [quantiles(np.exp(SIGN[part] * (levels[-1] - new + draws.change(elapsed))), draws.weight,
+                        prognosis.options) for elapsed in since]
 
     def mean_share(level):
         return float(np.exp(SIGN[part] * (np.average(level, weights=draws.weight) - new)))

@@ -47,8 +47,8 @@ def in_order(histories, options, workers):
 
 
 def urgency(pair):
-    """By when somebody must look at it: the date's early end, or the error that the health monitor has said and not taken
-    back; then by what is worn, then by name."""
+    """By when somebody must look at it: the date's early end, or the error that the health monitor has said and not
+    taken back; then by what is worn, then by name."""
     history, result = pair
     when = result.wear[result.dated].date[0] if result and result.dated else math.inf
     if history.events and history.events[-1].level == "ERROR":

@@ -20,7 +20,7 @@ def _option(default, low, high, meaning):
 @dataclasses.dataclass(frozen=True)
 class Options:
     """:raises UsageError: a value that is not allowed."""
-    threshold: float = _option(0.3, 0.01, 0.9, "share of a new part's damping or stiffness that is lost when it must go")
+    threshold: float = _option(0.3, 0.01, 0.9, "share of a new part's damping or stiffness that it loses in its life")
     level: float = _option(0.9, 0.5, 0.99, "probability of the intervals")
     season: float = _option(0.04, 0, 0.5, "yearly swing of the damping: standard deviation of its sine and its cosine")
     false_dates: float = _option(0.02, 1e-6, 0.5, "share of healthy struts that ever get a date, at most")
@@ -74,7 +74,7 @@ def average(values, weights):
 
 
 def _is_of(part, change):
-    """Whether a step counts for a part. What may be either is the damper's: springs break seldom, and never grow stiffer."""
+    """Whether a step counts for a part. What may be either is the damper's: springs break seldom and do not stiffen."""
     return change.part == part or (change.part is None and part == "damping")
 
 
@@ -114,8 +114,8 @@ def _of_draws(kind, values, draws, segment, carried, options):
     life = draws.life[wears] * (np.maximum(left, 0) / options.threshold) ** (1 / draws.power[wears])
     alike = np.ones(len(life))  # of one kind
     mean, stddev = average(options.threshold / draws.life[wears] * MONTH / YEAR, alike)
-    return Wear(float(values.time[starts[segment]]), quantiles(-np.expm1(carried + change), draws.weight, options), mean,
-                stddev, quantiles(begin + YEAR * life, alike, options), draws.probability[wear.KINDS[kind]])
+    return Wear(float(values.time[starts[segment]]), quantiles(-np.expm1(carried + change), draws.weight, options),
+                mean, stddev, quantiles(begin + YEAR * life, alike, options), draws.probability[wear.KINDS[kind]])
 
 
 def earlier_of(one, other):

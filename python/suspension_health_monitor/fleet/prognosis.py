@@ -40,7 +40,8 @@ def prognosis(history: StrutHistory, options: Options = Options()) -> Optional[P
     draws = wear.posterior(ratio, starts, options.season, options.threshold, bent=True)
     changes = _changes(ratio, own["stiffness"], draws, options)
     falls = {part: wear.posterior(own[part], starts, 0.0, options.threshold) for part in PARTS}
-    certain = 1 / (1 + options.false_dates)  # its odds: by Markov's inequality a Bayes factor this large is no more frequent
+    # By Markov's inequality a Bayes factor with these odds is no more frequent.
+    certain = 1 / (1 + options.false_dates)
     trends = {kind for kind, probability in draws.probability.items() if likely is None and probability >= certain}
     dated = None  # a trend across a change that is likely says nothing
     if "falls" in trends:

@@ -29,10 +29,10 @@ def _strut(history, prognosis, folder):
         "outlook": wording.NO_DRIVES if prognosis is None else wording.outlook(prognosis)}
     if prognosis is None:
         return found
-    trend = prognosis.trend
+    trend, worn = prognosis.trend, prognosis.wear[prognosis.trend.part]
     return {**found, **_drives(history), "part": trend.part, "dated": prognosis.dated is not None,
-            "change": round(-100 * prognosis.wear[trend.part].loss[1], 1), "threshold": prognosis.options.threshold,
-            "new": round(trend.new, 5),
+            "change": round(-100 * worn.loss[1], 1), "worn": wording.span(worn),
+            "threshold": prognosis.options.threshold, "new": round(trend.new, 5),
             "remarks": wording.remarks(prognosis), "effects": [wording.effect(each) for each in prognosis.effects],
             "changes": [[round(each.before), round(each.time)] for each in prognosis.changes],
             "fan": {"from": round(trend.times[0]), "to": round(trend.times[-1]),

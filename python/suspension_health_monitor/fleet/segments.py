@@ -9,8 +9,8 @@ from .grid import close_in
 from .history import MONTH, YEAR
 
 LEAST_SCATTER, MOST_SCATTER = 1e-3, 1.0  # between drives, of a logarithm; nothing is finer or coarser
-# Standard deviations of what the drives have to tell: a new damper in place of one 30 % down is a step of 0.36; 5 % a month
-# is fast wear. They say only how large a change is worth looking for.
+# Standard deviations of what the drives have to tell: a new damper in place of one 30 % down is a step of 0.36; 5 % a
+# month is fast wear. They say only how large a change is worth looking for.
 STEP_STDDEV = 0.3
 SLOPE_STDDEV = 0.05 * YEAR / MONTH  # [1/year]
 MOST_WORN = 0.95  # of a part, where its logarithm is looked at
@@ -53,7 +53,7 @@ def design(series, layout):
 
 
 def worn(elapsed, rate):
-    """What linear wear takes off a logarithm, over the rate: -ln(1 - rate elapsed) / rate; the elapsed time if it is slow."""
+    """What linear wear takes off a logarithm, over the rate: -ln(1 - rate elapsed) / rate."""
     share = np.minimum(rate * elapsed, MOST_WORN)
     return elapsed if rate == 0 else -np.log1p(-share) / rate
 

@@ -63,18 +63,15 @@ def _row(history, prognosis):
     if prognosis is None:
         return history.vehicle, history.strut, "0", "-", "-", wording.NO_DRIVES, last, "-"
     effects = ", ".join(each.name for each in prognosis.effects if each.present) or "-"
-    return (history.vehicle, history.strut, str(prognosis.drives), _change(prognosis.wear["damping"]),
-            _change(prognosis.wear["stiffness"]), wording.outlook(prognosis), last, effects)
-
-
-def _change(wear):
-    return wording.percent(-wear.loss[1])
+    return (history.vehicle, history.strut, str(prognosis.drives), wording.span(prognosis.wear["damping"]),
+            wording.span(prognosis.wear["stiffness"]), wording.outlook(prognosis), last, effects)
 
 
 def as_dict(history, prognosis):
     """For programs: times in seconds since 1970, shares of 1, rates per month; null where there is none."""
-    found = {"vehicle": history.vehicle, "strut": history.strut, "drives": 0, "outlook": wording.NO_DRIVES, "dated": None,
-             "wear": None, "changes": [], "likely_change": None, "remarks": [], "effects": [], "last_event": None}
+    found = {"vehicle": history.vehicle, "strut": history.strut, "drives": 0, "outlook": wording.NO_DRIVES,
+             "dated": None, "wear": None, "changes": [], "likely_change": None, "remarks": [],
+             "effects": [], "last_event": None}
     if history.events:
         event = history.events[-1]
         found["last_event"] = {"time": event.time, "level": event.level, "message": event.message, "path": event.path}

@@ -4,8 +4,8 @@ import dataclasses
 import numpy as np
 from scipy.special import gammaln
 
-# With 5 the variance of a location is told 8 % too small if the errors are normal, 3 % too large if they are of 4 degrees of
-# freedom, and right to 2 % with 2 % of the readings ten times as far off.
+# With 5 the variance of a location is told 8 % too small if the errors are normal, 3 % too large if they are of 4
+# degrees of freedom, and right to 2 % with 2 % of the readings ten times as far off.
 DEGREES_OF_FREEDOM = 5.0
 _CONSTANT = (gammaln((DEGREES_OF_FREEDOM + 1) / 2) - gammaln(DEGREES_OF_FREEDOM / 2)
              - 0.5 * np.log(DEGREES_OF_FREEDOM * np.pi))
@@ -32,9 +32,9 @@ def log_density(values, scale):
 def fit(values, offsets, scales, design, precision):
     """values = offset + design @ coefficients + scale * t, by iteratively reweighted least squares, for every offset.
 
-    values: (N,). offsets, scales: (C, N). design: (N, p). precision: (p,) of the coefficients' normal priors about 0, 0 for a
-    flat one (whose density is taken as 1). The evidence is Laplace's approximation with Fisher's information, which is
-    positive whatever the residuals are.
+    values: (N,). offsets, scales: (C, N). design: (N, p). precision: (p,) of the coefficients' normal priors about 0, 0
+    for a flat one (whose density is taken as 1). The evidence is Laplace's approximation with Fisher's information, which
+    is positive whatever the residuals are.
     """
     count, size = len(offsets), design.shape[1]
     products = (design[:, :, None] * design[:, None, :]).reshape(len(values), -1)

@@ -8,7 +8,7 @@ from .grid import LEFT_OUT, close_in
 from .history import MONTH, YEAR
 from .segments import LEAST_SCATTER, MOST_SCATTER, Layout, design, lay_out, precision, scales, scatter_grid, years
 
-# A part wears so that it lasts between a month and the life of a vehicle, on no scale in between rather than on another.
+# A part that wears lasts between a month and the life of a vehicle, on no scale in between rather than on another.
 SHORTEST_LIFE, LONGEST_LIFE = MONTH / YEAR, 25.0  # [years] until the threshold
 BENT = 0.1  # share of wear that is not linear; with more of it the intervals of linear wear hold more than they say
 POWER_STDDEV = 0.35  # of its logarithm: wear that goes with time to the power of 0.5 to 2, where it is not linear
@@ -81,7 +81,8 @@ def posterior(series, starts, season, threshold, bent=False, seed=0):
 
 def _evidence(found):
     """Of every kind."""
-    return np.array([np.logaddexp.reduce([share + grid.log_integral for share, (grid, _) in models]) for models in found])
+    return np.array([np.logaddexp.reduce([share + grid.log_integral for share, (grid, _) in models])
+                     for models in found])
 
 
 def _of_wear(kind, bent, series, starts, matrix, prior, threshold):

@@ -28,6 +28,14 @@ def percent(share):
     return f"{number:+.1f} %" if abs(number) < 9.95 else f"{number:+.0f} %"
 
 
+def span(wear):
+    """What the part has changed by since it was new, from .. to."""
+    low, _, high = wear.loss
+    decimals = 0 if high - low > 0.02 else 1
+    ends = (f"{-100 * share:+.{decimals}f}" for share in (high, low))
+    return " .. ".join("0" if float(end) == 0 else end for end in ends) + " %"
+
+
 def rate(wear):
     """2.1 ± 0.4 % a month, to the first digit that is known."""
     decimals = max(0, min(3, -math.floor(math.log10(max(100 * wear.rate_stddev, 1e-3)))))
@@ -65,9 +73,9 @@ def remarks(prognosis):
 def change(point):
     """A step of log(b1/b0), in terms of the part that it is of."""
     between = f"between {days(point.before, point.time)}"
-    size = {"damping": f"damping {percent(math.expm1(point.step))}",
-            "stiffness": f"stiffness {percent(math.expm1(-point.step))}",
-            None: f"damping {percent(math.expm1(point.step))} or stiffness {percent(math.expm1(-point.step))}"}[point.part]
+    damping = f"damping {percent(math.expm1(point.step))}"
+    stiffness = f"stiffness {percent(math.expm1(-point.step))}"
+    size = {"damping": damping, "stiffness": stiffness, None: f"{damping} or {stiffness}"}[point.part]
     if abs(point.step) < 2 * point.step_stddev:
         return f"another trend {between}"
     return f"{size} at once, {between}"

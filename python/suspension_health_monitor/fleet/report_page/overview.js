@@ -21,8 +21,8 @@ function drawMap(open) {
   const scale = [[0, colour('low')], [0.5, colour('middle')], [1, colour('high')]];
   // By number, not by name: Plotly would take names such as 1 and 2 for numbers with room between them.
   const numbered = (names, own) => axis(
-      {tickvals: names.map((_, i) => i), ticktext: names.map(escaped), showgrid: false, zeroline: false, fixedrange: true,
-       ticks: '', automargin: true, ...own});
+      {tickvals: names.map((_, i) => i), ticktext: names.map(escaped), showgrid: false, zeroline: false, ticks: '',
+       fixedrange: true, automargin: true, ...own});
   const map = {
     type: 'heatmap', z: each(strut => 100 + (strut.change ?? NaN)), zmin: 60, zmax: 140, colorscale: scale,
     xgap: 2, ygap: 2, text: each(strut => escaped(`${strut.vehicle} ${strut.strut}: ${strut.outlook}`)),
@@ -56,6 +56,6 @@ function listStruts() {
       (strut, i) => element(
           'tr', {'data-strut': `${strut.vehicle} ${strut.strut}`},
           element('td', {}, element('a', {href: address(i)}, `${strut.vehicle} ${strut.strut}`)),
-          element('td', {class: 'number'}, strut.change === undefined ? '-' : `${strut.change.toFixed(1)} %`),
+          element('td', {class: 'number'}, strut.worn ?? '-'),
           element('td', {}, strut.outlook))));
 }

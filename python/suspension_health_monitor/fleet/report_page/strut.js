@@ -6,7 +6,8 @@ const WIDTH = 1.645;  // standard deviations of a bar: 90 %
 function points(time, value, stddev, axes) {
   const middle = value.map(Math.exp);
   return {
-    type: 'scatter', mode: 'markers', x: time, y: middle, ...axes, hovertemplate: '%{x|%-d %b %Y}: %{y:.4g}<extra></extra>',
+    type: 'scatter', mode: 'markers', x: time, y: middle, ...axes,
+    hovertemplate: '%{x|%-d %b %Y}: %{y:.4g}<extra></extra>',
     marker: {size: 4, color: colour('points')},
     error_y: {
       type: 'data', symmetric: false, thickness: 0.7, width: 0, color: colour('points'),
@@ -21,12 +22,13 @@ function trends(strut) {
   const time = shares[0].map((_, i) => moment(from + (to - from) * i / (shares[0].length - 1)));
   const [low, middle, high] = shares.map(row => row.map(each => each / 10));
   const line = {type: 'scatter', mode: 'lines', hoverinfo: 'skip', xaxis: 'x', yaxis: 'y'};
+  const drawn = {color: colour('trend'), width: 2};
   const before = strut.earlier.map(([begin, end, first, last]) => (
-      {...line, x: [moment(begin), moment(end)], y: [100 * first, 100 * last], line: {color: colour('trend'), width: 2}}));
+      {...line, x: [moment(begin), moment(end)], y: [100 * first, 100 * last], line: drawn}));
   return [
     {...line, x: time, y: low, line: {width: 0}},
     {...line, x: time, y: high, line: {width: 0}, fill: 'tonexty', fillcolor: colour('band')},
-    {...line, x: time, y: middle, line: {color: colour('trend'), width: 2}, name: 'trend'}, ...before
+    {...line, x: time, y: middle, line: drawn}, ...before
   ];
 }
 
@@ -88,8 +90,8 @@ function showStrut(strut) {
       ...(strut.effects?.length ? [element('p', {}, `Effects: ${strut.effects.map(spoken).join('; ')}`)] : []),
       ...(strut.count ? [
         place,
-        element('p', {class: 'lede'}, 'Bars: 90 % of a drive. Band: 90 % of the trend, without the season. Dashed: the end of ' +
-            'the part. Dotted: a change. b1 and b0 with the payload in them.')
+        element('p', {class: 'lede'}, 'Bars: 90 % of a drive. Band: what the trend may be, without the season. ' +
+            'Dashed: the end of the part. Dotted: a change. b1 and b0 with the payload in them.')
       ] : []),
       ...list('Findings', ['drive', 'verdict', 'effects', ''], found),
       ...list('Health', ['time', 'level', 'reason'], strut.events.map(([time, ...rest]) => [dayOf(time), ...rest])),
