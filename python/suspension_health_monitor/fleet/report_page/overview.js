@@ -3,6 +3,7 @@
 const vehicles = [...new Set(data.struts.map(strut => strut.vehicle))];
 const strutNames = [...new Set(data.struts.map(strut => strut.strut))].sort();
 const ROW = 20;  // [px]: a line of text
+const LETTER = 7;  // [px] wide at most, in the mean of a name
 
 function summarise() {
   const dated = data.struts.filter(strut => strut.dated).length;
@@ -19,10 +20,16 @@ function drawMap(open) {
   const each = pick => cells.map(row => row.map(i => i === undefined ? null : pick(data.struts[i])));
   const dated = data.struts.filter(strut => strut.dated);
   const scale = [[0, colour('low')], [0.5, colour('middle')], [1, colour('high')]];
+  // Plotly would find the margins by drawing several times over, which takes most of the time of a large fleet.
+  const widest = names => 10 + LETTER * Math.max(0, ...names.map(name => name.length));
+  const left = Math.min(0.4 * place.clientWidth, widest(vehicles));
+  const shortened = name => widest([name]) > left + 1 ? `${name.slice(0, Math.floor(left / LETTER) - 2)}…` : name;
+  const crowded = widest(strutNames) * strutNames.length > place.clientWidth - left;
+  const top = crowded ? Math.min(120, widest(strutNames)) : 30;
   // By number, not by name: Plotly would take names such as 1 and 2 for numbers with room between them.
   const numbered = (names, own) => axis(
       {tickvals: names.map((_, i) => i), ticktext: names.map(escaped), showgrid: false, zeroline: false, ticks: '',
-       fixedrange: true, automargin: true, ...own});
+       fixedrange: true, ...own});
   const map = {
     type: 'heatmap', z: each(strut => 100 + (strut.change ?? NaN)), zmin: 60, zmax: 140, colorscale: scale,
     xgap: 2, ygap: 2, text: each(strut => escaped(`${strut.vehicle} ${strut.strut}: ${strut.outlook}`)),
@@ -34,9 +41,10 @@ function drawMap(open) {
     marker: {symbol: 'circle-open', size: 10, color: colour('ring'), line: {width: 2}}
   };
   const layout = layoutOf({
-    height: 52 + ROW * vehicles.length, margin: {l: 10, r: 22, t: 30, b: 22}, clickmode: 'event', dragmode: false,
-    xaxis: numbered(strutNames, {side: 'top', range: [-0.5, strutNames.length - 0.5]}),
-    yaxis: numbered(vehicles, {range: [vehicles.length - 0.5, -0.5]})
+    height: top + 22 + ROW * vehicles.length, margin: {l: left, r: 22, t: top, b: 22}, clickmode: 'event',
+    dragmode: false,
+    xaxis: numbered(strutNames, {side: 'top', tickangle: crowded ? -90 : 0, range: [-0.5, strutNames.length - 0.5]}),
+    yaxis: numbered(vehicles.map(shortened), {range: [vehicles.length - 0.5, -0.5]})
   });
   Plotly.react(place, [map, rings], layout, {...settings, displayModeBar: false});
   place.removeAllListeners('plotly_click');
