@@ -25,7 +25,8 @@ bool GridStreams::areWaiting() const {
 }
 
 bool GridStreams::mayStillCome(GridStream& optional) const {
-  if (streams_[reference_].waiting.size() > kMostOptionalLag) optional.is_silent = true;
+  const ReadingQueue& waiting = streams_[reference_].waiting;
+  if (waiting.full() || waiting.back().stamp - waiting.front().stamp > kMostOptionalLag) optional.is_silent = true;
   return !optional.is_silent;
 }
 
