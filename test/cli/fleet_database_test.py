@@ -91,6 +91,17 @@ def test_clients_at_once_write_every_bag_once(tmp_path):
                                                 "findings": 20}
 
 
+def test_a_client_that_was_faster_stays(engine, monkeypatch):
+    """Both have seen that the bag is not known; what the other has written then is not touched."""
+    database.write(engine, bag("k"), drive(0.0, 4.0))
+    row, seen = database._row, [None]
+    monkeypatch.setattr(database, "_row", lambda *arguments: seen.pop() if seen else row(*arguments))
+    assert not database.write(engine, bag("k"), drive(0.0, 3.0))
+    with engine.begin() as connection:
+        found = connection.execute(database.text("SELECT damping_to_mass FROM struts ORDER BY strut")).fetchall()
+    assert [value for value, in found] == [4.0, 5.0]
+
+
 def test_a_newer_schema_is_refused(tmp_path):
     url = f"sqlite:///{tmp_path / 'fleet.db'}"
     database.connect(url, create=True)

@@ -147,15 +147,18 @@ class Bag:
 def is_known(engine, bag):
     """Whether the database has what reading a bag would tell. One that failed may not fail with other options."""
     with engine.begin() as connection:
-        return _is_known(connection, bag)
+        return _answers(_row(connection, bag), bag)
 
 
-def _is_known(connection, bag):
-    row = connection.execute(text("SELECT status, diagnosed, options FROM drives WHERE key = :key"),
-                             {"key": bag.key}).fetchone()
-    if row is None or row[0] == UNREAD:
+def _row(connection, bag):
+    return connection.execute(text("SELECT id, status, diagnosed, options FROM drives WHERE key = :key"),
+                              {"key": bag.key}).fetchone()
+
+
+def _answers(row, bag):
+    if row is None or row[1] == UNREAD:
         return False
-    status, diagnosed, options = row
+    _, status, diagnosed, options = row
     return bool(diagnosed) or not bag.diagnose if status == OK else options == bag.options
 
 
@@ -170,9 +173,10 @@ def write(engine, bag, drive, again=False):
                scanned_at=time.time())
     try:
         with engine.begin() as connection:
-            if not again and _is_known(connection, bag):
+            before = _row(connection, bag)
+            if not again and _answers(before, bag):
                 return False
-            _forget(connection, bag)
+            _forget(connection, bag, before)
             (drive_id,) = connection.execute(drives.insert().values(**row)).inserted_primary_key
             for table, rows in ((struts, drive.struts), (events, drive.events), (findings, drive.findings)):
                 if rows:
@@ -184,13 +188,15 @@ def write(engine, bag, drive, again=False):
     return True
 
 
-def _forget(connection, bag):
-    which = ("SELECT id FROM drives WHERE key = :key OR path = :path AND "
-             f"status IN ('{UNREADABLE}', '{CRASHED}', '{UNREAD}')")
-    values = {"key": bag.key, "path": bag.path}
-    for table in (struts, events, findings):
-        connection.execute(text(f"DELETE FROM {table.name} WHERE drive_id IN ({which})"), values)
-    connection.execute(text(f"DELETE FROM drives WHERE id IN ({which})"), values)
+def _forget(connection, bag, before):
+    """Of the same bag only what has been seen: what another client writes meanwhile stays, and is in the way of ours."""
+    ids = [row[0] for row in connection.execute(
+        text("SELECT id FROM drives WHERE path = :path AND key <> :key AND "
+             f"status IN ('{UNREADABLE}', '{CRASHED}', '{UNREAD}')"), {"path": bag.path, "key": bag.key})]
+    for drive_id in ids + ([before[0]] if before else []):
+        for table in (struts, events, findings):
+            connection.execute(table.delete().where(table.c.drive_id == drive_id))
+        connection.execute(drives.delete().where(drives.c.id == drive_id))
 
 
 def counts(engine):
