@@ -16,6 +16,8 @@ from .errors import FleetError, UsageError
 
 ONLY_STRUT = "strut"  # the name of a strut that is judged alone
 _WRONG_USAGE, _WRONG_INPUT, _TOO_POOR = 2, 3, 4
+# suspension_bag waits until its files are on the disk: those that are deleted at once need not be there.
+_MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
 # A worker that is killed takes its processes along.
 _WITH_PARENT = ["setpriv", "--pdeathsig", "KILL"]
 
@@ -41,7 +43,7 @@ def read_bag(path, key, work):
     """:returns: a Drive. :raises FleetError: what is no matter of this bag, such as a wrong option."""
     struts, events, findings, diagnosed = {}, [], [], False
     status, reason = OK, None
-    with tempfile.TemporaryDirectory(prefix="suspension_fleet.") as folder:
+    with tempfile.TemporaryDirectory(prefix="suspension_fleet.", dir=_MEMORY) as folder:
         try:
             found = _run("identify", path, folder, work)
             struts = {name: _strut_row(name, strut) for name, strut in _by_strut(found).items()}

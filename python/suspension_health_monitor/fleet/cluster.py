@@ -11,6 +11,7 @@ import tempfile
 
 import dask
 import distributed
+from distributed.scheduler import KilledWorker
 
 from .bag_work import read_bag
 from .database import UNREAD, Drive
@@ -20,7 +21,7 @@ PER_THREAD = 2  # bags under way for each thread: one that is read, one that wai
 # What a scheduler keeps of tasks that are done; by default the last 100 000, which is memory that grows with a scan.
 KEPT = {"distributed.scheduler.transition-log-length": 100, "distributed.scheduler.events-log-length": 100,
         "distributed.admin.log-length": 100, "distributed.diagnostics.computations.max-history": 1,
-        "distributed.worker.profile.interval": "1 day", "distributed.worker.profile.cycle": "1 day",
+        "distributed.worker.profile.interval": "24h", "distributed.worker.profile.cycle": "24h",
         "distributed.worker.memory.spill": False}
 
 
@@ -112,7 +113,7 @@ def _outcome(future):
         error = future.exception()
         if isinstance(error, FleetError):
             raise error
-        if isinstance(error, distributed.KilledWorker):
+        if isinstance(error, KilledWorker):
             return Drive(UNREAD, "the workers that were to read it have ended")
         return Drive(UNREAD, f"{type(error).__name__}: {error}")
     try:
