@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "suspension_health_monitor/internal/signal/delay_line.h"
 
@@ -20,7 +21,12 @@ RuleError::RuleError(const IntegralFilterOptions& filter) {
 
 double RuleError::at(double w) const {
   double sum = 0.5 / std::tan(w / 2.0);
-  for (std::size_t k = 0; k < corrections_.size(); ++k) sum += corrections_[k] * std::sin(w * static_cast<double>(k));
+  const double twice = 2.0 * std::cos(w);
+  double before = -std::sin(w), sine = 0.0;  // of (k - 1) w and k w; sin((k + 1) w) = 2 cos w sin kw - sin((k - 1) w)
+  for (const double correction : corrections_) {
+    sum += correction * sine;
+    before = std::exchange(sine, twice * sine - before);
+  }
   return w * sum - 1.0;
 }
 
