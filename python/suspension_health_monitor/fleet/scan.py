@@ -7,7 +7,6 @@ import sys
 from . import database
 from .bag_key import bag_key
 from .cluster import read_bags
-from .find_bags import find_bags
 
 KNOWN = "known"
 
