@@ -35,7 +35,7 @@ sourceSystemRos() {
   if [ -f /opt/ros/noetic/setup.bash ]; then sourceSetup /opt/ros/noetic/setup.bash; fi
 }
 
-jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}  # how many compilers, or tests, at once
+jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}  # how many compilers at once
 
 # buildPackage [TARGET]...: configures and builds in build/.
 buildPackage() {

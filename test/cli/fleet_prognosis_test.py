@@ -9,7 +9,7 @@ from scipy import integrate, stats
 import imu_bag
 from suspension_health_monitor.fleet import change_points, grid, history, prognosis, student_t, wear, wording
 from suspension_health_monitor.fleet.errors import UsageError
-from suspension_health_monitor.fleet.history import MONTH, YEAR, Finding, Series, StrutHistory
+from suspension_health_monitor.fleet.history import MONTH, YEAR, Event, Finding, Series, StrutHistory
 from suspension_health_monitor.fleet.part_wear import Options
 
 NEW_DAMPING, NEW_STIFFNESS = 4.0, 60.0
@@ -322,3 +322,28 @@ def test_words_of_a_date():
                                                    f"{-100 * high:+.1f} .. {-100 * low:+.1f} %")
     assert wording.span(found.wear["stiffness"]) == "0 .. 0 %"
     assert (wording.percent(-0.1234), wording.percent(0.0512)) == ("-12 %", "+5.1 %")
+
+
+def test_damping_that_broke_at_once_has_reached_the_threshold():
+    time = np.linspace(0, 0.5, 60)
+    half = np.where(np.arange(60) < 30, 1.0, 0.5)
+    found = prognosis.prognosis(strut(time, damping=half * noise(1, 60), stiffness=noise(2, 60)))
+    assert found.dated is None and found.reached == ["damping"]
+    assert wording.outlook(found) == "damping has reached -30 %"
+
+
+def test_damping_that_grows_is_not_told_as_a_spring_that_wears():
+    time = np.linspace(0, 0.8, 80)
+    found = prognosis.prognosis(strut(time, damping=(1 + 0.36 * time) * noise(1, 80), stiffness=noise(2, 80)), NO_SEASON)
+    assert found.stiffer_or_softer and list(found.told) == ["damping"]
+
+
+def test_an_error_is_taken_back_only_by_who_judges():
+    def last(*levels):
+        events = [Event(float(i), level, message, "a.bag") for i, (level, message) in enumerate(levels)]
+        return dataclasses.replace(strut(np.zeros(1)), events=events).last_event
+    error, stale, learning = ("ERROR", "worn"), ("STALE", "cannot tell"), ("OK", "learning the baseline: 1 %")
+    assert last(error, stale, learning).level == "ERROR"
+    assert last(error, stale, ("OK", "damping 1 % below baseline")).level == "OK"
+    assert last(stale, learning).message == learning[1]
+    assert last() is None

@@ -5,6 +5,7 @@ doc/fleet.md has a line for every column. Queries are plain SQL, which SQLAlchem
 import collections
 import contextlib
 import dataclasses
+import re
 import time
 from typing import Any, Dict, List, Optional
 
@@ -74,8 +75,9 @@ def connect(url, create=False):
     try:
         sqlite = url.startswith("sqlite:")
         engine = create_engine(url, **({"connect_args": {"timeout": LOCK_TIMEOUT}} if sqlite else {}))
-    except (ArgumentError, NoSuchModuleError, ImportError) as error:
-        raise UsageError(f"--db {url}: {error}; must be a URL such as sqlite:///fleet.db or "
+    except (ArgumentError, NoSuchModuleError, ImportError, ValueError) as error:
+        without_password = re.sub(r":[^:@/]*@", ":***@", url)
+        raise UsageError(f"--db {without_password}: {error}; must be a URL such as sqlite:///fleet.db or "
                          "postgresql://user@host/fleet") from error
     with in_words(engine):
         if not create and not _has_tables(engine):

@@ -41,6 +41,12 @@ class StrutHistory:
     events: List[Event] = dataclasses.field(default_factory=list)
     findings: List[Finding] = dataclasses.field(default_factory=list)
 
+    @property
+    def last_event(self) -> Optional[Event]:
+        """The newest that judges the strut: one that says "cannot tell" or "learning" takes no ERROR back."""
+        judging = [event for event in self.events if event.level != "STALE" and not event.message.startswith("learning")]
+        return (judging or self.events or [None])[-1]
+
 
 @dataclasses.dataclass(frozen=True)
 class Series:

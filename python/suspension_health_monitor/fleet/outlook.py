@@ -51,7 +51,9 @@ def urgency(pair):
     taken back; then by what is worn, then by name."""
     history, result = pair
     when = result.wear[result.dated].date[0] if result and result.dated else math.inf
-    if history.events and history.events[-1].level == "ERROR":
-        when = min(when, history.events[-1].time)
-    worn = max(each.loss[1] for each in result.wear.values()) if result else -math.inf
+    if result and result.reached:
+        when = min(when, result.last)
+    if history.last_event and history.last_event.level == "ERROR":
+        when = min(when, history.last_event.time)
+    worn = max(each.loss[1] for each in result.told.values()) if result else -math.inf
     return when, -worn, history.vehicle, history.strut

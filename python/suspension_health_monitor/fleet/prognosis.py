@@ -29,6 +29,16 @@ class Prognosis:
     options: Options
     trend: Optional[Trend]  # as a picture has it
 
+    @property
+    def told(self):
+        """The wear of the parts of which something is known: where it may be the damping that grows, the spring's is not."""
+        return {part: each for part, each in self.wear.items() if part == "damping" or not self.stiffer_or_softer}
+
+    @property
+    def reached(self):
+        """The parts that have certainly lost the threshold, whether they wear or were broken at once."""
+        return [part for part, each in self.told.items() if each.loss[0] >= self.options.threshold]
+
 
 def prognosis(history: StrutHistory, options: Options = Options()) -> Optional[Prognosis]:
     """None without a single drive whose estimates are valid."""

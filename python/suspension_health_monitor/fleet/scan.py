@@ -48,6 +48,9 @@ class Scan:
             key = bag_key(path)
         except OSError as error:
             key, doubt = hashlib.sha256(os.fsencode(path)).hexdigest(), error.strerror
+        readable = os.fsencode(path).decode("utf-8", "backslashreplace")  # no database takes other bytes
+        if readable != path:
+            path, vehicle, doubt = readable, None, "its name is no UTF-8 text: give it another one"
         return database.Bag(key, path, vehicle, self._options, self._work.diagnose), doubt
 
     def _write(self, bag, drive):

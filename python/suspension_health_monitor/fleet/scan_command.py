@@ -72,7 +72,10 @@ def run(options):
     if next(find_bags(options.paths), None) is None:
         raise FleetError(f"{' '.join(options.paths)}: no bag in there")
     if work.pages:
-        os.makedirs(work.pages, exist_ok=True)
+        try:
+            os.makedirs(work.pages, exist_ok=True)
+        except OSError as error:
+            raise FleetError(f"--pages {work.pages}: {error.strerror}") from error
     engine = database.connect(options.db, create=True)
     with bar(sum(1 for _ in find_bags(options.paths))) as progress, database.in_words(engine):
         scan = Scan(engine, work, token, vehicle_of, options.again, progress)

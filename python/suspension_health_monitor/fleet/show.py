@@ -6,6 +6,7 @@ import sys
 
 from . import outlook, wording
 from .errors import FleetError
+from .part_wear import PARTS
 
 HELP = "say what every strut is like, and when it must go to the workshop"
 _HEAD = ("vehicle", "strut", "drives", "damping", "stiffness", "outlook", "last event", "effects")
@@ -58,13 +59,13 @@ def _fold(text, width):
 
 
 def _row(history, prognosis):
-    event = history.events[-1] if history.events else None
+    event = history.last_event
     last = f"{event.level} on {wording.day(event.time)}" if event else "-"
     if prognosis is None:
         return history.vehicle, history.strut, "0", "-", "-", wording.NO_DRIVES, last, "-"
     effects = ", ".join(each.name for each in prognosis.effects if each.present) or "-"
-    return (history.vehicle, history.strut, str(prognosis.drives), wording.span(prognosis.wear["damping"]),
-            wording.span(prognosis.wear["stiffness"]), wording.outlook(prognosis), last, effects)
+    spans = (wording.span(prognosis.told[part]) if part in prognosis.told else "-" for part in PARTS)
+    return (history.vehicle, history.strut, str(prognosis.drives), *spans, wording.outlook(prognosis), last, effects)
 
 
 def as_dict(history, prognosis):
@@ -72,15 +73,15 @@ def as_dict(history, prognosis):
     found = {"vehicle": history.vehicle, "strut": history.strut, "drives": 0, "outlook": wording.NO_DRIVES,
              "dated": None, "wear": None, "changes": [], "likely_change": None, "remarks": [],
              "effects": [], "last_event": None}
-    if history.events:
-        event = history.events[-1]
+    event = history.last_event
+    if event:
         found["last_event"] = {"time": event.time, "level": event.level, "message": event.message, "path": event.path}
     if prognosis is None:
         return found
     return {**found, "drives": prognosis.drives, "outlook": wording.outlook(prognosis), "dated": prognosis.dated,
             "wear": {part: {"since": each.since, "loss": each.loss, "probability": each.probability, "rate": each.rate,
                             "rate_stddev": each.rate_stddev, "date": [_time(time) for time in each.date]}
-                     for part, each in prognosis.wear.items()},
+                     for part, each in prognosis.told.items()},
             "changes": [{"before": each.before, "time": each.time, "step": each.step, "step_stddev": each.step_stddev,
                          "part": each.part} for each in prognosis.changes],
             "likely_change": prognosis.likely_change, "remarks": wording.remarks(prognosis),

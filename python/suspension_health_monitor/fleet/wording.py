@@ -51,6 +51,8 @@ def outlook(prognosis):
         reaches = "has reached" if late <= prognosis.last else "reaches"
         when = f"between {days(early, late)}" if _can_be_said(late) else f"not before {day(early)}"
         return f"{prognosis.dated} falls {rate(wear)}, {reaches} {threshold} {when}"
+    if prognosis.reached:
+        return f"{' and '.join(prognosis.reached)} has reached {threshold}"
     if prognosis.likely_change:
         return f"probably changed on {day(prognosis.likely_change)} or before: more drives will tell"
     reason = ("the spring wears, or damping grows: stiffness/mass does not tell" if prognosis.stiffer_or_softer else
