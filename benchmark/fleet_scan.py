@@ -12,6 +12,8 @@ import sys
 import tempfile
 import time
 
+from suspension_health_monitor.fleet.options import find_program
+
 REPOSITORY = pathlib.Path(__file__).resolve().parents[1]
 DRIVES = 4  # that are simulated; the others are copies, which differ in the padding of their header
 
@@ -57,7 +59,7 @@ def main():
     parser.add_argument("--many", type=int, default=2000, help="short ones, for the client's memory")
     parser.add_argument("--work", type=pathlib.Path, help="for 10 MB a bag, deleted again")
     options = parser.parse_args()
-    program = os.environ["SUSPENSION_BAG"]
+    program = find_program()
     fleet = [sys.executable, REPOSITORY / "python/suspension_fleet", "scan"]
     with tempfile.TemporaryDirectory(dir=options.work) as folder:
         folder = pathlib.Path(folder)
