@@ -27,7 +27,8 @@ __all__ = [
 
 if TYPE_CHECKING:
     from ._api import (Baseline, Comparison, Diagnosis, Effect, Health, Identification, Recording, Simulation,
-                       StrutModel, StrutMonitor, VehicleMonitor, compare, diagnose, effects, health, identify, simulate, to_dict)
+                       StrutModel, StrutMonitor, VehicleMonitor, compare, diagnose, effects, health, identify, simulate,
+                       to_dict)
 
 
 def __getattr__(name):

@@ -36,8 +36,7 @@ struct RecordedVehicle {
       : vehicle(readVehicle(values)),
         settings(VehicleOptions::fromValues(vehicle.layout, gatherOptions(values))),
         gaps(settings.common.shell.input_timeout) {
-    ImuBags bags = readBags(values);
-    if (!settings.common.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+    const ImuBags bags = readBags(values, settings.common.shell);
     for (VehicleBag& bag : readVehicleDrives(bags, settings.common, vehicle.layout, gaps)) {
       drives.push_back(std::move(bag.drive));
       alignment = bag.alignment;
@@ -118,8 +117,7 @@ ByStrut<HealthSummary> watchStrutsOf(const Arguments& arguments, LongWork& work)
   VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
   const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
   TopicGaps gaps(options.common.shell.input_timeout);
-  ImuBags bags = readBags(values);
-  if (!options.common.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+  ImuBags bags = readBags(values, options.common.shell);
   const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
   bags.gaps = &gaps;
   std::vector<Course> courses(vehicle.names.size());

@@ -37,7 +37,7 @@ class LockedVehicle {
                 const MonitorOptions& options)
       : streams_(layoutOf(struts)),
         grid_(*options.sample_period, streams_, MonitorSettings(options).grid(*options.sample_period),
-              [this](const VehicleSample& sample) { take(sample); }),
+              [this](const VehicleSample& sample) { monitor_.addSample(grid_, sample); }),
         monitor_(std::vector<MonitorSettings>(struts.size(), MonitorSettings(options)),
                  [](std::size_t, const MonitorReport&) {}) {}
 
@@ -70,17 +70,9 @@ class LockedVehicle {
   }
 
  private:
-  void take(const VehicleSample& sample) {
-    if (!has_sample_ && streams_.channels.body_imu) monitor_.setNoise(grid_.noise());
-    has_sample_ = true;
-    for (std::size_t i = 0; i < monitor_.numStruts(); ++i) monitor_.setStampErrors(i, grid_.stampErrors(i));
-    monitor_.addSample(sample);
-  }
-
   VehicleStreams streams_;
   CallbackLock lock_;
   std::vector<double> values_;
-  bool has_sample_ = false;
   VehicleGrid grid_;
   VehicleMonitor monitor_;
 };

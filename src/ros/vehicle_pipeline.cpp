@@ -63,13 +63,10 @@ void VehiclePipeline::finish() {
 }
 
 void VehiclePipeline::take(const VehicleSample& sample) {
-  // The grid has heard the body's IMU for seconds when it gives the first sample.
-  if (newest_ == Stamp::zero() && streams_.channels.body_imu) monitor_->setNoise(grid_->noise());
   newest_ = sample.stamp;
   for (std::size_t i = 0; i < recent_.size(); ++i) recent_[i].push(sample.ofStrut(i));
   if (recent_forces_) recent_forces_->push({sample.stamp, sample.forces});
-  for (std::size_t i = 0; i < monitor_->numStruts(); ++i) monitor_->setStampErrors(i, grid_->stampErrors(i));
-  monitor_->addSample(sample);
+  monitor_->addSample(*grid_, sample);
 }
 
 VehicleDrive VehiclePipeline::newestSamples(double span) const {

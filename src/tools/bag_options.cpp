@@ -20,6 +20,10 @@ namespace {
 
 namespace po = boost::program_options;
 
+void takeTransforms(ImuBags& bags, const ShellOptions& options) {
+  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+}
+
 }  // namespace
 
 void addBagOptions(po::options_description& description) {
@@ -47,6 +51,12 @@ ImuBags readBags(const po::variables_map& values) {
   return bags;
 }
 
+ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
+  ImuBags bags = readBags(values);
+  takeTransforms(bags, options);
+  return bags;
+}
+
 BagOptions readLiveOptions(const po::variables_map& values) {
   BagOptions options;
   ImuBags& bags = options.bags;
@@ -64,7 +74,7 @@ BagOptions readLiveOptions(const po::variables_map& values) {
   const OptionMap settings = gatherOptions(values);
   options.pipeline = PipelineOptions::fromValues(settings);
   options.pipeline.monitor.tyre = bags.topics.size() > 2;
-  if (!options.pipeline.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+  takeTransforms(bags, options.pipeline.shell);
   options.period_measured = !options.pipeline.monitor.sample_period;
   if (!options.period_measured) requireFittingPeriod(bags, *options.pipeline.monitor.sample_period);
   return options;

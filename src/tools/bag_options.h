@@ -31,6 +31,10 @@ void addBagOptions(boost::program_options::options_description& description);
 /// @throws std::invalid_argument  as command.h.
 ImuBags readBags(const boost::program_options::variables_map& values);
 
+/// @return the same with the static transforms, if a target_frame wants them.
+/// @throws InputError  as readStaticTransforms().
+ImuBags readBags(const boost::program_options::variables_map& values, const ShellOptions& options);
+
 /// Collects the common options. What they leave open, sample_period and integration_horizon, stays open: a monitor
 /// finds it out as it does live.
 /// @throws std::invalid_argument, InputError, TooLittleError  as command.h.

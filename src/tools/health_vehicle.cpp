@@ -26,8 +26,7 @@ void watchStruts(const po::variables_map& values) {
   const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
   HealthFiles files(values, vehicle.only ? std::vector<std::string>{} : vehicle.names);
   TopicGaps gaps(options.common.shell.input_timeout);
-  ImuBags bags = readBags(values);
-  if (!options.common.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+  ImuBags bags = readBags(values, options.common.shell);
   const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
   bags.gaps = &gaps;
   const auto placeInFiles = [&](std::size_t strut) { return vehicle.only ? 0 : strut; };

@@ -64,9 +64,7 @@ std::vector<std::string> topicsOf(const VehicleStreams& streams) {
 
 std::vector<VehicleDrive> readDrives(const po::variables_map& values, AskedVehicle& vehicle, PipelineOptions& options,
                                      TopicGaps& gaps) {
-  ImuBags bags = readBags(values);
-  if (!options.shell.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
-  std::vector<VehicleBag> read = readVehicleDrives(bags, options, vehicle.layout, gaps);
+  std::vector<VehicleBag> read = readVehicleDrives(readBags(values, options.shell), options, vehicle.layout, gaps);
   std::printf("sample period %.6g s\n", *options.monitor.sample_period);
   std::vector<VehicleDrive> drives;
   for (VehicleBag& bag : read) {

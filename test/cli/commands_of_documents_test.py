@@ -11,7 +11,8 @@ import pytest
 import rosbag
 
 import imu_bag
-from terminal import TIMEOUT, Terminal
+from conftest import HANGS
+from terminal import Terminal
 
 DOCUMENTS = ["README.md", *sorted(str(path.relative_to(imu_bag.REPOSITORY))
                                   for path in (imu_bag.REPOSITORY / "doc").glob("*.md"))]
@@ -131,5 +132,5 @@ def test_readme_is_short():
 
 def test_demo_tells_its_options():
     told = subprocess.run([imu_bag.REPOSITORY / "scripts/demo", "--help"], check=True, stdout=subprocess.PIPE, text=True,
-                          timeout=TIMEOUT).stdout
+                          timeout=HANGS).stdout
     assert "--no-install" in told and "--quick" in told

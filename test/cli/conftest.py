@@ -2,6 +2,7 @@
 import os
 import pathlib
 import shutil
+import socket
 import subprocess
 import sys
 import time
@@ -20,6 +21,20 @@ MEASURE_PEAK = """import os, sys
 child = os.spawnv(os.P_NOWAIT, sys.argv[1], sys.argv[1:])
 print(os.wait4(child, 0)[2].ru_maxrss)
 """
+
+
+def wait_until(predicate, what="", every=0.02):
+    """every: [s] between two looks."""
+    deadline = time.monotonic() + HANGS
+    while not predicate():
+        assert time.monotonic() < deadline, f"not in {HANGS} s: {what}"
+        time.sleep(every)
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        return probe.getsockname()[1]
 
 
 class Program:

@@ -2,10 +2,8 @@
 import os
 import pathlib
 import signal
-import socket
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -87,18 +85,5 @@ def write_program(path, lines):
     return path
 
 
-def wait_until(predicate):
-    deadline = time.monotonic() + conftest.HANGS
-    while not predicate():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
-
-
 def is_zombie(process_id):
     return "\nState:\tZ" in pathlib.Path(f"/proc/{process_id}/status").read_text()
-
-
-def free_port():
-    with socket.socket() as listener:
-        listener.bind(("127.0.0.1", 0))
-        return listener.getsockname()[1]

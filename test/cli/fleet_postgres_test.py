@@ -23,7 +23,7 @@ def server():
     if not PROGRAMS:
         pytest.skip("PostgreSQL is not installed (Debian: postgresql)")
     user = ["runuser", "-u", "postgres", "--"] if os.geteuid() == 0 else []  # it refuses to run as root
-    programs, port = os.path.dirname(PROGRAMS[-1]), fleet.free_port()
+    programs, port = os.path.dirname(PROGRAMS[-1]), conftest.free_port()
     with tempfile.TemporaryDirectory(prefix="postgres.") as folder:  # pytest's own is closed to other users
         if user:
             shutil.chown(folder, "postgres")
@@ -56,7 +56,7 @@ def test_two_clients_at_once_and_one_is_killed(program, bags, server, tmp_path, 
     monkeypatch.setenv("REAL", program.path)
     slow = fleet.write_program(tmp_path / "slow", '[ "$1" = identify ] && sleep 0.3')
     clients = [fleet.start(tmp_path, "scan", bags, "--db", server, "--workers", 1, program=slow) for _ in range(3)]
-    fleet.wait_until(lambda: has_rows(server, 2))
+    conftest.wait_until(lambda: has_rows(server, 2))
     clients[0].send_signal(signal.SIGKILL)
     fleet.finish(clients[0])
     for client in clients[1:]:

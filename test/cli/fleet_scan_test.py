@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+import conftest
 import fleet
 
 CORRUPT = 3
@@ -123,7 +124,7 @@ def test_wrong_options_end_it_and_write_nothing(bags, url, tmp_path):
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_a_scan_that_is_ended_goes_on_where_it_was(program, bags, url, tmp_path, number, monkeypatch, counting):
     process = fleet.start(tmp_path, "scan", bags, "--db", url, program=slow(program, tmp_path, monkeypatch))
-    fleet.wait_until(lambda: has_rows(url, 6))
+    conftest.wait_until(lambda: has_rows(url, 6))
     process.send_signal(number)
     status, output, error = fleet.finish(process)
     assert (status, output) == (-number, "") and "Traceback" not in error, error
@@ -164,16 +165,16 @@ def workers(stack, folder, address):
 
 
 def test_a_worker_and_the_scheduler_are_killed(program, bags, url, tmp_path, monkeypatch):
-    port, path = fleet.free_port(), slow(program, tmp_path, monkeypatch)  # workers, too, have its environment
+    port, path = conftest.free_port(), slow(program, tmp_path, monkeypatch)  # workers, too, have its environment
     address = f"tcp://127.0.0.1:{port}"
     scheduler = ["scheduler", "--host", "127.0.0.1", "--port", port]
     with contextlib.ExitStack() as stack:
         first = stack.enter_context(dask(tmp_path, *scheduler))
         of_first = workers(stack, tmp_path, address)
         process = fleet.start(tmp_path, "scan", bags, "--db", url, "--scheduler", address, program=path)
-        fleet.wait_until(lambda: has_rows(url, 4))
+        conftest.wait_until(lambda: has_rows(url, 4))
         of_first[0].kill()
-        fleet.wait_until(lambda: has_rows(url, 8))
+        conftest.wait_until(lambda: has_rows(url, 8))
         first.kill()
         first.wait()
         stack.enter_context(dask(tmp_path, *scheduler))

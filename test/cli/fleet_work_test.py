@@ -8,6 +8,7 @@ import genpy
 import pytest
 import rosbag
 
+import conftest
 import fleet
 from suspension_health_monitor.fleet import bag_work, database
 from suspension_health_monitor.fleet.bag_key import BLOCK, bag_key
@@ -166,12 +167,12 @@ def test_processes_end_with_their_worker(program, bag, tmp_path, monkeypatch):
     worker = subprocess.Popen([sys.executable, "-c", "import sys; from suspension_health_monitor.fleet import bag_work;"
                                "bag_work.read_bag(sys.argv[1], 'key', bag_work.Work(sys.argv[2]))", str(bag), str(slow)])
     try:
-        fleet.wait_until(lambda: (tmp_path / "pid").exists() and (tmp_path / "pid").read_text().strip())
+        conftest.wait_until(lambda: (tmp_path / "pid").exists() and (tmp_path / "pid").read_text().strip())
     finally:
         worker.kill()
         worker.wait()
     child = int((tmp_path / "pid").read_text())
-    fleet.wait_until(lambda: not os.path.exists(f"/proc/{child}") or fleet.is_zombie(child))
+    conftest.wait_until(lambda: not os.path.exists(f"/proc/{child}") or fleet.is_zombie(child))
 
 
 def test_temperatures(program, bag, tmp_path):

@@ -2,7 +2,6 @@
 import os
 import signal
 import subprocess
-import time
 
 import pytest
 
@@ -10,6 +9,7 @@ import conftest
 
 LONG = ["simulate", "--duration", "100000", "-o", "out.bag"]
 SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+OFTEN = 0.002  # [s]: what is waited for is soon over
 
 
 @pytest.fixture(scope="module")
@@ -29,16 +29,10 @@ def start(program, folder, arguments, **handling):
                             preexec_fn=set_up)
 
 
-def wait_until(predicate):
-    deadline = time.monotonic() + conftest.HANGS
-    while not predicate():
-        assert time.monotonic() < deadline
-        time.sleep(0.002)
-
-
 def wait_for_growth(folder, size=100_000):
     """Until the unfinished bag has that many bytes."""
-    wait_until(lambda: any(path.stat().st_size > size for path in folder.iterdir() if ".part" in path.name))
+    conftest.wait_until(lambda: any(path.stat().st_size > size for path in folder.iterdir() if ".part" in path.name),
+                        every=OFTEN)
 
 
 @pytest.mark.parametrize("number", SIGNALS)
@@ -80,9 +74,9 @@ def test_a_signal_that_the_parent_ignores_stays_ignored(program, tmp_path):
     ("diagnose", ["--json", "result.json", "-o", "model.yaml"], 0.5)])
 def test_a_signal_leaves_no_part_of_the_results(program, long_bag, tmp_path, command, files, after):
     process = start(program, tmp_path, [command, long_bag, *files])
-    wait_until(lambda: os.listdir(tmp_path))
+    conftest.wait_until(lambda: os.listdir(tmp_path), every=OFTEN)
     begun = conftest.processor_time(process.pid)
-    wait_until(lambda: conftest.processor_time(process.pid) >= begun + after)
+    conftest.wait_until(lambda: conftest.processor_time(process.pid) >= begun + after, every=OFTEN)
     process.terminate()
     assert process.communicate(timeout=conftest.HANGS) == (b"", b"")
     assert process.returncode == -signal.SIGTERM

@@ -4,15 +4,8 @@ import os
 import signal
 import socket
 import subprocess
-import time
 
-TIMEOUT = 600.0  # [s] of wall time, after which it counts as stuck
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
+from conftest import HANGS, free_port, wait_until
 
 
 class Terminal:
@@ -26,7 +19,7 @@ class Terminal:
                                 PYTHONUNBUFFERED="1")  # what a process says is there when it says it, as on a terminal
 
     def run(self, command):
-        result = subprocess.run(command, shell=True, cwd=self.folder, env=self.environment, timeout=TIMEOUT,
+        result = subprocess.run(command, shell=True, cwd=self.folder, env=self.environment, timeout=HANGS,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
         assert result.returncode == 0, result.stderr
         return result.stdout
@@ -43,7 +36,7 @@ class Terminal:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGINT)
             try:
-                process.wait(TIMEOUT)
+                process.wait(HANGS)
             except subprocess.TimeoutExpired:
                 os.killpg(process.pid, signal.SIGKILL)
                 process.wait()
@@ -62,10 +55,3 @@ class Terminal:
         wait_until(lambda: words in path.read_text(errors="replace") or (process and process.poll() is not None),
                    f"{words!r} in {path}")
         assert words in path.read_text(errors="replace"), path.read_text(errors="replace")
-
-
-def wait_until(predicate, what):
-    deadline = time.monotonic() + TIMEOUT
-    while not predicate():
-        assert time.monotonic() < deadline, f"not in {TIMEOUT} s: {what}"
-        time.sleep(0.05)

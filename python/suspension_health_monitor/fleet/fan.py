@@ -4,7 +4,7 @@ from typing import List, Tuple
 
 import numpy as np
 
-from .history import YEAR
+from .history import MONTH, YEAR
 from .part_wear import PARTS, SIGN, quantiles
 
 _POINTS = 25
@@ -55,4 +55,4 @@ def _end(prognosis, begin):
     ahead = 0.5 * (prognosis.last - begin)
     if prognosis.dated:
         ahead = max(ahead, 1.1 * (prognosis.wear[prognosis.dated].date[2] - prognosis.last))
-    return prognosis.last + min(max(ahead, YEAR / 12), _MOST_AHEAD * YEAR)
+    return prognosis.last + min(max(ahead, MONTH), _MOST_AHEAD * YEAR)

@@ -9,10 +9,11 @@ from typing import Any, Dict, List, Optional
 import numpy as np
 
 from .errors import UsageError
+from .history import MONTH, YEAR
+from .ranged import Ranged, option
 
-DAY = 86400.0                # [s]
-MONTH = 365.25 / 12 * DAY    # [s]
-LEAST = 0.05                 # share of damping or stiffness below which nothing wears
+DAY = 86400.0  # [s]
+LEAST = 0.05   # share of damping or stiffness below which nothing wears
 BAD = ("cut_off", "empty", "no_bag", "parked")
 
 # A robot of our own: struts of 1.9 and 2.2 Hz with damping ratios of 0.31 and 0.35, wheel hop 12 Hz, on a bad road.
@@ -30,37 +31,29 @@ for _name, _strut in ROBOT["struts"].items():
     _strut.update(_FRONT if _name.startswith("front") else _REAR)
 
 
-def _law(default, low, high, meaning):
-    return dataclasses.field(default=default, metadata={"range": (low, high), "meaning": meaning})
-
-
 @dataclasses.dataclass(frozen=True)
-class Laws:
+class Laws(Ranged):
     """What a fleet is made by.
 
     :raises UsageError: a value that is not allowed.
     """
-    start: float = _law(0.0, 0.0, 4e9, "[s] since 1970, of the first day")
-    seed: int = _law(1, 0, 2**31 - 1, "same options and seed, same fleet")
-    days: int = _law(8, 1, 100000, "how many days there are")
-    every: int = _law(1, 1, 100000, "[days] from a drive of a vehicle to its next")
-    wearing: float = _law(0.3, 0, 1, "share of struts whose damper wears")
-    sagging: float = _law(0.1, 0, 1, "share of struts whose spring sags")
-    least_wear: float = _law(0.005, 1e-6, 10, "[1/month] of damping or stiffness that such a strut loses at least")
-    most_wear: float = _law(0.05, 1e-6, 10, "[1/month] at most; between them evenly by the logarithm")
-    repair_at: float = _law(0.4, 0.001, 1, "loss at which a strut gets a new damper and spring")
-    payload: float = _law(0.1, 0, 1, "standard deviation of the logarithm of the body's mass over drives")
-    season: float = _law(10.0, 0, 50, "[K] that summer is warmer, and winter colder, than 15 deg C")
-    damping_per_kelvin: float = _law(-0.003, -0.01, 0.01, "[1/K] of the damping")
-    tolerance: float = _law(0.05, 0, 1, "standard deviation of the logarithm of new dampers and springs")
-    bad: float = _law(0.02, 0, 1, "share of bags that are cut off, empty, no bag at all, or of a vehicle that stands")
+    start: float = option(0.0, 0.0, 4e9, "[s] since 1970, of the first day")
+    seed: int = option(1, 0, 2**31 - 1, "same options and seed, same fleet")
+    days: int = option(8, 1, 100000, "how many days there are")
+    every: int = option(1, 1, 100000, "[days] from a drive of a vehicle to its next")
+    wearing: float = option(0.3, 0, 1, "share of struts whose damper wears")
+    sagging: float = option(0.1, 0, 1, "share of struts whose spring sags")
+    least_wear: float = option(0.005, 1e-6, 10, "[1/month] of damping or stiffness that such a strut loses at least")
+    most_wear: float = option(0.05, 1e-6, 10, "[1/month] at most; between them evenly by the logarithm")
+    repair_at: float = option(0.4, 0.001, 1, "loss at which a strut gets a new damper and spring")
+    payload: float = option(0.1, 0, 1, "standard deviation of the logarithm of the body's mass over drives")
+    season: float = option(10.0, 0, 50, "[K] that summer is warmer, and winter colder, than 15 deg C")
+    damping_per_kelvin: float = option(-0.003, -0.01, 0.01, "[1/K] of the damping")
+    tolerance: float = option(0.05, 0, 1, "standard deviation of the logarithm of new dampers and springs")
+    bad: float = option(0.02, 0, 1, "share of bags that are cut off, empty, no bag at all, or of a vehicle that stands")
 
     def __post_init__(self):
-        for field in dataclasses.fields(self):
-            value, (low, high) = getattr(self, field.name), field.metadata["range"]
-            if not low <= value <= high:
-                raise UsageError(f"--{field.name.replace('_', '-')} {value:g}, must lie in [{low:g}, {high:g}]: "
-                                 f"{field.metadata['meaning']}")
+        super().__post_init__()
         if self.least_wear > self.most_wear:
             raise UsageError(f"--least-wear {self.least_wear:g}, must be at most --most-wear {self.most_wear:g}")
 
@@ -126,7 +119,7 @@ def _new_strut(laws, random):
 
 def _drive(laws, time, struts, new, since, random):
     # Coldest in the middle of January, as the temperature of the air in the northern hemisphere.
-    temperature = 15.0 - laws.season * math.cos(2 * math.pi * (time / DAY / 365.25 - 15 / 365.25))
+    temperature = 15.0 - laws.season * math.cos(2 * math.pi * (time - 15 * DAY) / YEAR)
     temperature += random.normal(0.0, 0.2 * laws.season)
     warm = 1.0 + laws.damping_per_kelvin * (temperature - 15.0)
 

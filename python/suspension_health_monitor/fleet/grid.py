@@ -19,8 +19,8 @@ class Grid:
 
 
 def close_in(evaluate, lower, upper, points):
-    """@param evaluate  log density (C,), and whatever else it finds, at the centres (C, d).
-    @return the grid, and what else was found there.
+    """:param evaluate: log density (C,), and whatever else it finds, at the centres (C, d).
+    :returns: the grid, and what else was found there.
     """
     lower, upper = np.array(lower, dtype=float), np.array(upper, dtype=float)
     least, most = lower.copy(), upper.copy()

@@ -1,6 +1,5 @@
 """The prognoses of a fleet, the most urgent strut first."""
 import concurrent.futures
-import dataclasses
 import functools
 import math
 import os
@@ -15,22 +14,14 @@ from .prognosis import prognosis
 
 def add_options(command):
     add_db(command)
-    for field in dataclasses.fields(Options):
-        low, high = field.metadata["range"]
-        command.add_argument("--" + field.name.replace("_", "-"), type=float, default=field.default, metavar="X",
-                             help=f"{field.metadata['meaning']} [{low:g}, {high:g}]; default: %(default)g")
+    Options.add_to(command)
     command.add_argument("--workers", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
                          help="processes; default: this machine's cores")
 
 
-def prognosis_options(options):
-    """:raises UsageError: a value that is not allowed."""
-    return Options(**{field.name: getattr(options, field.name) for field in dataclasses.fields(Options)})
-
-
 def outlook(options):
-    """[(StrutHistory, Prognosis or None)] of the database."""
-    its_options = prognosis_options(options)
+    """[(StrutHistory, Prognosis or None)] of the database. :raises UsageError: a value that is not allowed."""
+    its_options = Options.of(options)
     return in_order(database.histories(database.connect(options.db)), its_options, options.workers)
 
 

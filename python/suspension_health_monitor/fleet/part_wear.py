@@ -5,33 +5,22 @@ from typing import Optional
 import numpy as np
 
 from . import wear
-from .errors import UsageError
 from .history import MONTH, YEAR
+from .ranged import Ranged, option
 
 PARTS = ("damping", "stiffness")
 FALLS = {"damping": 1, "stiffness": 2}  # index into wear.KINDS: b1/b0 rises when the spring wears
 SIGN = {"damping": 1.0, "stiffness": -1.0}  # of its loss in log(b1/b0)
 
 
-def _option(default, low, high, meaning):
-    return dataclasses.field(default=default, metadata={"range": (low, high), "meaning": meaning})
-
-
 @dataclasses.dataclass(frozen=True)
-class Options:
-    """:raises UsageError: a value that is not allowed."""
-    threshold: float = _option(0.3, 0.01, 0.9, "share of a new part's damping or stiffness that it loses in its life")
-    level: float = _option(0.9, 0.5, 0.99, "probability of the intervals")
-    season: float = _option(0.04, 0, 0.5, "yearly swing of the damping: standard deviation of its sine and its cosine")
-    false_dates: float = _option(0.02, 1e-6, 0.5, "share of healthy struts that ever get a date, at most")
-    false_changes: float = _option(0.005, 1e-6, 1, "changes a year of a strut that are none, at most")
-
-    def __post_init__(self):
-        for field in dataclasses.fields(self):
-            value, (low, high) = getattr(self, field.name), field.metadata["range"]
-            if not low <= value <= high:
-                raise UsageError(f"--{field.name.replace('_', '-')} {value:g}, must lie in [{low:g}, {high:g}]: "
-                                 f"{field.metadata['meaning']}")
+class Options(Ranged):
+    """Of the prognosis."""
+    threshold: float = option(0.3, 0.01, 0.9, "share of a new part's damping or stiffness that it loses in its life")
+    level: float = option(0.9, 0.5, 0.99, "probability of the intervals")
+    season: float = option(0.04, 0, 0.5, "yearly swing of the damping: standard deviation of its sine and its cosine")
+    false_dates: float = option(0.02, 1e-6, 0.5, "share of healthy struts that ever get a date, at most")
+    false_changes: float = option(0.005, 1e-6, 1, "changes a year of a strut that are none, at most")
 
 
 @dataclasses.dataclass(frozen=True)

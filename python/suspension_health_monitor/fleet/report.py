@@ -4,6 +4,7 @@ import pathlib
 
 from . import outlook
 from .errors import FleetError
+from .part_wear import Options
 from .report_data import page_data
 
 HELP = "write a page of the fleet: a map of all struts, each with its history"
@@ -18,7 +19,7 @@ def add_options(report):
 
 
 def run(options):
-    outlook.prognosis_options(options)
+    Options.of(options)  # refuses what is not allowed before the folder is made
     folder = pathlib.Path(options.output)
     try:
         folder.mkdir(exist_ok=True)

@@ -1,5 +1,4 @@
 """suspension_fleet simulate: the bags of a fleet that wears, and the truth about it."""
-import dataclasses
 import os
 
 from .fleet_model import Laws
@@ -23,16 +22,12 @@ def add_options(simulate):
     simulate.add_argument("--rate", type=above_zero, default=100.0, metavar="HZ", help="default: %(default)g")
     simulate.add_argument("--workers", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
                           help="bags written at once; default: this machine's cores")
-    for field in dataclasses.fields(Laws):
-        if field.name != "start":
-            simulate.add_argument("--" + field.name.replace("_", "-"), type=field.type, default=field.default,
-                                  metavar="X", help=f"{field.metadata['meaning']}; default: %(default)g")
+    Laws.add_to(simulate, leave_out=["start"])
 
 
 def run(options):
-    laws = Laws(**{field.name: getattr(options, field.name) for field in dataclasses.fields(Laws)})
-    simulation = Simulation(find_program(), options.output, read_model(options.vehicle_model), laws, options.vehicles,
-                            options.duration, options.rate)
+    simulation = Simulation(find_program(), options.output, read_model(options.vehicle_model), Laws.of(options),
+                            options.vehicles, options.duration, options.rate)
     drives = simulation.drives()
     with bar(len(drives)) as progress:
         simulation.write_bags(options.workers, progress.update)

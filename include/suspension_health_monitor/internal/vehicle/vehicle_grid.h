@@ -37,6 +37,9 @@ class VehicleGrid {
 
   const StreamGrid& streams() const { return grid_; }
 
+  /// @return true if a strut's top is told by the body's IMU.
+  bool needsBodyImu() const { return vehicle_.body_imu.has_value(); }
+
   /// @return how the body's IMU was found to be turned.
   const BodyLevel& bodyLevel() const { return level_; }
 
@@ -50,8 +53,8 @@ class VehicleGrid {
   RejectCounts rejected(std::size_t sensor) const;
   std::uint64_t missed(std::size_t sensor) const;
 
-  /// @return what the sensors' noise makes of the samples, by what the body's IMU has had of it; while that is not known
-  /// by what is usual. Allocates.
+  /// @return what the sensors' noise makes of the samples, by what the body's IMU has had of it; while that is not
+  /// known by what is usual. Allocates.
   SensorNoise noise() const;
 
   /// @return instants of the grid so far.

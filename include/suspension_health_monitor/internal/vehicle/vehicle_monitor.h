@@ -8,6 +8,7 @@
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/vehicle/coupling_survey.h"
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 
 namespace suspension_health_monitor {
 
@@ -43,6 +44,9 @@ class VehicleMonitor {
 
   /// Takes in the next sample; gaps and clocks that go back begin a new series.
   void addSample(const VehicleSample& sample);
+
+  /// The same of a grid, with what this knows of its sensors: noise, by the first sample, and errors of the stamps.
+  void addSample(const VehicleGrid& grid, const VehicleSample& sample);
 
   /// As SuspensionMonitor has them; what is set before there is a monitor waits for it.
   void setEffects(std::size_t strut, const std::vector<ActiveEffect>& effects,
