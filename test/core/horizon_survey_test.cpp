@@ -23,7 +23,7 @@ SimulationOptions roadDrive() {
 TEST(HorizonSurvey, FindsTheHorizonThatTheTrueParametersAskFor) {
   const SimulationOptions drive = roadDrive();
   const int expected =
-      horizonSamples(proposeHorizon(6.0, 63.3).horizon, 1.0 / drive.rate, IntegrationRule::kBandLimited);
+      horizonSamples(proposeHorizon(6.0, 63.3).horizon, 1.0 / drive.rate);
   HorizonSurvey survey(1.0 / drive.rate, IntegrationRule::kBandLimited, 400);
   for (const CornerSample& sample : simulate(drive)) survey.push(sample);
   ASSERT_TRUE(survey.horizonSamples());

@@ -32,23 +32,18 @@ Taps equation9(int n, int r, int horizon, double period) {
   return taps;
 }
 
-// Weights of one integral over the horizon [units of T], gathered interval by interval.
+// Weights of one integral over the horizon [units of T].
 Taps integralTaps(IntegrationRule rule, int horizon) {
-  const auto num = static_cast<std::size_t>(horizon);
-  Taps taps(num + 1, 0.0L);
-  const auto addInterval = [&](std::size_t first, const Taps& weights) {
-    for (std::size_t i = 0; i < weights.size(); ++i) taps[first + i] += weights[i];
-  };
-  if (rule == IntegrationRule::kTrapezoid)
-    for (std::size_t i = 0; i < num; ++i) addInterval(i, {0.5L, 0.5L});
-  if (rule == IntegrationRule::kSimpson)
-    for (std::size_t i = 0; i < num; i += 2) addInterval(i, {1.0L / 3, 4.0L / 3, 1.0L / 3});
-  if (rule == IntegrationRule::kBandLimited) {  // what one impulse makes of it; its own laws are tested below
+  Taps taps;
+  if (rule == IntegrationRule::kTrapezoid) {
+    taps.assign(static_cast<std::size_t>(horizon) + 1, 1.0L);
+    taps.front() = taps.back() = 0.5L;
+  } else {  // what one impulse makes of it; its own laws are tested below
     HorizonIntegral integral(horizon, 1.0, rule);
     DelayLine impulse(integral.requiredHistory());
-    for (std::size_t i = 0; i <= num; ++i) {
+    for (int i = 0; i < integral.requiredHistory(); ++i) {
       impulse.push(i == 0 ? 1.0 : 0.0);
-      taps[num - i] = integral.update(impulse);
+      taps.push_back(integral.update(impulse));
     }
   }
   return taps;
@@ -57,8 +52,9 @@ Taps integralTaps(IntegrationRule rule, int horizon) {
 Taps filterTaps(IntegrationRule rule, int n, int r, int horizon, double period) {
   Taps integral = integralTaps(rule, horizon);
   for (long double& tap : integral) tap *= period;
-  Taps difference(static_cast<std::size_t>(horizon) + 1, 0.0L);
-  difference.front() = 1.0L;
+  const auto late = static_cast<std::size_t>(HorizonIntegral::lateness(rule));
+  Taps difference(late + static_cast<std::size_t>(horizon) + 1, 0.0L);
+  difference[late] = 1.0L;
   difference.back() = -1.0L;
   Taps taps{1.0L};
   for (int i = 0; i < n - r; ++i) taps = multiply(taps, integral);
@@ -91,8 +87,7 @@ double convolve(const Taps& taps, const std::vector<double>& ring, std::size_t n
   return static_cast<double>(sum);
 }
 
-constexpr IntegrationRule kRules[] = {IntegrationRule::kTrapezoid, IntegrationRule::kSimpson,
-                                      IntegrationRule::kBandLimited};
+constexpr IntegrationRule kRules[] = {IntegrationRule::kTrapezoid, IntegrationRule::kBandLimited};
 
 TEST(LinearIntegralFilter, IsTheFirOfEquation9WithTheTrapezoidRule) {
   for (const int horizon : {1, 2, 5, 30})
@@ -109,12 +104,12 @@ TEST(LinearIntegralFilter, IsTheFirOfEquation9WithTheTrapezoidRule) {
 TEST(LinearIntegralFilter, EqualsDirectConvolutionForEveryOrderDerivativeHorizonAndRule) {
   const double period = 0.02;
   for (const IntegrationRule rule : kRules)
-    for (const int horizon : {6, 12, 30})
+    for (const int horizon : {1, 6, 12, 30})
       for (int n = 1; n <= 4; ++n) {
         LinearIntegralFilter filter(n, {horizon, period, rule});
         std::vector<double> signal;
         Noise noise;
-        for (int k = 0; k < 3 * n * horizon; ++k) {
+        for (int k = 0; k < 2 * LinearIntegralFilter::window(n, {horizon, period, rule}); ++k) {
           signal.push_back(noise());
           filter.push(signal.back());
         }
@@ -139,17 +134,20 @@ TEST(LinearIntegralFilter, SavesTheIntegralsBelowTheLowestDerivativeWithoutChang
 }
 
 TEST(LinearIntegralFilter, IsFullAfterOrderTimesHorizonPlusOneSamplesAndEmptyAfterReset) {
-  LinearIntegralFilter filter(3, {7, 0.1, IntegrationRule::kTrapezoid});
-  for (const int round : {0, 1}) {
-    for (int k = 0; k < 21; ++k) {
+  for (const IntegrationRule rule : kRules) {
+    const int of_corrections = rule == IntegrationRule::kTrapezoid ? 0 : 12;
+    LinearIntegralFilter filter(3, {7, 0.1, rule});
+    for (const int round : {0, 1}) {
+      for (int k = 0; k < 3 * (7 + of_corrections); ++k) {
+        filter.push(round == 0 ? 1e6 : 1.0);
+        EXPECT_FALSE(filter.full());
+      }
       filter.push(round == 0 ? 1e6 : 1.0);
-      EXPECT_FALSE(filter.full());
+      EXPECT_TRUE(filter.full());
+      if (round == 0) filter.reset();
     }
-    filter.push(round == 0 ? 1e6 : 1.0);
-    EXPECT_TRUE(filter.full());
-    if (round == 0) filter.reset();
+    EXPECT_NEAR(filter.output(0), 0.7 * 0.7 * 0.7, 1e-15);
   }
-  EXPECT_NEAR(filter.output(0), 0.7 * 0.7 * 0.7, 1e-15);
 }
 
 TEST(LinearIntegralFilter, IntegratesPolynomialsExactlyUpToTheDegreeOfTheRule) {
@@ -160,7 +158,8 @@ TEST(LinearIntegralFilter, IntegratesPolynomialsExactlyUpToTheDegreeOfTheRule) {
   for (const IntegrationRule rule : kRules)
     for (int degree = 0; degree <= 4; ++degree) {
       LinearIntegralFilter filter(1, {horizon, period, rule});
-      for (int k = 0; k <= horizon; ++k) filter.push(std::pow(start + k * period, degree));
+      const int late = HorizonIntegral::lateness(rule);
+      for (int k = -late; k <= horizon + late; ++k) filter.push(std::pow(start + k * period, degree));
       const double exact = (std::pow(end, degree + 1) - std::pow(start, degree + 1)) / (degree + 1);
       const double error = std::abs(filter.output(0) / exact - 1.0);
       const bool exact_here = degree <= degreeOf(rule);
@@ -173,7 +172,8 @@ TEST(LinearIntegralFilter, IntegratesPolynomialsExactlyUpToTheDegreeOfTheRule) {
 double errorOnSine(IntegrationRule rule, int horizon) {
   const double period = 0.6 / horizon, omega = 3.0, phase = 0.4;
   LinearIntegralFilter filter(2, {horizon, period, rule});
-  for (int k = 0; k <= 2 * horizon; ++k) filter.push(std::sin(omega * k * period + phase));
+  const int late = 2 * HorizonIntegral::lateness(rule);
+  for (int k = -late; k <= 2 * horizon + late; ++k) filter.push(std::sin(omega * k * period + phase));
   const auto sine = [&](double t) { return std::sin(omega * t + phase); };
   const double exact = -(sine(1.2) - 2.0 * sine(0.6) + sine(0.0)) / (omega * omega);
   return std::abs(filter.output(0) / exact - 1.0);
@@ -181,26 +181,27 @@ double errorOnSine(IntegrationRule rule, int horizon) {
 
 TEST(LinearIntegralFilter, ConvergesToTheIntegralOfASineWithTheOrderOfTheRule) {
   EXPECT_NEAR(errorOnSine(IntegrationRule::kTrapezoid, 15) / errorOnSine(IntegrationRule::kTrapezoid, 30), 4.0, 0.1);
-  EXPECT_NEAR(errorOnSine(IntegrationRule::kSimpson, 20) / errorOnSine(IntegrationRule::kSimpson, 40), 16.0, 0.5);
-  EXPECT_GT(errorOnSine(IntegrationRule::kBandLimited, 20) / errorOnSine(IntegrationRule::kBandLimited, 40), 12.0);
-  EXPECT_LT(errorOnSine(IntegrationRule::kBandLimited, 40), 1e-5);
+  EXPECT_NEAR(errorOnSine(IntegrationRule::kBandLimited, 20) / errorOnSine(IntegrationRule::kBandLimited, 40), 16.0,
+              1.0);
+  EXPECT_LT(errorOnSine(IntegrationRule::kBandLimited, 40), 1e-6);
 }
 
-// Error of the integral of exp(i w t) over 20 samples, relative to that of one in the same place, the longest that
-// there is: 2 / w. Of a wheel that hops at a quarter of the rate (w = pi / 2) Gregory's rule misses 0.14 of it.
-TEST(HorizonIntegral, OfWhatOscillatesIsRightUpToHalfOfTheNyquistFrequency) {
+// The integral of exp(i w t) over 20 samples, within a share of the longest that there is, 2 / w. Of a wheel that hops
+// at a quarter of the rate (w = pi / 2) the trapezoid rule misses 0.21 of it.
+TEST(HorizonIntegral, OfWhatOscillatesIsRightUpToSevenTenthsOfTheNyquistFrequency) {
   constexpr int kIntervals = 20;
-  for (const double omega : {0.1, 0.3, 0.5, 0.8, 1.0, 1.3, 0.5 * M_PI})
+  const int late = HorizonIntegral::lateness(IntegrationRule::kBandLimited);
+  for (const double omega : {0.1, 0.3, 0.5, 0.8, 1.0, 1.3, 0.5 * M_PI, 0.6 * M_PI, 0.7 * M_PI})
     for (const double phase : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
       HorizonIntegral integral(kIntervals, 1.0, IntegrationRule::kBandLimited);
       DelayLine signal(integral.requiredHistory());
       double found = 0.0;
-      for (int k = 0; k <= kIntervals; ++k) {
+      for (int k = -late; k <= kIntervals + late; ++k) {
         signal.push(std::sin(omega * k + phase));
         found = integral.update(signal);
       }
       const double exact = (std::cos(phase) - std::cos(omega * kIntervals + phase)) / omega;
-      EXPECT_NEAR(found, exact, (omega > 1.4 ? 0.04 : 0.02) * 2.0 / omega) << omega << " " << phase;
+      EXPECT_NEAR(found, exact, (omega < 1.6 ? 0.0005 : 0.004) * 2.0 / omega) << omega << " " << phase;
     }
 }
 
@@ -213,21 +214,20 @@ Eigen::VectorXd noiseFreeBias(IntegrationRule rule) {
 // One trapezoid integral of a sine is short by x = (omega T)^2 / 12, so that b1 comes out x and b0 2 x too large if
 // there is one frequency. The paper's four (x = 1.7e-4 to 7.8e-4) give +0.058 % and +0.093 %; an independent NumPy
 // computation of Eq. (9) and (31) gives the same.
-TEST(LinearIntegralFilter, BetterRulesTakeTheBiasOfTheTrapezoidRuleAtLeastTenfold) {
+TEST(LinearIntegralFilter, BandLimitedRuleTakesTheBiasOfTheTrapezoidRuleAtLeastTenfold) {
   const Eigen::VectorXd trapezoid = noiseFreeBias(IntegrationRule::kTrapezoid);
   EXPECT_NEAR(trapezoid[kDampingToMass], 0.00058, 0.00003);
   EXPECT_NEAR(trapezoid[kStiffnessToMass], 0.00093, 0.00003);
-  for (const IntegrationRule rule : {IntegrationRule::kSimpson, IntegrationRule::kBandLimited}) {
-    const Eigen::VectorXd better = noiseFreeBias(rule);
-    for (const int i : {0, 1}) EXPECT_LT(std::abs(better[i]), 0.1 * trapezoid[i]) << "parameter " << i;
-  }
+  const Eigen::VectorXd better = noiseFreeBias(IntegrationRule::kBandLimited);
+  for (const int i : {0, 1}) EXPECT_LT(std::abs(better[i]), 0.1 * trapezoid[i]) << "parameter " << i;
 }
 
 // Largest deviation of I_r^2 from the FIR over the last samples, relative to the rms of the output, with a huge outlier
 // half-way.
 double driftAfter(std::size_t num_samples, int horizon) {
-  LinearIntegralFilter filter(2, {horizon, 0.02, IntegrationRule::kBandLimited});
-  const std::size_t memory = 2 * static_cast<std::size_t>(horizon) + 1;
+  const IntegralFilterOptions options{horizon, 0.02, IntegrationRule::kBandLimited};
+  LinearIntegralFilter filter(2, options);
+  const auto memory = static_cast<std::size_t>(LinearIntegralFilter::window(2, options));
   std::vector<double> ring(memory);
   const Taps taps[] = {filterTaps(IntegrationRule::kBandLimited, 2, 0, horizon, 0.02),
                        filterTaps(IntegrationRule::kBandLimited, 2, 1, horizon, 0.02)};
@@ -266,13 +266,11 @@ std::string refusal(const IntegralFilterOptions& options, int order = 2, int low
 
 TEST(LinearIntegralFilter, RefusesWrongOptionsByNameAndValue) {
   EXPECT_NE(refusal({0, 0.02, IntegrationRule::kTrapezoid}).find("horizon_samples = 0"), std::string::npos);
-  EXPECT_NE(refusal({7, 0.02, IntegrationRule::kSimpson}).find("horizon_samples = 7"), std::string::npos);
-  EXPECT_NE(refusal({4, 0.02, IntegrationRule::kBandLimited}).find("horizon_samples = 4"), std::string::npos);
   EXPECT_NE(refusal({30, 0.0, IntegrationRule::kBandLimited}).find("sample_period = 0"), std::string::npos);
   EXPECT_NE(refusal({30, std::nan(""), IntegrationRule::kBandLimited}).find("sample_period"), std::string::npos);
   EXPECT_NE(refusal({}, 0).find("n = 0"), std::string::npos);
   EXPECT_NE(refusal({}, 2, 3).find("r = 3"), std::string::npos);
-  EXPECT_EQ(refusal({5, 0.02, IntegrationRule::kBandLimited}), "");
+  EXPECT_EQ(refusal({1, 0.02, IntegrationRule::kBandLimited}), "");
 }
 
 }  // namespace

@@ -17,8 +17,9 @@ namespace {
 constexpr double kCarB1 = 6.0, kCarB0 = 63.3;  // golden_car
 constexpr double kNoise = 0.03;                // [m/s^2]
 constexpr std::size_t kDelay = FreeRun::kDelay;
-constexpr int kHorizon = 60;
-constexpr int kLate = 6;  // samples: the first row needs the wheel's of 15 ms before it and after it, and one more each
+// Samples of the first row: it needs the wheel's of 15 ms before it and after it, and one more each.
+const auto kRow =
+    static_cast<std::size_t>(LinearIntegralFilter::window(2, {60, 0.01, IntegrationRule::kBandLimited}) + 6);
 
 MonitorSettings carMonitor(double forgetting_factor) {
   MonitorSettings options;
@@ -194,7 +195,7 @@ TEST(LiveEffects, ReportsAreThoseOfASampleThatTheFreeRunHasReached) {
     ASSERT_EQ(report->measured, sample.sprung_acceleration);
     ASSERT_EQ(report->comparison.stamp, sample.stamp);
     ASSERT_EQ(report->comparison.measured, sample.sprung_acceleration);
-    ASSERT_EQ(report->has_row, k >= 500 + 2 * kHorizon + kLate);
+    ASSERT_EQ(report->has_row, k >= 499 + kRow);
   }
 }
 
@@ -211,8 +212,8 @@ TEST(LiveEffects, GapEmptiesFilterAndFreeRunAndTheModelIsKept) {
     sample.stamp += later;
     const MonitorReport* report = monitor.addSample(sample);
     ASSERT_EQ(report == nullptr, k < kDelay);
-    // The run begins with its 24th sample, and rows 2 L samples later.
-    ASSERT_EQ(monitor.report().has_row && report != nullptr, k >= 2 * kDelay - 1 + 2 * kHorizon + kLate) << k;
+    // The run begins with its 24th sample, and fills the filter.
+    ASSERT_EQ(monitor.report().has_row && report != nullptr, k >= 2 * kDelay - 2 + kRow) << k;
     if (report == nullptr || report->has_row) continue;
     ASSERT_EQ(report->la.coefficients[0], before.coefficients[0]);
     ASSERT_FALSE(report->la.valid());

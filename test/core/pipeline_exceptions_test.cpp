@@ -46,7 +46,7 @@ TEST(StrutMonitor, LosesNoReadingToASinkThatThrows) {
 
 TEST(StrutMonitor, SaysOnceThatTheHorizonDoesNotFitTheMeasuredPeriod) {
   MonitorOptions options;
-  options.integration_horizon = 0.04;  // two samples
+  options.integration_horizon = 0.004;  // less than half a sample
   StrutMonitor monitor(options);
   int refused = 0;
   std::string words;
@@ -59,8 +59,8 @@ TEST(StrutMonitor, SaysOnceThatTheHorizonDoesNotFitTheMeasuredPeriod) {
     }
   EXPECT_EQ(refused, 1);
   EXPECT_EQ(words,
-            "integration_horizon = 0.04 [s] with sample_period = 0.02 [s] makes horizon_samples = 2, must be at "
-            "least 5");
+            "integration_horizon = 0.004 [s] with sample_period = 0.02 [s] makes horizon_samples = 0, must be at "
+            "least 1");
   EXPECT_FALSE(monitor.samplePeriod());
 }
 
@@ -100,13 +100,13 @@ TEST(Identify, TakesTheFirstSampleOfDrivesThatBeginAtZero) {
 
 TEST(Identify, SaysOfTooFewRowsThatThereAreTooFew) {
   Drive drive = paperDrive(Stamp{});
-  drive.samples.resize(90);  // thirty rows
+  drive.samples.resize(114);  // thirty rows
   IdentifyOptions options;
   options.horizon_samples = 30;
   const IdentifyResult result = identify({drive}, options);
   EXPECT_FALSE(result.iv.valid);
-  // 61 samples at 50 Hz fill the filter; as many rows eight times for a model, and eight times for the blocks.
-  EXPECT_EQ(result.iv.reason, "too few samples yet (20.8 s in one piece are enough)");
+  // 85 samples at 50 Hz fill the filter; as many rows eight times for a model, and eight times for the blocks.
+  EXPECT_EQ(result.iv.reason, "too few samples yet (28.9 s in one piece are enough)");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ QuarterCar carOnTyre() { return {50.0, 7.0, 150.0, 690.0, 8000.0}; }
 
 // Road height to the states (z, w, z', w').
 Eigen::Vector4cd response(const RoadDrivenForm& form, Complex s) {
-  const Eigen::Matrix4cd resolvent = s * Eigen::Matrix4cd::Identity() - form.a.cast<Complex>();
+  const Eigen::MatrixXcd resolvent = s * Eigen::Matrix4cd::Identity() - form.a.cast<Complex>();
   return resolvent.partialPivLu().solve(form.b.cast<Complex>());
 }
 

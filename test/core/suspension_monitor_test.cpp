@@ -14,7 +14,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr Stamp kPeriod = std::chrono::milliseconds(20);
-constexpr int kRowsLost = 64;  // 2 L, and 2 of the wheel before and after the row
+constexpr int kRowsLost = 88;  // 2 L + 24, and 2 of the wheel before and after the row
 
 void addAll(SuspensionMonitor& monitor, const std::vector<CornerSample>& samples) {
   for (const CornerSample& sample : samples) monitor.addSample(sample);

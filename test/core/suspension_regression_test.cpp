@@ -14,11 +14,13 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr IntegralFilterOptions kFilter{30, 0.02, IntegrationRule::kBandLimited};
+const double kLate = 2 * HorizonIntegral::lateness(kFilter.rule) * kFilter.period;  // of a row [s]
 
-TEST(SuspensionRegression, GivesItsFirstRowAtSample2LAndAgainAfterReset) {
+TEST(SuspensionRegression, GivesItsFirstRowWhenTheFilterIsFullAndAgainAfterReset) {
   SuspensionRegression regression(kFilter);
   for (const int round : {0, 1}) {
-    for (int k = 0; k < 60; ++k) EXPECT_EQ(regression.push({Stamp{}, 1.0, 2.0}), nullptr) << "round " << round;
+    for (int k = 1; k < LinearIntegralFilter::window(2, kFilter); ++k)
+      EXPECT_EQ(regression.push({Stamp{}, 1.0, 2.0}), nullptr) << "round " << round;
     EXPECT_NE(regression.push({Stamp{}, 1.0, 2.0}), nullptr);
     regression.reset();
   }
@@ -38,9 +40,9 @@ TEST(SuspensionRegression, EqualsTheIntegralsOfASineInClosedForm) {
     const double t = k * 0.02;
     const RegressionRow* row = regression.push({fromSeconds(t), y(t), y(t) + u(t)});
     if (row == nullptr) continue;
-    EXPECT_NEAR(row->output, secondDifference(y, t), 1e-13);
-    EXPECT_NEAR(row->regressor[kDampingToMass], secondDifference(first_integral, t), 1e-5);
-    EXPECT_NEAR(row->regressor[kStiffnessToMass], secondDifference(second_integral, t), 1e-5);
+    EXPECT_NEAR(row->output, secondDifference(y, t - kLate), 1e-13);
+    EXPECT_NEAR(row->regressor[kDampingToMass], secondDifference(first_integral, t - kLate), 1e-5);
+    EXPECT_NEAR(row->regressor[kStiffnessToMass], secondDifference(second_integral, t - kLate), 1e-5);
   }
 }
 

@@ -22,7 +22,7 @@ TEST(WheelHistory, GivesTheRowsOfASineBetweenSamples) {
       for (; last < 4 * options.horizon_samples || !history.full(); ++last)
         history.push(std::cos(omega * last * period));
       const Complex s(0.0, omega), ends = std::pow(1.0 - std::exp(-s * 0.6), 2);
-      const double row = (last - 1 - history.delay()) * period;
+      const double row = (last - 1 - 2 * HorizonIntegral::lateness(options.rule) - history.delay()) * period;
       for (const double shift : {-0.015, -0.0042, 0.0, 0.001, 0.0077, 0.015}) {
         SCOPED_TRACE(testing::Message() << period << " s, " << omega << " rad/s, " << shift << " s");
         const WheelRow found = history.at(history.place(shift));
@@ -41,7 +41,7 @@ TEST(WheelHistory, IsFullWhenAllThatMayBeAskedForIsKnown) {
   EXPECT_GE(history.delay() * kOptions.period, kReach);
   for (const int round : {0, 1}) {
     SCOPED_TRACE(round);
-    for (int k = 0; k < 60 + 2 * history.delay(); ++k) {
+    for (int k = 1; k < LinearIntegralFilter::window(2, kOptions) + 2 * history.delay(); ++k) {
       history.push(1.0);
       EXPECT_FALSE(history.full());
     }

@@ -147,20 +147,20 @@ class InputDiagnosticsTest(unittest.TestCase):
             drive.stop()
 
     def test_horizon_too_short_for_the_measured_period_is_an_error_until_reset(self):
-        with load_monitor("coarse", {"integration_horizon": 0.06}):  # 3 samples; the rule needs 5
+        with load_monitor("coarse", {"integration_horizon": 0.009}):  # less than half a sample
             drive = drive_for("coarse")
             publish(drive, 100, lambda index, imu: None)
-            status = drive.input_status(lambda s: "must be at least 5" in s.message)
+            status = drive.input_status(lambda s: "must be at least 1" in s.message)
             self.assertEqual(status.level, DiagnosticStatus.ERROR)
             self.assertIn("stopped listening until reset", status.message)
             self.assertNotIn("no message", status.message)
             self.assertTrue(drive.reset().success)
             for publisher in drive.publishers:
                 wait_until(publisher.get_num_connections, f"the monitor back on {publisher.name}")
-            drive.period = 0.01  # 6 samples
+            drive.period = 0.01  # one sample
             drive.feed(0, 300, START)
             before = len(drive.diagnostics.messages)
-            drive.input_status(lambda s: values(s).get("horizon_samples") == "6", after=before)
+            drive.input_status(lambda s: values(s).get("horizon_samples") == "1", after=before)
             drive.stop()
 
 

@@ -50,6 +50,9 @@ struct MonitorSettings : MonitorOptions {
 
   IntegralFilterOptions filter(double period) const;
 
+  /// @return samples in a row that make one row of the regression.
+  int samplesOfRow(double period) const { return LinearIntegralFilter::window(2, filter(period)); }
+
   /// That of the wheel's regression, whose best horizon is near one period of its hop: an eighth of the strut's, of at
   /// least 5 samples.
   IntegralFilterOptions tyreFilter(double period) const;

@@ -63,7 +63,7 @@ std::vector<std::vector<std::pair<double, double>>> heldOutSpans(const Records& 
 int horizonFor(const CompareOptions& options, const StrutModel& model, double period) {
   if (options.horizon_samples) return *options.horizon_samples;
   const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass).horizon;
-  return horizonSamples(horizon, period, IntegralFilterOptions{}.rule);
+  return horizonSamples(horizon, period);
 }
 
 /// @return what is the matter, if anything.

@@ -13,35 +13,29 @@
 namespace suspension_health_monitor {
 namespace {
 
-[[noreturn]] void refuseIntervals(int intervals, const char* allowed) {
-  throw std::invalid_argument("horizon_samples = " + std::to_string(intervals) + ", must be " + allowed);
-}
+constexpr int kCorrections = 6;
 
-// Beside the trapezoid rule an end must give, of exp(i w t) at t = 0 with T = 1, 1 / (i w) - cot(w / 2) / (2 i): what
-// the integral has there less what the sum has. Its series -i w / 12 - ... sets the moments of the corrections c_k,
-// which are sum c_k = sum k^2 c_k = 0, sum k c_k = 1/12 (exact on parabolas); what is left of them is least squares,
-// relative to the integral, over the band, and small.
-std::vector<double> endCorrections(int count) {
-  constexpr int kFrequencies = 128, kMoments = 3;
-  constexpr double kBeyond = 1e-2;  // weight of an error beyond half of the Nyquist frequency: it must not grow there
-  constexpr double kSize = 1e-5;    // weight of a correction: it passes noise on
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count + kMoments, count + kMoments);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(count + kMoments);
-  for (int i = 1; i < kFrequencies; ++i) {
-    const double w = kPi * i / kFrequencies, weight = (2 * i <= kFrequencies ? 1.0 : kBeyond) / w;
-    const double wanted = 0.5 / std::tan(w / 2.0) - 1.0 / w;  // its imaginary part
-    const Eigen::ArrayXd phase = -w * Eigen::ArrayXd::LinSpaced(count, 0.0, count - 1.0);
-    const Eigen::VectorXd real = phase.cos(), imaginary = phase.sin();
-    system.topLeftCorner(count, count) += weight * (real * real.transpose() + imaginary * imaginary.transpose());
-    right.head(count) += weight * wanted * imaginary;
+// Of exp(i w t), T = 1, the integral up to t = 0 is 1 / (i w), where the sum up to there has cot(w / 2) / (2 i), half
+// of the end's sample counted. What is between them the corrections -2 i sum c_k sin(k w) have to make: least squares
+// of their error over the integral, most where motion is, at low frequencies, under the condition that the slope at w =
+// 0 is right, 2 sum k c_k = 1/12, which makes the rule exact on cubics.
+std::vector<double> endCorrections() {
+  constexpr int kFrequencies = 128;
+  constexpr double kBand = 0.75;  // of the Nyquist frequency: what an anti-alias filter lets pass
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(kCorrections + 1, kCorrections + 1);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(kCorrections + 1);
+  const Eigen::ArrayXd k = Eigen::ArrayXd::LinSpaced(kCorrections, 1.0, kCorrections);
+  for (int i = 1; i <= kFrequencies; ++i) {
+    const double w = kBand * kPi * i / kFrequencies, weight = std::pow(w, -6);
+    const Eigen::VectorXd made = 2.0 * w * (w * k).sin();
+    system.topLeftCorner(kCorrections, kCorrections) += weight * made * made.transpose();
+    right.head(kCorrections) += weight * (1.0 - 0.5 * w / std::tan(0.5 * w)) * made;
   }
-  system.topLeftCorner(count, count).diagonal().array() += kFrequencies * kSize;
-  for (int k = 0; k < count; ++k)
-    for (int moment = 0; moment < kMoments; ++moment)
-      system(k, count + moment) = system(count + moment, k) = std::pow(k, moment);
-  right[count + 1] = 1.0 / 12.0;
+  system.topRightCorner(kCorrections, 1) = 2.0 * k.matrix();
+  system.bottomLeftCorner(1, kCorrections) = 2.0 * k.matrix().transpose();
+  right[kCorrections] = 1.0 / 12.0;
   const Eigen::VectorXd solution = system.fullPivLu().solve(right);
-  return {solution.data(), solution.data() + count};
+  return {solution.data(), solution.data() + kCorrections};
 }
 
 }  // namespace
@@ -49,51 +43,39 @@ std::vector<double> endCorrections(int count) {
 HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule rule)
     : intervals_(intervals),
       period_(period),
-      until_refresh_(intervals + 1),
-      leaves_other_parity_(intervals % 2 == 0 ? 1 : 0) {
-  if (intervals < 1) refuseIntervals(intervals, "at least 1");
+      lateness_(lateness(rule)),
+      ends_(std::max(intervals, 1) + 1),
+      until_refresh_(intervals) {
+  if (intervals < 1)
+    throw std::invalid_argument("horizon_samples = " + std::to_string(intervals) + ", must be at least 1");
   if (!(std::isfinite(period) && period > 0.0))
     throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be above 0");
-  switch (rule) {
-    case IntegrationRule::kTrapezoid: end_corrections_ = {-1.0 / 2}; break;
-    case IntegrationRule::kSimpson:
-      if (intervals % 2 != 0) refuseIntervals(intervals, "even for Simpson's rule");
-      same_weight_ = 2.0 / 3;
-      other_weight_ = 4.0 / 3;
-      end_corrections_ = {-1.0 / 3};
-      break;
-    case IntegrationRule::kBandLimited:
-      if (intervals < 5) refuseIntervals(intervals, "at least 5");
-      end_corrections_ = endCorrections(std::min(kMostCorrections, intervals + 1));
-      end_corrections_[0] -= 1.0 / 2;
-      break;
-  }
+  static const std::vector<double> band_limited = endCorrections();
+  if (rule == IntegrationRule::kBandLimited) corrections_ = band_limited;
 }
 
+int HorizonIntegral::lateness(IntegrationRule rule) { return rule == IntegrationRule::kBandLimited ? kCorrections : 0; }
+
 double HorizonIntegral::update(const DelayLine& signal) {
-  const double newest = signal.at(0);
-  sums_[parity_] += newest;
-  sums_[parity_ ^ leaves_other_parity_] -= signal.at(intervals_ + 1);
-  fresh_[parity_] += newest;
+  const double end = signal.at(lateness_);
+  sum_ += end - signal.at(lateness_ + intervals_);
+  fresh_ += end;
   if (--until_refresh_ == 0) {
-    sums_ = fresh_;
-    fresh_ = {};
-    until_refresh_ = intervals_ + 1;
+    sum_ = fresh_;
+    fresh_ = 0.0;
+    until_refresh_ = intervals_;
   }
-  double integral = same_weight_ * sums_[parity_] + other_weight_ * sums_[parity_ ^ 1];
-  for (std::size_t k = 0; k < end_corrections_.size(); ++k) {
-    const int place = static_cast<int>(k);
-    integral += end_corrections_[k] * (signal.at(place) + signal.at(intervals_ - place));
-  }
-  parity_ ^= 1;
-  return period_ * integral;
+  double correction = -0.5 * end;
+  for (int k = 1; k <= lateness_; ++k)
+    correction += corrections_[static_cast<std::size_t>(k) - 1] * (signal.at(lateness_ + k) - signal.at(lateness_ - k));
+  ends_.push(correction);
+  return period_ * (sum_ + correction - ends_.at(intervals_));
 }
 
 void HorizonIntegral::reset() {
-  sums_ = {};
-  fresh_ = {};
-  until_refresh_ = intervals_ + 1;
-  parity_ = 0;
+  ends_.reset();
+  sum_ = fresh_ = 0.0;
+  until_refresh_ = intervals_;
 }
 
 }  // namespace suspension_health_monitor

@@ -68,12 +68,11 @@ HorizonProposal proposeHorizon(double damping_to_mass, double stiffness_to_mass)
   return proposal;
 }
 
-int horizonSamples(double horizon, double period, IntegrationRule rule) {
+int horizonSamples(double horizon, double period) {
   requireAboveZero("integration_horizon", horizon, "s");
   requireAboveZero("sample_period", period, "s");
   const double samples = std::min(horizon / period, kMostSamples);
-  if (rule == IntegrationRule::kSimpson) return 2 * std::max(1, static_cast<int>(std::lround(samples / 2.0)));
-  return std::max(rule == IntegrationRule::kBandLimited ? 5 : 1, static_cast<int>(std::lround(samples)));
+  return std::max(1, static_cast<int>(std::lround(samples)));
 }
 
 }  // namespace suspension_health_monitor

@@ -10,7 +10,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kShortest = 6;  // even, for Simpson's rule, and enough for the cubic one
+constexpr int kShortest = 6;
 constexpr int kFewestRows = 20;
 const double kStep = std::sqrt(2.0);
 
@@ -63,7 +63,7 @@ std::optional<HorizonSurvey::Result> HorizonSurvey::result() const {
   if (!choice) return std::nullopt;
   const Eigen::Matrix3d& moments = choice->candidate->moments;
   const Eigen::Vector2d theta = choice->candidate->theta();
-  return Result{suspension_health_monitor::horizonSamples(choice->horizon, period_, rule_), theta[kDampingToMass],
+  return Result{suspension_health_monitor::horizonSamples(choice->horizon, period_), theta[kDampingToMass],
                 theta[kStiffnessToMass], theta.dot(moments.topRightCorner<2, 1>()) / moments(2, 2)};
 }
 

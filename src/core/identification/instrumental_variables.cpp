@@ -5,13 +5,13 @@
 namespace suspension_health_monitor {
 
 InstrumentalVariables::InstrumentalVariables(const IntegralFilterOptions& options)
-    : horizon_samples_(options.horizon_samples),
-      rows_to_model_(kFirstWindows * window()),
+    : window_(LinearIntegralFilter::window(2, options)),
+      rows_to_model_(kFirstWindows * window_),
       regression_(options),
       on_wheel_(options.period),
       on_strut_(options.period),
-      instruments_{DelayLine(options.horizon_samples + 1), DelayLine(options.horizon_samples + 1)},
-      equations_(window()) {}
+      instruments_{DelayLine(window_ / 2 + 1), DelayLine(window_ / 2 + 1)},
+      equations_(window_) {}
 
 void InstrumentalVariables::push(const CornerSample& sample) {
   gravity_.add(sample.unsprung_acceleration);
@@ -25,8 +25,7 @@ void InstrumentalVariables::push(const CornerSample& sample) {
   if (row == nullptr) return;
   const Eigen::Vector2d regressor = row->regressor.head<2>();
   if (on_wheel_.hasModel()) {
-    equations_.add({instruments_[0].at(horizon_samples_), instruments_[1].at(horizon_samples_)}, regressor,
-                   row->output);
+    equations_.add({instruments_[0].at(window_ / 2), instruments_[1].at(window_ / 2)}, regressor, row->output);
     motion_.add(on_wheel_.forces(), on_wheel_.forces(), sample.sprung_acceleration);
     motion_squares_ += sample.sprung_acceleration * sample.sprung_acceleration;
   }
@@ -35,7 +34,7 @@ void InstrumentalVariables::push(const CornerSample& sample) {
 }
 
 void InstrumentalVariables::chooseModel() {
-  rows_to_model_ = window();
+  rows_to_model_ = window_;
   const std::optional<Eigen::Vector3d> theta = least_squares_.solution();
   if (!theta || !((*theta)[kStiffnessToMass] > 0.0)) return;
   on_wheel_.setModel((*theta)[kStiffnessToMass]);

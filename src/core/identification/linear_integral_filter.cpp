@@ -7,7 +7,11 @@
 namespace suspension_health_monitor {
 
 LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOptions& options, int lowest_derivative)
-    : order_(order), horizon_(options.horizon_samples), missing_(order_ * horizon_ + 1) {
+    : order_(order),
+      horizon_(options.horizon_samples),
+      lateness_(HorizonIntegral::lateness(options.rule)),
+      window_(window(order, options)),
+      missing_(window_) {
   if (order < 1) throw std::invalid_argument("filter order n = " + std::to_string(order) + ", must be at least 1");
   if (lowest_derivative < 0 || lowest_derivative > order)
     throw std::invalid_argument("derivative r = " + std::to_string(lowest_derivative) + ", must be in [0, " +
@@ -16,7 +20,7 @@ LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOption
   const int num_integrals = order - lowest_derivative;
   integrals_.assign(static_cast<std::size_t>(num_integrals), integral);
   for (int i = 0; i <= num_integrals; ++i) {
-    const int for_differences = (order - i) * horizon_ + 1;
+    const int for_differences = (order - i) * (horizon_ + lateness_) + 1;
     lines_.emplace_back(i < num_integrals ? std::max(for_differences, integral.requiredHistory()) : for_differences);
   }
   binomials_.push_back({1.0});
@@ -36,12 +40,12 @@ void LinearIntegralFilter::push(double sample) {
 
 double LinearIntegralFilter::output(int derivative) const {
   const DelayLine& line = lines_[static_cast<std::size_t>(order_ - derivative)];
+  int lag = derivative * lateness_;
   // The strut's own cases, without a loop.
   if (derivative == 0) return line.at(0);
-  if (derivative == 1) return line.at(0) - line.at(horizon_);
-  if (derivative == 2) return line.at(0) - 2.0 * line.at(horizon_) + line.at(2 * horizon_);
+  if (derivative == 1) return line.at(lag) - line.at(lag + horizon_);
+  if (derivative == 2) return line.at(lag) - 2.0 * line.at(lag + horizon_) + line.at(lag + 2 * horizon_);
   double result = 0.0;
-  int lag = 0;
   for (const double coefficient : binomials_[static_cast<std::size_t>(derivative)]) {
     result += coefficient * line.at(lag);
     lag += horizon_;
@@ -50,7 +54,7 @@ double LinearIntegralFilter::output(int derivative) const {
 }
 
 void LinearIntegralFilter::reset() {
-  missing_ = order_ * horizon_ + 1;
+  missing_ = window_;
   for (HorizonIntegral& integral : integrals_) integral.reset();
   for (DelayLine& line : lines_) line.reset();
 }

@@ -32,11 +32,12 @@ void NoiseLevel::add(double residual) {
   sizes_.add({limited(0, residual - residuals_.at(1)), limited(1, mean)});
 }
 
-std::optional<double> NoiseLevel::sensorVariance(const RegressorNoise& noise, const Eigen::Vector2d& theta) const {
+std::optional<double> NoiseLevel::sensorVariance(const RegressorNoise& noise, const Eigen::Vector2d& theta,
+                                                 double fitted) const {
   if (sizes_.weight() < kFewestBlocks * block_) return std::nullopt;
   // For a normal distribution the variance is pi/2 times the mean size squared.
   const double change = sizes_.mean(0), mean = sizes_.mean(1);
-  return 0.5 * kPi * std::min(change * change / noise.changeGain(theta), mean * mean / noise.meanGain(theta));
+  return 0.5 * kPi * std::min(change * change / noise.changeGain(theta), fitted * mean * mean / noise.meanGain(theta));
 }
 
 }  // namespace suspension_health_monitor

@@ -37,7 +37,7 @@ class NoiseRows {
 }  // namespace
 
 RegressorNoise::RegressorNoise(const IntegralFilterOptions& options) {
-  const int settled = 2 * options.horizon_samples + 1;  // the filter answers a little outside of its window, too
+  const int settled = LinearIntegralFilter::window(2, options);
   for (const bool of_body : {true, false}) {
     NoiseRows rows(options);
     for (int k = 0; k < settled; ++k) rows.push(0.0, 0.0);
@@ -53,7 +53,7 @@ RegressorNoise::RegressorNoise(const IntegralFilterOptions& options) {
 
 RegressorNoise::RegressorNoise(const IntegralFilterOptions& options, const std::vector<CornerSample>& noise)
     : RegressorNoise(options) {
-  const std::size_t settled = 4 * static_cast<std::size_t>(options.horizon_samples) + 2;
+  const std::size_t settled = 2 * static_cast<std::size_t>(LinearIntegralFilter::window(2, options));
   if (noise.size() <= 2 * settled) return;
   of_two_sensors_ = false;
   rows_ = changes_ = means_ = {};

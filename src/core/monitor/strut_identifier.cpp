@@ -4,7 +4,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <utility>
 
 #include "suspension_health_monitor/internal/pi.h"
 
@@ -69,8 +68,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       past_{present(), present()},
       stamp_noise_(filter_.period, options.forgettingFactor(filter_.period)),
       stddevs_due_(kStddevsEvery),
-      rule_error_(filter_),
-      skew_effect_{RunningMeans<SkewEffect::kNumMeans>(options.forgettingFactor(filter_.period))},
+      skew_effect_(options.forgettingFactor(filter_.period)),
       silent_rows_(filter_.horizon_samples) {
   if (options.estimators.removes_noise_shift) noise_level_.emplace(filter_);
   noise_shift_ = Eigen::VectorXd::Zero(least_squares_.numParameters());
@@ -153,9 +151,8 @@ void StrutIdentifier::noteSkew(const RegressionRow& row) {
   const WheelRow& wheel = regression_.wheel();
   const Eigen::VectorXd& strut = least_absolute_.parameters();
   const double x = strut[kDampingToMass] * wheel.output + strut[kStiffnessToMass] * wheel.damping;
-  const double step = x - std::exchange(skew_effect_.newest, x);
-  skew_effect_.means.add({x * x, step * step, x * row.regressor[kDampingToMass], x * row.regressor[kStiffnessToMass],
-                          regression_.skew()->skew()});
+  skew_effect_.add(
+      {x * row.regressor[kDampingToMass], x * row.regressor[kStiffnessToMass], regression_.skew()->skew()});
 }
 
 // That two blocks of rows tell nothing of a parameter is known at their end, when their noise has pulled it already: so
@@ -217,26 +214,27 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   const RegressorNoise& noise = excitation_.noise();
   const Eigen::Vector2d strut(la.damping_to_mass, la.stiffness_to_mass);
   // For a normal distribution the variance is pi/2 times the mean size squared.
-  const double size = least_absolute_.usualResidual();
-  const double present = 0.5 * kPi * size * size / noise.residualGain(strut);
-  const std::optional<double> lasting = noise_level_ ? noise_level_->sensorVariance(noise, strut) : std::nullopt;
+  const double size = least_absolute_.usualResidual(), left = 0.5 * kPi * size * size / noise.residualGain(strut);
+  // Beside a parameter that is held P is not that of the rows.
+  const bool knows_rows = !isHeld(kDampingToMass) && !isHeld(kStiffnessToMass);
+  const double fitted = noise_level_ && knows_rows ? fittedNoise(strut, left) : 1.0;
+  const double present = fitted * left;
+  const std::optional<double> lasting =
+      noise_level_ ? noise_level_->sensorVariance(noise, strut, fitted) : std::nullopt;
   const double variance = std::min(lasting.value_or(present), present);
   noise_share_ = lasting ? variance / present : 0.0;
   const Eigen::Vector2d moment = noise.moment(strut, variance);
-  // Beside a parameter that is held P is not that of the rows.
-  const bool removes = lasting && !isHeld(kDampingToMass) && !isHeld(kStiffnessToMass);
+  const bool removes = lasting && knows_rows;
   if (removes) removeShift(moment);
   const Eigen::Vector2d spread = removes ? noise.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
   // All of it or none, or a part: a uniform distribution from its end, which the estimate is at.
   const Eigen::Vector2d of_stamps = noise.momentOf(strut, stamp_noise_.variances()) / std::sqrt(3.0);
-  const double of_rule = wheelFrequency() > 0.0 ? strut[kDampingToMass] * rule_error_.at(wheelFrequency()) : 0.0;
   const auto with_shift = [&](double random, int i) {
     const double not_removed = least_squares_.parameterShift(i, moment) - noise_shift_[i];
     const double of_noise =
         std::hypot(not_removed, least_squares_.parameterShift(i, spread), least_squares_.parameterShift(i, of_stamps));
     const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
-    return std::hypot(std::hypot(std::sqrt(random), of_noise, skewShift(i)), i == kDampingToMass ? of_rule : 0.0,
-                      by_input);
+    return std::hypot(std::hypot(std::sqrt(random), of_noise), skewShift(i), by_input);
   };
   const auto of_ls = [&](int i) {
     return withDifference(with_shift(least_squares_.parameterVariance(i), i), least_squares_.parameters()[i],
@@ -253,23 +251,25 @@ void StrutIdentifier::describeStddevs(StrutEstimate& ls, StrutEstimate& la) {
   }
 }
 
-// @return of the oscillation that has the same steps from row to row [rad/sample]; 0: not known.
-double StrutIdentifier::wheelFrequency() const {
-  const RunningMeans<SkewEffect::kNumMeans>& means = skew_effect_.means;
-  if (!(means.mean(SkewEffect::kSquare) > 0.0)) return 0.0;
-  const double ratio = means.mean(SkewEffect::kSquareStep) / means.mean(SkewEffect::kSquare);
-  return 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(ratio)));
-}
-
 // What parameter i is off by if the skew is off by its standard deviation, and by what the rows of the memory, which
 // were made with the skew as it was known then, differ by from it.
 double StrutIdentifier::skewShift(int i) const {
   const SkewProfile* skew = regression_.skew();
   if (skew == nullptr) return 0.0;
-  const RunningMeans<SkewEffect::kNumMeans>& means = skew_effect_.means;
-  const Eigen::Vector2d moment(means.mean(SkewEffect::kDamping), means.mean(SkewEffect::kStiffness));
-  const double off = std::hypot(std::sqrt(skew->variance()), skew->skew() - means.mean(SkewEffect::kSkew));
+  const Eigen::Vector2d moment(skew_effect_.mean(kOnDamping), skew_effect_.mean(kOnStiffness));
+  const double off = std::hypot(std::sqrt(skew->variance()), skew->skew() - skew_effect_.mean(kTakenOff));
   return off * least_squares_.parameterShift(i, moment);
+}
+
+// Least squares fits the noise, too, which is missing from what it leaves: where g is the residual's variance by that
+// of a sensor, v, and v m the noise's moment, it leaves g v - v^2 m'R^-1 m. @return v by what g alone would make of
+// that.
+double StrutIdentifier::fittedNoise(const Eigen::Vector2d& strut, double left) const {
+  const Eigen::Vector2d moment = excitation_.noise().moment(strut, 1.0);
+  const Eigen::Vector2d shift(least_squares_.parameterShift(kDampingToMass, moment),
+                              least_squares_.parameterShift(kStiffnessToMass, moment));
+  const double share = 4.0 * left * moment.dot(shift) / excitation_.noise().residualGain(strut);
+  return 2.0 / (1.0 + std::sqrt(std::clamp(1.0 - share, 0.0, 1.0)));
 }
 
 // Noise does no more to a parameter that is excited than kLeastExcitation says.
@@ -330,7 +330,7 @@ void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   least_squares_.setForgettingFactor(slow);
   least_absolute_.setForgettingFactor(slow);
   regression_.setForgettingFactor(slow);
-  skew_effect_.means.setForgettingFactor(slow);
+  skew_effect_.setForgettingFactor(slow);
   stamp_noise_.setForgettingFactor(slow);
   forgetting_.fewest_rows = options.fewestRows(kFewestHorizons, filter_.period);
   if (!options.fastest_memory) {

@@ -40,7 +40,7 @@ CouplingMoments momentsOfNoise(const CouplingColumns& columns, const IntegralFil
   CouplingMoments moments = CouplingMoments::Zero(columns.size(), columns.size());
   const VehicleSample at_rest{
       {}, StrutVector::Zero(columns.struts), StrutVector::Zero(columns.struts), ForceVector::Zero(columns.forces)};
-  const auto fill = static_cast<std::size_t>(2 * filter.horizon_samples);
+  const auto fill = static_cast<std::size_t>(LinearIntegralFilter::window(2, filter));
   CouplingRows rows(columns, filter);
   for (const StrutDrives& response : noise) {
     const VehicleDrive wrong{response};

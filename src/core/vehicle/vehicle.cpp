@@ -12,7 +12,7 @@ namespace {
 
 int horizonFor(const StrutModel& model, double period) {
   const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass).horizon;
-  return horizonSamples(horizon, period, IntegrationRule::kBandLimited);
+  return horizonSamples(horizon, period);
 }
 
 bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == strut || bar.second == strut; }

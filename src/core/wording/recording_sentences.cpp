@@ -43,9 +43,9 @@ std::string describeNoStart(const std::string& where) {
 
 std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected) {
   if (monitor.input().rows > 0) return {};
+  const int enough = MonitorSettings(monitor.options()).samplesOfRow(monitor.period());
   std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed (" +
-                        std::to_string(2 * monitor.horizonSamples() + 1) +
-                        formatted(" samples, %.3g s", (2 * monitor.horizonSamples() + 1) * monitor.period()) +
+                        std::to_string(enough) + formatted(" samples, %.3g s", enough * monitor.period()) +
                         "; usable samples in all: " + std::to_string(monitor.input().samples) +
                         ", gaps: " + std::to_string(monitor.input().gaps) + ")";
   const std::string slow = grid.whatIsTooSlow();

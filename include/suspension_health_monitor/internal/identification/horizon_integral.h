@@ -1,61 +1,56 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "suspension_health_monitor/internal/signal/delay_line.h"
 
 namespace suspension_health_monitor {
 
-/// How the integral of a sampled signal is formed. All three are exact on a linear signal.
+/// How the integral of a sampled signal is formed. Both are exact on a linear signal.
 enum class IntegrationRule {
-  kTrapezoid,    ///< the paper's rule (9): straight lines between samples, error O(T^2)
-  kSimpson,      ///< a parabola through every pair of intervals, error O(T^4); needs an even L.
-                 ///< Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed. (1984), eq. (2.2.2)
-  kBandLimited,  ///< the trapezoid rule with corrections at both ends, of up to kMostCorrections samples each, that
-                 ///< are exact on parabolas, error O(T^4), and of least error on what oscillates with up to half of
-                 ///< the Nyquist frequency; any L >= 5. Gregory's corrections (ibid., sec. 2.9), which are for smooth
-                 ///< signals, are 9 % wrong on a wheel that hops at a quarter of the rate
+  kTrapezoid,   ///< the paper's rule (9): straight lines between samples, error O(T^2)
+  kBandLimited  ///< the trapezoid rule with corrections by the samples on either side of both ends: exact on cubics,
+                ///< error O(T^4), and within 0.4 % on what oscillates with up to 0.7 of the Nyquist frequency
 };
 
 /// J x(t) = integral of x over [t - h, t], h = L T, on samples: one factor of the operator (8).
 ///
-/// A weighted sum of the newest L + 1 samples whose weights are constant inside the horizon and corrected at its ends,
-/// so that a running sum does it: cost per sample O(1), whatever L.
-/// A running sum alone would collect rounding errors for ever; here it is replaced after every L + 1 samples by one
-/// that was gathered afresh without any subtraction, so an error (or the trace of a huge outlier) lives 2 (L + 1)
-/// samples at most.
+/// A sum over the horizon, and a correction at either end of it:
+///   J x = T ((1 + q^-1 + ... + q^-(L-1)) x + E x - q^-L E x),   E x = -x / 2 + sum c_k (q^-k - q^k) x,
+/// so that a running sum does it: cost per sample O(1), whatever L. As it needs the samples after the end, too, the
+/// result is lateness() samples late.
+/// A running sum alone would collect rounding errors for ever; here it is replaced after every L samples by one that
+/// was gathered afresh without any subtraction, so an error (or the trace of a huge outlier) lives 2 L samples at most,
+/// once it is in the sum.
 class HorizonIntegral {
  public:
-  /// @param intervals  L, number of sampling intervals in the horizon; see IntegrationRule for what a rule needs.
+  /// @param intervals  L, number of sampling intervals in the horizon.
   /// @param period  sampling time T > 0 [s].
   /// @throws std::invalid_argument  naming intervals or period, the value and what is allowed.
   HorizonIntegral(int intervals, double period, IntegrationRule rule);
 
+  /// @return by how many samples the end of the horizon is behind the newest sample.
+  static int lateness(IntegrationRule rule);
+
   /// Length that the delay line given to update() must have.
-  int requiredHistory() const { return intervals_ + 2; }
+  int requiredHistory() const { return intervals_ + 2 * lateness_ + 1; }
 
   /// Takes in the newest sample of `signal`.
   /// @param signal  delay line of at least requiredHistory() samples, to which the sample has just been pushed.
-  /// @return the integral over the newest L intervals [unit of the signal times s].
+  /// @return the integral over the L intervals that end lateness() samples ago [unit of the signal times s].
   double update(const DelayLine& signal);
 
   void reset();
 
  private:
-  static constexpr int kMostCorrections = 8;
-
   int intervals_;
   double period_;
-  double same_weight_ = 1.0;             // of taps at an even distance from the newest sample, inside the horizon
-  double other_weight_ = 1.0;            // of taps at an odd distance
-  std::vector<double> end_corrections_;  // of either end sample, its neighbour, ...
-  // Running sums over the window by parity of the sample's index, and the ones that will replace them.
-  std::array<double, 2> sums_{};
-  std::array<double, 2> fresh_{};
+  int lateness_;
+  std::vector<double> corrections_;  // c_1, c_2, ...
+  DelayLine ends_;                   // E x
+  double sum_ = 0.0;                 // of the newest L samples up to the end, and the one that will replace it
+  double fresh_ = 0.0;
   int until_refresh_;
-  std::size_t parity_ = 0;           // of the newest sample
-  std::size_t leaves_other_parity_;  // 1: the sample that leaves the window is of the other parity
 };
 
 }  // namespace suspension_health_monitor

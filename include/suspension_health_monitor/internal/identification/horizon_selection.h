@@ -40,8 +40,8 @@ struct HorizonProposal {
 HorizonProposal proposeHorizon(double damping_to_mass, double stiffness_to_mass);
 
 /// @param horizon  h > 0 [s].  @param period  T > 0 [s].
-/// @return the L nearest to h / T that the rule allows.
+/// @return the L nearest to h / T, at least 1.
 /// @throws std::invalid_argument  naming horizon or sample_period, the value and what is allowed.
-int horizonSamples(double horizon, double period, IntegrationRule rule);
+int horizonSamples(double horizon, double period);
 
 }  // namespace suspension_health_monitor

@@ -37,7 +37,7 @@ class InstrumentalVariables {
   std::optional<BlockSolution> solution() const { return equations_.solution(); }
 
   /// @return samples without a gap that give enough rows: those that fill the filter, for a model, and for the blocks.
-  int enoughSamples() const { return (1 + kFirstWindows + static_cast<int>(BlockEquations::kFewestBlocks)) * window(); }
+  int enoughSamples() const { return (1 + kFirstWindows + static_cast<int>(BlockEquations::kFewestBlocks)) * window_; }
 
   /// @return 1 - rms(rest) / rms(z''), means taken out, where rest is what no sum of the forces in the strut on the
   /// wheel explains of the body's motion [-]. Noise in the rows of a short horizon does not lower it. NaN without rows.
@@ -45,10 +45,9 @@ class InstrumentalVariables {
 
  private:
   static constexpr int kFirstWindows = 8;  // of rows, before least squares is believed
-  int window() const { return 2 * horizon_samples_ + 1; }
   void chooseModel();
 
-  int horizon_samples_;
+  int window_;         // samples that make a row
   int rows_to_model_;  // until the auxiliary struts are judged anew
   SuspensionRegression regression_;
   EquationBlock least_squares_;

@@ -25,9 +25,11 @@ class NoiseLevel {
 
   void interrupt() { in_series_ = 0; }
 
-  /// @param theta  (b1 [1/s], b0 [1/s^2]) that the residuals are of.
+  /// @param theta  the strut (b1 [1/s], b0 [1/s^2]).
+  /// @param fitted  variance of the noise by what the residuals of least squares show of it, at low frequencies, where
+  /// the noise is that it takes for motion.
   /// @return variance of a sensor [(m/s^2)^2]; empty before kFewestBlocks blocks of rows.
-  std::optional<double> sensorVariance(const RegressorNoise& noise, const Eigen::Vector2d& theta) const;
+  std::optional<double> sensorVariance(const RegressorNoise& noise, const Eigen::Vector2d& theta, double fitted) const;
 
  private:
   static constexpr double kMostSizes = 5.0;

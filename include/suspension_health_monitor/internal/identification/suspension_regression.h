@@ -31,8 +31,8 @@ constexpr int count(SensorColumns columns) {
 /// The effects' f_j, per unit of c_j, come from an observer of the travel (free_run.h).
 /// A constant in y vanishes from psi; a constant common to both sensors vanishes from u. A constant o in u, the offset
 /// between the sensors, adds h^2 o to the column of b0 and vanishes from that of b1; the last column, if it is wanted,
-/// takes it out again: c_o = -b0 o. One that drifts by r in a row is that of L rows ago in the middle of the window, so
-/// that c_r = -b0 r has the column -L h^2. Cost per sample: O(1), no allocation.
+/// takes it out again: c_o = -b0 o. One that drifts by r in a row is that of m rows ago in the middle of the window, so
+/// that c_r = -b0 r has the column -m h^2. Cost per sample: O(1), no allocation.
 class SuspensionRegression {
  public:
   explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0,
@@ -40,7 +40,7 @@ class SuspensionRegression {
 
   /// Takes in the next sample of a uninterrupted uniform series (only the accelerations are used).
   /// @param effect_forces  f_j at this sample, one per effect.
-  /// @return the row, owned by this object and valid until the next call; nullptr while the filter fills (2 L samples).
+  /// @return the row, owned by this object and valid until the next call; nullptr while the filter fills.
   const RegressionRow* push(const CornerSample& sample, const double* effect_forces = nullptr);
 
   /// @return what psi of the newest row would be of the wheel's own acceleration: I_2^2 w'' [m/s^2].
@@ -57,7 +57,7 @@ class SuspensionRegression {
   std::vector<LinearIntegralFilter> effects_;
   SensorColumns sensors_;
   double offset_gain_;  // h^2 [s^2]
-  double drift_rows_;   // L
+  double drift_rows_;   // from the middle of the window to the newest reading
   RegressionRow row_;
 };
 

@@ -25,7 +25,7 @@ class TyreRegression {
 
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @param road_acceleration  mu'' where the tyre touches the road, up positive [m/s^2].
-  /// @return the row, owned by this object and valid until the next call; nullptr while the filter fills (2 L samples).
+  /// @return the row, owned by this object and valid until the next call; nullptr while the filter fills.
   const RegressionRow* push(const CornerSample& sample, double road_acceleration);
 
   /// Starts anew after a gap.

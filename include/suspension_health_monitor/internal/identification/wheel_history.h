@@ -23,7 +23,8 @@ class WheelHistory {
 
   void push(double acceleration);
 
-  /// @return true once all that at() may ask for is known: 2 L + 1 + 2 delay() samples have been pushed.
+  /// @return true once all that at() may ask for is known: a window of the filter and 2 delay() samples have been
+  /// pushed.
   bool full() const { return missing_ == 0; }
 
   int delay() const { return delay_; }  ///< of a row behind the newest sample [samples]

@@ -10,7 +10,6 @@
 #include "suspension_health_monitor/internal/identification/noise_level.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/internal/identification/rule_error.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/identification/stamp_noise.h"
 #include "suspension_health_monitor/internal/identification/synchronous_regression.h"
@@ -98,12 +97,8 @@ class StrutIdentifier {
   };
 
   /// What a skew of the clocks does to the rows of the memory: tau x is in psi, x = b1 I_2^2 w'' + b0 I_1^2 w''.
-  struct SkewEffect {
-    enum Mean : std::size_t { kSquare, kSquareStep, kDamping, kStiffness, kSkew, kNumMeans };
-
-    RunningMeans<kNumMeans> means;  // of x^2, of that of its steps, of x phi_1, x phi_0, and of the skew taken off
-    double newest = 0.0;            // x
-  };
+  /// Means of x phi_1, x phi_0, and of the skew taken off.
+  enum SkewEffect : std::size_t { kOnDamping, kOnStiffness, kTakenOff, kNumSkewEffects };
 
   Past present() const { return {least_squares_.present(), least_absolute_.present()}; }
   double withoutEffects(const RegressionRow& row) const;
@@ -114,9 +109,9 @@ class StrutIdentifier {
   bool isHeld(StrutParameter i) const { return forgetting_.only_excited && !excitation_.excited(i); }
   void forgetBy(double factor);
   void describeStddevs(StrutEstimate& ls, StrutEstimate& la);
+  double fittedNoise(const Eigen::Vector2d& strut, double left) const;
   void removeShift(const Eigen::Vector2d& moment);
   double explainedBesideNoise(const StrutEstimate& estimate) const;
-  double wheelFrequency() const;
   double skewShift(int i) const;
 
   /// @return how many columns are those of the strut and of its effects: all but the sensors', which are the last.
@@ -135,8 +130,7 @@ class StrutIdentifier {
   Eigen::VectorXd noise_shift_;  // of the parameters by the sensors' noise; 0 if it is left in them
   EveryN stddevs_due_;
   bool has_row_ = false;
-  RuleError rule_error_;
-  SkewEffect skew_effect_;
+  RunningMeans<kNumSkewEffects> skew_effect_;
   double rows_ = 0.0;                      // of the model's present columns
   double rows_to_forget_ = 0.0;            // until what a force from outside did is forgotten
   double lost_memories_ = 0.0;             // that LS has explained far more than LA for

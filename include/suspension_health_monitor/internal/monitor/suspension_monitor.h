@@ -46,7 +46,7 @@ class SuspensionMonitor {
   /// As StrutIdentifier::setStampErrors(), from the next sample on.
   void setStampErrors(const Eigen::Vector2d& stddevs);
 
-  /// Takes in the next sample. A gap or a clock that goes back empties the filter (2 L samples without rows follow);
+  /// Takes in the next sample. A gap or a clock that goes back empties the filter (no rows follow until it is full);
   /// estimates hold meanwhile, marked as not valid.
   /// @return the report, owned by this object and valid until the next call; nullptr if the sample was rejected, and,
   ///         with effects in the model, for the first FreeRun::kDelay samples of a series and after setEffects(): so

@@ -32,7 +32,7 @@ inline Alignment alignment(std::string_view name) {
 struct GridOptions {
   Alignment alignment = Alignment::kPaired;
   bool has_road = false;   ///< there is a third stream, Side::kRoad
-  int fill_samples = 120;  ///< in a row that fill the integral filter: 2 L; kAuto judges by it
+  int fill_samples = 120;  ///< in a row that make one row of the regression; kAuto judges by it
 };
 
 }  // namespace suspension_health_monitor
