@@ -42,7 +42,6 @@ endforeach()
 
 # test/tools/NAME_test.cpp: what the parts of the command line give one another, one executable.
 file(GLOB tools_tests CONFIGURE_DEPENDS test/tools/*_test.cpp)
-catkin_add_gtest(tools_test ${tools_tests} src/tools/bag_file.cpp src/tools/imu_bags.cpp src/tools/long_work.cpp
-  src/tools/static_transforms.cpp src/tools/vehicle_bags.cpp src/tools/topic_gaps.cpp)
-configure_shell_target(tools_test ${shell})
+catkin_add_gtest(tools_test ${tools_tests} src/tools/long_work.cpp)
+configure_shell_target(tools_test suspension_health_monitor_tools)
 target_link_libraries(tools_test $<IF:$<TARGET_EXISTS:GTest::gtest_main>,GTest::gtest_main,gtest_main>)

@@ -8,6 +8,7 @@
 
 #include "entry_points.h"
 #include "fuzz_bytes.h"
+#include "fuzz_law.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
 
@@ -15,10 +16,6 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kMostDrives = 3;
-
-void require(bool holds, const char* law) {
-  if (!holds) throw std::logic_error(std::string("broken law: ") + law);
-}
 
 /// Drives made of readings, of repeated readings, of gaps, and of stretches of honest driving, so that a search gets
 /// as far as its last step.

@@ -8,6 +8,7 @@
 
 #include "entry_points.h"
 #include "fuzz_bytes.h"
+#include "fuzz_law.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
@@ -16,10 +17,6 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr Stamp kNewest = std::chrono::seconds(std::numeric_limits<std::uint32_t>::max());  // a ROS stamp has 32 bit
-
-void require(bool holds, const char* law) {
-  if (!holds) throw std::logic_error(std::string("broken law: ") + law);
-}
 
 MonitorSettings takeOptions(FuzzBytes& bytes) {
   constexpr std::array kPeriods{1e-5, 1e-3, 0.005, 0.02, 0.1, 10.0};

@@ -10,7 +10,7 @@ namespace py = pybind11;
 
 namespace {
 
-void bindParts(py::module& module) {
+void bindRanking(py::module& module) {
   py::class_<RankedModel>(module, "RankedModel", "The model with effects added, judged by what no fit has seen.")
       .def_readonly("effects", &RankedModel::effects, "names of all that is in it")
       .def_readonly("model", &RankedModel::model)
@@ -31,7 +31,7 @@ void bindParts(py::module& module) {
 }  // namespace
 
 void bindDiagnosis(py::module& module) {
-  bindParts(module);
+  bindRanking(module);
   py::class_<Diagnosis>(module, "Diagnosis", "What a search for missing effects found.")
       .def_property_readonly(
           "verdict", [](const Diagnosis& self) { return nameOf(self.verdict); },

@@ -15,7 +15,7 @@ OptionValue toValue(XmlRpc::XmlRpcValue& list) {
   std::ostringstream text;
   bool all_texts = true;
   for (int i = 0; i < list.size(); ++i) {
-    text << (i == 0 ? "" : ", ") << list[i];
+    list[i].write(text << (i == 0 ? "" : ", "));
     all_texts = all_texts && list[i].getType() == XmlRpc::XmlRpcValue::TypeString;
   }
   if (all_texts) return text.str();

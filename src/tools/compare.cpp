@@ -26,7 +26,7 @@ void compare(const Arguments& arguments) {
   const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;
-  std::optional<TextFile> json = outputFile(*values, "json");
+  std::optional<TextFile> json_file = outputFile(*values, "json");
 
   TopicGaps gaps(options.pipeline.shell.input_timeout);
   Comparison comparison;
@@ -36,10 +36,10 @@ void compare(const Arguments& arguments) {
   }
   gaps.print();
   printComparison(comparison);
-  if (!json) return;
+  if (!json_file) return;
   nlohmann::json whole = toJson(comparison);
   whole["silent"] = gaps.toJson();
-  json->commit(whole.dump(2) + '\n');
+  json_file->commit(whole.dump(2) + '\n');
   printWritten(*values, outputs);
 }
 

@@ -57,7 +57,7 @@ void diagnose(const Arguments& arguments) {
   const ModelOptions models = readModelOptions(*values);
   const BagOptions options = readBagOptions(*values, true);
   const Interruption interruption;
-  std::optional<TextFile> json = outputFile(*values, "json"), model = outputFile(*values, "output");
+  std::optional<TextFile> json_file = outputFile(*values, "json"), model = outputFile(*values, "output");
   std::optional<ReportPage> page;
   if (values->count(kReport) != 0) page.emplace((*values)[kReport].as<std::string>());
 
@@ -73,13 +73,13 @@ void diagnose(const Arguments& arguments) {
   printSearch(found);
   printChange(change);
   for (const auto& [name, reason] : found.not_tried) std::printf("not tried: %s, %s\n", name.c_str(), reason.c_str());
-  if (json) {
+  if (json_file) {
     nlohmann::json whole = toJson(found);
     whole["silent"] = gaps.toJson();
     if (!change.empty()) whole["change"] = change;
     whole["not_tried"] = nlohmann::json::object();
     for (const auto& [name, reason] : found.not_tried) whole["not_tried"][name] = reason;
-    json->commit(whole.dump(2) + '\n');
+    json_file->commit(whole.dump(2) + '\n');
   }
   if (model) model->commit(toYaml(found.model()));
   if (page)

@@ -52,7 +52,7 @@ void horizon(const Arguments& arguments) {
   if (!values) return;
   const HorizonProposal proposal =
       proposeHorizon((*values)["damping-to-mass"].as<double>(), (*values)["stiffness-to-mass"].as<double>());
-  if (std::optional<TextFile> json = outputFile(*values, "json")) json->commit(toJson(proposal).dump(2) + '\n');
+  if (std::optional<TextFile> file = outputFile(*values, "json")) file->commit(toJson(proposal).dump(2) + '\n');
   plot(proposal);
   std::printf("\nintegration_horizon: %.3g   # [s] strut and filter both reach to %.3g Hz (3 dB)\n", proposal.horizon,
               proposal.bandwidth_hz);

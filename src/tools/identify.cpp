@@ -28,16 +28,16 @@ namespace po = boost::program_options;
 constexpr std::size_t kTableLines = 12;
 
 nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
-  nlohmann::json json{{"damping_to_wheel_mass", estimate.damping_to_wheel_mass},
-                      {"stiffness_to_wheel_mass", estimate.stiffness_to_wheel_mass},
-                      {"tyre_to_wheel_mass", estimate.tyre_to_wheel_mass},
-                      {"damping_to_wheel_mass_stddev", estimate.damping_to_wheel_mass_stddev},
-                      {"stiffness_to_wheel_mass_stddev", estimate.stiffness_to_wheel_mass_stddev},
-                      {"tyre_to_wheel_mass_stddev", estimate.tyre_to_wheel_mass_stddev},
-                      {"wheel_hop_frequency", estimate.wheelHopFrequency()},
-                      {"valid", estimate.valid()}};
-  if (const auto ratio = massRatio(strut, estimate)) json["mass_ratio"] = *ratio;
-  return json;
+  nlohmann::json result{{"damping_to_wheel_mass", estimate.damping_to_wheel_mass},
+                        {"stiffness_to_wheel_mass", estimate.stiffness_to_wheel_mass},
+                        {"tyre_to_wheel_mass", estimate.tyre_to_wheel_mass},
+                        {"damping_to_wheel_mass_stddev", estimate.damping_to_wheel_mass_stddev},
+                        {"stiffness_to_wheel_mass_stddev", estimate.stiffness_to_wheel_mass_stddev},
+                        {"tyre_to_wheel_mass_stddev", estimate.tyre_to_wheel_mass_stddev},
+                        {"wheel_hop_frequency", estimate.wheelHopFrequency()},
+                        {"valid", estimate.valid()}};
+  if (const auto ratio = massRatio(strut, estimate)) result["mass_ratio"] = *ratio;
+  return result;
 }
 
 void writeJson(std::FILE* out, const DriveIdentification& identification, const IdentifyResult& found,
@@ -116,7 +116,7 @@ void identify(const Arguments& arguments) {
   const Baseline healthy = knownHealthy(options.healthy, options.pipeline);
 
   const Interruption interruption;
-  std::optional<TextFile> csv = outputFile(*values, "csv"), json = outputFile(*values, "json"),
+  std::optional<TextFile> csv = outputFile(*values, "csv"), json_file = outputFile(*values, "json"),
                           settings = outputFile(*values, "output");
   if (csv) RowTable::writeHead(csv->stream(), false);
   RowTable table(csv ? csv->stream() : nullptr, "");
@@ -137,8 +137,8 @@ void identify(const Arguments& arguments) {
   table.finish();
 
   const IdentifyResult result = identification.result();
-  if (json) writeJson(json->stream(), identification, result, rejected, gaps);
-  if (json) json->commit();
+  if (json_file) writeJson(json_file->stream(), identification, result, rejected, gaps);
+  if (json_file) json_file->commit();
   if (csv) csv->commit();
   const std::optional<StrutOfDrive> strut = strutOf(result);
   const std::string not_nominal = whyNotNominal(result, pipeline.monitor);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "../ros/conversions.h"
 #include "bag_samples.h"
@@ -21,8 +22,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kMessagesForPeriod = 20000;  // the mean of n spacings has 1/n of a stamp's jitter
-constexpr std::size_t kCheckedMessages = 2000;
+// Of each topic: the mean of n spacings has 1/n of a stamp's jitter.
+constexpr std::size_t kMessagesForPeriod = 10000, kCheckedMessages = 1000;
 
 // A horizon is proposed from stretches that lie all over the drive: it may begin parked, or be rough for a short time
 // only. What stands still weighs little beside what moves.
@@ -33,29 +34,19 @@ constexpr std::size_t kLookedAt = 40000;  // samples, for an offset of the clock
 // Two bounces of the slowest body, whose springs a weight presses down by a metre [s]: 2 * 2 pi sqrt(1 m / g).
 constexpr double kTwoBounces = 4.0;
 
-// @param count  messages to look at; becomes those that there were.
+// Of the topics that are needed.  @param count  messages of each to look at; becomes those that there were of all.
 std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
-  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording);
-  const std::size_t most = std::exchange(count, 0);
-  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
-    measurement.add(side, toStamp(imu.header.stamp));
+  std::vector<bool> is_required(bags.topics.size() - bags.not_needed, true);
+  is_required.resize(bags.topics.size(), false);
+  is_required.resize(bags.topics.size() + bags.wrench_topics.size(), true);
+  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording, is_required);
+  const std::size_t most = std::exchange(count, 0) * is_required.size();
+  const auto take = [&](std::size_t topic, const auto& message, Stamp) {
+    measurement.add(topic, toStamp(message.header.stamp));
     return ++count < most;
-  });
+  };
+  readTopics(bags, {take, take});
   return measurement.period();
-}
-
-double measurePeriod(const ImuBags& bags) {
-  std::size_t count = kMessagesForPeriod;
-  const std::optional<double> period = stampSpacing(bags, count);
-  if (!period) throw TooLittleError(describeNoPeriod("on one of the topics", count));
-  try {
-    MonitorOptions options;
-    options.sample_period = period;
-    validate(options, kMonitorFields);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(std::string("measured from the stamps: ") + error.what());
-  }
-  return *period;
 }
 
 /// What a survey came across.
@@ -139,6 +130,20 @@ int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options, b
 }
 
 }  // namespace
+
+double measurePeriod(const ImuBags& bags) {
+  std::size_t count = kMessagesForPeriod;
+  const std::optional<double> period = stampSpacing(bags, count);
+  if (!period) throw TooLittleError(describeNoPeriod("on one of the topics", count));
+  try {
+    MonitorOptions options;
+    options.sample_period = period;
+    validate(options, kMonitorFields);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(std::string("measured from the stamps: ") + error.what());
+  }
+  return *period;
+}
 
 void measureOpenSettings(const ImuBags& bags, PipelineOptions& options, bool clocks_may_differ) {
   MonitorOptions& monitor = options.monitor;

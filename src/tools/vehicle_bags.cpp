@@ -7,15 +7,12 @@
 #include "../ros/conversions.h"
 #include "../ros/vehicle_sensors.h"
 #include "errors.h"
-#include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
-#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "survey.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr std::size_t kMessagesForPeriod = 20000;  // of one sensor: the mean of n spacings has 1/n of a stamp's jitter
 
 void takeTopics(const VehicleStreams& streams, ImuBags& bags) {
   bags.topics = streams.topicsOfImus();
@@ -38,19 +35,6 @@ void place(VehicleLayout& layout, ImuBags bags, const PipelineOptions& options) 
   readTopics(bags, {take, {}});
   if (!first) throw TooLittleError("the bags hold no message of body_imu, " + *layout.body_imu);
   placeFrames(layout, *first, options.shell, *bags.transforms);
-}
-
-double measurePeriod(const ImuBags& bags) {
-  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording, std::vector<bool>(bags.named_by.size(), true));
-  std::size_t count = 0;
-  const auto take = [&](std::size_t topic, const auto& message, Stamp) {
-    measurement.add(topic, toStamp(message.header.stamp));
-    return ++count < kMessagesForPeriod * bags.named_by.size();
-  };
-  readTopics(bags, {take, take});
-  const std::optional<double> period = measurement.period();
-  if (!period) throw TooLittleError(describeNoPeriod("on one of the topics", count));
-  return *period;
 }
 
 void append(const VehicleSample& sample, VehicleDrive& drive) {
@@ -97,7 +81,10 @@ VehicleStreams streamsOf(ImuBags& bags, const PipelineOptions& options, VehicleL
 std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout& layout,
                                           TopicGaps& gaps) {
   const VehicleStreams streams = streamsOf(bags, options, layout);
-  if (!options.monitor.sample_period) options.monitor.sample_period = measurePeriod(bags);
+  if (options.monitor.sample_period)
+    requireFittingPeriod(bags, *options.monitor.sample_period);
+  else
+    options.monitor.sample_period = measurePeriod(bags);
   std::vector<VehicleBag> drives;
   for (const std::string& path : bags.paths) {
     ImuBags bag = bags;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTimeConstants = 10.0;
 constexpr int kMostSteps = 6;
-constexpr double kDifference = 1e-4;  // of the drive's size
+constexpr double kStateStep = 1e-4;  // of the drive's size
 constexpr double kConverged = 1e-6;   // of the residual
 
 /// The part of a segment that remembers its start.
@@ -64,7 +64,7 @@ std::optional<StrutState> estimate(const StrutModel& model, const DriveSegment& 
                       std::sqrt(static_cast<double>(residuals->size()));
   if (size == 0.0) return state;
   const Eigen::Vector2d steps =
-      kDifference * size * Eigen::Vector2d(1.0 / model.stiffness_to_mass, 1.0 / std::sqrt(model.stiffness_to_mass));
+      kStateStep * size * Eigen::Vector2d(1.0 / model.stiffness_to_mass, 1.0 / std::sqrt(model.stiffness_to_mass));
   for (int i = 0; i < kMostSteps; ++i) {
     const auto columns = sensitivities(state, *residuals, steps, model, segment);
     if (!columns) break;

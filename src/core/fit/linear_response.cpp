@@ -8,7 +8,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kDifference = 1e-4;  // of the rms motion, for the slopes of the force
+constexpr double kMotionStep = 1e-4;  // of the rms motion, for the slopes of the force
 constexpr int kMemorySteps = 4;       // per sample
 
 double rms(const std::vector<StrutMotion>& motion, double StrutMotion::*member) {
@@ -63,7 +63,7 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
   measureSizes();
   travel_ = rms(motion_, &StrutMotion::travel);
   travel_rate_ = rms(motion_, &StrutMotion::travel_rate);
-  const double by_travel = kDifference * travel_, by_rate = kDifference * travel_rate_;
+  const double by_travel = kMotionStep * travel_, by_rate = kMotionStep * travel_rate_;
   for (std::size_t k = 0; k < motion_.size(); ++k) {
     const StrutMotion& m = motion_[k];
     const auto at = [&](double d, double v) {
@@ -79,7 +79,7 @@ void LinearResponse::measureSizes() {
   double squares = 0.0;
   for (const double y : predicted_) squares += square(y);
   sizes_.y = std::sqrt(squares / count);
-  sizes_.residual = kDifference * sizes_.y;
+  sizes_.residual = kMotionStep * sizes_.y;
   sizes_.period = period_;
   for (std::size_t c = 0; c < kNumBodyChannels; ++c) {
     double sum = 0.0;

@@ -6,7 +6,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kDifference = 1e-6;  // relative step of the numerical derivatives
+constexpr double kParameterStep = 1e-6;  // relative step of the numerical derivatives
 
 }  // namespace
 
@@ -38,7 +38,7 @@ bool SegmentCost::differentiate(const Eigen::VectorXd& shared, const Eigen::Vect
   Eigen::VectorXd moved(num_residuals());
   for (Eigen::Index i = 0; i < varied.size(); ++i) {
     const double kept = varied[i];
-    double step = kDifference * std::max(1.0, std::abs(kept));
+    double step = kParameterStep * std::max(1.0, std::abs(kept));
     varied[i] = kept + step;
     if (!evaluate(shared, local, moved)) {  // at the edge of stability: look the other way
       step = -step;

@@ -9,14 +9,14 @@ namespace {
 // Of n rows of white noise two regressors explain more than a share x of psi^2 with probability (1 - x)^((n - 2) / 2):
 // a half of one block's once in 2e9.
 constexpr double kLeastShare = 0.5;
-constexpr int kFewestRows = 64;                     // of a block
-constexpr int kMostBlocks = 8;                      // that are judged together before a parameter is released
+constexpr int kFewestBlockRows = 64;                     // of a block
+constexpr int kMostJudgedBlocks = 8;                      // that are judged together before a parameter is released
 constexpr double kUsualShare = 0.1;                 // of the usual information: no rest
 constexpr double kWheelStands = 0.01;               // of the wheel's usual part
 constexpr double kMostGrowth = 4.0;                 // of the usual in a block: an outlier does not become it
 constexpr double kUsualMemories = 10.0;             // of the estimator, that the usual lasts
 constexpr double kMostTimes = 2.0;                  // the known strut
-constexpr double kLarger = 2.0, kMuchLarger = 9.0;  // the body's part over the wheel's
+constexpr double kLarger = 2.0, kFarLarger = 9.0;  // the body's part over the wheel's
 constexpr double kOffsetMemory = 0.9975;            // forgetting factor of a row
 
 std::array<double, kNumStrutParameters> informationOf(const RowMoments& rows) {
@@ -48,7 +48,7 @@ void Excitation::Usual::learn(double information, double most_blocks) {
 }
 
 Excitation::Excitation(int horizon_samples, double forgetting_factor, const RegressorNoise& noise)
-    : block_rows_(std::max(horizon_samples, kFewestRows)),
+    : block_rows_(std::max(horizon_samples, kFewestBlockRows)),
       most_blocks_(std::max(1.0, kUsualMemories / (block_rows_ * (1.0 - forgetting_factor)))),
       noise_(noise),
       offset_(kOffsetMemory) {}
@@ -85,7 +85,7 @@ void Excitation::closeBlock() {
 void Excitation::judgeWheel() {
   Usual& usual = usual_[kWheel];
   const double wheel = block_.wheel / block_.rows, body = block_.body / block_.rows;
-  const bool is_much_larger = body > kMuchLarger * wheel;
+  const bool is_much_larger = body > kFarLarger * wheel;
   outside_force_ = usual.blocks > 0.0 ? wheel < kWheelStands * usual.mean && body > kLarger * wheel : is_much_larger;
   if (is_known_ && !outside_force_ && !is_much_larger) usual.learn(wheel, most_blocks_);
 }
@@ -119,7 +119,7 @@ void Excitation::judgeExcited(const Block& recent) {
   if (is_new) since_held_ = Block();
 }
 
-double Excitation::leastToRelease(const Block& rows) { return kLeastExcitation * kMostBlocks / rows.blocks; }
+double Excitation::leastToRelease(const Block& rows) { return kLeastExcitation * kMostJudgedBlocks / rows.blocks; }
 
 void Excitation::judgeHeld() {
   since_held_ += block_;
@@ -134,9 +134,9 @@ void Excitation::judgeHeld() {
     part.excitation = excitation[i];
     const bool is_rough = newest[i] >= kUsualShare * usual_[i].mean * block_.rows;
     part.rough_blocks = is_rough ? part.rough_blocks + 1 : 0;
-    part.excited = (tells && excitation[i] >= least) || part.rough_blocks >= kMostBlocks;
+    part.excited = (tells && excitation[i] >= least) || part.rough_blocks >= kMostJudgedBlocks;
   }
-  if (since_held_.blocks == kMostBlocks || !isHeld()) since_held_ = Block();
+  if (since_held_.blocks == kMostJudgedBlocks || !isHeld()) since_held_ = Block();
 }
 
 void Excitation::restart() {

@@ -6,12 +6,12 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kRowsOfHorizon = 64, kFewestRows = 32;
+constexpr int kRowsOfHorizon = 64, kFewestHorizonRows = 32;
 constexpr int kHorizonsOfBlock = 8;
 constexpr double kAlike = 6.0;       // rows that count as one
 constexpr double kFitted = 3.0;      // parameters of every block
 constexpr double kUsualSteps = 3.0;  // half of all skews are within it beforehand
-constexpr double kMemories = 30.0;   // of the estimator: clocks differ by as much for long
+constexpr double kSkewMemories = 30.0;   // of the estimator: clocks differ by as much for long
 constexpr double kCertain = 4.0;     // standard deviations
 constexpr double kRounding = 1e-12;  // of squares
 
@@ -31,7 +31,7 @@ SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions&
                          double forgetting_factor)
     : step_(mostSkew(filter) / kSteps),
       every_(std::max(1, filter.horizon_samples / kRowsOfHorizon)),
-      horizon_rows_(std::max(kFewestRows, filter.horizon_samples)),
+      horizon_rows_(std::max(kFewestHorizonRows, filter.horizon_samples)),
       noise_of_psi_(noise.covariance()(0, 0)),
       residuals_(noise.covariance()) {
   for (std::size_t j = 0; j < kNumSkews; ++j) {
@@ -42,7 +42,7 @@ SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions&
 }
 
 void SkewProfile::setForgettingFactor(double forgetting_factor) {
-  share_ = std::pow(forgetting_factor, kHorizonsOfBlock * horizon_rows_ / kMemories);
+  share_ = std::pow(forgetting_factor, kHorizonsOfBlock * horizon_rows_ / kSkewMemories);
 }
 
 bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, double output) {

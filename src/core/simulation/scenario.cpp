@@ -11,7 +11,7 @@ namespace suspension_health_monitor {
 namespace {
 
 /// A vehicle and the road it is meant for.
-struct Vehicle {
+struct ScenarioVehicle {
   std::string_view name;
   QuarterCar car;
   char iso_class;
@@ -24,7 +24,7 @@ struct Vehicle {
 //   K0/M = 653 1/s^2, m/M = 0.15; only ratios are given there, M = 250 kg is ours.
 // rover, ugv: our own choice of a small slow rover (body 1.7 Hz) and of a softer, faster one (1.0 Hz) on bad ground,
 //   with the golden car's ratio K0/K of about 10.
-constexpr Vehicle kVehicles[] = {
+constexpr ScenarioVehicle kVehicles[] = {
     {"paper", {50.0, 5.0, 150.0, 690.0, std::nullopt}, 'C', 5.0},
     {"golden_car", {250.0, 37.5, 1500.0, 15825.0, 163250.0}, 'C', 15.0},
     {"rover", {10.0, 2.0, 50.0, 1200.0, 12000.0}, 'E', 2.0},
@@ -36,10 +36,10 @@ constexpr EndStops kPaperStops{0.09, 1000.0};
 constexpr TimeWindow kPaperLosses[] = {{25.0, 26.0}, {65.0, 66.0}};
 constexpr double kPaperDampingLeft = 100.0 / 150.0;
 
-const Vehicle& findVehicle(const SimulationOptions& options) {
+const ScenarioVehicle& findVehicle(const SimulationOptions& options) {
   std::string_view name = options.vehicle;
   if (name == "default") name = options.scenario == "iso_road" ? "golden_car" : "paper";
-  return *std::find_if(std::begin(kVehicles), std::end(kVehicles), [&](const Vehicle& v) { return v.name == name; });
+  return *std::find_if(std::begin(kVehicles), std::end(kVehicles), [&](const auto& v) { return v.name == name; });
 }
 
 Ramp dampingRamp(const SimulationOptions& options, double first) {
@@ -47,7 +47,7 @@ Ramp dampingRamp(const SimulationOptions& options, double first) {
   return {first, first * options.damping_end_fraction.value_or(usual), options.ramp_start, options.ramp_end};
 }
 
-Road makeRoad(const SimulationOptions& options, const Vehicle& vehicle) {
+Road makeRoad(const SimulationOptions& options, const ScenarioVehicle& vehicle) {
   if (options.scenario == "iso_road") {
     const char iso_class = options.iso_class == "default" ? vehicle.iso_class : options.iso_class.front();
     return IsoRoad(iso_class, options.speed.value_or(vehicle.speed), options.seed);
@@ -93,7 +93,7 @@ double fasterRate(const SimulationOptions& options) {
 
 Scenario makeScenario(const SimulationOptions& options) {
   validate(options);
-  const Vehicle& vehicle = findVehicle(options);
+  const ScenarioVehicle& vehicle = findVehicle(options);
   Scenario result;
   result.vehicle = vehicle.car;
   if (options.damping_to_mass) result.vehicle.damping = *options.damping_to_mass * vehicle.car.sprung_mass;
