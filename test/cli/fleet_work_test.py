@@ -68,7 +68,7 @@ def test_what_has_no_content_has_no_key(tmp_path):
 
 
 def test_bags_are_found_below_folders(tmp_path):
-    for name in ("a/1.bag", "a/deep/2.bag", "b/3.bag", "b/notes.txt", "b/4.bag.active"):
+    for name in ("a/1.bag", "a/deep/2.bag", "b/3.bag", "b/notes.txt", "b/4.bag.active", ".part.x/5.bag", "b/.6.bag"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
     (tmp_path / "loop").symlink_to(tmp_path)
@@ -78,6 +78,7 @@ def test_bags_are_found_below_folders(tmp_path):
     assert found("") == ["a/1.bag", "a/deep/2.bag", "b/3.bag"]
     assert found("b/notes.txt", "a/deep") == ["a/deep/2.bag", "b/notes.txt"]
     assert found("*/[13].bag") == ["a/1.bag", "b/3.bag"]
+    assert found(".part.x") == [".part.x/5.bag"], "who names it means it"
     with pytest.raises(FleetError, match="nowhere"):
         find_bags([str(tmp_path / "nowhere*")])
 

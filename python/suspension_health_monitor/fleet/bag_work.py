@@ -16,6 +16,7 @@ from .errors import FleetError, UsageError
 
 ONLY_STRUT = "strut"  # the name of a strut that is judged alone
 _WRONG_USAGE, _WRONG_INPUT, _TOO_POOR = 2, 3, 4
+_NO_PROGRAM = (126, 127)  # setpriv says so
 # suspension_bag waits until its files are on the disk: those that are deleted at once need not be there.
 _MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
 # A worker that is killed takes its processes along.
@@ -78,12 +79,14 @@ def _run(command, path, folder, work, page=None):
     message = message.replace(f"suspension_bag {command}: ", "", 1)
     if status == _WRONG_USAGE or (status == _WRONG_INPUT and message.startswith(work.files)):
         raise UsageError(message)
+    if status in _NO_PROGRAM:
+        raise FleetError(message)
     if status == _TOO_POOR and command == "identify" and not os.path.exists(output):
         raise _Failed(POOR, message)
     if status == _WRONG_INPUT:
         raise _Failed(UNREADABLE, message.replace(f"{path}: ", "", 1))
     if status not in (0, _TOO_POOR):
-        raise _Failed(CRASHED, f"suspension_bag {command} {_describe(status)}")
+        raise _Failed(CRASHED, f"suspension_bag {command} {describe(status)}")
     if not os.path.exists(output):
         return {}
     with open(output) as file:
@@ -104,7 +107,7 @@ def _run_process(arguments, time_limit, heard="stderr"):
     return done.returncode, lines[-1] if lines else ""
 
 
-def _describe(status):
+def describe(status):
     if status is None:
         return "took longer than --time-limit"
     if status >= 0:

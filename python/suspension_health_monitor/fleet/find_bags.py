@@ -10,7 +10,8 @@ FOLDER_OF_THE_BAG = r"([^/]+)/[^/]+$"
 
 
 def find_bags(paths):
-    """Every file that is named and every *.bag below folders, as they are come across: never all of them in memory.
+    """Every file that is named and every *.bag below folders, except what is hidden, as they are come across: never all
+    of them in memory.
 
     :raises FleetError: a path or pattern that names nothing.
     """
@@ -32,6 +33,8 @@ def _below(path):
         return
     with entries:
         for entry in entries:
+            if entry.name.startswith("."):  # not for everybody's eyes, such as what a simulation is writing
+                continue
             if entry.is_dir(follow_symlinks=False):
                 yield from _below(entry.path)
             elif entry.name.endswith(".bag"):

@@ -38,11 +38,14 @@ def date(text):
 
 def find_program():
     """suspension_bag: $SUSPENSION_BAG, or where catkin puts it: beside suspension_fleet, or below a workspace."""
+    named = os.environ.get("SUSPENSION_BAG")
     prefixes = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
-    places = [os.environ.get("SUSPENSION_BAG"), os.path.join(os.path.dirname(sys.argv[0]), "suspension_bag"),
+    places = [os.path.join(os.path.dirname(sys.argv[0]), "suspension_bag"),
               *(os.path.join(prefix, "lib/suspension_health_monitor/suspension_bag") for prefix in prefixes),
               shutil.which("suspension_bag")]
-    for place in filter(None, places):
+    for place in filter(None, [named] if named else places):
         if os.access(place, os.X_OK) and os.path.isfile(place):
             return os.path.abspath(place)
+    if named:
+        raise FleetError(f"SUSPENSION_BAG is {named}, must be the path of the program suspension_bag")
     raise FleetError("suspension_bag is not found: source the workspace's setup.bash, or set SUSPENSION_BAG to its path")
