@@ -58,6 +58,19 @@ def test_what_is_known_is_replaced_if_asked(engine):
     assert database.counts(engine) == {"ok": 1, "unreadable": 1}
 
 
+@pytest.mark.parametrize("status", [database.CRASHED, database.UNREAD])
+def test_a_reading_that_failed_takes_no_good_result_away(engine, status):
+    failed = database.Drive(status, "was ended by SIGKILL")
+    database.write(engine, bag("k"), drive(0.0, 4.0))
+    before = count_all(engine)
+    assert not database.write(engine, bag("k"), failed, again=True)
+    assert not database.write(engine, bag("k", diagnose=True), failed)
+    assert count_all(engine) == before and database.counts(engine) == {"ok": 1}
+    database.write(engine, bag("k"), database.Drive(database.POOR, "parked"), again=True)
+    assert database.write(engine, bag("k"), failed, again=True), "of a drive that tells of no strut"
+    assert database.counts(engine) == {status: 1}
+
+
 def test_a_lost_worker_says_nothing_about_the_bag(engine):
     assert database.write(engine, bag("k"), database.Drive(database.UNREAD, "its worker ended"))
     assert not database.is_known(engine, bag("k"))
@@ -126,6 +139,14 @@ def test_what_is_no_fleet_is_refused(tmp_path):
     for url in ("fleet.db", "nosuch://host/fleet"):
         with pytest.raises(UsageError, match="sqlite:///fleet.db"):
             database.connect(url)
+
+
+@pytest.mark.parametrize("table", ["drives", "struts", "findings"])
+def test_a_database_that_lacks_a_table_is_refused(engine, table):
+    with engine.begin() as connection:
+        connection.execute(database.text(f"DROP TABLE {table}"))
+    with pytest.raises(FleetError, match=f"fleet.db.*no such table: {table}"):
+        database.histories(engine)
 
 
 def test_histories(engine):

@@ -14,7 +14,7 @@ from sqlalchemy import (Boolean, Column, Float, ForeignKey, Integer, MetaData, S
                         inspect, text)
 from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
 
-from .errors import FleetError, UsageError
+from .errors import FleetError, UsageError, naming
 from .history import Event, Finding, StrutHistory
 
 SCHEMA_VERSION = 1
@@ -104,10 +104,8 @@ def shown(engine):
 
 def _has_tables(engine):
     if engine.url.drivername.startswith("sqlite") and engine.url.database not in (None, "", ":memory:"):
-        try:
+        with naming(engine.url.database):
             open(engine.url.database, "rb").close()  # to connect would make an empty file
-        except OSError as error:
-            raise FleetError(f"{engine.url.database}: {error.strerror}") from error
     return inspect(engine).has_table(schema.name) if hasattr(inspect(engine), "has_table") \
         else engine.has_table(schema.name)
 
@@ -168,7 +166,8 @@ def write(engine, bag, drive, again=False):
     """Writes all rows of a bag, or none; instead of those of the same bag, or of another one at its path that was none.
 
     :param again: also if the bag is known.
-    :returns: False if another client was faster.
+    :returns: False if the rows that are there stay: another client was faster, or the bag was ok, against which a
+        process or a worker that is lost says nothing.
     """
     row = dict(key=bag.key, path=bag.path, vehicle=bag.vehicle, start=drive.start, duration=drive.duration,
                status=drive.status, reason=drive.reason, diagnosed=drive.diagnosed, options=bag.options,
@@ -176,7 +175,8 @@ def write(engine, bag, drive, again=False):
     try:
         with engine.begin() as connection:
             before = _row(connection, bag)
-            if not again and _answers(before, bag):
+            good = before is not None and before[1] == OK
+            if not again and _answers(before, bag) or good and drive.status in (CRASHED, UNREAD):
                 return False
             _forget(connection, bag, before)
             (drive_id,) = connection.execute(drives.insert().values(**row)).inserted_primary_key
@@ -232,8 +232,8 @@ def _by_strut(connection, query):
 
 def histories(engine):
     """A StrutHistory of every strut, by vehicle and name. Arrays have the drives whose estimate is valid; a finding's
-    effects are a list of names."""
-    with engine.begin() as connection:
+    effects are a list of names. :raises FleetError: the tables are not there, or are others."""
+    with in_words(engine), engine.begin() as connection:
         estimates, happened, found = (_by_strut(connection, query) for query in (_ESTIMATES, _EVENTS, _FINDINGS))
     result = []
     for vehicle, strut in sorted({*estimates, *happened, *found}):
