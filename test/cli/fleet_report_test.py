@@ -1,21 +1,28 @@
 """suspension_fleet show and report: what is said of a fleet, in a terminal, in JSON and in a browser."""
 import base64
 import dataclasses
+import errno
 import itertools
 import json
+import os
 import re
 import shutil
+import signal
+import subprocess
+import sys
 import types
 
 import numpy as np
 import pytest
 
 import browser
+import conftest
+import imu_bag
 
 pytest.importorskip("sqlalchemy")
 from suspension_health_monitor.fleet import database, outlook, report_data, show  # noqa: E402
 from suspension_health_monitor.fleet.command import main  # noqa: E402  after the reason to skip
-from suspension_health_monitor.fleet.history import YEAR, series  # noqa: E402
+from suspension_health_monitor.fleet.history import YEAR, Event, series  # noqa: E402
 
 BEGIN, DRIVES = 1.6e9, 60
 HOSTILE = 'robot <b>&"\' 1'
@@ -130,6 +137,86 @@ def test_what_cannot_be_written_is_refused(fleet, capsys, tmp_path):
     assert main(["show", "--db", fleet.url, "--json", str(tmp_path / "no" / "x.json")]) == 3
 
 
+@pytest.mark.parametrize("command", [["show"], ["report", "-o", "page"]])
+@pytest.mark.parametrize("database_is", ["missing", "half-made"])
+def test_without_a_whole_database_nothing_is_made(fleet, capsys, tmp_path, monkeypatch, command, database_is):
+    monkeypatch.chdir(tmp_path)
+    if database_is == "half-made":
+        engine = database.connect("sqlite:///fleet.db", create=True)
+        with engine.begin() as connection:
+            connection.execute(database.text("DROP TABLE struts"))
+    assert main([*command, "--db", "sqlite:///fleet.db"]) == 3
+    said = capsys.readouterr()
+    assert said.out == "" and said.err.count("\n") == 1
+    assert said.err.startswith(f"suspension_fleet {command[0]}: ") and "fleet.db" in said.err
+    assert not (tmp_path / "page").exists()
+
+
+def test_a_page_appears_whole_or_not_at_all(fleet, tmp_path, monkeypatch, capsys):
+    """On a disk that is full: a page that is there stays."""
+    page = tmp_path / "page"
+    page.mkdir()
+    (page / "index.html").write_text("here first")
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    monkeypatch.setattr(os, "replace", full)
+    assert main(["report", "--db", fleet.url, "-o", str(page)]) == 3
+    assert capsys.readouterr().err == f"suspension_fleet report: {page}/plotly.min.js: No space left on device\n"
+    assert [path.name for path in page.iterdir()] == ["index.html"]
+    assert (page / "index.html").read_text() == "here first"
+
+
+def end_this_process(*_, **__):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_a_process_that_is_ended_is_said_in_words(fleet, monkeypatch, capsys):
+    monkeypatch.setattr(outlook, "prognosis", end_this_process)
+    assert main(["show", "--db", fleet.url, "--workers", "1"]) == 3
+    assert capsys.readouterr().err == (
+        "suspension_fleet show: one of 1 processes has ended, as for want of memory: fewer --workers need less\n")
+
+
+def show_as_a_process(fleet, **keywords):
+    program = imu_bag.REPOSITORY / "python/suspension_fleet"
+    return subprocess.Popen([sys.executable, str(program), "show", "--db", fleet.url], stderr=subprocess.PIPE, **keywords)
+
+
+def test_a_terminal_without_our_characters_is_served(fleet):
+    process = show_as_a_process(fleet, stdout=subprocess.PIPE, env=dict(os.environ, PYTHONIOENCODING="ascii"))
+    output, error = process.communicate(timeout=conftest.HANGS)
+    assert (process.returncode, error) == (0, b"") and rb"\xb1" in output
+
+
+def test_standard_output_that_takes_no_more(fleet):
+    with open("/dev/full", "w") as full:
+        process = show_as_a_process(fleet, stdout=full)
+        _, error = process.communicate(timeout=conftest.HANGS)
+    assert (process.returncode, error) == (3, b"suspension_fleet show: standard output: No space left on device\n")
+    process = show_as_a_process(fleet, stdout=subprocess.PIPE)
+    process.stdout.close()
+    assert (process.wait(timeout=conftest.HANGS), process.stderr.read()) == (-signal.SIGPIPE, b"")
+
+
+def test_names_do_not_reach_the_terminal_as_controls(fleet):
+    history = dataclasses.replace(fleet.histories[0], vehicle="ro\x1b[31mbot\n", strut="\u202eleft",
+                                  events=[Event(BEGIN, "WARN", "low\x07", "a.bag")])
+    lines = show.table([(history, None)], 160).splitlines()
+    assert len(lines) == 2 and lines[1].startswith(r"ro\x1b[31mbot\n  \u202eleft  ")
+    (strut,) = report_data.page_data([(history, None)], fleet.folder)["struts"]
+    assert (strut["vehicle"], strut["strut"]) == (r"ro\x1b[31mbot\n", r"\u202eleft")
+    assert strut["events"][0][2] == r"low\x07"
+
+
+def test_a_strut_that_is_worn_without_a_date_is_due(fleet):
+    history, result = next(pair for pair in outlook.in_order(fleet.histories, outlook.Options(), 1) if pair[1].dated)
+    broken = {part: dataclasses.replace(wear, loss=(0.4, 0.5, 0.6)) for part, wear in result.wear.items()}
+    for more, due in (({}, True), (dict(dated=None), False), (dict(dated=None, wear=broken), True)):
+        (strut,) = report_data.page_data([(history, dataclasses.replace(result, **more))], fleet.folder)["struts"]
+        assert strut["due"] == due
+
+
 def test_struts_without_a_valid_drive_are_listed(fleet):
     empty = dataclasses.replace(fleet.histories[0], time=np.zeros(0), damping_to_mass=np.zeros(0),
                                 damping_to_mass_stddev=np.zeros(0), stiffness_to_mass=np.zeros(0),
@@ -173,7 +260,7 @@ def test_a_large_fleet_is_small_enough(fleet):
 
 def test_map_and_list_have_every_strut(fleet):
     page = page_of(fleet)
-    assert page.one("h1").text == "One strut has a date for the workshop"
+    assert page.one("h1").text == "One strut is due at the workshop, now or by a date"
     rows = [row for row in page.one(id="list").all("tr") if "data-strut" in row.attributes]
     names = [f"{each['vehicle']} {each['strut']}" for each in fleet.told]
     assert [row.attributes["data-strut"] for row in rows] == names

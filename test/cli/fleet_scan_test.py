@@ -194,6 +194,42 @@ def test_a_bag_that_kills_its_process_takes_no_other(program, bags, url, tmp_pat
     assert path.endswith("/7.bag") and "SIGKILL" in reason
 
 
+def test_a_good_result_outlives_a_crash(program, bag, url, tmp_path, monkeypatch):
+    monkeypatch.setenv("REAL", program.path)
+    fleet.copies(bag, tmp_path / "robot", 2)
+    fleet.succeed(tmp_path, "scan", "robot", "--db", url)
+    before = fleet.rows(url, "SELECT * FROM drives JOIN struts ON struts.drive_id = drives.id ORDER BY path")
+    deadly = fleet.write_program(tmp_path / "deadly", "kill -9 $$")
+    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, "--again", program=deadly)
+    assert (status, output.splitlines()[0]) == (0, "2 bags: 2 known"), error
+    assert error.count("was ended by SIGKILL, as for want of memory; what is known of it stays\n") == 2
+    assert before == fleet.rows(url, "SELECT * FROM drives JOIN struts ON struts.drive_id = drives.id ORDER BY path")
+
+
+def test_a_wrong_program_ends_it_and_writes_nothing(bag, url, tmp_path):
+    fleet.copies(bag, tmp_path / "robot", 1)
+    for path in (tmp_path / "none", tmp_path, bag):
+        status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, program=path)
+        assert (status, output) == (3, "")
+        assert error.startswith(f"suspension_fleet scan: SUSPENSION_BAG is {path}, must be the path of")
+    (tmp_path / "script").write_text("#!/nowhere/sh\n")
+    (tmp_path / "script").chmod(0o755)
+    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, program=tmp_path / "script")
+    assert (status, output) == (3, "") and "failed to execute" in error and "Traceback" not in error
+    assert fleet.statuses(url) == {}
+
+
+def test_names_do_not_reach_the_terminal_as_controls(url, tmp_path):
+    folder = tmp_path / "ro\x1b[31mbot\n"
+    folder.mkdir()
+    (folder / "\x1b]0;title\x07.bag").touch()
+    status, output, error = fleet.run(tmp_path, "scan", folder, "--db", url)
+    assert (status, output.splitlines()[0]) == (0, "1 bags: 1 unread")
+    assert error == f"{tmp_path}/ro\\x1b[31mbot\\n/\\x1b]0;title\\x07.bag: is empty\n"
+    status, _, error = fleet.run(tmp_path, "scan", folder / "none", "--db", url)
+    assert status == 3 and "ro\\x1b[31mbot\\n/none: no such file" in error
+
+
 def test_a_bag_that_kills_its_workers_ends_as_a_row(bag, url, tmp_path, monkeypatch):
     """With the worker that runs it: no worker is left in the end, and yet the scan ends."""
     fleet.copies(bag, tmp_path / "robot", 1)

@@ -5,10 +5,12 @@ import json
 import numpy as np
 import pytest
 
+import conftest
 import fleet
 from suspension_health_monitor.fleet import fleet_model
-from suspension_health_monitor.fleet.errors import UsageError
+from suspension_health_monitor.fleet.errors import FleetError, UsageError
 from suspension_health_monitor.fleet.fleet_model import DAY, MONTH, Laws
+from suspension_health_monitor.fleet.simulation import read_model
 
 # Nothing but what a test is about.
 CALM = dict(wearing=0, sagging=0, payload=0, season=0, tolerance=0, bad=0)
@@ -90,6 +92,56 @@ def test_wrong_laws_are_refused(tmp_path):
     status, _, error = fleet.run(tmp_path, "simulate", "-o", "fleet", "--vehicle-model", "none.yaml")
     assert status == 3 and "none.yaml" in error
     assert not (tmp_path / "fleet").exists()
+
+
+STRUT = {"x": 0, "y": 0, "damping": 78, "stiffness": 1500, "wheel_mass": 2.6, "tyre_stiffness": 16000}
+MODEL = {"mass": 60, "speed": 3, "struts": {"only": STRUT}}
+SHORT = ["--vehicles", "1", "--days", "1", "--duration", "1", "--bad", "0"]
+
+
+@pytest.mark.parametrize("model, words", [
+    ("\xff", ""), ("[1, 2", ": line 1"), ("- 1", ""), ("", ": mass is missing"),
+    (dict(MODEL, mass="heavy"), ': mass = "heavy"'), (dict(MODEL, mass=0), ": mass = "),
+    (dict(MODEL, struts={}), " no strut"), (dict(MODEL, struts={"only": 1}), ": struts/only"), (dict(MODEL, struts={"only": {**STRUT, "x": None}}), "only/x"),
+    (dict(MODEL, struts={"only": {"x": 1}}), ": y is missing"), (dict(MODEL, struts={"../up": STRUT}), ": struts/..")])
+def test_odd_models_are_refused_in_the_simulators_words(program, tmp_path, model, words):
+    path = tmp_path / "model.yaml"
+    path.write_bytes(model.encode("latin-1") if isinstance(model, str) else json.dumps(model).encode())
+    with pytest.raises(FleetError, match=f"^{path}: [^\n]*$") as refusal:
+        read_model(program.path, str(path))
+    assert words in str(refusal.value)
+
+
+def test_models_are_read_as_the_simulator_reads_them(program, tmp_path):
+    """In YAML as others read it 6e1 is a text, and a strut called on a truth value."""
+    (tmp_path / "model.yaml").write_text(json.dumps(dict(MODEL, struts={"on": STRUT})).replace("60", "6e1", 1)
+                                         .replace('"on"', "on"))
+    fleet.succeed(tmp_path, "simulate", "-o", "fleet", "--vehicle-model", "model.yaml", *SHORT, "--payload", "0",
+                  "--season", "0", "--tolerance", "0", "--wearing", "0", "--sagging", "0")
+    (drive,) = json.loads((tmp_path / "fleet/truth.json").read_text())["vehicles"]["robot_1"]["drives"]
+    assert drive["struts"]["on"]["damping_to_mass"] == pytest.approx(78 / 60)
+
+
+def test_a_folder_is_of_one_fleet(program, tmp_path):
+    def simulate(*arguments):
+        return fleet.run(tmp_path, "simulate", "-o", "fleet", *SHORT, *arguments)
+    assert simulate("--rate", "1e9")[0] == 3, "of which no bag is there"
+    assert simulate("--seed", "1")[0] == 0
+    before = conftest.snapshot(tmp_path)
+    for other in (["--seed", "2"], ["--days", "2"], ["--rate", "50"], ["--duration", "2"]):
+        status, output, error = simulate("--seed", "1", *other)
+        assert (status, output) == (3, "")
+        assert error.startswith("suspension_fleet simulate: fleet has bags of another fleet, must have none or")
+    assert conftest.snapshot(tmp_path) == before
+    assert simulate("--seed", "1")[0] == 0
+    (tmp_path / "fleet/truth.json").unlink()
+    assert simulate("--seed", "2")[0] == 3, "nobody knows of which fleet they are"
+
+
+def test_a_place_that_is_no_folder_is_said_in_words(program, tmp_path):
+    (tmp_path / "file").write_text("here first")
+    status, output, error = fleet.run(tmp_path, "simulate", "-o", "file", *SHORT)
+    assert (status, output, error) == (3, "", "suspension_fleet simulate: file: File exists\n")
 
 
 def test_scan_finds_the_truth(program, tmp_path):

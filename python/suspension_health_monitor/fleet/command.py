@@ -1,11 +1,13 @@
 """suspension_fleet: the command line."""
 import argparse
+import contextlib
 import os
 import signal
 import sys
 
 from . import report, scan_command, show, simulate_command
 from .errors import FleetError
+from .wording import plain
 
 COMMANDS = {"scan": scan_command, "show": show, "report": report, "simulate": simulate_command}
 EPILOG = "doc/fleet.md tells more. Exit status: 0 done, 2 wrong usage, 3 unreadable or wrong input."
@@ -30,17 +32,33 @@ def _terminate(*_):
     raise _Terminated
 
 
+_SIGNALS = {KeyboardInterrupt: signal.SIGINT, _Terminated: signal.SIGTERM, BrokenPipeError: signal.SIGPIPE}
+
+
+def _say(words):
+    """On standard output. :raises BrokenPipeError: nobody listens any more. FleetError: it takes no more."""
+    with contextlib.suppress(AttributeError):  # another stream, or none
+        sys.stdout.reconfigure(errors="backslashreplace")  # as standard error is: not every terminal has a plus-minus
+    try:
+        print(words, end="", flush=True)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        sys.stdout = None  # the interpreter would try again
+        raise FleetError(f"standard output: {error.strerror}") from error
+
+
 def main(arguments=None):
     """:returns: exit status. Ctrl-C, and SIGTERM, end it as whoever waits for it expects, with a good database."""
     options = parser().parse_args(arguments)
     signal.signal(signal.SIGTERM, _terminate)
     try:
-        options.run(options)
+        _say(options.run(options))
     except FleetError as error:
-        print(f"suspension_fleet {options.command}: {error}", file=sys.stderr)
+        print(plain(f"suspension_fleet {options.command}: {error}"), file=sys.stderr)
         return error.status
-    except (KeyboardInterrupt, _Terminated) as interruption:
-        number = signal.SIGINT if isinstance(interruption, KeyboardInterrupt) else signal.SIGTERM
+    except tuple(_SIGNALS) as interruption:
+        number = _SIGNALS[type(interruption)]
         signal.signal(number, signal.SIG_DFL)
         os.kill(os.getpid(), number)
     return 0

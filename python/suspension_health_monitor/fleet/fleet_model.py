@@ -139,8 +139,8 @@ def vehicle_of_drive(model, drive):
     result: Dict[str, Any] = dict(model)
     for name in ("mass", "pitch_inertia", "roll_inertia"):
         if name in model:
-            result[name] = model[name] * drive.payload
-    result["struts"] = {name: {**strut, **{number: strut[number] * share
+            result[name] = float(model[name]) * drive.payload
+    result["struts"] = {name: {**strut, **{number: float(strut[number]) * share
                                            for number, share in drive.struts[name].items()}}
                         for name, strut in model["struts"].items()}
     return result
@@ -153,7 +153,7 @@ def strut_numbers(vehicle):
         return coordinate ** 2 / inertia if coordinate else 0.0
     result = {}
     for name, strut in vehicle["struts"].items():
-        softness = (1.0 / vehicle["mass"] + share(strut["x"], vehicle.get("pitch_inertia", 0.0))
-                    + share(strut["y"], vehicle.get("roll_inertia", 0.0)))
+        softness = (1.0 / vehicle["mass"] + share(float(strut["x"]), vehicle.get("pitch_inertia", 0.0))
+                    + share(float(strut["y"]), vehicle.get("roll_inertia", 0.0)))
         result[name] = (strut["damping"] * softness, strut["stiffness"] * softness)
     return result

@@ -1,11 +1,12 @@
 """The prognoses of a fleet, the most urgent strut first."""
-import concurrent.futures
+import concurrent.futures.process
 import functools
 import math
 import os
 import signal
 
 from . import database
+from .errors import FleetError
 from .options import add_db, at_least_one
 from .part_wear import Options
 from .progress import bar
@@ -19,21 +20,25 @@ def add_options(command):
                          help="processes; default: this machine's cores")
 
 
-def outlook(options):
-    """[(StrutHistory, Prognosis or None)] of the database. :raises UsageError: a value that is not allowed."""
+def read(options):
+    """(histories of the database, options of the prognosis). :raises UsageError: a value that is not allowed."""
     its_options = Options.of(options)
-    return in_order(database.histories(database.connect(options.db)), its_options, options.workers)
+    return database.histories(database.connect(options.db)), its_options
 
 
 def in_order(histories, options, workers):
-    """The same of any histories."""
+    """[(StrutHistory, Prognosis or None)]. :raises FleetError: one of the processes has been ended."""
     work = functools.partial(prognosis, options=options)
     results = []
     quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}  # Ctrl-C is for us to take
     with bar(len(histories), "strut") as progress, concurrent.futures.ProcessPoolExecutor(workers, **quiet) as pool:
-        for result in pool.map(work, histories, chunksize=4):
-            progress.update()
-            results.append(result)
+        try:
+            for result in pool.map(work, histories, chunksize=4):
+                progress.update()
+                results.append(result)
+        except concurrent.futures.process.BrokenProcessPool as error:
+            raise FleetError(f"one of {workers} processes has ended, as for want of memory: fewer --workers need "
+                             "less") from error
     return sorted(zip(histories, results), key=urgency)
 
 

@@ -3,9 +3,9 @@ import json
 import pathlib
 
 from . import outlook
-from .errors import FleetError
-from .part_wear import Options
+from .errors import FleetError, naming
 from .report_data import page_data
+from .whole_file import write_whole
 
 HELP = "write a page of the fleet: a map of all struts, each with its history"
 PAGE = pathlib.Path(__file__).with_name("report_page")
@@ -19,14 +19,12 @@ def add_options(report):
 
 
 def run(options):
-    Options.of(options)  # refuses what is not allowed before the folder is made
+    histories, its_options = outlook.read(options)
     folder = pathlib.Path(options.output)
-    try:
+    with naming(f"{folder}: cannot be made"):
         folder.mkdir(exist_ok=True)
-    except OSError as error:
-        raise FleetError(f"{folder}: cannot be made: {error.strerror}") from error
-    write(outlook.outlook(options), folder)
-    print(f"wrote {folder / 'index.html'}")
+    write(outlook.in_order(histories, its_options, options.workers), folder)
+    return f"wrote {folder / 'index.html'}\n"
 
 
 def write(fleet, folder):
@@ -42,8 +40,5 @@ def write(fleet, folder):
     for mark, part in (("/*STYLE*/", (PAGE / "fleet.css").read_text(encoding="utf-8")), ("/*SCRIPTS*/", scripts),
                        ("/*DATA*/", data)):
         text = text.replace(mark, part, 1)
-    try:
-        (folder / "plotly.min.js").write_text(get_plotlyjs(), encoding="utf-8")
-        (folder / "index.html").write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise FleetError(f"{error.filename}: {error.strerror}") from error
+    write_whole(folder / "plotly.min.js", get_plotlyjs())
+    write_whole(folder / "index.html", text)

@@ -7,6 +7,7 @@ import numpy as np
 
 from . import wording
 from .history import series
+from .wording import plain
 
 LOGARITHM_STEP = 1e-4  # of log b1 and log b0
 STDDEV_LEAST, STDDEV_STEP = 1e-3, 1 / 32  # stddev = LEAST exp(STEP code), code a byte: 0.1 % to 290 %, to 3 %
@@ -21,8 +22,8 @@ def page_data(fleet, folder):
 
 def _strut(history, prognosis, folder):
     found = {
-        "vehicle": history.vehicle, "strut": history.strut,
-        "events": [[round(each.time), each.level, each.message] for each in history.events[-_NEWEST:]],
+        "vehicle": plain(history.vehicle), "strut": plain(history.strut),
+        "events": [[round(each.time), each.level, plain(each.message)] for each in history.events[-_NEWEST:]],
         "findings": [[round(each.time), each.verdict, " ".join(each.effects), _link(each.page, folder)]
                      for each in history.findings[-_NEWEST:]],
         "left_out": max(0, len(history.events) - _NEWEST) + max(0, len(history.findings) - _NEWEST),
@@ -30,7 +31,7 @@ def _strut(history, prognosis, folder):
     if prognosis is None:
         return found
     trend, worn = prognosis.trend, prognosis.wear[prognosis.trend.part]
-    return {**found, **_drives(history), "part": trend.part, "dated": prognosis.dated is not None,
+    return {**found, **_drives(history), "part": trend.part, "due": bool(prognosis.dated or prognosis.reached),
             "change": round(-100 * worn.loss[1], 1), "worn": wording.span(worn),
             "threshold": prognosis.options.threshold, "new": round(trend.new, 5),
             "remarks": wording.remarks(prognosis), "effects": [wording.effect(each) for each in prognosis.effects],

@@ -7,6 +7,7 @@ import sys
 from . import database
 from .bag_key import bag_key
 from .cluster import read_bags
+from .wording import plain
 
 KNOWN = "known"
 
@@ -56,8 +57,9 @@ class Scan:
     def _write(self, bag, drive):
         written = database.write(self._engine, bag, drive, self._again)
         self._count(drive.status if written else KNOWN)
-        if written and drive.reason:
-            self._progress.write(f"{bag.path}: {drive.reason}", file=sys.stderr)
+        if drive.reason:
+            stays = "" if written else "; what is known of it stays"
+            self._progress.write(plain(f"{bag.path}: {drive.reason}{stays}"), file=sys.stderr)
 
     def _count(self, what):
         self.counts[what] += 1

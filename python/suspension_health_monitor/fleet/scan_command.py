@@ -6,7 +6,7 @@ import os
 
 from . import database
 from .bag_work import Work
-from .errors import FleetError, UsageError
+from .errors import FleetError, UsageError, naming
 from .find_bags import FOLDER_OF_THE_BAG, find_bags, vehicle_pattern
 from .options import above_zero, add_db, at_least_one, find_program
 from .progress import bar
@@ -56,11 +56,8 @@ def _hash(work):
     """Of all options, and of what is in the files that they name."""
     digest = hashlib.sha256(repr(dataclasses.replace(work, program="")).encode())
     for path in work.files:
-        try:
-            with open(path, "rb") as file:
-                digest.update(file.read())
-        except OSError as error:
-            raise FleetError(f"{path}: {error.strerror}") from error
+        with naming(path), open(path, "rb") as file:
+            digest.update(file.read())
     return digest.hexdigest()[:16]
 
 
@@ -72,10 +69,8 @@ def run(options):
     if next(find_bags(options.paths), None) is None:
         raise FleetError(f"{' '.join(options.paths)}: no bag in there")
     if work.pages:
-        try:
+        with naming(f"--pages {work.pages}"):
             os.makedirs(work.pages, exist_ok=True)
-        except OSError as error:
-            raise FleetError(f"--pages {work.pages}: {error.strerror}") from error
     engine = database.connect(options.db, create=True)
     with bar(sum(1 for _ in find_bags(options.paths))) as progress, database.in_words(engine):
         scan = Scan(engine, work, token, vehicle_of, options.again, progress)
@@ -84,5 +79,5 @@ def run(options):
         if first is not None:  # else no cluster is needed
             with open_client(options.workers, options.scheduler) as client:
                 scan.read(client, itertools.chain([first], bags))
-    print(f"{sum(scan.counts.values())} bags: " + ", ".join(f"{n} {what}" for what, n in sorted(scan.counts.items())))
-    print(f"wrote {database.shown(engine)}")
+    found = ", ".join(f"{count} {what}" for what, count in sorted(scan.counts.items()))
+    return f"{sum(scan.counts.values())} bags: {found}\nwrote {database.shown(engine)}\n"

@@ -2,10 +2,9 @@
 import json
 import math
 import shutil
-import sys
 
 from . import outlook, wording
-from .errors import FleetError
+from .errors import naming
 from .part_wear import PARTS
 
 HELP = "say what every strut is like, and when it must go to the workshop"
@@ -19,24 +18,20 @@ def add_options(show):
 
 
 def run(options):
-    fleet = outlook.outlook(options)
+    fleet = outlook.in_order(*outlook.read(options), options.workers)
     if options.json is None:
-        sys.stdout.write(table(fleet, shutil.get_terminal_size((160, 24)).columns))
-        return
+        return table(fleet, shutil.get_terminal_size((160, 24)).columns)
     text = json.dumps([as_dict(*pair) for pair in fleet], indent=1, allow_nan=False) + "\n"
     if options.json == "-":
-        sys.stdout.write(text)
-        return
-    try:
-        with open(options.json, "w") as file:
-            file.write(text)
-    except OSError as error:
-        raise FleetError(f"{options.json}: {error.strerror}") from error
+        return text
+    with naming(options.json), open(options.json, "w") as file:
+        file.write(text)
+    return ""
 
 
 def table(fleet, width):
     """Columns apart by two spaces; the outlook is folded where the terminal is narrow, nothing is cut off."""
-    rows = [_HEAD, *(_row(*pair) for pair in fleet)]
+    rows = [_HEAD, *([wording.plain(cell) for cell in _row(*pair)] for pair in fleet)]
     folded = _HEAD.index("outlook")
     widths = [max(len(row[i]) for row in rows) for i in range(len(_HEAD))]
     others = sum(widths) - widths[folded] + 2 * (len(_HEAD) - 1)

@@ -1,6 +1,7 @@
 """suspension_fleet simulate: the bags of a fleet that wears, and the truth about it."""
 import os
 
+from .errors import naming
 from .fleet_model import Laws
 from .options import above_zero, at_least_one, date, find_program
 from .progress import bar
@@ -26,10 +27,11 @@ def add_options(simulate):
 
 
 def run(options):
-    simulation = Simulation(find_program(), options.output, read_model(options.vehicle_model), Laws.of(options),
-                            options.vehicles, options.duration, options.rate)
+    program, laws = find_program(), Laws.of(options)
+    simulation = Simulation(program, options.output, read_model(program, options.vehicle_model), laws, options.vehicles,
+                            options.duration, options.rate)
     drives = simulation.drives()
-    with bar(len(drives)) as progress:
+    with bar(len(drives)) as progress, naming(options.output):
         simulation.write_bags(options.workers, progress.update)
-    print(f"{len(drives)} bags of {options.vehicles} vehicles")
-    print("wrote " + ", ".join(os.path.join(options.output, name) for name in ("*/*.bag", VEHICLE_FILE, TRUTH_FILE)))
+    files = ", ".join(os.path.join(options.output, name) for name in ("*/*.bag", VEHICLE_FILE, TRUTH_FILE))
+    return f"{len(drives)} bags of {options.vehicles} vehicles\nwrote {files}\n"

@@ -2,32 +2,45 @@
 import concurrent.futures
 import dataclasses
 import datetime
+import glob
 import json
 import os
+import pathlib
 import subprocess
 import tempfile
 
-from .errors import FleetError
+from .bag_work import describe
+from .errors import FleetError, naming
 from .fleet_model import ROBOT, fleet, strut_numbers, vehicle_of_drive
+from .whole_file import write_whole
 
 TEMPERATURE_TOPIC = "/temperature"
 VEHICLE_FILE = "vehicle.yaml"
 TRUTH_FILE = "truth.json"
 
 
-def read_model(path):
-    """The numbers of a vehicle that `suspension_bag simulate --vehicle-model` takes. None: a robot of our own."""
+def read_model(program, path):
+    """A vehicle that `suspension_bag simulate --vehicle-model` takes, its numbers as texts. None: a robot of our own.
+
+    :raises FleetError: in the simulator's words; it looks at the file first.
+    """
     if path is None:
         return ROBOT
     import yaml
-    try:
-        with open(path) as file:
-            model = yaml.safe_load(file)
-    except (OSError, yaml.YAMLError) as error:
-        raise FleetError(f"{path}: {error}") from error
-    if not (isinstance(model, dict) and isinstance(model.get("struts"), dict) and "mass" in model):
-        raise FleetError(f"{path}: must have mass and struts, as doc/simulation.md says")
-    return model
+    with tempfile.TemporaryDirectory(prefix="suspension_fleet.") as folder:
+        _simulate(program, "--vehicle-model", path, "--duration", "0", "-o", os.path.join(folder, "drive.bag"))
+    with naming(path), open(path, encoding="utf-8") as file:
+        return yaml.load(file, yaml.BaseLoader)  # others take 1e3 for a text, and a strut called on for a truth value
+
+
+def _simulate(program, *arguments):
+    """:raises FleetError: in the simulator's words."""
+    with naming(program):
+        done = subprocess.run([program, "simulate", *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, encoding="utf-8", errors="replace")
+    if done.returncode != 0:
+        words = done.stderr.strip().replace("suspension_bag simulate: ", "", 1)
+        raise FleetError(words or f"suspension_bag simulate {describe(done.returncode)}")
 
 
 class Simulation:
@@ -46,6 +59,7 @@ class Simulation:
         return sorted(result, key=lambda each: each[1].start)
 
     def write_truth(self):
+        """:raises FleetError: there are bags that it is not about."""
         vehicles = {}
         for name, vehicle in self.truth.items():
             of_vehicle = dataclasses.asdict(vehicle)
@@ -54,12 +68,19 @@ class Simulation:
                 for strut, numbers in strut_numbers(vehicle_of_drive(self._model, drive)).items():
                     row["struts"][strut].update(zip(("damping_to_mass", "stiffness_to_mass"), numbers))
             vehicles[name] = of_vehicle
-        os.makedirs(self._folder, exist_ok=True)
-        _write_whole(os.path.join(self._folder, TRUTH_FILE), json.dumps(
-            {"laws": dataclasses.asdict(self._laws), "vehicles": vehicles}, indent=1))
+        text = json.dumps({"laws": dataclasses.asdict(self._laws), "model": self._model, "duration": self._duration,
+                           "rate": self._rate, "vehicles": vehicles}, indent=1) + "\n"
+        path = pathlib.Path(self._folder, TRUTH_FILE)
+        if path.exists() and path.read_bytes() == text.encode():
+            return
+        if glob.glob(os.path.join(glob.escape(self._folder), "*", "*.bag")):
+            raise FleetError(f"{self._folder} has bags of another fleet, must have none or those of the same options: "
+                             f"{TRUTH_FILE} in there tells which")
+        write_whole(path, text)
 
     def write_bags(self, workers, progress=lambda: None):
-        """Bags that are there already stay. :raises FleetError: in the simulator's words."""
+        """Bags that are there already stay. :raises FleetError: in the simulator's words; or they are of another fleet."""
+        os.makedirs(self._folder, exist_ok=True)
         self.write_truth()
         with concurrent.futures.ThreadPoolExecutor(workers) as pool:
             waiting = [pool.submit(self._write_bag, path, drive) for path, drive in self.drives()]
@@ -81,24 +102,21 @@ class Simulation:
                 with open(bag, "w") as file:
                     file.write("" if drive.bad == "empty" else f"{drive.seed}: no bag\n")
             else:
-                self._simulate(bag, drive, folder)
+                self._write_drive(bag, drive, folder)
             os.replace(bag, path)
 
-    def _simulate(self, bag, drive, folder):
+    def _write_drive(self, bag, drive, folder):
         model, vehicle_file = os.path.join(folder, "model.yaml"), os.path.join(folder, VEHICLE_FILE)
         vehicle = vehicle_of_drive(self._model, drive)
         if drive.bad == "parked":
             vehicle = dict(vehicle, speed=0.01, iso_class="A")
         with open(model, "w") as file:
             json.dump(vehicle, file)  # which is YAML, too
-        done = subprocess.run([self._program, "simulate", "--vehicle-model", model, "--vehicle-file", vehicle_file,
-                               "--duration", str(self._duration), "--rate", str(self._rate), "--seed", str(drive.seed),
-                               "--set", f"start_time={drive.start:.3f}", "-o", bag],
-                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        if done.returncode != 0:
-            raise FleetError(done.stderr.strip())
+        _simulate(self._program, "--vehicle-model", model, "--vehicle-file", vehicle_file, "--duration",
+                  str(self._duration), "--rate", str(self._rate), "--seed", str(drive.seed), "--set",
+                  f"start_time={drive.start:.3f}", "-o", bag)
         with open(vehicle_file) as file:
-            _write_whole(os.path.join(self._folder, VEHICLE_FILE), file.read().partition("\n")[2])  # without its origin
+            write_whole(os.path.join(self._folder, VEHICLE_FILE), file.read().partition("\n")[2])  # without its origin
         _add_temperature(bag, drive, self._duration)
         if drive.bad == "cut_off":
             os.truncate(bag, os.path.getsize(bag) // 2)
@@ -106,13 +124,6 @@ class Simulation:
 
 def _day(time):
     return datetime.datetime.fromtimestamp(time, datetime.timezone.utc).strftime("%Y-%m-%d")
-
-
-def _write_whole(path, text):
-    with tempfile.NamedTemporaryFile("w", dir=os.path.dirname(path), prefix=".part.", delete=False) as file:
-        file.write(text.rstrip("\n") + "\n")
-    os.chmod(file.name, 0o644)
-    os.replace(file.name, path)
 
 
 def _add_temperature(bag, drive, duration):

@@ -5,6 +5,11 @@ import math
 NO_DRIVES = "no drive whose estimates are valid"
 
 
+def plain(text):
+    """With an escape instead of what is not to be seen: names are the user's, and a terminal obeys some characters."""
+    return "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
+
+
 def day(time):
     """Such as 4 March 2027, UTC."""
     date = datetime.datetime.fromtimestamp(time, datetime.timezone.utc)

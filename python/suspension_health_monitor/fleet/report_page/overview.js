@@ -6,9 +6,9 @@ const ROW = 20;  // [px]: a line of text
 const LETTER = 7;  // [px] wide at most, in the mean of a name
 
 function summarise() {
-  const dated = data.struts.filter(strut => strut.dated).length;
-  const those = dated === 1 ? 'One strut has' : `${dated || 'No'} struts have`;
-  document.querySelector('#fleet h1').textContent = `${those} a date for the workshop`;
+  const due = data.struts.filter(strut => strut.due).length;
+  const those = due === 1 ? 'One strut is' : `${due || 'No'} struts are`;
+  document.querySelector('#fleet h1').textContent = `${those} due at the workshop, now or by a date`;
   document.querySelector('#fleet .lede').textContent =
       `${vehicles.length} vehicles, ${data.struts.length} struts, the most urgent vehicle first`;
 }
@@ -18,7 +18,7 @@ function drawMap(open) {
   const index = new Map(data.struts.map((strut, i) => [JSON.stringify([strut.vehicle, strut.strut]), i]));
   const cells = vehicles.map(vehicle => strutNames.map(name => index.get(JSON.stringify([vehicle, name]))));
   const each = pick => cells.map(row => row.map(i => i === undefined ? null : pick(data.struts[i])));
-  const dated = data.struts.filter(strut => strut.dated);
+  const due = data.struts.filter(strut => strut.due);
   const scale = [[0, colour('low')], [0.5, colour('middle')], [1, colour('high')]];
   // Plotly would find the margins by drawing several times over, which takes most of the time of a large fleet.
   const widest = names => 10 + LETTER * Math.max(0, ...names.map(name => name.length));
@@ -37,7 +37,7 @@ function drawMap(open) {
   };
   const rings = {
     type: 'scatter', mode: 'markers', hoverinfo: 'skip',
-    x: dated.map(strut => strutNames.indexOf(strut.strut)), y: dated.map(strut => vehicles.indexOf(strut.vehicle)),
+    x: due.map(strut => strutNames.indexOf(strut.strut)), y: due.map(strut => vehicles.indexOf(strut.vehicle)),
     marker: {symbol: 'circle-open', size: 10, color: colour('ring'), line: {width: 2}}
   };
   const layout = layoutOf({
