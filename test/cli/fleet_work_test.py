@@ -87,6 +87,7 @@ def test_the_path_tells_the_vehicle():
     assert vehicle_pattern(FOLDER_OF_THE_BAG)("/data/robot_7/monday.bag") == "robot_7"
     assert vehicle_pattern(r"r(\d+)_(?P<vehicle>\w+)")("/data/r1_fox/monday.bag") == "fox"
     assert vehicle_pattern(r"r(\d+)_")("/data/fox/monday.bag") is None
+    assert vehicle_pattern(r"(\d*)_")("/data/fox_/monday.bag") is None
     for text in ("robot", "("):
         with pytest.raises(UsageError, match="--vehicle-pattern"):
             vehicle_pattern(text)

@@ -42,7 +42,7 @@ def _below(path):
 
 
 def vehicle_pattern(text):
-    """:returns: a function that tells a path's vehicle, None where the pattern does not match.
+    """:returns: a function that tells a path's vehicle, None where the pattern does not match or finds an empty name.
     :raises UsageError: no regular expression, or one without a group."""
     try:
         pattern = re.compile(text)
@@ -55,5 +55,5 @@ def vehicle_pattern(text):
 
     def vehicle_of(path):
         found = pattern.search(os.path.abspath(path))
-        return found and found.group(group)
+        return found and found.group(group) or None
     return vehicle_of
