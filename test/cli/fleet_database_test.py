@@ -133,9 +133,10 @@ def test_what_is_no_fleet_is_refused(tmp_path):
     for create in (False, True):
         with pytest.raises(FleetError, match="text.db.*not a database"):
             database.connect(f"sqlite:///{tmp_path / 'text.db'}", create)
-    sqlite3.connect(tmp_path / "empty.db").execute("CREATE TABLE other (x INTEGER)")
-    with pytest.raises(FleetError, match="suspension_fleet scan"):
-        database.connect(f"sqlite:///{tmp_path / 'empty.db'}")
+    for table in ("other", "fleet_schema"):  # of which the second is what a scan begins with
+        sqlite3.connect(tmp_path / f"{table}.db").execute(f"CREATE TABLE {table} (version INTEGER)")
+        with pytest.raises(FleetError, match="suspension_fleet scan"):
+            database.connect(f"sqlite:///{tmp_path / table}.db")
     for url in ("fleet.db", "nosuch://host/fleet"):
         with pytest.raises(UsageError, match="sqlite:///fleet.db"):
             database.connect(url)

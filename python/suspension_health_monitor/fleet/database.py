@@ -80,11 +80,14 @@ def connect(url, create=False):
         raise UsageError(f"--db {without_password}: {error}; must be a URL such as sqlite:///fleet.db or "
                          "postgresql://user@host/fleet") from error
     with in_words(engine):
-        if not create and not _has_tables(engine):
-            raise FleetError(f"{shown(engine)} has no fleet in it: `suspension_fleet scan` makes one")
         if create:
             _make_tables(engine)
-        _check_version(engine)
+        version = _version(engine)
+    if version is None:
+        raise FleetError(f"{shown(engine)} has no fleet in it: `suspension_fleet scan` makes one")
+    if version != SCHEMA_VERSION:
+        raise FleetError(f"{shown(engine)} has schema version {version}, this program knows {SCHEMA_VERSION}: "
+                         "use the suspension_fleet that has written it, or a newer one")
     return engine
 
 
@@ -102,12 +105,16 @@ def shown(engine):
     return repr(engine.url)
 
 
-def _has_tables(engine):
+def _version(engine):
+    """Of its schema; None where that has not been made, or not to the end."""
     if engine.url.drivername.startswith("sqlite") and engine.url.database not in (None, "", ":memory:"):
         with naming(engine.url.database):
             open(engine.url.database, "rb").close()  # to connect would make an empty file
-    return inspect(engine).has_table(schema.name) if hasattr(inspect(engine), "has_table") \
-        else engine.has_table(schema.name)
+    inspector = inspect(engine)
+    if not (inspector if hasattr(inspector, "has_table") else engine).has_table(schema.name):
+        return None
+    with engine.begin() as connection:
+        return connection.execute(text("SELECT max(version) FROM fleet_schema")).fetchone()[0]
 
 
 def _make_tables(engine):
@@ -124,14 +131,6 @@ def _try_to_make_tables(engine):
         if connection.execute(text("SELECT version FROM fleet_schema")).fetchone() is None:
             metadata.create_all(connection)
             connection.execute(schema.insert().values(version=SCHEMA_VERSION))
-
-
-def _check_version(engine):
-    with engine.begin() as connection:
-        (version,) = connection.execute(text("SELECT max(version) FROM fleet_schema")).fetchone()
-    if version != SCHEMA_VERSION:
-        raise FleetError(f"{shown(engine)} has schema version {version}, this program knows {SCHEMA_VERSION}: "
-                         "use the suspension_fleet that has written it, or a newer one")
 
 
 @dataclasses.dataclass(frozen=True)
