@@ -4,13 +4,15 @@ import dataclasses
 import os
 import pathlib
 import signal
-import socket
 import subprocess
 import time
 
 import yaml
 
+from .ports import held_port
+
 DURATION = 120.0  # [s] of one drive
+LAST_WORDS = 2000  # characters of a log that say why a program ended
 STUCK = 1200.0  # [s] wall time that no drive takes, even where the machine is busy with other work
 
 
@@ -73,12 +75,6 @@ class RunFailed(Exception):
     """A program that the demo started did not do its work."""
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
-
-
 @dataclasses.dataclass(frozen=True)
 class Drive:
     """One drive through the nodelets: what roslaunch is told, where it is recorded."""
@@ -100,9 +96,9 @@ def launched(drive, folder):
     drive.bag.unlink(missing_ok=True)
     environment = {name: value for name, value in os.environ.items() if name != "ROS_LOG_DIR"}
     environment["ROS_HOME"] = str(folder)
-    command = ["roslaunch", "-p", str(free_port()), "suspension_health_monitor", drive.launch_file, *drive.arguments,
-               "real_time_factor:=0", "shutdown_at_end:=true", f"record:={drive.bag}"]
-    with open(folder / "roslaunch.log", "w") as log:
+    with held_port() as port, open(folder / "roslaunch.log", "w") as log:
+        command = ["roslaunch", "-p", str(port), "suspension_health_monitor", drive.launch_file, *drive.arguments,
+                   "real_time_factor:=0", "shutdown_at_end:=true", f"record:={drive.bag}"]
         process = subprocess.Popen(command, env=environment, stdout=log, stderr=log, stdin=subprocess.DEVNULL,
                                    start_new_session=True)
         try:
@@ -130,6 +126,7 @@ def run_drives(drives, folder, progress):
             time.sleep(0.1)
     for drive, run in runs.items():
         if run.returncode != 0 or not drive.bag.is_file():
+            log = folder / drive.name / "roslaunch.log"
             raise RunFailed(f"{drive.name}: roslaunch ended with status {run.returncode} and "
-                            f"{'a' if drive.bag.is_file() else 'no'} recording, "
-                            f"see {folder / drive.name / 'roslaunch.log'}")
+                            f"{'a' if drive.bag.is_file() else 'no'} recording; {log} ends with\n"
+                            f"{log.read_text(errors='replace')[-LAST_WORDS:]}")

@@ -102,8 +102,8 @@ def test_the_rules_see_commands():
 
 
 @pytest.mark.parametrize("document, commands", documents_with_commands())
-def test_commands_of_a_document(program, tmp_path, document, commands):
-    terminal = Terminal(tmp_path)
+def test_commands_of_a_document(program, tmp_path, port, document, commands):
+    terminal = Terminal(tmp_path, port)
     terminal.environment["PATH"] = f"{program.path.rpartition('/')[0]}:{terminal.environment['PATH']}"
     for number, command in enumerate(commands):
         prepare(program, tmp_path, document, command)
@@ -111,7 +111,7 @@ def test_commands_of_a_document(program, tmp_path, document, commands):
             continue  # looked at while the launch before it ran
         if command.startswith("roslaunch"):
             following = commands[number + 1] if number + 1 < len(commands) else ""
-            launch_and_look(Terminal(tmp_path), command, number, following.split()[1:] if "rqt_plot" in following else [])
+            launch_and_look(Terminal(tmp_path, port), command, number, following.split()[1:] if "rqt_plot" in following else [])
         else:
             terminal.run(command)
 

@@ -2,7 +2,6 @@
 import os
 import pathlib
 import shutil
-import socket
 import subprocess
 import sys
 import time
@@ -10,6 +9,10 @@ import time
 import pytest
 
 import imu_bag
+
+sys.path.insert(0, str(imu_bag.REPOSITORY / "scripts"))
+
+from report.ports import held_port  # noqa: E402
 
 PAPER_SETTINGS = imu_bag.REPOSITORY / "config/paper.yaml"
 
@@ -31,10 +34,11 @@ def wait_until(predicate, what="", every=0.02):
         time.sleep(every)
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
+@pytest.fixture
+def port():
+    """Of a server that the test starts."""
+    with held_port() as number:
+        yield number
 
 
 class Program:

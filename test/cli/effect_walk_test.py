@@ -19,9 +19,9 @@ def on_the_robot():
     return re.findall(r"^rosservice .*$", README.read_text(), re.MULTILINE)
 
 
-def test_five_commands_of_the_readme(tmp_path):
+def test_five_commands_of_the_readme(tmp_path, port):
     simulate, compare, diagnose, replay, watch = commands()
-    terminal = Terminal(tmp_path)
+    terminal = Terminal(tmp_path, port)
     assert f"--effect {EFFECT}=" in simulate
     terminal.run(simulate)
     terminal.run(compare)

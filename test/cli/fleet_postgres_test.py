@@ -23,8 +23,9 @@ def server():
     if not PROGRAMS:
         pytest.skip("PostgreSQL is not installed (Debian: postgresql)")
     user = ["runuser", "-u", "postgres", "--"] if os.geteuid() == 0 else []  # it refuses to run as root
-    programs, port = os.path.dirname(PROGRAMS[-1]), conftest.free_port()
-    with tempfile.TemporaryDirectory(prefix="postgres.") as folder:  # pytest's own is closed to other users
+    programs = os.path.dirname(PROGRAMS[-1])
+    with conftest.held_port() as port, \
+            tempfile.TemporaryDirectory(prefix="postgres.") as folder:  # pytest's own is closed to other users
         if user:
             shutil.chown(folder, "postgres")
 

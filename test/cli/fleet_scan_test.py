@@ -164,8 +164,8 @@ def workers(stack, folder, address):
                                      folder / f"local_{number}")) for number in range(2)]
 
 
-def test_a_worker_and_the_scheduler_are_killed(program, bags, url, tmp_path, monkeypatch):
-    port, path = conftest.free_port(), slow(program, tmp_path, monkeypatch)  # workers, too, have its environment
+def test_a_worker_and_the_scheduler_are_killed(program, bags, url, port, tmp_path, monkeypatch):
+    path = slow(program, tmp_path, monkeypatch)  # workers, too, have its environment
     address = f"tcp://127.0.0.1:{port}"
     scheduler = ["scheduler", "--host", "127.0.0.1", "--port", port]
     with contextlib.ExitStack() as stack:

@@ -5,15 +5,15 @@ import signal
 import socket
 import subprocess
 
-from conftest import HANGS, free_port, wait_until
+from conftest import HANGS, wait_until
 
 
 class Terminal:
     """A folder, and a ROS master of its own."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, port):
         self.folder = folder
-        self.port = free_port()
+        self.port = port
         self.environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost",
                                 ROS_HOME=str(folder / "ros_home"), ROSCONSOLE_STDOUT_LINE_BUFFERED="1",
                                 PYTHONUNBUFFERED="1")  # what a process says is there when it says it, as on a terminal
