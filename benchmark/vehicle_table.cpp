@@ -188,7 +188,7 @@ void printHealth(const char* kind, unsigned seed, const Measured& how) {
   MonitorSettings settings;
   settings.sample_period = driven.period();
   std::vector<Said> said(n);
-  VehicleMonitor monitor(std::vector<MonitorSettings>(n, settings), [&](std::size_t i, const MonitorReport& report) {
+  const auto hear = [&](std::size_t i, const MonitorReport& report) {
     Said& its = said[i];
     const double now = toSeconds(report.stamp);
     its.reports += 1.0;
@@ -199,10 +199,11 @@ void printHealth(const char* kind, unsigned seed, const Measured& how) {
     its.valid += 1.0;
     const double off = report.la.damping_to_mass - driven.vehicle.b1(i);
     its.inside += std::abs(off) < 1.96 * report.la.damping_to_mass_stddev ? 1.0 : 0.0;
-  });
-  const StrutDrives drive = driven.asMeasured().struts;
+  };
+  const VehicleDrive drive = driven.asMeasured();
+  VehicleMonitor monitor(std::vector<MonitorSettings>(n, settings), hear, 0, drive.noise);
   double known = -1.0;
-  for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
+  for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) {
     monitor.addSample(sampleOf(drive, k));
     if (known < 0.0 && monitor.isCoupled()) known = static_cast<double>(k) * driven.period();
   }

@@ -18,7 +18,7 @@ Coupling couplingOf(const StrutMatrix& ratios) {
   coupling.forces.setZero(ratios.rows(), 0);
   coupling.bars = StrutMatrix::Zero(ratios.rows(), ratios.rows());
   coupling.own_power = StrutVector::Ones(ratios.rows());
-  coupling.rest_power = 1e-8;
+  coupling.rest = 1e-8 * StrutMatrix::Identity(coupling.numStruts(), coupling.numStruts());
   return coupling;
 }
 
@@ -62,6 +62,22 @@ TEST(NeighbourWeights, OfFourStrutsOnThreeMotionsAreRightWhereTheModelsAre) {
   // A model that knows nothing of strut 3 leaves less of it than there is without the other bodies' accelerations.
   const StrutVector blind = weights.neighbours(body, ForceVector(0), vectorOf({0.7, -1.1, 0.4, 0.0}));
   for (int i = 0; i < 3; ++i) EXPECT_LT(std::abs(body[i] - blind[i] - own[i]), 0.5 * 0.9) << i;
+}
+
+// A gyro that is far noisier than the accelerometer: what it reads wrong turns the body, +1 m/s^2 at the one top and -1
+// at the other. Only what both tops do alike is listened to then, and the neighbour is what its model says.
+TEST(NeighbourWeights, LetNothingThroughOfWhatTheGyroReadsWrong) {
+  StrutMatrix ratios(2, 2);
+  ratios << 1.0, -0.4, 0.3, 1.0;
+  Coupling coupling = couplingOf(ratios);
+  const StrutVector turned = vectorOf({1.0, -1.0});
+  coupling.rest = 1e-8 * StrutMatrix::Identity(2, 2) + 1e6 * turned * turned.transpose();
+  const NeighbourWeights weights(coupling);
+  const StrutVector heard = turned - weights.neighbours(turned, ForceVector(0), vectorOf({0.0, 0.0}));
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(heard[i], 0.0, 1e-5) << i;
+  const StrutVector own = vectorOf({0.7, -1.1}), body = ratios * own;
+  const StrutVector neighbours = weights.neighbours(body, ForceVector(0), own);
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(body[i] - neighbours[i], own[i], 1e-9) << i;
 }
 
 TEST(NeighbourWeights, TakeKnownForcesOff) {

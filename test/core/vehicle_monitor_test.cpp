@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -96,6 +97,50 @@ TEST(VehicleMonitor, SaysNothingOfStrutsThatTheRoadCannotTellApart) {
   EXPECT_FALSE(monitor.isCoupled());
   EXPECT_EQ(reports, 0);
   EXPECT_EQ(monitor.strut(0), nullptr);
+}
+
+// Of 16 numbers one in 1e6 vehicles has one that is six standard deviations off.
+void expectRightRatios(const Vehicle& vehicle, const VehicleMonitor& monitor) {
+  ASSERT_TRUE(monitor.isCoupled());
+  const CouplingEstimate& found = *monitor.coupling();
+  for (Eigen::Index i = 0; i < found.stddevs.rows(); ++i)
+    for (Eigen::Index j = 0; j < found.stddevs.cols(); ++j) {
+      const double truth = ratioOf(vehicle, static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+      EXPECT_NEAR(found.coupling.ratios(i, j), truth, std::fmax(6.0 * found.stddevs(i, j), 1e-9)) << i << j;
+    }
+}
+
+// Of a road so smooth that a minute of it would not do, behind a gyro as loud as the motion.
+TEST(VehicleMonitor, ForgetsNothingBeforeTheRatiosAreKnown) {
+  Vehicle vehicle = namedVehicle("sedan");
+  vehicle.iso_class = "A";
+  const VehicleDrive drive = bodyImuDrive(vehicle, vehicleDrive(400.0));
+  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)), {}, 0, drive.noise);
+  for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
+  expectRightRatios(vehicle, monitor);
+}
+
+// What the models leave of a vehicle that stands is less than what they leave of one that drives.
+TEST(VehicleMonitor, CountsNoRowsOfAParkedVehicle) {
+  const Vehicle vehicle = namedVehicle("sedan");
+  const VehicleDriveOptions options = vehicleDrive(30.0);
+  const StrutDrives drive = strutDrives(vehicle, options);
+  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)), {});
+  constexpr int kParked = 60000;
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(options.gravity, options.noise);
+  const auto reading = [&] { return noise(random); };
+  for (int k = 0; k < kParked; ++k)
+    monitor.addSample({fromSeconds(0.01 * (k - kParked)), StrutVector::NullaryExpr(4, reading),
+                       StrutVector::NullaryExpr(4, reading), ForceVector(0)});
+  EXPECT_FALSE(monitor.isCoupled());
+  for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
+    monitor.addSample(sampleOf(drive, k));
+    if (!monitor.isCoupled()) continue;
+    expectRightRatios(vehicle, monitor);
+    break;
+  }
+  expectRightRatios(vehicle, monitor);
 }
 
 TEST(VehicleMonitor, RefusesNoStrutAndPeriodsThatDiffer) {

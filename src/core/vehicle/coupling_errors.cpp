@@ -48,31 +48,32 @@ double conditionOf(const CouplingMoments& columns) {
 // The information that the rows have of all unknowns together, of z_i'' by rho_ij, j != i, kappa_ik and by what every
 // strut does of its own. One by one they would seem to be known far better where tracks are alike.
 // @param moments  without the noise's.  @param of_struts  those of p_j and x_k.
-// @param rows  by strut, over the mean square that is left of its output.
+// @param rows  by strut and strut, times weightsOf().
 Eigen::MatrixXd informationOf(const CouplingMoments& moments, const CouplingMoments& of_struts,
-                              const CouplingEstimate& estimate, const StrutVector& rows) {
-  const auto n = static_cast<int>(rows.size()), forces = static_cast<int>(of_struts.rows()) - n;
+                              const CouplingEstimate& estimate, const StrutMatrix& rows) {
+  const auto n = static_cast<int>(rows.rows()), forces = static_cast<int>(of_struts.rows()) - n;
   const JointUnknowns joint{n, forces};
   const auto [columns, place] = ownUnknowns(n, estimate.bars());
   const Eigen::Index num_own = columns.rows();
-  const Eigen::MatrixXd with_own = columns * moments.topLeftCorner(2 * n, 2 * n);
-  const Eigen::MatrixXd among_own = with_own * columns.transpose();
+  Eigen::MatrixXd ratios(n, num_own);  // of the strut that an unknown belongs to
+  for (Eigen::Index a = 0; a < num_own; ++a)
+    ratios.col(a) = estimate.coupling.ratios.col(place[static_cast<std::size_t>(a)]);
+  const Eigen::MatrixXd weighted = rows * ratios, with_own = columns * moments.topLeftCorner(2 * n, 2 * n);
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(joint.num() + num_own, joint.num() + num_own);
-  for (int i = 0; i < n; ++i) {
-    Eigen::VectorXd ratios(num_own);
-    for (Eigen::Index a = 0; a < num_own; ++a)
-      ratios[a] = estimate.coupling.ratios(i, place[static_cast<std::size_t>(a)]);
-    for (int j = 0; j < n + forces; ++j) {
-      if (j == i) continue;
+  for (int j = 0; j < n + forces; ++j) {
+    const Eigen::VectorXd with_other =
+        j < n ? Eigen::VectorXd(with_own * ownColumns(estimate, j)) : columns * moments.col(n + j).head(2 * n);
+    for (int i = 0; i < n; ++i) {
+      if (i == j) continue;
       for (int l = 0; l < n + forces; ++l)
-        if (l != i) information(joint.at(i, j), joint.at(i, l)) = rows[i] * of_struts(j, l);
-      const Eigen::VectorXd with_other =
-          j < n ? Eigen::VectorXd(with_own * ownColumns(estimate, j)) : columns * moments.col(n + j).head(2 * n);
-      information.row(joint.at(i, j)).tail(num_own) = rows[i] * ratios.cwiseProduct(with_other).transpose();
+        for (int m = 0; m < n; ++m)
+          if (m != l) information(joint.at(i, j), joint.at(m, l)) = rows(i, m) * of_struts(j, l);
+      information.row(joint.at(i, j)).tail(num_own) = weighted.row(i).cwiseProduct(with_other.transpose());
     }
-    information.bottomRightCorner(num_own, num_own) += rows[i] * ratios.asDiagonal() * among_own * ratios.asDiagonal();
   }
   information.bottomLeftCorner(num_own, joint.num()) = information.topRightCorner(joint.num(), num_own).transpose();
+  information.bottomRightCorner(num_own, num_own) =
+      (ratios.transpose() * weighted).cwiseProduct(with_own * columns.transpose());
   return information;
 }
 
@@ -117,12 +118,12 @@ void describeErrors(const CouplingMoments& moments, const CouplingMoments& noise
   const CouplingMoments of_noise = sensorVariance(estimate, moments, noise) * noise;
   const CouplingMoments without = moments - of_noise;
   const CouplingMoments of_struts = momentsOfStruts(estimate, without).topLeftCorner(known, known);
-  const StrutVector rest = restOf(estimate, moments);
   estimate.coupling.own_power = of_struts.diagonal().head(n);
-  estimate.coupling.rest_power = rest.minCoeff();
+  estimate.coupling.rest = restMomentsOf(estimate, moments);
   estimate.condition = conditionOf(moments.topLeftCorner(2 * n, 2 * n));
   describeAlike(moments, of_noise, estimate);
-  const Eigen::MatrixXd information = informationOf(without, of_struts, estimate, rows * rest.cwiseInverse());
+  const Eigen::MatrixXd information =
+      informationOf(without, of_struts, estimate, rows * inverseOf(estimate.coupling.rest));
   const Eigen::MatrixXd covariance =
       information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
   describeStddevs(covariance, of_struts, joint, estimate);

@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/internal/vehicle/coupling_estimate.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +9,8 @@ namespace {
 
 // A share of 3 % of a strut's own acceleration makes its b1 and b0 wrong by as much at most: a fifth of what warns.
 constexpr double kMostDoubt = 0.03;
+
+constexpr double kRounding = 1e-9;  // of the outputs' mean square: less than any sensor leaves
 
 }  // namespace
 
@@ -82,18 +85,21 @@ CouplingMoments momentsOfStruts(const CouplingEstimate& estimate, const Coupling
   return half * to.transpose();
 }
 
-StrutVector restOf(const CouplingEstimate& estimate, const CouplingMoments& moments) {
+StrutMatrix restMomentsOf(const CouplingEstimate& estimate, const CouplingMoments& moments) {
   const Eigen::Index n = estimate.damping_to_mass.size(), forces = estimate.coupling.forces.cols();
-  const CouplingMoments of_struts = momentsOfStruts(estimate, moments);
-  StrutVector rest(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    CouplingRow with = CouplingRow::Zero(2 * n + forces);
-    with.head(n) = -estimate.coupling.ratios.row(i).transpose();
-    with.segment(n, forces) = -estimate.coupling.forces.row(i).transpose();
-    with[n + forces + i] = 1.0;
-    rest[i] = with.dot(of_struts * with);
-  }
+  Eigen::MatrixXd left(n, 2 * n + forces);
+  left << -estimate.coupling.ratios, -estimate.coupling.forces, StrutMatrix::Identity(n, n);
+  StrutMatrix rest = left * momentsOfStruts(estimate, moments) * left.transpose();
+  rest.diagonal().array() += kRounding * moments.diagonal().tail(n).mean();
   return rest;
+}
+
+StrutVector restOf(const CouplingEstimate& estimate, const CouplingMoments& moments) {
+  return restMomentsOf(estimate, moments).diagonal();
+}
+
+StrutMatrix inverseOf(const StrutMatrix& rest) {
+  return rest.ldlt().solve(StrutMatrix::Identity(rest.rows(), rest.cols()));
 }
 
 // Of moments that are no numbers, before there are rows enough, the noise is 0.

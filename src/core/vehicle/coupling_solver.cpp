@@ -18,8 +18,7 @@ constexpr double kCertain = 50.0;  // chi^2 of two more unknowns: chance gives a
 
 }  // namespace
 
-CouplingSolver::CouplingSolver(const CouplingColumns& columns, CouplingMoments noise)
-    : columns_(columns), noise_(std::move(noise)), estimate_(columns) {}
+CouplingSolver::CouplingSolver(const CouplingColumns& columns) : columns_(columns), estimate_(columns) {}
 
 const CouplingEstimate& CouplingSolver::solve(const CouplingMoments& moments, double rows) {
   moments_ = moments;
@@ -122,7 +121,8 @@ void CouplingSolver::solveStruts(const CouplingMoments& moments, const Bars& bar
   const int n = columns_.struts, own = columns_.numOwn();
   const auto [columns, place] = ownUnknowns(n, bars);
   const Eigen::Index unknowns = columns.rows();
-  const StrutMatrix products = coupling.ratios.transpose() * coupling.ratios;
+  const StrutMatrix weighted = coupling.ratios.transpose() * inverseOf(restMomentsOf(estimate_, moments_));
+  const StrutMatrix products = weighted * coupling.ratios;
   const Eigen::MatrixXd inputs = columns * moments.topLeftCorner(own, own) * columns.transpose();
   const Eigen::MatrixXd outputs = columns * (moments.block(0, columns_.numInputs(), own, n) -
                                              moments.block(0, own, own, columns_.forces) * coupling.forces.transpose());
@@ -132,7 +132,7 @@ void CouplingSolver::solveStruts(const CouplingMoments& moments, const Bars& bar
     const int at = place[static_cast<std::size_t>(a)];
     for (Eigen::Index b = 0; b < unknowns; ++b)
       normal(a, b) = products(at, place[static_cast<std::size_t>(b)]) * inputs(a, b);
-    right[a] = outputs.row(a).dot(coupling.ratios.col(at));
+    right[a] = outputs.row(a).dot(weighted.row(at));
   }
   const Eigen::VectorXd solution = normal.ldlt().solve(right);
   estimate_.damping_to_mass = solution.head(n);

@@ -5,8 +5,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-// Share of a neighbour's force that its model may miss: so much of it must not reach others.
-constexpr double kUnmodelled = 0.2;
+// Share of a neighbour's force that its model may miss, as that of a damper that has just failed: so much of it must not
+// reach others.
+constexpr double kUnmodelled = 0.4;
 
 }  // namespace
 
@@ -14,7 +15,7 @@ NeighbourWeights::NeighbourWeights(const Coupling& coupling)
     : combination_(coupling.ratios), leak_(coupling.ratios), coupling_(coupling) {
   const Eigen::Index n = coupling.numStruts();
   for (Eigen::Index i = 0; i < n; ++i) {
-    StrutMatrix unwanted = coupling.rest_power * StrutMatrix::Identity(n, n);
+    StrutMatrix unwanted = coupling.rest;
     for (Eigen::Index j = 0; j < n; ++j) {
       if (j == i) continue;
       const double power = kUnmodelled * kUnmodelled * coupling.own_power[j];

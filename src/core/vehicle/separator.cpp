@@ -84,12 +84,21 @@ void Separator::fitGiven(const KnownModels& given) {
   }
 }
 
-std::vector<std::vector<Drive>> Separator::separate() const { return byStrut(separateAll(), noise_); }
+std::vector<std::vector<Drive>> Separator::separate() const {
+  return byStrut(separateAll(estimate_.coupling), noise_);
+}
 
+// What shared noise does to one strut is told from all others, so that none of it has to be kept out before: then as
+// much of the neighbours is as can be, and no law that one of them lacks is carried over.
 std::vector<std::vector<Drive>> Separator::separateForSearch() const {
-  std::vector<StrutDrives> drives = separateAll();
-  StrutDrives noise = noise_;
-  if (sharesSensors(drives_.front().noise)) takeSharedNoise(drives, noise, period_, models_);
+  const SensorNoise& sensors = drives_.front().noise;
+  if (!sharesSensors(sensors)) return separate();
+  CouplingEstimate estimate = estimate_;
+  StrutMatrix& rest = estimate.coupling.rest;
+  rest = rest.diagonal().minCoeff() * StrutMatrix::Identity(rest.rows(), rest.cols());
+  std::vector<StrutDrives> drives = separateAll(estimate.coupling);
+  StrutDrives noise = separateNoise(sensors, period_, estimate);
+  takeSharedNoise(drives, noise, period_, models_);
   return byStrut(std::move(drives), std::move(noise));
 }
 
@@ -102,10 +111,10 @@ bool Separator::isUndersampled() const {
   });
 }
 
-std::vector<StrutDrives> Separator::separateAll() const {
+std::vector<StrutDrives> Separator::separateAll(const Coupling& coupling) const {
   std::vector<StrutDrives> separated;
   for (const VehicleDrive& drive : drives_)
-    separated.push_back(separateStruts(drive, period_, estimate_.coupling, models_));
+    separated.push_back(separateStruts(drive, period_, coupling, models_));
   return separated;
 }
 

@@ -35,7 +35,7 @@ class Separator {
 
  private:
   bool isUndersampled() const;
-  std::vector<StrutDrives> separateAll() const;
+  std::vector<StrutDrives> separateAll(const Coupling& coupling) const;
 
   const std::vector<VehicleDrive>& drives_;
   double period_;

@@ -12,7 +12,8 @@ namespace {
 // What tracks that are alike keep the information of the least combination of struts over noise's below, and what they
 // make the condition of the rows exceed.
 constexpr double kAlike = 20.0;
-constexpr const char* kTooLittle = "are too short or too calm to tell how the struts move one another";
+constexpr const char* kTooLittle =
+    "are too short or too calm to tell how the struts move one another, or something else than the wheels moves the body";
 
 // "friction (or digressive_damping)": what the drives cannot tell from it, too.
 std::string namesOf(const Diagnosis& strut) {

@@ -16,8 +16,8 @@ struct Coupling {
   /// Anti-roll bars: b_ij (d_i - d_j) [1/s^2] is in p_i beside strut i's own, b_ij = a_ii times the bar's stiffness;
   /// the bar's force at j is the opposite. 0: there is none.
   StrutMatrix bars;
-  StrutVector own_power;    ///< mean square of I_2^2 p_j, of the drive that it was learned from [(m/s^2)^2]
-  double rest_power = 0.0;  ///< that of what it leaves of I_2^2 z'', the least of all struts
+  StrutVector own_power;  ///< mean square of I_2^2 p_j, of the drive that it was learned from [(m/s^2)^2]
+  StrutMatrix rest;       ///< moments of what it leaves of all I_2^2 z'', likewise; regular
 
   Eigen::Index numStruts() const { return ratios.rows(); }
 };

@@ -50,6 +50,14 @@ CouplingRow ownColumns(const CouplingEstimate& estimate, int j);
 /// @return the moments of p_j, x_k and I_2^2 z_i'', in this order.
 CouplingMoments momentsOfStruts(const CouplingEstimate& estimate, const CouplingMoments& moments);
 
+/// @return moments of what the estimate leaves of all I_2^2 z''. Of the readings of one IMU the tops of more than three
+/// struts are made exactly: a little is added, so that the moments have an inverse.
+StrutMatrix restMomentsOf(const CouplingEstimate& estimate, const CouplingMoments& moments);
+
+/// @return how much what is left of z_i'' and of z_j'' counts in the sum of squares: generalised least squares of
+/// several regressions at once (Zellner, Journal of the American Statistical Association 57 (1962), 348-368).
+StrutMatrix inverseOf(const StrutMatrix& rest);
+
 /// @return mean square of what the estimate leaves of each I_2^2 z_i''.
 StrutVector restOf(const CouplingEstimate& estimate, const CouplingMoments& moments);
 
