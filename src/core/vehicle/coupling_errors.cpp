@@ -48,7 +48,7 @@ double conditionOf(const CouplingMoments& columns) {
 // The information that the rows have of all unknowns together, of z_i'' by rho_ij, j != i, kappa_ik and by what every
 // strut does of its own. One by one they would seem to be known far better where tracks are alike.
 // @param moments  without the noise's.  @param of_struts  those of p_j and x_k.
-// @param rows  by strut and strut, times weightsOf().
+// @param rows  by strut and strut: how many of independent errors, times inverseOf() what is left.
 Eigen::MatrixXd informationOf(const CouplingMoments& moments, const CouplingMoments& of_struts,
                               const CouplingEstimate& estimate, const StrutMatrix& rows) {
   const auto n = static_cast<int>(rows.rows()), forces = static_cast<int>(of_struts.rows()) - n;
