@@ -45,8 +45,7 @@ TEST(CouplingSolver, ErrsAsMuchAsItSaysWhereOneGyroMakesAllTopsWrong) {
   noise.diagonal().tail(2).setOnes();
   double damping = 0.0, stiffness = 0.0, ratio = 0.0;
   for (unsigned seed = 1; seed <= kDrives; ++seed) {
-    CouplingSolver solver(kTwo);
-    solver.setNoise(noise);
+    CouplingSolver solver(kTwo, noise);
     const CouplingEstimate& found = solver.solve(momentsOfDrive(seed), kRows);
     damping += std::pow((found.damping_to_mass[0] - 2.0) / found.own_stddevs(0, 0), 2) / kDrives;
     stiffness += std::pow((found.stiffness_to_mass[1] - 60.0) / found.own_stddevs(1, 1), 2) / kDrives;

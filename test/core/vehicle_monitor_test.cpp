@@ -110,36 +110,42 @@ void expectRightRatios(const Vehicle& vehicle, const VehicleMonitor& monitor) {
     }
 }
 
-// Of a road so smooth that a minute of it would not do, behind a gyro as loud as the motion.
+// Of a road so smooth, and behind a gyro so loud, that a minute would never do.
 TEST(VehicleMonitor, ForgetsNothingBeforeTheRatiosAreKnown) {
   Vehicle vehicle = namedVehicle("sedan");
   vehicle.iso_class = "A";
-  const VehicleDrive drive = bodyImuDrive(vehicle, vehicleDrive(400.0));
+  vehicle.speed = 20.0;
+  VehicleDriveOptions options = vehicleDrive(600.0);
+  options.gyro_noise = 0.005;
+  const VehicleDrive drive = bodyImuDrive(vehicle, options);
   VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)), {}, 0, drive.noise);
   for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
   expectRightRatios(vehicle, monitor);
 }
 
-// What the models leave of a vehicle that stands is less than what they leave of one that drives.
-TEST(VehicleMonitor, CountsNoRowsOfAParkedVehicle) {
+// Ten minutes of noise are ten times the memory.
+TEST(VehicleMonitor, KnowsTheRatiosAfterAStop) {
   const Vehicle vehicle = namedVehicle("sedan");
-  const VehicleDriveOptions options = vehicleDrive(30.0);
+  const VehicleDriveOptions options = vehicleDrive(60.0);
   const StrutDrives drive = strutDrives(vehicle, options);
-  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)), {});
-  constexpr int kParked = 60000;
   std::mt19937 random(1);
   std::normal_distribution<double> noise(options.gravity, options.noise);
   const auto reading = [&] { return noise(random); };
-  for (int k = 0; k < kParked; ++k)
-    monitor.addSample({fromSeconds(0.01 * (k - kParked)), StrutVector::NullaryExpr(4, reading),
-                       StrutVector::NullaryExpr(4, reading), ForceVector(0)});
-  EXPECT_FALSE(monitor.isCoupled());
-  for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
-    monitor.addSample(sampleOf(drive, k));
-    if (!monitor.isCoupled()) continue;
-    expectRightRatios(vehicle, monitor);
-    break;
-  }
+  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)), {});
+  constexpr std::size_t kStop = 3000, kParked = 60000;
+  const auto addDrive = [&](std::size_t from, std::size_t to, std::size_t later) {
+    for (std::size_t k = from; k < to; ++k) {
+      VehicleSample sample = sampleOf(drive, k);
+      sample.stamp += fromSeconds(0.01 * static_cast<double>(later));
+      monitor.addSample(sample);
+    }
+  };
+  addDrive(0, kStop, 0);
+  for (std::size_t k = 0; k < kParked; ++k)
+    monitor.addSample({drive.front().samples[kStop].stamp + fromSeconds(0.01 * static_cast<double>(k)),
+                       StrutVector::NullaryExpr(4, reading), StrutVector::NullaryExpr(4, reading), ForceVector(0)});
+  expectRightRatios(vehicle, monitor);
+  addDrive(kStop, drive.front().samples.size(), kParked);
   expectRightRatios(vehicle, monitor);
 }
 

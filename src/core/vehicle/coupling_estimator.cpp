@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/vehicle/coupling_estimator.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +11,6 @@ constexpr int kRowsPerHorizon = 8;
 // other row counted (vehicle_table coupling: their mean square over the one expected).
 constexpr double kRowsPerIndependent = 2.0;
 constexpr double kFarRest = 3.0;  // usual ones: a row that is farther off is limited to it
-constexpr double kNoNoise = 2.0;  // chi^2 over its mean: of four struts noise gives as much in 4 % of rows
 
 // Samples from a row that is taken to the next.
 int rowSpacing(const IntegralFilterOptions& filter) { return std::max(1, filter.horizon_samples / kRowsPerHorizon); }
@@ -29,30 +27,20 @@ CouplingEstimator::CouplingEstimator(const CouplingColumns& columns, const Integ
       mean_(CouplingRow::Zero(columns.size())),
       moments_(CouplingMoments::Zero(columns.size(), columns.size())),
       usual_rest_(forgetting_factor_),
-      solver_(columns) {
-  setNoise(noise);
-}
-
-void CouplingEstimator::setNoise(const SensorNoise& noise) {
-  solver_.setNoise(momentsOfNoise(columns_, filter_, noise));
-  const int own = columns_.numOwn();
-  own_noise_inverse_ = solver_.noise().topLeftCorner(own, own).ldlt().solve(CouplingMoments::Identity(own, own));
-}
+      solver_(columns, momentsOfNoise(columns, filter, noise)) {}
 
 void CouplingEstimator::add(const VehicleSample& sample) {
   const CouplingRow* row = rows_.push(sample);
   if (row == nullptr || !row_due_()) return;
   const double weight = weightOf(*row);
-  if (!(weight > 0.0)) return;
-  weight_ = (estimate().isKnown() ? std::pow(forgetting_factor_, weight) : 1.0) * weight_ + weight;
+  weight_ = (estimate().isKnown() ? forgetting_factor_ : 1.0) * weight_ + weight;
   mean_ += weight / weight_ * (*row - mean_);
   moments_ += weight / weight_ * (*row * row->transpose() - moments_);
 }
 
 // Rows whose rest is larger than usual count less, as those of lost readings.
 double CouplingEstimator::weightOf(const CouplingRow& row) {
-  const double motion = motionOf(row);
-  if (!solver_.hasStart() || !(motion > 0.0)) return motion;
+  if (!solver_.hasStart()) return 1.0;
   const CouplingEstimate& estimate = solver_.estimate();
   const int n = columns_.struts;
   StrutVector own(n);
@@ -61,24 +49,12 @@ double CouplingEstimator::weightOf(const CouplingRow& row) {
                            estimate.coupling.forces * row.segment(columns_.numOwn(), columns_.forces);
   const double size = rest.norm();
   usual_rest_.add(size);
-  return motion * std::min(1.0, kFarRest * usual_rest_.mean() / size);
-}
-
-// @return share of a row that is more than noise would make of it, in [0, 1].
-double CouplingEstimator::motionOf(const CouplingRow& row) const {
-  if (!(sensor_variance_ > 0.0)) return 1.0;
-  const int own = columns_.numOwn();
-  const CouplingRow moved = row.head(own) - mean_.head(own);
-  const double size = moved.dot(own_noise_inverse_ * moved) / sensor_variance_;  // chi^2, if all is noise
-  return std::max(0.0, 1.0 - kNoNoise * own / size);
+  return std::min(1.0, kFarRest * usual_rest_.mean() / size);
 }
 
 const CouplingEstimate& CouplingEstimator::solve() {
   if (weight_ <= 0.0) return estimate();
-  const CouplingMoments moments = moments_ - mean_ * mean_.transpose();
-  solver_.solve(moments, weight_ / kRowsPerIndependent);
-  sensor_variance_ = sensorVariance(estimate(), moments, solver_.noise());
-  return estimate();
+  return solver_.solve(moments_ - mean_ * mean_.transpose(), weight_ / kRowsPerIndependent);
 }
 
 }  // namespace suspension_health_monitor

@@ -18,7 +18,8 @@ constexpr double kCertain = 50.0;  // chi^2 of two more unknowns: chance gives a
 
 }  // namespace
 
-CouplingSolver::CouplingSolver(const CouplingColumns& columns) : columns_(columns), estimate_(columns) {}
+CouplingSolver::CouplingSolver(const CouplingColumns& columns, CouplingMoments noise)
+    : columns_(columns), noise_(std::move(noise)), estimate_(columns) {}
 
 const CouplingEstimate& CouplingSolver::solve(const CouplingMoments& moments, double rows) {
   moments_ = moments;

@@ -11,8 +11,8 @@ namespace suspension_health_monitor {
 /// not wear: CouplingRows -> moments, in which a row that is far off counts less -> CouplingSolver.
 ///
 /// Tracks that are alike move struts alike: then the rows' information of some combination of struts is not clear of
-/// that of noise, and nothing is known. Rows of a vehicle that stands are noise; nothing is forgotten over them, nor
-/// while what there is does not tell the ratios yet.
+/// that of noise, and nothing is known. Nothing is forgotten while what there is does not tell the ratios, as on calm roads
+/// or while the vehicle stands.
 /// Cost per sample: O(N) and, every eighth of a horizon, O(N^2); no allocation.
 class CouplingEstimator {
  public:
@@ -21,7 +21,7 @@ class CouplingEstimator {
                     const SensorNoise& noise);
 
   /// From the next solve() on. Allocates.
-  void setNoise(const SensorNoise& noise);
+  void setNoise(const SensorNoise& noise) { solver_.setNoise(momentsOfNoise(columns_, filter_, noise)); }
 
   /// Takes in the next sample of an uninterrupted uniform series.
   void add(const VehicleSample& sample);
@@ -36,7 +36,6 @@ class CouplingEstimator {
 
  private:
   double weightOf(const CouplingRow& row);
-  double motionOf(const CouplingRow& row) const;
 
   CouplingColumns columns_;
   IntegralFilterOptions filter_;
@@ -48,8 +47,6 @@ class CouplingEstimator {
   double weight_ = 0.0;
   LimitedMean usual_rest_;
   CouplingSolver solver_;
-  CouplingMoments own_noise_inverse_;  // of the moments that noise of 1 has in what the struts do of their own
-  double sensor_variance_ = 0.0;       // 0: not known yet
 };
 
 }  // namespace suspension_health_monitor

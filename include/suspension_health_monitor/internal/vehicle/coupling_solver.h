@@ -17,12 +17,11 @@ namespace suspension_health_monitor {
 /// more than any law in one strut would.
 class CouplingSolver {
  public:
-  explicit CouplingSolver(const CouplingColumns& columns);
-
-  /// From the next solve() on; before the first.
   /// @param noise  moments of noise whose standard deviation is 1 in every sensor.
+  CouplingSolver(const CouplingColumns& columns, CouplingMoments noise);
+
+  /// From the next solve() on.
   void setNoise(const CouplingMoments& noise) { noise_ = noise; }
-  const CouplingMoments& noise() const { return noise_; }
 
   /// @param moments  of rows, about their mean.  @param rows  how many of independent errors they are of.
   /// @return what is known by now; O(N^3).
