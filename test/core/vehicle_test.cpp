@@ -162,8 +162,8 @@ TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
 // On a smooth road the gyro of a sedan reads more noise than motion, and no strut explains half of that.
 TEST(IdentifiedVehicle, IsValidBehindAGyroThatIsAsLoudAsTheMotion) {
   const Vehicle vehicle = quiet("sedan");
-  VehicleDriveOptions options = vehicleDrive(120.0);
-  options.gyro_noise = 0.005;
+  VehicleDriveOptions options = vehicleDrive(240.0);
+  options.gyro_noise = 0.006;
   const VehicleDrive drive = bodyImuDrive(vehicle, options);
   double reports = 0.0, valid = 0.0, inside = 0.0, least_explained = 1.0;
   const VehicleIdentification found =
