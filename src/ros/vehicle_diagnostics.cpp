@@ -12,6 +12,10 @@ const VehicleMonitor* monitorOf(const VehiclePipeline* pipeline) {
   return pipeline != nullptr ? pipeline->monitor() : nullptr;
 }
 
+BodyLevel levelOf(const VehiclePipeline* pipeline) {
+  return pipeline != nullptr && pipeline->grid() != nullptr ? pipeline->grid()->bodyLevel() : BodyLevel();
+}
+
 }  // namespace
 
 // Who advertises first decides how long the queue is: an Updater's own holds one message, and all of them publish at
@@ -29,7 +33,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
       updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Coupling", [this](Status& status) {
-    coupling_.describe(monitorOf(pipeline_), whyNoMonitor(pipeline_), placement_.places(), status);
+    coupling_.describe(monitorOf(pipeline_), whyNoMonitor(pipeline_), placement_.places(levelOf(pipeline_)), status);
     coupling_log_.note(status);
   });
   updater_.add("Input", [this](Status& status) {
@@ -39,7 +43,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
 }
 
 void VehicleDiagnostics::publish(const VehiclePipeline* pipeline) {
-  coupling_.publish(monitorOf(pipeline), whyNoMonitor(pipeline), placement_.places(),
+  coupling_.publish(monitorOf(pipeline), whyNoMonitor(pipeline), placement_.places(levelOf(pipeline)),
                     pipeline != nullptr ? toRosTime(pipeline->newest()) : ros::Time());
   pipeline_ = pipeline;
   updater_.force_update();

@@ -30,15 +30,16 @@ class VehiclePlacement {
   /// @return why there are no places yet.
   const std::string& missing() const { return missing_; }
 
+  /// @param level  of the body's IMU.
   /// @return empty while they are not known.
-  const StrutPlaces& places() const { return places_; }
+  StrutPlaces places(const BodyLevel& level) const;
 
  private:
   VehicleLayout layout_;
   VehicleStreams streams_;
   std::optional<sensor_msgs::Imu> body_message_;
   std::string missing_ = "waiting for body_imu, whose frame tells the struts' positions";
-  StrutPlaces places_;
+  VehicleLayout placed_;  // with the positions that transforms tell
 };
 
 }  // namespace suspension_health_monitor

@@ -8,6 +8,7 @@
 #include "bag_options.h"
 #include "bag_samples.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "vehicle_bags.h"
 #include "vehicle_commands.h"
@@ -71,7 +72,8 @@ std::vector<VehicleDrive> readDrives(const po::variables_map& values, AskedVehic
     const StrutDrives& struts = bag.drive.struts;
     std::printf("%zu samples of %zu struts, readings %s\n", struts.front().samples.size(), struts.size(),
                 bag.alignment.c_str());
-    if (!bag.body_level.empty()) std::printf("%s\n", bag.body_level.c_str());
+    const std::string leans = describe(bag.body_level);
+    if (!leans.empty()) std::printf("%s\n", leans.c_str());
     for (const VehicleBag::Sensor& sensor : bag.sensors) printRejected(sensor.topic, sensor.rejected);
     drives.push_back(std::move(bag.drive));
   }

@@ -7,9 +7,9 @@
 #include "../ros/conversions.h"
 #include "../ros/vehicle_sensors.h"
 #include "errors.h"
+#include "survey.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
-#include "survey.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -59,7 +59,7 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
   readTopics(bag, {take, take});
   grid.finish();
   read.drive.noise = grid.noise();
-  read.body_level = describe(grid.bodyLevel());
+  read.body_level = grid.bodyLevel();
   read.alignment = grid.streams().describeAlignment();
   for (std::size_t i = 0; i < streams.sensors.size(); ++i) {
     RejectCounts rejected = sensors.rejected(i);
@@ -92,6 +92,7 @@ std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options
     bag.gaps = &gaps;
     drives.push_back(readBag(bag, options, layout, streams));
   }
+  layout.turn(drives.front().body_level.mount());
   return drives;
 }
 

@@ -6,6 +6,7 @@
 #include "../ros/shell_options.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/vehicle/body_level.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
 #include "suspension_health_monitor/vehicle.h"
@@ -16,8 +17,8 @@ namespace suspension_health_monitor {
 struct VehicleBag {
   /// By VehicleLayout::struts z'' at the strut's top and w'', by VehicleLayout::known_forces the forces.
   VehicleDrive drive;
-  std::string alignment;   ///< StreamGrid::describeAlignment()
-  std::string body_level;  ///< how the body's IMU is turned, in words; empty if it is upright
+  std::string alignment;  ///< StreamGrid::describeAlignment()
+  BodyLevel body_level;
   /// What became of one sensor's messages.
   struct Sensor {
     std::string topic;
@@ -38,7 +39,8 @@ VehicleStreams streamsOf(ImuBags& bags, const PipelineOptions& options, VehicleL
 /// that of the body.
 /// @param bags  whose topics are taken from the layout; the static transforms are read if the layout has frames.
 /// @param options  without a sample_period it is measured and set.
-/// @param layout  as streamsOf().
+/// @param layout  as streamsOf(); its positions become those in upright axes, if the body's IMU leans in the first
+/// drive.
 /// @param gaps  is told of all that is read.
 /// @throws InputError, TooLittleError  as readTopics().
 /// @throws std::invalid_argument  if a frame has no static transform.

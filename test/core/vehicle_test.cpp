@@ -115,6 +115,10 @@ TEST(DiagnosedVehicle, NamesAnEffectThatOneBodyImuTells) {
         i == 2 ? std::vector<std::string>{"quadratic_damping"} : std::vector<std::string>{};
     EXPECT_EQ(found.struts[i].selected, expected) << found.summary;
   }
+  ASSERT_TRUE(found.struts[2].final_fit);
+  const FittedModel& fit = *found.struts[2].final_fit;
+  EXPECT_NEAR(fit.model.effects.front().coefficient, 12.0, 2.0 * fit.stddev[2]) << fit.stddev[2];
+  EXPECT_NE(found.struts[2].suggested_drive.find("IMUs at the strut tops"), std::string::npos);
 }
 
 // A model of another day, of a damper that has lost a third since: its strut's neighbours lack nothing.

@@ -3,14 +3,16 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kLeastGravity = 5.0;  // [m/s^2]: half of it, which no offset is
-// What of the vertical a lean may take, as much as the coupling may be in doubt by: 14 degrees, a road of 25 %.
-constexpr double kMostTaken = 0.03;
+// A road of 9 %: steeper ones are rare. An IMU that leans by less reads so little of the gravity that pitch and roll
+// turn that b0 is wrong by 2 %.
+constexpr double kSteepestRoad = 5.0 / 180.0 * kPi;
 
 }  // namespace
 
@@ -26,6 +28,6 @@ BodyLevel::BodyLevel(const std::vector<Eigen::Vector3d>& accelerations) {
   if (isTurned()) mount_ = Eigen::Quaterniond::FromTwoVectors(gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-bool BodyLevel::isTurned() const { return 1.0 - std::cos(lean_) > kMostTaken; }
+bool BodyLevel::isTurned() const { return lean_ > kSteepestRoad; }
 
 }  // namespace suspension_health_monitor

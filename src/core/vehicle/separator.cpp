@@ -74,30 +74,30 @@ std::vector<LinearStrut> Separator::modelStddevs() const {
   return stddevs;
 }
 
-void Separator::fitGiven(const KnownModels& given) {
-  if (!sharesSensors(drives_.front().noise)) return;
-  const std::vector<std::vector<Drive>> struts = separate();
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    if (!given[i]) continue;
-    const std::deque<DriveRecord> records = makeRecords(struts[i], period_, models_[i]);
-    if (const FitOutcome fit = fitOutputError(pointersTo(records), {}, models_[i])) models_[i] = fit->model;
+bool Separator::sharesNoise() const { return sharesSensors(drives_.front().noise); }
+
+std::vector<std::optional<ModelFit>> Separator::fitModels(const std::vector<std::size_t>& struts) {
+  const std::vector<std::vector<Drive>> separated = separate();
+  std::vector<std::optional<ModelFit>> fits;
+  for (const std::size_t i : struts) {
+    const std::deque<DriveRecord> records = makeRecords(separated[i], period_, models_[i]);
+    fits.emplace_back(fitOutputError(pointersTo(records), {}, models_[i]));
+    if (fits.back()) models_[i] = fits.back()->model;
   }
+  return fits;
 }
 
-std::vector<std::vector<Drive>> Separator::separate() const {
-  return byStrut(separateAll(estimate_.coupling), noise_);
-}
+std::vector<std::vector<Drive>> Separator::separate() const { return byStrut(separateAll(estimate_.coupling), noise_); }
 
 // What shared noise does to one strut is told from all others, so that none of it has to be kept out before: then as
 // much of the neighbours is as can be, and no law that one of them lacks is carried over.
 std::vector<std::vector<Drive>> Separator::separateForSearch() const {
-  const SensorNoise& sensors = drives_.front().noise;
-  if (!sharesSensors(sensors)) return separate();
+  if (!sharesNoise()) return separate();
   CouplingEstimate estimate = estimate_;
   StrutMatrix& rest = estimate.coupling.rest;
   rest = rest.diagonal().minCoeff() * StrutMatrix::Identity(rest.rows(), rest.cols());
   std::vector<StrutDrives> drives = separateAll(estimate.coupling);
-  StrutDrives noise = separateNoise(sensors, period_, estimate);
+  StrutDrives noise = separateNoise(drives_.front().noise, period_, estimate);
   takeSharedNoise(drives, noise, period_, models_);
   return byStrut(std::move(drives), std::move(noise));
 }
@@ -113,8 +113,7 @@ bool Separator::isUndersampled() const {
 
 std::vector<StrutDrives> Separator::separateAll(const Coupling& coupling) const {
   std::vector<StrutDrives> separated;
-  for (const VehicleDrive& drive : drives_)
-    separated.push_back(separateStruts(drive, period_, coupling, models_));
+  for (const VehicleDrive& drive : drives_) separated.push_back(separateStruts(drive, period_, coupling, models_));
   return separated;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/vehicle/coupling_estimate.h"
 #include "suspension_health_monitor/vehicle.h"
 
@@ -23,8 +24,12 @@ class Separator {
 
   void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
 
-  /// Fits models that were given: what they leave tells of noise only as far as they are those of these drives.
-  void fitGiven(const KnownModels& given);
+  /// @return true if one IMU tells of the tops of several struts.
+  bool sharesNoise() const;
+
+  /// Fits the models of these struts to the drives as an estimator sees them, and takes them from then on.
+  /// @return what was fitted; nothing where that failed.
+  std::vector<std::optional<ModelFit>> fitModels(const std::vector<std::size_t>& struts);
 
   /// By strut and drive, as an estimator sees them.
   std::vector<std::vector<Drive>> separate() const;

@@ -192,6 +192,11 @@ bool VehicleLayout::hasFrames() const {
   return std::any_of(struts.begin(), struts.end(), [](const Strut& strut) { return strut.frame.has_value(); });
 }
 
+void VehicleLayout::turn(const Eigen::Matrix3d& mount) {
+  for (Strut& strut : struts)
+    if (strut.position) Eigen::Map<Eigen::Vector3d>(strut.position->data()).applyOnTheLeft(mount);
+}
+
 VehicleLayout takeVehicle(OptionMap& values) {
   VehicleLayout layout;
   BodySettings body;

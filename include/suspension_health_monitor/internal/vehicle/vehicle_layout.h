@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -38,6 +39,10 @@ struct VehicleLayout {
 
   /// @return true if transforms are to tell where a strut is.
   bool hasFrames() const;
+
+  /// Turns the axes of all positions.
+  /// @param mount  into which: of BodyLevel.
+  void turn(const Eigen::Matrix3d& mount);
 };
 
 /// Takes the settings of a vehicle file out of `values`: `body_imu`, `struts/NAME/...` and `known_forces/NAME/...`.
