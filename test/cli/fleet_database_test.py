@@ -1,4 +1,5 @@
 """The fleet's database: one transaction for each bag, whoever else writes; and what histories are made of."""
+import re
 import sqlite3
 import threading
 
@@ -147,6 +148,24 @@ def test_a_database_that_lacks_a_table_is_refused(engine, table):
     with engine.begin() as connection:
         connection.execute(database.text(f"DROP TABLE {table}"))
     with pytest.raises(FleetError, match=f"fleet.db.*no such table: {table}"):
+        database.histories(engine)
+
+
+@pytest.mark.parametrize("column, value, words", [
+    ("drives.vehicle", b"\xff", "must be text"), ("drives.start", "2026-01-05", "must be seconds since 1970"),
+    ("drives.start", 1e300, "must be seconds since 1970"), ("struts.damping_to_mass", "stiff", "must be a number"),
+    ("struts.valid", "yes", "must be true or false"), ("events.time", None, "must be seconds since 1970"),
+    ("events.message", None, "must be text"), ("findings.strut", None, "must be text")])
+def test_values_of_another_kind_are_refused(engine, column, value, words):
+    """As tables have them that others have made or filled."""
+    database.write(engine, bag("k"), drive(0.0, 4.0))
+    table, name = column.split(".")
+    with engine.begin() as connection:
+        connection.execute(database.text(f"ALTER TABLE {table} RENAME TO ours"))
+        connection.execute(database.text(f"CREATE TABLE {table} AS SELECT * FROM ours"))
+        connection.execute(database.text(f"UPDATE {table} SET {name} = :value"), {"value": value})
+    found = "null" if value is None else re.escape(repr(value))
+    with pytest.raises(FleetError, match=f"fleet.db: {column} of the drive with id 1 is {found}, {words}"):
         database.histories(engine)
 
 

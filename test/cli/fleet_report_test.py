@@ -138,13 +138,17 @@ def test_what_cannot_be_written_is_refused(fleet, capsys, tmp_path):
 
 
 @pytest.mark.parametrize("command", [["show"], ["report", "-o", "page"]])
-@pytest.mark.parametrize("database_is", ["missing", "half-made"])
+@pytest.mark.parametrize("database_is", ["missing", "half-made", "of another kind"])
 def test_without_a_whole_database_nothing_is_made(fleet, capsys, tmp_path, monkeypatch, command, database_is):
     monkeypatch.chdir(tmp_path)
     if database_is == "half-made":
         engine = database.connect("sqlite:///fleet.db", create=True)
         with engine.begin() as connection:
             connection.execute(database.text("DROP TABLE struts"))
+    elif database_is == "of another kind":
+        write_fleet(database.connect("sqlite:///fleet.db", create=True), tmp_path)
+        with database.connect("sqlite:///fleet.db").begin() as connection:
+            connection.execute(database.text("UPDATE struts SET damping_to_mass = 'stiff' WHERE id = 3"))
     assert main([*command, "--db", "sqlite:///fleet.db"]) == 3
     said = capsys.readouterr()
     assert said.out == "" and said.err.count("\n") == 1

@@ -16,6 +16,14 @@ def day(time):
     return f"{date.day} {date:%B %Y}"
 
 
+def is_date(time):
+    """Whether a calendar has it."""
+    try:
+        return bool(day(time))
+    except (TypeError, ValueError, OverflowError, OSError):
+        return False
+
+
 def days(early, late):
     """Such as 4 March and 2 May 2027: the year once if it is the same."""
     first, second = day(early), day(late)
