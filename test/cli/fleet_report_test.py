@@ -129,6 +129,19 @@ def test_wrong_options_are_refused(fleet, capsys, tmp_path, monkeypatch, command
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("option, command", [
+    ("-o/--output", ["report", "-o", ""]), ("--db", ["show", "--db="]), ("--json", ["show", "--json", ""]),
+    ("-o/--output", ["simulate", "-o", ""]), ("--db", ["scan", "bags", "--db", ""]), ("PATH", ["scan", ""]),
+    ("--pages", ["scan", "bags", "--diagnose", "--pages", ""])])
+def test_what_is_empty_is_refused(capsys, tmp_path, monkeypatch, option, command):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as ended:
+        main(command)
+    assert ended.value.code == 2
+    assert capsys.readouterr().err.endswith(f"argument {option}: '', must not be empty\n")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_what_cannot_be_written_is_refused(fleet, capsys, tmp_path):
     (tmp_path / "file").write_text("here first")
     for folder in (tmp_path / "file", tmp_path / "no" / "folder"):

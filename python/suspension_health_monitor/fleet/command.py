@@ -7,6 +7,7 @@ import sys
 
 from . import report, scan_command, show, simulate_command
 from .errors import FleetError
+from .options import not_empty
 from .wording import plain
 
 COMMANDS = {"scan": scan_command, "show": show, "report": report, "simulate": simulate_command}
@@ -19,6 +20,7 @@ def parser():
     commands = result.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, module in COMMANDS.items():
         command = commands.add_parser(name, help=module.HELP, description=module.HELP, epilog=EPILOG)
+        command.register("type", None, not_empty)
         module.add_options(command)
         command.set_defaults(run=module.run)
     return result
