@@ -20,7 +20,7 @@ import conftest
 import imu_bag
 
 pytest.importorskip("sqlalchemy")
-from suspension_health_monitor.fleet import database, outlook, report_data, show  # noqa: E402
+from suspension_health_monitor.fleet import database, outlook, report, report_data, show  # noqa: E402
 from suspension_health_monitor.fleet.command import main  # noqa: E402  after the reason to skip
 from suspension_health_monitor.fleet.history import YEAR, Event, series  # noqa: E402
 
@@ -182,6 +182,33 @@ def test_a_page_appears_whole_or_not_at_all(fleet, tmp_path, monkeypatch, capsys
     assert capsys.readouterr().err == f"suspension_fleet report: {page}/plotly.min.js: No space left on device\n"
     assert [path.name for path in page.iterdir()] == ["index.html"]
     assert (page / "index.html").read_text() == "here first"
+
+
+@pytest.mark.parametrize("ended_at", ["in_order", "write"])
+@pytest.mark.parametrize("is_new", [True, False])
+def test_a_report_that_is_interrupted_leaves_what_was_there(fleet, tmp_path, monkeypatch, ended_at, is_new):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+    page = tmp_path / "page"
+    if not is_new:
+        page.mkdir()
+        (page / "notes.txt").write_text("here first")
+    place = outlook if ended_at == "in_order" else report
+    monkeypatch.setattr(place, ended_at, interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        report.run(types.SimpleNamespace(db=fleet.url, output=str(page), workers=1, **vars(outlook.Options())))
+    assert sorted(tmp_path.rglob("*")) == ([] if is_new else [page, page / "notes.txt"])
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_report_that_is_ended_says_so_and_leaves_nothing(fleet, tmp_path, number):
+    program = imu_bag.REPOSITORY / "python/suspension_fleet"
+    process = subprocess.Popen([sys.executable, str(program), "report", "--db", fleet.url, "-o", "page"], cwd=tmp_path,
+                               stderr=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True, text=True)
+    conftest.wait_until((tmp_path / "page").exists)
+    os.killpg(process.pid, number)
+    assert process.communicate(timeout=conftest.HANGS) == ("", f"suspension_fleet report: ended by {number.name}\n")
+    assert process.returncode == -number and list(tmp_path.iterdir()) == []
 
 
 def end_this_process(*_, **__):

@@ -7,7 +7,6 @@ import logging
 import os
 import sys
 import tempfile
-from multiprocessing import resource_tracker
 
 import dask
 import distributed
@@ -39,7 +38,6 @@ def open_client(workers=None, scheduler=None, patience=60):
         stack.enter_context(dask.config.set(KEPT))
         if scheduler is None:
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="suspension_fleet."))
-            _start_resource_tracker()
             with interruptions.held():  # the client ends its workers
                 cluster = distributed.LocalCluster(n_workers=workers or os.cpu_count() or 1, threads_per_worker=1,
                                                    memory_limit=0, dashboard_address="127.0.0.1:0",
@@ -53,13 +51,6 @@ def open_client(workers=None, scheduler=None, patience=60):
         if not client.nthreads():
             print(f"no worker at {scheduler} yet: waiting", file=sys.stderr)
         yield client
-
-
-def _start_resource_tracker():
-    """Of multiprocessing: whoever starts it hears signals afterwards. An end by a signal is no leak to be told of."""
-    quiet = "ignore:resource_tracker"
-    os.environ["PYTHONWARNINGS"] = ",".join(filter(None, [os.environ.get("PYTHONWARNINGS"), quiet]))
-    resource_tracker.ensure_running()
 
 
 def read_bags(client, bags, work):

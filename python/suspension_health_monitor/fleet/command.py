@@ -26,7 +26,7 @@ def parser():
     return result
 
 
-_SIGNALS = {KeyboardInterrupt: signal.SIGINT, interruptions.Terminated: signal.SIGTERM, BrokenPipeError: signal.SIGPIPE}
+_SIGNALS = {**interruptions.NUMBERS, BrokenPipeError: signal.SIGPIPE}
 
 
 def _say(words):

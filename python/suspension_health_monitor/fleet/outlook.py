@@ -3,9 +3,8 @@ import concurrent.futures.process
 import functools
 import math
 import os
-import signal
 
-from . import database
+from . import database, interruptions
 from .errors import FleetError
 from .options import add_db, at_least_one
 from .part_wear import Options
@@ -30,10 +29,12 @@ def in_order(histories, options, workers):
     """[(StrutHistory, Prognosis or None)]. :raises FleetError: one of the processes has been ended."""
     work = functools.partial(prognosis, options=options)
     results = []
-    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}  # Ctrl-C is for us to take
-    with bar(len(histories), "strut") as progress, concurrent.futures.ProcessPoolExecutor(workers, **quiet) as pool:
+    pool = concurrent.futures.ProcessPoolExecutor(workers, initializer=interruptions.leave_to_parent)
+    with bar(len(histories), "strut") as progress, pool:
         try:
-            for result in pool.map(work, histories, chunksize=4):
+            with interruptions.held():
+                found = pool.map(work, histories, chunksize=4)
+            for result in found:
                 progress.update()
                 results.append(result)
         except concurrent.futures.process.BrokenProcessPool as error:
