@@ -85,6 +85,20 @@ def test_every_bag_is_a_row_and_is_read_once(bags, url, tmp_path, counting):
     assert fleet.statuses(url) == {"ok": GOOD + 2, "unreadable": 1, "unread": 1}, "what was at that path is forgotten"
 
 
+def test_streams_that_are_closed_are_none_that_matter(bags, url, tmp_path):
+    """Neither the database nor a page may become standard error."""
+    for command in (["scan", "bags", "--db", url], ["show", "--db", url], ["report", "--db", url, "-o", "page"],
+                    ["show", "--db", "sqlite:///none.db"]):
+        process = subprocess.run(["sh", "-c", 'exec "$@" <&- 2>&-', "sh", *fleet.COMMAND, *map(str, command)], cwd=tmp_path,
+                                 stdout=subprocess.PIPE, text=True, timeout=conftest.HANGS)
+        if "sqlite:///none.db" in command:
+            assert (process.returncode, process.stdout) == (3, ""), "what is said of it is not told as its output"
+        else:
+            assert process.returncode == 0 and process.stdout.startswith({"scan": "24 bags: 21 ok", "show": "vehicle",
+                                                                          "report": "wrote page"}[command[0]])
+    require_all(url)
+
+
 def test_a_bag_that_lies_there_twice_is_one(bag, url, tmp_path):
     for name in ("a", "b", "c"):
         fleet.copies(bag, tmp_path / name, 1)
