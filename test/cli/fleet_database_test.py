@@ -6,7 +6,7 @@ import threading
 import pytest
 
 pytest.importorskip("sqlalchemy")
-from suspension_health_monitor.fleet import database  # noqa: E402  after the reason to skip
+from suspension_health_monitor.fleet import database, wording  # noqa: E402  after the reason to skip
 from suspension_health_monitor.fleet.errors import FleetError, UsageError  # noqa: E402
 
 
@@ -170,18 +170,33 @@ def test_values_of_another_kind_are_refused(engine, column, value, words):
 
 
 def test_histories(engine):
-    database.write(engine, bag("late", "late.bag"), drive(2000.0, 3.0))
+    database.write(engine, bag("late", "late.bag"), drive(1e9 + 2000, 3.0))
     database.write(engine, bag("bad", "bad.bag"), database.Drive(database.UNREADABLE, "cut off"))
-    database.write(engine, bag("early", "early.bag"), drive(1000.0, 4.0))
-    database.write(engine, bag("parked", "parked.bag"), drive(1500.0, 9.0, valid=False))
+    database.write(engine, bag("early", "early.bag"), drive(1e9 + 1000, 4.0))
+    database.write(engine, bag("parked", "parked.bag"), drive(1e9 + 1500, 9.0, valid=False))
     left, right = database.histories(engine)
     assert (left.vehicle, left.strut, right.strut) == ("robot", "left", "right")
-    assert left.time.tolist() == [1000.0, 2000.0] and right.time.tolist() == [1000.0, 1500.0, 2000.0]
+    assert left.time.tolist() == [1e9 + 1000, 1e9 + 2000] and right.time.tolist() == [1e9 + 1000, 1e9 + 1500, 1e9 + 2000]
     assert left.damping_to_mass.tolist() == [4.0, 3.0] and left.damping_to_mass_stddev.tolist() == [0.1, 0.1]
     assert left.stiffness_to_mass.tolist() == [60.0, 60.0] and left.stiffness_to_mass_stddev.tolist() == [0.5, 0.5]
     assert left.path == ["early.bag", "late.bag"]
-    assert [event.time for event in left.events] == [1007.0, 1507.0, 2007.0] and right.events == []
+    assert [event.time for event in left.events] == [1e9 + 1007, 1e9 + 1507, 1e9 + 2007] and right.events == []
     assert (left.events[0].level, left.events[0].message, left.events[0].path) == ("WARN", "damping low", "early.bag")
-    assert [finding.time for finding in left.findings] == [1000.0, 1500.0, 2000.0]
+    assert [finding.time for finding in left.findings] == [1e9 + 1000, 1e9 + 1500, 1e9 + 2000]
     assert (left.findings[0].verdict, left.findings[0].effects, left.findings[0].page) == (
         "effect_found", ["bump_stop", "coulomb_friction"], None)
+
+
+def test_drives_of_wrong_clocks_are_counted_and_left_out(engine):
+    now = 1.7e9
+    for number, start in enumerate([0.0, database.EARLIEST - 1, database.EARLIEST, now - 1e6, now + 86400, now + 86401]):
+        database.write(engine, bag(str(number), f"{number}.bag"), drive(start, 4.0))
+    for history in database.histories(engine, now):
+        assert history.time.tolist() == [database.EARLIEST, now - 1e6, now + 86400] and history.wrong_clocks == 3
+        assert len(history.events) == len(history.findings) == (3 if history.strut == "left" else 0)
+
+
+def test_a_strut_of_wrong_clocks_only_is_named(engine):
+    database.write(engine, bag("k"), drive(7.0, 4.0))
+    for history in database.histories(engine):
+        assert wording.of_strut(history, None) == "no drive whose estimates are valid; 1 drive has a wrong clock"

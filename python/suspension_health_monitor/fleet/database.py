@@ -19,6 +19,9 @@ from .errors import FleetError, UsageError, naming
 from .history import Event, Finding, StrutHistory
 
 SCHEMA_VERSION = 1
+# What a drive may begin at: a computer without a clock begins at 1970 or where its maker did, ROS is of 2007; time zones
+# that are taken for another are within a day.
+EARLIEST, AHEAD = 946684800.0, 86400.0  # [s] 1 January 2000; after now
 LOCK_TIMEOUT = 60  # [s] that a client waits while others write into the same SQLite file
 
 # Of a drive: at least one strut is identified; none is; no bag, or none with what was asked for; the program was ended
@@ -221,17 +224,24 @@ _FINDINGS = (drives.c.vehicle, findings.c.strut, drives.c.start, findings.c.verd
              findings.c.page)
 
 
-def _by_strut(connection, columns):
-    """{(vehicle, strut): the other columns of its rows, by time}. :raises FleetError: a value of another kind."""
+def _by_strut(connection, columns, latest, wrong_clocks):
+    """{(vehicle, strut): the other columns of its rows, by time}, of drives that have begun by the latest time.
+
+    :param wrong_clocks: {(vehicle, strut): set of the drives that have not, or before any}, to which it adds.
+    :raises FleetError: a value of another kind.
+    """
     vehicle, strut, time, *_ = columns
     known = " AND ".join(f"{column} IS NOT NULL" for column in (vehicle, time) if column.nullable)
-    query = (f"SELECT drives.id, {', '.join(map(str, columns))} FROM drives JOIN {strut.table} "
+    query = (f"SELECT drives.id, drives.start, {', '.join(map(str, columns))} FROM drives JOIN {strut.table} "
              f"ON {strut.table}.drive_id = drives.id WHERE {known} ORDER BY {time}, {strut.table}.id")
     rows = collections.defaultdict(list)
-    for drive, *row in connection.execute(text(query)):
-        for column, value in zip(columns, row):
+    for drive, start, *row in connection.execute(text(query)):
+        for column, value in zip((drives.c.start, *columns), (start, *row)):
             _require_kind(connection, drive, column, value)
-        rows[tuple(row[:2])].append(row[2:])
+        if start is None or EARLIEST <= start <= latest:
+            rows[tuple(row[:2])].append(row[2:])
+        else:
+            wrong_clocks[tuple(row[:2])].add(drive)
     return rows
 
 
@@ -251,17 +261,24 @@ def _require_kind(connection, drive, column, value):
         raise FleetError(f"{shown(connection.engine)}: {column} of the drive with id {drive} is {found}, must be {words}")
 
 
-def histories(engine):
+def histories(engine, now=None):
     """A StrutHistory of every strut, by vehicle and name. Arrays have the drives whose estimate is valid; a finding's
-    effects are a list of names. :raises FleetError: the tables are not there, are others, or have values of other kinds."""
+    effects are a list of names. Drives of wrong clocks are counted only.
+
+    :param now: [s since 1970] instead of this computer's clock.
+    :raises FleetError: the tables are not there, are others, or have values of other kinds.
+    """
+    latest, wrong_clocks = (time.time() if now is None else now) + AHEAD, collections.defaultdict(set)
     with in_words(engine), engine.begin() as connection:
-        estimates, happened, found = (_by_strut(connection, columns) for columns in (_ESTIMATES, _EVENTS, _FINDINGS))
+        estimates, happened, found = (_by_strut(connection, columns, latest, wrong_clocks)
+                                      for columns in (_ESTIMATES, _EVENTS, _FINDINGS))
     result = []
-    for vehicle, strut in sorted({*estimates, *happened, *found}):
+    for vehicle, strut in sorted({*estimates, *happened, *found, *wrong_clocks}):
         rows = [row for row in estimates[vehicle, strut] if row[-1]]
         numbers = np.array([row[:5] for row in rows], dtype=float).reshape(len(rows), 5).T
         result.append(StrutHistory(vehicle, strut, *numbers, [row[5] for row in rows],
                                    [Event(*row) for row in happened[vehicle, strut]],
                                    [Finding(when, verdict, effects.split(), path, page)
-                                    for when, verdict, effects, path, page in found[vehicle, strut]]))
+                                    for when, verdict, effects, path, page in found[vehicle, strut]],
+                                   len(wrong_clocks[vehicle, strut])))
     return result

@@ -41,6 +41,7 @@ class StrutHistory:
     path: List[str]
     events: List[Event] = dataclasses.field(default_factory=list)
     findings: List[Finding] = dataclasses.field(default_factory=list)
+    wrong_clocks: int = 0  # drives that are left out, since their dates cannot be
 
     @property
     def last_event(self) -> Optional[Event]:

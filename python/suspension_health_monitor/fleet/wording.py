@@ -55,6 +55,12 @@ def rate(wear):
     return f"{100 * wear.rate:.{decimals}f} ± {100 * wear.rate_stddev:.{decimals}f} % a month"
 
 
+def of_strut(history, prognosis):
+    """The outlook, and what is left out."""
+    said, count = outlook(prognosis) if prognosis else NO_DRIVES, history.wrong_clocks
+    return f"{said}; {count} drive{'s have' if count > 1 else ' has'} a wrong clock" if count else said
+
+
 def outlook(prognosis):
     """The sentence about the part whose date is known, or why there is none."""
     threshold = f"-{100 * prognosis.options.threshold:g} %"
