@@ -1,4 +1,5 @@
 """What the tests of suspension_fleet share: the command, small bags by the dozen, what a database holds."""
+import contextlib
 import os
 import pathlib
 import signal
@@ -83,6 +84,17 @@ def write_program(path, lines):
     path.write_text("#!/bin/sh\n" + lines + '\nexec "$REAL" "$@"\n')
     path.chmod(0o755)
     return path
+
+
+def session(number):
+    """The processes of a session that run."""
+    found = []
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):  # it has ended
+            state, _, _, its_session = (folder / "stat").read_text().rpartition(")")[2].split()[:4]
+            if int(its_session) == number and state != "Z":
+                found.append(folder.name)
+    return found
 
 
 def is_zombie(process_id):

@@ -1,11 +1,12 @@
 """The fleet's database: one transaction for each bag, whoever else writes; and what histories are made of."""
+import re
 import sqlite3
 import threading
 
 import pytest
 
 pytest.importorskip("sqlalchemy")
-from suspension_health_monitor.fleet import database  # noqa: E402  after the reason to skip
+from suspension_health_monitor.fleet import database, wording  # noqa: E402  after the reason to skip
 from suspension_health_monitor.fleet.errors import FleetError, UsageError  # noqa: E402
 
 
@@ -150,19 +151,52 @@ def test_a_database_that_lacks_a_table_is_refused(engine, table):
         database.histories(engine)
 
 
+@pytest.mark.parametrize("column, value, words", [
+    ("drives.vehicle", b"\xff", "must be text"), ("drives.start", "2026-01-05", "must be seconds since 1970"),
+    ("drives.start", 1e300, "must be seconds since 1970"), ("struts.damping_to_mass", "stiff", "must be a number"),
+    ("struts.valid", "yes", "must be true or false"), ("events.time", None, "must be seconds since 1970"),
+    ("events.message", None, "must be text"), ("findings.strut", None, "must be text")])
+def test_values_of_another_kind_are_refused(engine, column, value, words):
+    """As tables have them that others have made or filled."""
+    database.write(engine, bag("k"), drive(0.0, 4.0))
+    table, name = column.split(".")
+    with engine.begin() as connection:
+        connection.execute(database.text(f"ALTER TABLE {table} RENAME TO ours"))
+        connection.execute(database.text(f"CREATE TABLE {table} AS SELECT * FROM ours"))
+        connection.execute(database.text(f"UPDATE {table} SET {name} = :value"), {"value": value})
+    found = "null" if value is None else re.escape(repr(value))
+    with pytest.raises(FleetError, match=f"fleet.db: {column} of the drive with id 1 is {found}, {words}"):
+        database.histories(engine)
+
+
 def test_histories(engine):
-    database.write(engine, bag("late", "late.bag"), drive(2000.0, 3.0))
+    database.write(engine, bag("late", "late.bag"), drive(1e9 + 2000, 3.0))
     database.write(engine, bag("bad", "bad.bag"), database.Drive(database.UNREADABLE, "cut off"))
-    database.write(engine, bag("early", "early.bag"), drive(1000.0, 4.0))
-    database.write(engine, bag("parked", "parked.bag"), drive(1500.0, 9.0, valid=False))
+    database.write(engine, bag("early", "early.bag"), drive(1e9 + 1000, 4.0))
+    database.write(engine, bag("parked", "parked.bag"), drive(1e9 + 1500, 9.0, valid=False))
     left, right = database.histories(engine)
     assert (left.vehicle, left.strut, right.strut) == ("robot", "left", "right")
-    assert left.time.tolist() == [1000.0, 2000.0] and right.time.tolist() == [1000.0, 1500.0, 2000.0]
+    assert left.time.tolist() == [1e9 + 1000, 1e9 + 2000] and right.time.tolist() == [1e9 + 1000, 1e9 + 1500, 1e9 + 2000]
     assert left.damping_to_mass.tolist() == [4.0, 3.0] and left.damping_to_mass_stddev.tolist() == [0.1, 0.1]
     assert left.stiffness_to_mass.tolist() == [60.0, 60.0] and left.stiffness_to_mass_stddev.tolist() == [0.5, 0.5]
     assert left.path == ["early.bag", "late.bag"]
-    assert [event.time for event in left.events] == [1007.0, 1507.0, 2007.0] and right.events == []
+    assert [event.time for event in left.events] == [1e9 + 1007, 1e9 + 1507, 1e9 + 2007] and right.events == []
     assert (left.events[0].level, left.events[0].message, left.events[0].path) == ("WARN", "damping low", "early.bag")
-    assert [finding.time for finding in left.findings] == [1000.0, 1500.0, 2000.0]
+    assert [finding.time for finding in left.findings] == [1e9 + 1000, 1e9 + 1500, 1e9 + 2000]
     assert (left.findings[0].verdict, left.findings[0].effects, left.findings[0].page) == (
         "effect_found", ["bump_stop", "coulomb_friction"], None)
+
+
+def test_drives_of_wrong_clocks_are_counted_and_left_out(engine):
+    now = 1.7e9
+    for number, start in enumerate([0.0, database.EARLIEST - 1, database.EARLIEST, now - 1e6, now + 86400, now + 86401]):
+        database.write(engine, bag(str(number), f"{number}.bag"), drive(start, 4.0))
+    for history in database.histories(engine, now):
+        assert history.time.tolist() == [database.EARLIEST, now - 1e6, now + 86400] and history.wrong_clocks == 3
+        assert len(history.events) == len(history.findings) == (3 if history.strut == "left" else 0)
+
+
+def test_a_strut_of_wrong_clocks_only_is_named(engine):
+    database.write(engine, bag("k"), drive(7.0, 4.0))
+    for history in database.histories(engine):
+        assert wording.of_strut(history, None) == "no drive whose estimates are valid; 1 drive has a wrong clock"

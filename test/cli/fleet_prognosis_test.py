@@ -187,6 +187,12 @@ def test_no_drive_no_prognosis():
     assert prognosis.prognosis(wrong) is None
 
 
+@pytest.mark.parametrize("stddev", [1e300, 1e5])
+def test_an_estimate_that_says_nothing_is_none(stddev):
+    unknown = dataclasses.replace(strut(np.linspace(0, 1, 4)), stiffness_to_mass_stddev=np.array([stddev, 1, 1, 1]))
+    assert prognosis.prognosis(unknown).drives == 3
+
+
 def test_half_a_year_does_not_tell_a_season_from_wear():
     time = np.linspace(0, 0.5, 60)
     damping = (1 + 0.05 * np.cos(2 * np.pi * time)) * noise(10, 60)

@@ -20,7 +20,7 @@ import conftest
 import imu_bag
 
 pytest.importorskip("sqlalchemy")
-from suspension_health_monitor.fleet import database, outlook, report_data, show  # noqa: E402
+from suspension_health_monitor.fleet import database, outlook, report, report_data, show  # noqa: E402
 from suspension_health_monitor.fleet.command import main  # noqa: E402  after the reason to skip
 from suspension_health_monitor.fleet.history import YEAR, Event, series  # noqa: E402
 
@@ -113,6 +113,23 @@ def test_table_fits_the_terminal_and_cuts_nothing_off(fleet, capsys, monkeypatch
         assert word in words
 
 
+def test_wrong_clocks_change_nothing_but_are_named(fleet, tmp_path):
+    """A drive of 1970 and one of years to come would each be a trend of its own."""
+    copy = tmp_path / "fleet.db"
+    shutil.copy(fleet.url[len("sqlite:///"):], str(copy))
+    engine = database.connect(f"sqlite:///{copy}")
+    for start in (3.0, BEGIN + 60 * YEAR):
+        struts = [dict(strut="left", estimator="iv", damping_to_mass=9.0, damping_to_mass_stddev=0.04, stiffness_to_mass=60.0,
+                       stiffness_to_mass_stddev=0.6, offset=0.0, temperature=None, valid=True, reason=None)]
+        database.write(engine, database.Bag(str(start), f"{start}.bag", HOSTILE),
+                       database.Drive(database.OK, start=start, duration=60.0, struts=struts))
+    assert main(["show", "--db", f"sqlite:///{copy}", "--json", str(tmp_path / "x.json")]) == 0
+    told = json.loads((tmp_path / "x.json").read_text())
+    said = "; 2 drives have a wrong clock"
+    assert told[0]["wrong_clocks"] == 2 and told[0]["outlook"].endswith(said)
+    assert [{**told[0], "wrong_clocks": 0, "outlook": told[0]["outlook"][:-len(said)]}, *told[1:]] == fleet.told
+
+
 def test_json_goes_to_standard_output(fleet, capsys):
     assert main(["show", "--db", fleet.url, "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out) == fleet.told
@@ -129,6 +146,19 @@ def test_wrong_options_are_refused(fleet, capsys, tmp_path, monkeypatch, command
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("option, command", [
+    ("-o/--output", ["report", "-o", ""]), ("--db", ["show", "--db="]), ("--json", ["show", "--json", ""]),
+    ("-o/--output", ["simulate", "-o", ""]), ("--db", ["scan", "bags", "--db", ""]), ("PATH", ["scan", ""]),
+    ("--pages", ["scan", "bags", "--diagnose", "--pages", ""])])
+def test_what_is_empty_is_refused(capsys, tmp_path, monkeypatch, option, command):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as ended:
+        main(command)
+    assert ended.value.code == 2
+    assert capsys.readouterr().err.endswith(f"argument {option}: '', must not be empty\n")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_what_cannot_be_written_is_refused(fleet, capsys, tmp_path):
     (tmp_path / "file").write_text("here first")
     for folder in (tmp_path / "file", tmp_path / "no" / "folder"):
@@ -138,13 +168,17 @@ def test_what_cannot_be_written_is_refused(fleet, capsys, tmp_path):
 
 
 @pytest.mark.parametrize("command", [["show"], ["report", "-o", "page"]])
-@pytest.mark.parametrize("database_is", ["missing", "half-made"])
+@pytest.mark.parametrize("database_is", ["missing", "half-made", "of another kind"])
 def test_without_a_whole_database_nothing_is_made(fleet, capsys, tmp_path, monkeypatch, command, database_is):
     monkeypatch.chdir(tmp_path)
     if database_is == "half-made":
         engine = database.connect("sqlite:///fleet.db", create=True)
         with engine.begin() as connection:
             connection.execute(database.text("DROP TABLE struts"))
+    elif database_is == "of another kind":
+        write_fleet(database.connect("sqlite:///fleet.db", create=True), tmp_path)
+        with database.connect("sqlite:///fleet.db").begin() as connection:
+            connection.execute(database.text("UPDATE struts SET damping_to_mass = 'stiff' WHERE id = 3"))
     assert main([*command, "--db", "sqlite:///fleet.db"]) == 3
     said = capsys.readouterr()
     assert said.out == "" and said.err.count("\n") == 1
@@ -165,6 +199,33 @@ def test_a_page_appears_whole_or_not_at_all(fleet, tmp_path, monkeypatch, capsys
     assert capsys.readouterr().err == f"suspension_fleet report: {page}/plotly.min.js: No space left on device\n"
     assert [path.name for path in page.iterdir()] == ["index.html"]
     assert (page / "index.html").read_text() == "here first"
+
+
+@pytest.mark.parametrize("ended_at", ["in_order", "write"])
+@pytest.mark.parametrize("is_new", [True, False])
+def test_a_report_that_is_interrupted_leaves_what_was_there(fleet, tmp_path, monkeypatch, ended_at, is_new):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+    page = tmp_path / "page"
+    if not is_new:
+        page.mkdir()
+        (page / "notes.txt").write_text("here first")
+    place = outlook if ended_at == "in_order" else report
+    monkeypatch.setattr(place, ended_at, interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        report.run(types.SimpleNamespace(db=fleet.url, output=str(page), workers=1, today=None, **vars(outlook.Options())))
+    assert sorted(tmp_path.rglob("*")) == ([] if is_new else [page, page / "notes.txt"])
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_report_that_is_ended_says_so_and_leaves_nothing(fleet, tmp_path, number):
+    program = imu_bag.REPOSITORY / "python/suspension_fleet"
+    process = subprocess.Popen([sys.executable, str(program), "report", "--db", fleet.url, "-o", "page"], cwd=tmp_path,
+                               stderr=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True, text=True)
+    conftest.wait_until((tmp_path / "page").exists)
+    os.killpg(process.pid, number)
+    assert process.communicate(timeout=conftest.HANGS) == ("", f"suspension_fleet report: ended by {number.name}\n")
+    assert process.returncode == -number and list(tmp_path.iterdir()) == []
 
 
 def end_this_process(*_, **__):

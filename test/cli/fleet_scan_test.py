@@ -6,6 +6,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -84,6 +85,20 @@ def test_every_bag_is_a_row_and_is_read_once(bags, url, tmp_path, counting):
     assert fleet.statuses(url) == {"ok": GOOD + 2, "unreadable": 1, "unread": 1}, "what was at that path is forgotten"
 
 
+def test_streams_that_are_closed_are_none_that_matter(bags, url, tmp_path):
+    """Neither the database nor a page may become standard error."""
+    for command in (["scan", "bags", "--db", url], ["show", "--db", url], ["report", "--db", url, "-o", "page"],
+                    ["show", "--db", "sqlite:///none.db"]):
+        process = subprocess.run(["sh", "-c", 'exec "$@" <&- 2>&-', "sh", *fleet.COMMAND, *map(str, command)], cwd=tmp_path,
+                                 stdout=subprocess.PIPE, text=True, timeout=conftest.HANGS)
+        if "sqlite:///none.db" in command:
+            assert (process.returncode, process.stdout) == (3, ""), "what is said of it is not told as its output"
+        else:
+            assert process.returncode == 0 and process.stdout.startswith({"scan": "24 bags: 21 ok", "show": "vehicle",
+                                                                          "report": "wrote page"}[command[0]])
+    require_all(url)
+
+
 def test_a_bag_that_lies_there_twice_is_one(bag, url, tmp_path):
     for name in ("a", "b", "c"):
         fleet.copies(bag, tmp_path / name, 1)
@@ -123,11 +138,14 @@ def test_wrong_options_end_it_and_write_nothing(bags, url, tmp_path):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_a_scan_that_is_ended_goes_on_where_it_was(program, bags, url, tmp_path, number, monkeypatch, counting):
-    process = fleet.start(tmp_path, "scan", bags, "--db", url, program=slow(program, tmp_path, monkeypatch))
+    process = fleet.start(tmp_path, "scan", bags, "--db", url, program=slow(program, tmp_path, monkeypatch),
+                          start_new_session=True)
     conftest.wait_until(lambda: has_rows(url, 6))
-    process.send_signal(number)
+    (os.kill if number == signal.SIGKILL else os.killpg)(process.pid, number)  # the latter as a terminal does
     status, output, error = fleet.finish(process)
-    assert (status, output) == (-number, "") and "Traceback" not in error, error
+    assert (status, output) == (-number, "")
+    told = [] if number == signal.SIGKILL else [f"suspension_fleet scan: ended by {number.name}"]
+    assert [line for line in error.splitlines() if ".bag: " not in line] == told
     done = sum(fleet.statuses(url).values())
     assert 6 <= done < GOOD + CORRUPT
     fleet.require_whole(url)
@@ -135,6 +153,18 @@ def test_a_scan_that_is_ended_goes_on_where_it_was(program, bags, url, tmp_path,
     fleet.succeed(tmp_path, "scan", bags, "--db", url, program=again)
     assert len(read()) <= GOOD + CORRUPT - done
     require_all(url)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("seconds", [0, 0.4, 0.8, 1.2])
+def test_a_scan_that_is_ended_before_it_reads_says_so(program, bags, url, tmp_path, number, seconds, monkeypatch):
+    process = fleet.start(tmp_path, "scan", bags, "--db", url, program=slow(program, tmp_path, monkeypatch, "3"),
+                          start_new_session=True)
+    conftest.wait_until(lambda: "\nSigBlk:\t0000000000004002\n" in pathlib.Path(f"/proc/{process.pid}/status").read_text())
+    time.sleep(seconds)  # meanwhile it imports, and starts its cluster
+    os.killpg(process.pid, number)
+    assert fleet.finish(process) == (-number, "", f"suspension_fleet scan: ended by {number.name}\n")
+    conftest.wait_until(lambda: fleet.session(process.pid) == [])
 
 
 def has_rows(url, count):

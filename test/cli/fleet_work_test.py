@@ -79,6 +79,13 @@ def test_bags_are_found_below_folders(tmp_path):
     assert found("b/notes.txt", "a/deep") == ["a/deep/2.bag", "b/notes.txt"]
     assert found("*/[13].bag") == ["a/1.bag", "b/3.bag"]
     assert found(".part.x") == [".part.x/5.bag"], "who names it means it"
+    (tmp_path / "a/round").symlink_to(tmp_path)  # so that paths without end, two to the depth of them, lead to a bag
+    for pattern in ("**", "**/", "**/*", "**/*.bag", "[ab]/**/*.bag", "**/[ab]/**", "**/**/*.bag"):
+        assert found(pattern) == ["a/1.bag", "a/deep/2.bag", "b/3.bag"] + ["b/4.bag.active", "b/notes.txt"] * (
+            pattern == "**/*"), pattern
+    assert found("**/deep") == found("**/a/**/*.bag")[1:] == ["a/deep/2.bag"] and found("**/*.txt") == ["b/notes.txt"]
+    with pytest.raises(FleetError, match="no_such"):
+        find_bags([str(tmp_path / "**/no_such")])
     with pytest.raises(FleetError, match="nowhere"):
         find_bags([str(tmp_path / "nowhere*")])
 

@@ -5,7 +5,6 @@ import contextlib
 import itertools
 import logging
 import os
-import signal
 import sys
 import tempfile
 
@@ -13,6 +12,7 @@ import dask
 import distributed
 from distributed.scheduler import KilledWorker
 
+from . import interruptions
 from .bag_work import read_bag
 from .database import UNREAD, Drive
 from .errors import FleetError
@@ -38,11 +38,11 @@ def open_client(workers=None, scheduler=None, patience=60):
         stack.enter_context(dask.config.set(KEPT))
         if scheduler is None:
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="suspension_fleet."))
-            with _deaf_to_interrupts():
+            with interruptions.held():  # the client ends its workers
                 cluster = distributed.LocalCluster(n_workers=workers or os.cpu_count() or 1, threads_per_worker=1,
                                                    memory_limit=0, dashboard_address="127.0.0.1:0",
                                                    local_directory=folder, silence_logs=logging.CRITICAL)
-            scheduler = stack.enter_context(contextlib.closing(cluster))
+                scheduler = stack.enter_context(contextlib.closing(cluster))
         try:
             client = distributed.Client(scheduler, timeout=patience)
         except (OSError, ValueError) as error:
@@ -51,16 +51,6 @@ def open_client(workers=None, scheduler=None, patience=60):
         if not client.nthreads():
             print(f"no worker at {scheduler} yet: waiting", file=sys.stderr)
         yield client
-
-
-@contextlib.contextmanager
-def _deaf_to_interrupts():
-    """What is started is so for good: Ctrl-C ends the client, and the client ends its workers."""
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def read_bags(client, bags, work):

@@ -5,8 +5,9 @@ import os
 import signal
 import sys
 
-from . import report, scan_command, show, simulate_command
+from . import interruptions, report, scan_command, show, simulate_command
 from .errors import FleetError
+from .options import not_empty
 from .wording import plain
 
 COMMANDS = {"scan": scan_command, "show": show, "report": report, "simulate": simulate_command}
@@ -19,20 +20,13 @@ def parser():
     commands = result.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, module in COMMANDS.items():
         command = commands.add_parser(name, help=module.HELP, description=module.HELP, epilog=EPILOG)
+        command.register("type", None, not_empty)
         module.add_options(command)
         command.set_defaults(run=module.run)
     return result
 
 
-class _Terminated(BaseException):
-    """SIGTERM, as Ctrl-C is KeyboardInterrupt."""
-
-
-def _terminate(*_):
-    raise _Terminated
-
-
-_SIGNALS = {KeyboardInterrupt: signal.SIGINT, _Terminated: signal.SIGTERM, BrokenPipeError: signal.SIGPIPE}
+_SIGNALS = {**interruptions.NUMBERS, BrokenPipeError: signal.SIGPIPE}
 
 
 def _say(words):
@@ -51,14 +45,25 @@ def _say(words):
 def main(arguments=None):
     """:returns: exit status. Ctrl-C, and SIGTERM, end it as whoever waits for it expects, with a good database."""
     options = parser().parse_args(arguments)
-    signal.signal(signal.SIGTERM, _terminate)
+    try:
+        interruptions.hear()
+        return _run(options)
+    except tuple(_SIGNALS) as interruption:
+        number = _SIGNALS[type(interruption)]
+    signal.signal(number, signal.SIG_DFL)
+    if number != signal.SIGPIPE:
+        _complain(options, f"ended by {number.name}")
+    os.kill(os.getpid(), number)
+
+
+def _run(options):
     try:
         _say(options.run(options))
     except FleetError as error:
-        print(plain(f"suspension_fleet {options.command}: {error}"), file=sys.stderr)
+        _complain(options, error)
         return error.status
-    except tuple(_SIGNALS) as interruption:
-        number = _SIGNALS[type(interruption)]
-        signal.signal(number, signal.SIG_DFL)
-        os.kill(os.getpid(), number)
     return 0
+
+
+def _complain(options, words):
+    print(plain(f"suspension_fleet {options.command}: {words}"), file=sys.stderr)

@@ -14,24 +14,33 @@ from sqlalchemy import (Boolean, Column, Float, ForeignKey, Integer, MetaData, S
                         inspect, text)
 from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
 
+from . import wording
 from .errors import FleetError, UsageError, naming
 from .history import Event, Finding, StrutHistory
 
 SCHEMA_VERSION = 1
+# What a drive may begin at: a computer without a clock begins at 1970 or where its maker did, ROS is of 2007; time zones
+# that are taken for another are within a day.
+EARLIEST, AHEAD = 946684800.0, 86400.0  # [s] 1 January 2000; after now
 LOCK_TIMEOUT = 60  # [s] that a client waits while others write into the same SQLite file
 
 # Of a drive: at least one strut is identified; none is; no bag, or none with what was asked for; the program was ended
 # by a signal or took too long; the file was not to be had or the worker was lost, which says nothing about the bag.
 OK, POOR, UNREADABLE, CRASHED, UNREAD = STATUSES = ("ok", "poor", "unreadable", "crashed", "unread")
 
+
+class Time(Float):
+    """[s since 1970]"""
+
+
 metadata = MetaData()
 schema = Table("fleet_schema", metadata, Column("version", Integer, primary_key=True, autoincrement=False))
 drives = Table(
     "drives", metadata, Column("id", Integer, primary_key=True),
     Column("key", String(64), nullable=False, unique=True), Column("path", Text, nullable=False),
-    Column("vehicle", Text, index=True), Column("start", Float), Column("duration", Float),
+    Column("vehicle", Text, index=True), Column("start", Time), Column("duration", Float),
     Column("status", String(16), nullable=False), Column("reason", Text), Column("diagnosed", Boolean, nullable=False),
-    Column("options", String(64), nullable=False), Column("scanned_at", Float, nullable=False))
+    Column("options", String(64), nullable=False), Column("scanned_at", Time, nullable=False))
 
 
 def _of_drive():
@@ -46,7 +55,7 @@ struts = Table(
     Column("valid", Boolean, nullable=False), Column("reason", Text))
 events = Table(
     "events", metadata, Column("id", Integer, primary_key=True), _of_drive(), Column("strut", Text, nullable=False),
-    Column("time", Float, nullable=False), Column("level", String(8), nullable=False),
+    Column("time", Time, nullable=False), Column("level", String(8), nullable=False),
     Column("message", Text, nullable=False))
 findings = Table(
     "findings", metadata, Column("id", Integer, primary_key=True), _of_drive(), Column("strut", Text, nullable=False),
@@ -206,40 +215,70 @@ def counts(engine):
         return dict(map(tuple, connection.execute(text("SELECT status, count(*) FROM drives GROUP BY status"))))
 
 
-_ESTIMATES = """
-    SELECT d.vehicle, s.strut, d.start, s.damping_to_mass, s.damping_to_mass_stddev, s.stiffness_to_mass,
-           s.stiffness_to_mass_stddev, d.path, s.valid
-    FROM drives d JOIN struts s ON s.drive_id = d.id
-    WHERE d.start IS NOT NULL AND d.vehicle IS NOT NULL ORDER BY d.start"""
-_EVENTS = """
-    SELECT d.vehicle, e.strut, e.time, e.level, e.message, d.path
-    FROM drives d JOIN events e ON e.drive_id = d.id
-    WHERE d.vehicle IS NOT NULL ORDER BY e.time, e.id"""
-_FINDINGS = """
-    SELECT d.vehicle, f.strut, d.start, f.verdict, f.effects, d.path, f.page
-    FROM drives d JOIN findings f ON f.drive_id = d.id
-    WHERE d.start IS NOT NULL AND d.vehicle IS NOT NULL ORDER BY d.start"""
+# What is read: vehicle and strut, by which it is put together, the time that it is of, and the rest.
+_ESTIMATES = (drives.c.vehicle, struts.c.strut, drives.c.start, struts.c.damping_to_mass,
+              struts.c.damping_to_mass_stddev, struts.c.stiffness_to_mass, struts.c.stiffness_to_mass_stddev,
+              drives.c.path, struts.c.valid)
+_EVENTS = (drives.c.vehicle, events.c.strut, events.c.time, events.c.level, events.c.message, drives.c.path)
+_FINDINGS = (drives.c.vehicle, findings.c.strut, drives.c.start, findings.c.verdict, findings.c.effects, drives.c.path,
+             findings.c.page)
 
 
-def _by_strut(connection, query):
-    """{(vehicle, strut): the other columns of its rows}."""
+def _by_strut(connection, columns, latest, wrong_clocks):
+    """{(vehicle, strut): the other columns of its rows, by time}, of drives that have begun by the latest time.
+
+    :param wrong_clocks: {(vehicle, strut): set of the drives that have not, or before any}, to which it adds.
+    :raises FleetError: a value of another kind.
+    """
+    vehicle, strut, time, *_ = columns
+    known = " AND ".join(f"{column} IS NOT NULL" for column in (vehicle, time) if column.nullable)
+    query = (f"SELECT drives.id, drives.start, {', '.join(map(str, columns))} FROM drives JOIN {strut.table} "
+             f"ON {strut.table}.drive_id = drives.id WHERE {known} ORDER BY {time}, {strut.table}.id")
     rows = collections.defaultdict(list)
-    for vehicle, strut, *rest in connection.execute(text(query)):
-        rows[vehicle, strut].append(rest)
+    for drive, start, *row in connection.execute(text(query)):
+        for column, value in zip((drives.c.start, *columns), (start, *row)):
+            _require_kind(connection, drive, column, value)
+        if start is None or EARLIEST <= start <= latest:
+            rows[tuple(row[:2])].append(row[2:])
+        else:
+            wrong_clocks[tuple(row[:2])].add(drive)
     return rows
 
 
-def histories(engine):
+_KINDS = {
+    Time: (wording.is_date, "seconds since 1970"),
+    Float: (lambda value: isinstance(value, (int, float)), "a number"),
+    Boolean: (lambda value: value in (0, 1), "true or false"),
+    String: (lambda value: isinstance(value, str), "text"),
+    Text: (lambda value: isinstance(value, str), "text")}
+
+
+def _require_kind(connection, drive, column, value):
+    """SQLite takes any value in any column. :raises FleetError: one that is not of the column's kind."""
+    is_of_kind, words = _KINDS[type(column.type)]
+    if not (column.nullable if value is None else is_of_kind(value)):
+        found = "null" if value is None else repr(value)[:60]
+        raise FleetError(f"{shown(connection.engine)}: {column} of the drive with id {drive} is {found}, must be {words}")
+
+
+def histories(engine, now=None):
     """A StrutHistory of every strut, by vehicle and name. Arrays have the drives whose estimate is valid; a finding's
-    effects are a list of names. :raises FleetError: the tables are not there, or are others."""
+    effects are a list of names. Drives of wrong clocks are counted only.
+
+    :param now: [s since 1970] instead of this computer's clock.
+    :raises FleetError: the tables are not there, are others, or have values of other kinds.
+    """
+    latest, wrong_clocks = (time.time() if now is None else now) + AHEAD, collections.defaultdict(set)
     with in_words(engine), engine.begin() as connection:
-        estimates, happened, found = (_by_strut(connection, query) for query in (_ESTIMATES, _EVENTS, _FINDINGS))
+        estimates, happened, found = (_by_strut(connection, columns, latest, wrong_clocks)
+                                      for columns in (_ESTIMATES, _EVENTS, _FINDINGS))
     result = []
-    for vehicle, strut in sorted({*estimates, *happened, *found}):
+    for vehicle, strut in sorted({*estimates, *happened, *found, *wrong_clocks}):
         rows = [row for row in estimates[vehicle, strut] if row[-1]]
         numbers = np.array([row[:5] for row in rows], dtype=float).reshape(len(rows), 5).T
         result.append(StrutHistory(vehicle, strut, *numbers, [row[5] for row in rows],
                                    [Event(*row) for row in happened[vehicle, strut]],
                                    [Finding(when, verdict, effects.split(), path, page)
-                                    for when, verdict, effects, path, page in found[vehicle, strut]]))
+                                    for when, verdict, effects, path, page in found[vehicle, strut]],
+                                   len(wrong_clocks[vehicle, strut])))
     return result

@@ -1,4 +1,5 @@
 """The bags that paths and patterns name, and the vehicle that each is of."""
+import fnmatch
 import glob
 import itertools
 import os
@@ -16,16 +17,37 @@ def find_bags(paths):
     :raises FleetError: a path or pattern that names nothing.
     """
     for path in paths:
-        if not os.path.lexists(path) and next(glob.iglob(path, recursive=True), None) is None:
+        if next(iter(_named(path)), None) is None:
             raise FleetError(f"{path}: no such file or folder, and no pattern that one matches")
     return itertools.chain.from_iterable(map(_below, itertools.chain.from_iterable(map(_named, paths))))
 
 
 def _named(path):
-    return [path] if os.path.lexists(path) else glob.iglob(path, recursive=True)
+    parts = path.split("/")
+    if os.path.lexists(path):
+        return [path]
+    return _deep(parts, parts.index("**")) if "**" in parts else glob.iglob(path)
 
 
-def _below(path):
+def _deep(parts, place):
+    """Files that a pattern with ** matches: glob would follow links, in a circle, too, and tell what is in a folder twice."""
+    names = [part for part in parts[place:] if part]
+    while names and names[-1] == "**":
+        names.pop()
+    for base in glob.iglob("/".join([*parts[:place], ""]) or "./"):
+        yield from _below(base, lambda path: _matches(path[len(base):].split("/"), names, path.endswith(".bag")))
+
+
+def _matches(path, pattern, below):
+    """Names against patterns, one by one. below: also of what is in a folder that matches."""
+    if not pattern:
+        return below or not path
+    if pattern[0] == "**":
+        return any(_matches(path[count:], pattern[1:], below) for count in range(len(path) + 1))
+    return bool(path) and fnmatch.fnmatchcase(path[0], pattern[0]) and _matches(path[1:], pattern[1:], below)
+
+
+def _below(path, wanted=lambda path: path.endswith(".bag")):
     try:
         entries = os.scandir(path)
     except OSError:  # it is a file; or a folder that may not be listed, which then is told as a bag that cannot be read
@@ -36,8 +58,8 @@ def _below(path):
             if entry.name.startswith("."):  # not for everybody's eyes, such as what a simulation is writing
                 continue
             if entry.is_dir(follow_symlinks=False):
-                yield from _below(entry.path)
-            elif entry.name.endswith(".bag"):
+                yield from _below(entry.path, wanted)
+            elif wanted(entry.path) and not os.path.isdir(entry.path):
                 yield entry.path
 
 

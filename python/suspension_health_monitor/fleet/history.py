@@ -6,6 +6,7 @@ import numpy as np
 
 YEAR = 365.25 * 86400.0  # [s]
 MONTH = YEAR / 12
+MOST_SPREAD = 1e3  # standard deviation over an estimate that says anything
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,6 +41,7 @@ class StrutHistory:
     path: List[str]
     events: List[Event] = dataclasses.field(default_factory=list)
     findings: List[Finding] = dataclasses.field(default_factory=list)
+    wrong_clocks: int = 0  # drives that are left out, since their dates cannot be
 
     @property
     def last_event(self) -> Optional[Event]:
@@ -69,13 +71,13 @@ def series(history):
     """The logarithms of b1/b0, b1 and b0, as (ratio, damping, stiffness).
 
     b1 = beta/M and b0 = K/M: a payload moves log b1 and log b0 alike, so that log(b1/b0) = log(beta/K) is free of it,
-    drive by drive and whatever its distribution is. Drives whose numbers have no logarithm or no standard deviation are
-    left out.
+    drive by drive and whatever its distribution is. Drives whose numbers have no logarithm, or no standard deviation
+    that tells of them, are left out.
     """
     known = np.ones(len(history.time), dtype=bool)
-    for number in (history.damping_to_mass, history.damping_to_mass_stddev, history.stiffness_to_mass,
-                   history.stiffness_to_mass_stddev):
-        known &= np.isfinite(number) & (np.asarray(number) > 0)
+    for number, stddev in ((history.damping_to_mass, history.damping_to_mass_stddev),
+                           (history.stiffness_to_mass, history.stiffness_to_mass_stddev)):
+        known &= np.isfinite(number) & (0 < stddev) & (stddev / MOST_SPREAD < number)
     time = np.asarray(history.time, dtype=float)[known]
     damping, damping_stddev, stiffness, stiffness_stddev = (
         np.asarray(number, dtype=float)[known] for number in (

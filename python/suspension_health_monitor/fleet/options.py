@@ -13,6 +13,13 @@ def add_db(command):
                          help="of the database, such as postgresql://user@host/fleet; default: %(default)s")
 
 
+def not_empty(text):
+    """Of all that have no other type: an empty path is the folder here for some, and none for others."""
+    if not text:
+        raise argparse.ArgumentTypeError(f"{text!r}, must not be empty")
+    return text
+
+
 def at_least_one(text):
     number = int(text)
     if number < 1:

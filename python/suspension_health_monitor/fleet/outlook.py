@@ -3,11 +3,10 @@ import concurrent.futures.process
 import functools
 import math
 import os
-import signal
 
-from . import database
+from . import database, interruptions
 from .errors import FleetError
-from .options import add_db, at_least_one
+from .options import add_db, at_least_one, date
 from .part_wear import Options
 from .progress import bar
 from .prognosis import prognosis
@@ -16,6 +15,8 @@ from .prognosis import prognosis
 def add_options(command):
     add_db(command)
     Options.add_to(command)
+    command.add_argument("--today", type=date, metavar="YEAR-MONTH-DAY",
+                         help="drives after that day have a wrong clock; default: those later than tomorrow")
     command.add_argument("--workers", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
                          help="processes; default: this machine's cores")
 
@@ -23,17 +24,19 @@ def add_options(command):
 def read(options):
     """(histories of the database, options of the prognosis). :raises UsageError: a value that is not allowed."""
     its_options = Options.of(options)
-    return database.histories(database.connect(options.db)), its_options
+    return database.histories(database.connect(options.db), options.today), its_options
 
 
 def in_order(histories, options, workers):
     """[(StrutHistory, Prognosis or None)]. :raises FleetError: one of the processes has been ended."""
     work = functools.partial(prognosis, options=options)
     results = []
-    quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}  # Ctrl-C is for us to take
-    with bar(len(histories), "strut") as progress, concurrent.futures.ProcessPoolExecutor(workers, **quiet) as pool:
+    pool = concurrent.futures.ProcessPoolExecutor(workers, initializer=interruptions.leave_to_parent)
+    with bar(len(histories), "strut") as progress, pool:
         try:
-            for result in pool.map(work, histories, chunksize=4):
+            with interruptions.held():
+                found = pool.map(work, histories, chunksize=4)
+            for result in found:
                 progress.update()
                 results.append(result)
         except concurrent.futures.process.BrokenProcessPool as error:

@@ -2,6 +2,8 @@
 import contextlib
 import sys
 
+from . import interruptions
+
 
 class _Silent:
     """Where tqdm is not installed."""
@@ -21,5 +23,7 @@ def bar(total, unit="bag"):
     except ImportError:
         yield _Silent()
         return
-    with tqdm(total=total, unit=unit, disable=None, file=sys.stderr) as result:
+    with interruptions.held():  # a signal that its thread hears is heard by all
+        result = tqdm(total=total, unit=unit, disable=None, file=sys.stderr)
+    with result:
         yield result

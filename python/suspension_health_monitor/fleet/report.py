@@ -1,6 +1,8 @@
 """suspension_fleet report: a folder with a page of the whole fleet, which needs no server and no network."""
+import contextlib
 import json
 import pathlib
+import shutil
 
 from . import outlook
 from .errors import FleetError, naming
@@ -21,10 +23,23 @@ def add_options(report):
 def run(options):
     histories, its_options = outlook.read(options)
     folder = pathlib.Path(options.output)
-    with naming(f"{folder}: cannot be made"):
-        folder.mkdir(exist_ok=True)
-    write(outlook.in_order(histories, its_options, options.workers), folder)
+    with _folder(folder):
+        write(outlook.in_order(histories, its_options, options.workers), folder)
     return f"wrote {folder / 'index.html'}\n"
+
+
+@contextlib.contextmanager
+def _folder(folder):
+    """One that is made goes unless the page gets done. :raises FleetError: it cannot be made."""
+    is_new = not folder.exists()
+    try:
+        with naming(f"{folder}: cannot be made"):
+            folder.mkdir(exist_ok=True)
+        yield
+    except BaseException:
+        if is_new:
+            shutil.rmtree(folder, ignore_errors=True)
+        raise
 
 
 def write(fleet, folder):

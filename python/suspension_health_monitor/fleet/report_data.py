@@ -27,7 +27,7 @@ def _strut(history, prognosis, folder):
         "findings": [[round(each.time), each.verdict, " ".join(each.effects), _link(each.page, folder)]
                      for each in history.findings[-_NEWEST:]],
         "left_out": max(0, len(history.events) - _NEWEST) + max(0, len(history.findings) - _NEWEST),
-        "outlook": wording.NO_DRIVES if prognosis is None else wording.outlook(prognosis)}
+        "outlook": wording.of_strut(history, prognosis)}
     if prognosis is None:
         return found
     trend, worn = prognosis.trend, prognosis.wear[prognosis.trend.part]

@@ -57,23 +57,24 @@ def _row(history, prognosis):
     event = history.last_event
     last = f"{event.level} on {wording.day(event.time)}" if event else "-"
     if prognosis is None:
-        return history.vehicle, history.strut, "0", "-", "-", wording.NO_DRIVES, last, "-"
+        return history.vehicle, history.strut, "0", "-", "-", wording.of_strut(history, None), last, "-"
     effects = ", ".join(each.name for each in prognosis.effects if each.present) or "-"
     spans = (wording.span(prognosis.told[part]) if part in prognosis.told else "-" for part in PARTS)
-    return (history.vehicle, history.strut, str(prognosis.drives), *spans, wording.outlook(prognosis), last, effects)
+    return (history.vehicle, history.strut, str(prognosis.drives), *spans, wording.of_strut(history, prognosis), last,
+            effects)
 
 
 def as_dict(history, prognosis):
     """For programs: times in seconds since 1970, shares of 1, rates per month; null where there is none."""
-    found = {"vehicle": history.vehicle, "strut": history.strut, "drives": 0, "outlook": wording.NO_DRIVES,
-             "dated": None, "wear": None, "changes": [], "likely_change": None, "remarks": [],
-             "effects": [], "last_event": None}
+    found = {"vehicle": history.vehicle, "strut": history.strut, "drives": 0, "wrong_clocks": history.wrong_clocks,
+             "outlook": wording.of_strut(history, prognosis), "dated": None, "wear": None, "changes": [],
+             "likely_change": None, "remarks": [], "effects": [], "last_event": None}
     event = history.last_event
     if event:
         found["last_event"] = {"time": event.time, "level": event.level, "message": event.message, "path": event.path}
     if prognosis is None:
         return found
-    return {**found, "drives": prognosis.drives, "outlook": wording.outlook(prognosis), "dated": prognosis.dated,
+    return {**found, "drives": prognosis.drives, "dated": prognosis.dated,
             "wear": {part: {"since": each.since, "loss": each.loss, "probability": each.probability, "rate": each.rate,
                             "rate_stddev": each.rate_stddev, "date": [_time(time) for time in each.date]}
                      for part, each in prognosis.told.items()},

@@ -16,6 +16,14 @@ def day(time):
     return f"{date.day} {date:%B %Y}"
 
 
+def is_date(time):
+    """Whether a calendar has it."""
+    try:
+        return bool(day(time))
+    except (TypeError, ValueError, OverflowError, OSError):
+        return False
+
+
 def days(early, late):
     """Such as 4 March and 2 May 2027: the year once if it is the same."""
     first, second = day(early), day(late)
@@ -45,6 +53,12 @@ def rate(wear):
     """2.1 ± 0.4 % a month, to the first digit that is known."""
     decimals = max(0, min(3, -math.floor(math.log10(max(100 * wear.rate_stddev, 1e-3)))))
     return f"{100 * wear.rate:.{decimals}f} ± {100 * wear.rate_stddev:.{decimals}f} % a month"
+
+
+def of_strut(history, prognosis):
+    """The outlook, and what is left out."""
+    said, count = outlook(prognosis) if prognosis else NO_DRIVES, history.wrong_clocks
+    return f"{said}; {count} drive{'s have' if count > 1 else ' has'} a wrong clock" if count else said
 
 
 def outlook(prognosis):
