@@ -14,7 +14,6 @@ from .table import Column, Table
 FOLDER = "fleet"  # of its page, beside the demo's
 VEHICLES = 3
 DAYS, DAYS_OF_QUICK = 24, 8  # of driving, one a week
-LAST_DAY = "2026-12-31"  # after these, whatever day it is where the demo runs
 # Dampers that wear so fast that weeks show it, more than the seasons can do; the seed decides which.
 LAWS = ("--every", "7", "--wearing", "0.2", "--least-wear", "0.12", "--most-wear", "0.16", "--sagging", "0", "--bad", "0.08",
         "--duration", "40", "--seed", "3")
@@ -41,9 +40,8 @@ def run(output, folder, quick):
     days = 7 * (DAYS_OF_QUICK if quick else DAYS)
     _call("simulate", "-o", bags, "--vehicles", VEHICLES, "--days", days, *LAWS)
     told = _call("scan", bags, "--db", url, "--vehicle-file", bags / "vehicle.yaml").splitlines()[0]
-    read = ["--db", url, "--today", LAST_DAY]
-    struts = json.loads(_call("show", *read, "--json", "-"))
-    _call("report", *read, "-o", page)
+    struts = json.loads(_call("show", "--db", url, "--json", "-"))
+    _call("report", "--db", url, "-o", page)
     truth = json.loads((bags / "truth.json").read_text())["vehicles"]
     shutil.rmtree(bags)
     return Fleet(told, struts, {(vehicle, strut): row["damping_loss"] for vehicle, each in truth.items()

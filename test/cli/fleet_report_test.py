@@ -114,11 +114,11 @@ def test_table_fits_the_terminal_and_cuts_nothing_off(fleet, capsys, monkeypatch
 
 
 def test_wrong_clocks_change_nothing_but_are_named(fleet, tmp_path):
-    """A drive of 1970 and one of years to come would each be a trend of its own."""
+    """A drive of 1970 would be a trend of its own."""
     copy = tmp_path / "fleet.db"
     shutil.copy(fleet.url[len("sqlite:///"):], str(copy))
     engine = database.connect(f"sqlite:///{copy}")
-    for start in (3.0, BEGIN + 60 * YEAR):
+    for start in (3.0, 4e6):
         struts = [dict(strut="left", estimator="iv", damping_to_mass=9.0, damping_to_mass_stddev=0.04, stiffness_to_mass=60.0,
                        stiffness_to_mass_stddev=0.6, offset=0.0, temperature=None, valid=True, reason=None)]
         database.write(engine, database.Bag(str(start), f"{start}.bag", HOSTILE),
@@ -213,7 +213,7 @@ def test_a_report_that_is_interrupted_leaves_what_was_there(fleet, tmp_path, mon
     place = outlook if ended_at == "in_order" else report
     monkeypatch.setattr(place, ended_at, interrupted)
     with pytest.raises(KeyboardInterrupt):
-        report.run(types.SimpleNamespace(db=fleet.url, output=str(page), workers=1, today=None, **vars(outlook.Options())))
+        report.run(types.SimpleNamespace(db=fleet.url, output=str(page), workers=1, **vars(outlook.Options())))
     assert sorted(tmp_path.rglob("*")) == ([] if is_new else [page, page / "notes.txt"])
 
 

@@ -19,9 +19,8 @@ from .errors import FleetError, UsageError, naming
 from .history import Event, Finding, StrutHistory
 
 SCHEMA_VERSION = 1
-# What a drive may begin at: a computer without a clock begins at 1970 or where its maker did, ROS is of 2007; time zones
-# that are taken for another are within a day.
-EARLIEST, AHEAD = 946684800.0, 86400.0  # [s] 1 January 2000; after now
+# A computer without a clock begins at 1970 or where its maker did, ROS is of 2007; simulated time begins at 0.
+EARLIEST = 946684800.0  # [s since 1970] 1 January 2000: what begins before is no date, or a clock of its own
 LOCK_TIMEOUT = 60  # [s] that a client waits while others write into the same SQLite file
 
 # Of a drive: at least one strut is identified; none is; no bag, or none with what was asked for; the program was ended
@@ -224,10 +223,11 @@ _FINDINGS = (drives.c.vehicle, findings.c.strut, drives.c.start, findings.c.verd
              findings.c.page)
 
 
-def _by_strut(connection, columns, latest, wrong_clocks):
-    """{(vehicle, strut): the other columns of its rows, by time}, of drives that have begun by the latest time.
+def _by_strut(connection, columns, with_dates, wrong_clocks):
+    """{(vehicle, strut): the other columns of its rows, by time}.
 
-    :param wrong_clocks: {(vehicle, strut): set of the drives that have not, or before any}, to which it adds.
+    :param with_dates: the vehicles that have drives with dates: those without one are left out.
+    :param wrong_clocks: {(vehicle, strut): set of the drives that are left out}, to which it adds.
     :raises FleetError: a value of another kind.
     """
     vehicle, strut, time, *_ = columns
@@ -238,7 +238,7 @@ def _by_strut(connection, columns, latest, wrong_clocks):
     for drive, start, *row in connection.execute(text(query)):
         for column, value in zip((drives.c.start, *columns), (start, *row)):
             _require_kind(connection, drive, column, value)
-        if start is None or EARLIEST <= start <= latest:
+        if start is None or start >= EARLIEST or row[0] not in with_dates:
             rows[tuple(row[:2])].append(row[2:])
         else:
             wrong_clocks[tuple(row[:2])].add(drive)
@@ -261,16 +261,17 @@ def _require_kind(connection, drive, column, value):
         raise FleetError(f"{shown(connection.engine)}: {column} of the drive with id {drive} is {found}, must be {words}")
 
 
-def histories(engine, now=None):
+def histories(engine):
     """A StrutHistory of every strut, by vehicle and name. Arrays have the drives whose estimate is valid; a finding's
     effects are a list of names. Drives of wrong clocks are counted only.
 
-    :param now: [s since 1970] instead of this computer's clock.
     :raises FleetError: the tables are not there, are others, or have values of other kinds.
     """
-    latest, wrong_clocks = (time.time() if now is None else now) + AHEAD, collections.defaultdict(set)
+    wrong_clocks = collections.defaultdict(set)
     with in_words(engine), engine.begin() as connection:
-        estimates, happened, found = (_by_strut(connection, columns, latest, wrong_clocks)
+        dated = text("SELECT DISTINCT vehicle FROM drives WHERE start >= :earliest")
+        with_dates = set(connection.execute(dated, {"earliest": EARLIEST}).scalars())
+        estimates, happened, found = (_by_strut(connection, columns, with_dates, wrong_clocks)
                                       for columns in (_ESTIMATES, _EVENTS, _FINDINGS))
     result = []
     for vehicle, strut in sorted({*estimates, *happened, *found, *wrong_clocks}):

@@ -6,7 +6,7 @@ import os
 
 from . import database, interruptions
 from .errors import FleetError
-from .options import add_db, at_least_one, date
+from .options import add_db, at_least_one
 from .part_wear import Options
 from .progress import bar
 from .prognosis import prognosis
@@ -15,8 +15,6 @@ from .prognosis import prognosis
 def add_options(command):
     add_db(command)
     Options.add_to(command)
-    command.add_argument("--today", type=date, metavar="YEAR-MONTH-DAY",
-                         help="drives after that day have a wrong clock; default: those later than tomorrow")
     command.add_argument("--workers", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
                          help="processes; default: this machine's cores")
 
@@ -24,7 +22,7 @@ def add_options(command):
 def read(options):
     """(histories of the database, options of the prognosis). :raises UsageError: a value that is not allowed."""
     its_options = Options.of(options)
-    return database.histories(database.connect(options.db), options.today), its_options
+    return database.histories(database.connect(options.db)), its_options
 
 
 def in_order(histories, options, workers):
