@@ -5,6 +5,7 @@ doc/fleet.md has a line for every column. Queries are plain SQL, which SQLAlchem
 import collections
 import contextlib
 import dataclasses
+import logging
 import re
 import time
 from typing import Any, Dict, List, Optional
@@ -31,6 +32,9 @@ OK, POOR, UNREADABLE, CRASHED, UNREAD = STATUSES = ("ok", "poor", "unreadable", 
 class Time(Float):
     """[s since 1970]"""
 
+
+# It would print how it closes a connection when Ctrl-C or SIGTERM comes in between; errors are raised besides.
+logging.getLogger("sqlalchemy.pool").setLevel(logging.CRITICAL)
 
 metadata = MetaData()
 schema = Table("fleet_schema", metadata, Column("version", Integer, primary_key=True, autoincrement=False))

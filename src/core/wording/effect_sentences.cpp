@@ -57,7 +57,7 @@ constexpr std::array kAdvice{
            "A fault of the sensors, not of the strut: synchronise their clocks, or take the delay out of the stamps."},
     Advice{
         "accelerometer_bias",
-        "A fault of the sensor, not of the strut: let it warm up, and calibrate it at rest. A few hundredths of m/s^2 "
+        "A fault of the sensor, not of the strut: let it warm up, and calibrate it at rest; a few hundredths of m/s^2 "
         "in every strut may be a body that leans and turns."},
     Advice{"scale_error",
            "A fault of the sensor, not of the strut: check range and unit in its driver, and calibrate it upright and "
