@@ -9,7 +9,6 @@
 #include "errors.h"
 #include "survey.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
-#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

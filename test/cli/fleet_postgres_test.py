@@ -47,7 +47,7 @@ def server():
 @pytest.fixture(scope="module")
 def bags(program, tmp_path_factory):
     folder = tmp_path_factory.mktemp("bags")
-    program.succeed("simulate", "--duration", "20", "--set", "start_time=1700000000", "-o", folder / "drive.bag")
+    program.succeed("simulate", "--duration", "20", "-o", folder / "drive.bag")
     fleet.copies(folder / "drive.bag", folder / "robot", BAGS)
     (folder / "robot/bad.bag").write_text("no bag\n")
     return folder / "robot"

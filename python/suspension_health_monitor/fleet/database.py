@@ -274,7 +274,7 @@ def histories(engine):
     wrong_clocks = collections.defaultdict(set)
     with in_words(engine), engine.begin() as connection:
         dated = text("SELECT DISTINCT vehicle FROM drives WHERE start >= :earliest")
-        with_dates = set(connection.execute(dated, {"earliest": EARLIEST}).scalars())
+        with_dates = {vehicle for (vehicle,) in connection.execute(dated, {"earliest": EARLIEST})}
         estimates, happened, found = (_by_strut(connection, columns, with_dates, wrong_clocks)
                                       for columns in (_ESTIMATES, _EVENTS, _FINDINGS))
     result = []

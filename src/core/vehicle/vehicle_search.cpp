@@ -38,6 +38,15 @@ std::vector<double> gainOf(const StrutModel& model, const StrutModel& before) {
   return gain;
 }
 
+// Says what the filter may have taken from the laws that were found, and has it in their standard deviations.
+void allowForFilter(Diagnosis& strut) {
+  if (!strut.final_fit || strut.final_fit->model.effects.empty()) return;
+  strut.suggested_drive += (strut.suggested_drive.empty() ? "" : " ") + std::string(kBehindOneImu);
+  const std::vector<double> gain = gainOf(strut.final_fit->model, strut.base.model);
+  std::vector<double>& stddev = strut.final_fit->stddev;
+  for (std::size_t i = 0; i < gain.size(); ++i) stddev[i] = std::hypot(stddev[i], kFilteredAway * gain[i]);
+}
+
 // @return mean square that what was found explains [(m/s^2)^2].
 double explainedPower(const Diagnosis& strut) {
   return strut.explained_share * strut.structured_share * strut.base.held_out_rmse * strut.base.held_out_rmse;
@@ -104,11 +113,7 @@ void VehicleSearch::fitFound() {
   for (std::size_t k = 0; k < found.size(); ++k) {
     Diagnosis& strut = result_.struts[found[k]];
     if (fits[k]) strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
-    if (!strut.final_fit || strut.final_fit->model.effects.empty()) continue;
-    strut.suggested_drive += (strut.suggested_drive.empty() ? "" : " ") + std::string(kBehindOneImu);
-    const std::vector<double> gain = gainOf(strut.final_fit->model, strut.base.model);
-    std::vector<double>& stddev = strut.final_fit->stddev;
-    for (std::size_t i = 0; i < gain.size(); ++i) stddev[i] = std::hypot(stddev[i], kFilteredAway * gain[i]);
+    allowForFilter(strut);
   }
 }
 

@@ -22,8 +22,7 @@ std::string describe(const BodyLevel& level);
 /// What a law that was found with one IMU on the body lacks, and what to do.
 inline constexpr const char* kBehindOneImu =
     "Behind one IMU on the body, filtered at 15 Hz, a law comes out rounder (friction as digressive_damping) and up to "
-    "a "
-    "third smaller, and damping/mass larger instead: IMUs at the strut tops tell its numbers better.";
+    "a third smaller, and damping/mass larger instead: IMUs at the strut tops tell its numbers better.";
 
 /// To be added to a reason.
 inline constexpr const char* kWheelsFolded =
