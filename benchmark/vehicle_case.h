@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "vehicle_drive.h"
@@ -65,9 +66,7 @@ inline VehicleDrive Driven::byBodyImu() const {
     layout.struts.push_back({names[i], "/" + names[i], {}, position, {}});
   }
   VehicleDrive drive{StrutDrives(size())};
-  VehicleGrid grid(period(), VehicleStreams(layout), {}, [&](const VehicleSample& sample) {
-    for (std::size_t i = 0; i < size(); ++i) drive.struts[i].samples.push_back(sample.ofStrut(i));
-  });
+  VehicleGrid grid(period(), VehicleStreams(layout), {}, [&](const VehicleSample& sample) { append(sample, drive); });
   constexpr double kGravity = 9.81;  // in the readings of all IMUs
   for (std::size_t k = 0; k < record.wheel.front().size(); ++k) {
     const Stamp stamp = fromSeconds(1.0 + static_cast<double>(k) * period());
@@ -75,7 +74,7 @@ inline VehicleDrive Driven::byBodyImu() const {
     for (std::size_t i = 0; i < size(); ++i) grid.push(1 + i, stamp, {kGravity + record.wheel[i][k]});
   }
   grid.finish();
-  drive.noise = grid.noise();
+  grid.describe(drive);
   return drive;
 }
 

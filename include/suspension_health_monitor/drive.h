@@ -42,6 +42,13 @@ struct BodyMotion {
   std::array<double, 2> angular_rate{};  ///< about x, y [rad/s]; NaN: not measured
 };
 
+/// A low-pass filter that both signals of a drive have passed. The law of a filtered travel is not the filtered law:
+/// models are driven by w'' as it was before, and what they predict passes the same filter.
+struct LowPass {
+  std::vector<double> taps = {};        ///< of an FIR filter that delays nothing: h_-n .. h_n, h_-k = h_k; empty: none
+  std::vector<double> unfiltered = {};  ///< w'' before it [m/s^2], one per sample
+};
+
 /// A recorded drive of one strut: what diagnose(), compare() and identify() work on.
 struct Drive {
   /// Both accelerometers read at the same instants, `sample_period` apart, in the order of time. Where the stamps are
@@ -53,6 +60,7 @@ struct Drive {
   /// What the sensors' noise alone would make of a drive, in any unit; that of the first of several drives is taken for
   /// all. Empty: it is white, and alike in both sensors.
   std::vector<CornerSample> noise = {};
+  LowPass low_pass = {};
 };
 
 /// Why nothing can be said of some drives.

@@ -155,7 +155,7 @@ VehicleSearchTask VehicleNodelet::giveSamples(double window) const {
   if (!pipeline_ || pipeline_->monitor() == nullptr)
     throw std::runtime_error(diagnostics_->whyNoMonitor(pipeline()) + ": drive on");
   VehicleSearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};
-  task.drive.noise = pipeline_->grid()->noise();
+  pipeline_->grid()->describe(task.drive);
   if (task.drive.struts.front().samples.empty()) throw std::runtime_error("there are no samples yet: drive on");
   task.options.sample_period = pipeline_->period();
   task.options.candidates = struts_.front()->model().library();

@@ -34,7 +34,7 @@ void VehiclePipeline::start(double period) {
                 [this](const VehicleSample& sample) { take(sample); });
   const double kept = std::ceil(options_.common.shell.diagnose_window / period) + 1.0;
   const auto capacity = static_cast<std::size_t>(std::min(kept, kMostKept));
-  recent_.assign(settings.size(), RecentSamples(capacity));
+  recent_.assign(settings.size(), Recent<StrutSample>(capacity));
   const std::size_t forces = streams_.channels.known_forces.size();
   if (forces > 0) recent_forces_.emplace(capacity);
   monitor_.emplace(settings, sinks_.report, static_cast<int>(forces));
@@ -64,14 +64,22 @@ void VehiclePipeline::finish() {
 
 void VehiclePipeline::take(const VehicleSample& sample) {
   newest_ = sample.stamp;
-  for (std::size_t i = 0; i < recent_.size(); ++i) recent_[i].push(sample.ofStrut(i));
+  for (std::size_t i = 0; i < recent_.size(); ++i) {
+    StrutSample strut{sample.ofStrut(i), {}};
+    if (sample.unfiltered.size() > 0) strut.unfiltered = sample.unfiltered[static_cast<Eigen::Index>(i)];
+    recent_[i].push(strut);
+  }
   if (recent_forces_) recent_forces_->push({sample.stamp, sample.forces});
   monitor_->addSample(*grid_, sample);
 }
 
 VehicleDrive VehiclePipeline::newestSamples(double span) const {
   VehicleDrive drive{StrutDrives(options_.struts.size())};
-  for (std::size_t i = 0; i < recent_.size(); ++i) drive.struts[i].samples = recent_[i].newest(fromSeconds(span));
+  for (std::size_t i = 0; i < recent_.size(); ++i)
+    for (const StrutSample& sample : recent_[i].newest(fromSeconds(span))) {
+      drive.struts[i].samples.push_back(sample);
+      if (sample.unfiltered) drive.struts[i].low_pass.unfiltered.push_back(*sample.unfiltered);
+    }
   if (!recent_forces_) return drive;
   for (const std::string& name : options_.forceNames()) drive.forces.push_back({name, {}});
   for (const Forces& forces : recent_forces_->newest(fromSeconds(span)))

@@ -58,13 +58,19 @@ class VehiclePipeline {
   /// @return stamp of the newest sample; 0 before the first.
   Stamp newest() const { return newest_; }
 
-  /// @return the samples kept, of diagnose_window, that are at most `span` [s] older than the newest one.
+  /// @return the samples kept, of diagnose_window, that are at most `span` [s] older than the newest one; what they have
+  /// gone through the grid describes.
   VehicleDrive newestSamples(double span) const;
 
   /// @return messages of a sensor that were kept out so far, wherever it was noticed.
   RejectCounts rejected(std::size_t sensor) const;
 
  private:
+  /// One strut's part of a sample.
+  struct StrutSample : CornerSample {
+    std::optional<double> unfiltered;  // LowPass::unfiltered
+  };
+
   /// The known forces of a sample.
   struct Forces {
     Stamp stamp{};
@@ -84,7 +90,7 @@ class VehiclePipeline {
   Stamp newest_{};
   std::optional<VehicleGrid> grid_;
   std::optional<VehicleMonitor> monitor_;
-  std::vector<RecentSamples> recent_;            // by strut
+  std::vector<Recent<StrutSample>> recent_;      // by strut
   std::optional<Recent<Forces>> recent_forces_;  // if there are any
 };
 

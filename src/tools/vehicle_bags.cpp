@@ -8,6 +8,7 @@
 #include "../ros/vehicle_sensors.h"
 #include "errors.h"
 #include "survey.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 
 namespace suspension_health_monitor {
@@ -36,12 +37,6 @@ void place(VehicleLayout& layout, ImuBags bags, const PipelineOptions& options) 
   placeFrames(layout, *first, options.shell, *bags.transforms);
 }
 
-void append(const VehicleSample& sample, VehicleDrive& drive) {
-  for (std::size_t i = 0; i < drive.struts.size(); ++i) drive.struts[i].samples.push_back(sample.ofStrut(i));
-  for (std::size_t k = 0; k < drive.forces.size(); ++k)
-    drive.forces[k].values.push_back(sample.forces[static_cast<Eigen::Index>(k)]);
-}
-
 VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout,
                    const VehicleStreams& streams) {
   const double period = *options.monitor.sample_period;
@@ -57,7 +52,7 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
   };
   readTopics(bag, {take, take});
   grid.finish();
-  read.drive.noise = grid.noise();
+  grid.describe(read.drive);
   read.body_level = grid.bodyLevel();
   read.alignment = grid.streams().describeAlignment();
   for (std::size_t i = 0; i < streams.sensors.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simulated_vehicle.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/vehicle.h"
 
@@ -42,9 +43,7 @@ inline VehicleDrive bodyImuDrive(const Vehicle& vehicle, const VehicleDriveOptio
     layout.struts.push_back(
         {strut.name, "/" + strut.name, {}, {{strut.x - imu.x, strut.y - imu.y, strut.z - imu.z}}, {}});
   VehicleDrive drive{StrutDrives(vehicle.struts.size())};
-  VehicleGrid grid(1.0 / options.rate, VehicleStreams(layout), {}, [&](const VehicleSample& sample) {
-    for (std::size_t i = 0; i < drive.struts.size(); ++i) drive.struts[i].samples.push_back(sample.ofStrut(i));
-  });
+  VehicleGrid grid(1.0 / options.rate, VehicleStreams(layout), {}, [&](const VehicleSample& sample) { append(sample, drive); });
   for (const VehicleInstant& instant : driveVehicle(vehicle, options)) {
     const Eigen::Vector3d &a = instant.body->acceleration, &w = instant.body->angular_rate;
     grid.push(0, instant.stamp, {a[0], a[1], a[2], w[0], w[1], w[2]});
@@ -52,7 +51,7 @@ inline VehicleDrive bodyImuDrive(const Vehicle& vehicle, const VehicleDriveOptio
       grid.push(1 + i, instant.stamp, {instant.struts[i].unsprung->acceleration + options.gravity});
   }
   grid.finish();
-  drive.noise = grid.noise();
+  grid.describe(drive);
   return drive;
 }
 

@@ -3,6 +3,7 @@
 #include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/signal/low_pass.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -16,14 +17,16 @@ double meanResidual(const std::vector<ComparedSegment>& segments) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
+/// @param taps  of the filter that the drive has passed.
 void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
-                     ComparedSegment& segment) {
+                     const std::vector<double>& taps, ComparedSegment& segment) {
   const MotionError wrong = motionError(segment.residuals(), mean, segment.period, model.stiffness_to_mass);
   std::vector<double>& force = segment.missing_force;
   force.resize(segment.size());
   for (std::size_t k = 0; k < segment.size(); ++k)
     force[k] = model.force(segment.travel[k] - wrong.travel[k], segment.travel_rate[k] - wrong.travel_rate[k],
                            segment.timeDriven(k), motion[k].memory.data());
+  passLow(taps, force);
   for (const ActiveMeasurementEffect& reading : model.reading)
     reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, force);
   for (std::size_t k = 0; k < segment.size(); ++k) force[k] = segment.measured[k] - force[k];
@@ -46,6 +49,7 @@ ComparedSegment makeSegment(const StrutModel& model, const DriveSegment& source,
         model.force(state.travel, state.travel_rate, segment.timeDriven(k), state.memory.data()) -
         model.damping_to_mass * state.travel_rate - model.stiffness_to_mass * state.travel);
   }
+  passLow(source.taps, segment.added_force);
   return segment;
 }
 
@@ -71,7 +75,9 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
       segments.back().predicted = std::move(predicted);
     }
   const double mean = meanResidual(segments);
-  for (std::size_t i = 0; i < segments.size(); ++i) addMissingForce(model, motion[i], mean, segments[i]);
+  const std::vector<const DriveSegment*> sources = segmentsOf(records);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
   return drives;
 }
 

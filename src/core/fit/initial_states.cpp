@@ -20,12 +20,13 @@ DriveSegment beginning(const DriveSegment& segment, const StrutModel& model) {
   const double root = std::sqrt(std::max(0.0, half * half - model.stiffness_to_mass));
   const double samples = std::ceil(kTimeConstants / (half - root) / segment.period);
   const auto kept = static_cast<std::size_t>(std::clamp(samples, 8.0, static_cast<double>(segment.size())));
-  const std::size_t steps = (kept - 1) * static_cast<std::size_t>(segment.steps);
+  const std::size_t steps = (kept - 1 + 2 * segment.lead()) * static_cast<std::size_t>(segment.steps);
   DriveSegment head;
   head.start = segment.start;
   head.driven_before = segment.driven_before;
   head.period = segment.period;
   head.steps = segment.steps;
+  head.taps = segment.taps;
   head.sprung.assign(segment.sprung.begin(), segment.sprung.begin() + static_cast<std::ptrdiff_t>(kept));
   head.wheel.assign(segment.wheel.begin(), segment.wheel.begin() + static_cast<std::ptrdiff_t>(steps));
   return head;

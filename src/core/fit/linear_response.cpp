@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/signal/low_pass.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -54,11 +55,13 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
     runFree(force, *segment, fit.initial[ends_.size()], predicted, &states);
     predicted_.insert(predicted_.end(), predicted.begin(), predicted.end());
     for (std::size_t k = 0; k < states.size(); ++k) {
-      motion_.push_back({states[k].travel, states[k].travel_rate, segment->timeDriven(k), 0.0, predicted[k]});
+      const double time = segment->timeDriven(k);
+      motion_.push_back({states[k].travel, states[k].travel_rate, time, 0.0,
+                         force.force(states[k].travel, states[k].travel_rate, time, states[k].memory.data())});
       memory.push_back(states[k].memory);
     }
     ends_.push_back(motion_.size());
-    bodies_.push_back(&segment->body);
+    segments_.push_back(segment);
   }
   measureSizes();
   travel_ = rms(motion_, &StrutMotion::travel);
@@ -83,8 +86,8 @@ void LinearResponse::measureSizes() {
   sizes_.period = period_;
   for (std::size_t c = 0; c < kNumBodyChannels; ++c) {
     double sum = 0.0;
-    for (const BodyChannels* body : bodies_)
-      for (const double value : (*body)[c]) sum += square(value);
+    for (const DriveSegment* segment : segments_)
+      for (const double value : segment->body[c]) sum += square(value);
     sizes_.body[c] = std::sqrt(sum / count);
   }
 }
@@ -110,9 +113,10 @@ Eigen::VectorXd LinearResponse::respond(const Eigen::VectorXd& force) const {
   Eigen::VectorXd response(numSamples());
   const double half = period_ / 2.0;
   std::size_t k = 0;
-  for (const std::size_t end : ends_) {
+  for (const DriveSegment* segment : segments_) {
     double x = 0.0, rate = 0.0;
-    for (const std::size_t begin = k; k < end; ++k) {
+    const std::size_t begin = k, end = begin + segment->size();
+    for (; k < end; ++k) {
       const double f = force[static_cast<Eigen::Index>(k)];
       if (k > begin) {
         // x1 = x + half (rate + rate1), rate1 = rate + half (acceleration + acceleration1)
@@ -124,6 +128,8 @@ Eigen::VectorXd LinearResponse::respond(const Eigen::VectorXd& force) const {
       }
       response[static_cast<Eigen::Index>(k)] = slope_travel_[k] * x + slope_rate_[k] * rate + f;
     }
+    auto passed = response.segment(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin));
+    passed = lowPassed(segment->taps, passed);
   }
   return response;
 }
@@ -141,9 +147,9 @@ Eigen::MatrixXd LinearResponse::readingSlopes(const MeasurementEffect& effect) c
                                  predicted_.begin() + static_cast<std::ptrdiff_t>(ends_[s]));
       std::vector<double> after = before;
       coefficients[static_cast<std::size_t>(i)] = -step;
-      effect.apply(coefficients.data(), *bodies_[s], period_, before);
+      effect.apply(coefficients.data(), segments_[s]->body, period_, before);
       coefficients[static_cast<std::size_t>(i)] = step;
-      effect.apply(coefficients.data(), *bodies_[s], period_, after);
+      effect.apply(coefficients.data(), segments_[s]->body, period_, after);
       for (std::size_t k = 0; k < after.size(); ++k)
         slopes(static_cast<Eigen::Index>(begin + k), i) = (after[k] - before[k]) / (2.0 * step);
       begin = ends_[s];

@@ -11,6 +11,7 @@
 #include "parameterization.h"
 #include "segment_cost.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
+#include "suspension_health_monitor/internal/signal/low_pass.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -118,14 +119,25 @@ bool addResiduals(const DriveSegment& segment, const StrutState& state, ModelFit
   return true;
 }
 
+template <class Value>
+void cutEnds(std::size_t count, std::vector<Value>& values) {
+  values.resize(values.size() - count);
+  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
 }  // namespace
 
 bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState state, std::vector<double>& predicted,
              std::vector<StrutState>* motion) {
   double largest = 0.0;
   for (const double y : segment.sprung) largest = std::max(largest, std::abs(y));
-  const RecordedWheel wheel{segment.wheel, segment.timeDriven(0), segment.period, segment.steps, segment.size()};
+  const std::size_t lead = segment.lead();
+  const RecordedWheel wheel{segment.wheel, segment.timeDriven(0) - static_cast<double>(lead) * segment.period,
+                            segment.period, segment.steps, segment.size() + 2 * lead};
   if (!FreeRun::follow(model, wheel, state, kRunaway * largest, predicted, motion)) return false;
+  passLow(segment.taps, predicted);
+  cutEnds(lead, predicted);
+  if (motion != nullptr) cutEnds(lead, *motion);
   for (const ActiveMeasurementEffect& reading : model.reading)
     reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, predicted);
   return true;

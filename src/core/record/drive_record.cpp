@@ -17,12 +17,13 @@ constexpr std::size_t kShortestSegment = 32;
 /// An uninterrupted part of a drive, as it was measured.
 struct DriveRecord::Stretch {
   double start = 0.0;  // [s]
-  std::vector<double> sprung, wheel;
+  std::vector<double> sprung, wheel, driving;
   std::vector<Stamp> stamps;
 
   void cut(std::size_t size) {
     sprung.resize(size);
     wheel.resize(size);
+    driving.resize(size);
     stamps.resize(size);
   }
 };
@@ -31,7 +32,8 @@ std::vector<DriveRecord::Stretch> DriveRecord::stretchesOf(const Drive& drive, d
   std::vector<Stretch> stretches;
   int sprung_repeats = 0, wheel_repeats = 0;  // of the last reading
   const CornerSample* last = nullptr;
-  for (const CornerSample& sample : drive.samples) {
+  for (std::size_t k = 0; k < drive.samples.size(); ++k) {
+    const CornerSample& sample = drive.samples[k];
     const Continuity follows =
         last == nullptr ? Continuity::kGap : continuity(sample.stamp - last->stamp, fromSeconds(period));
     if (follows == Continuity::kTooSoon) continue;
@@ -48,6 +50,7 @@ std::vector<DriveRecord::Stretch> DriveRecord::stretchesOf(const Drive& drive, d
       if (stretch.wheel.empty()) stretch.start = toSeconds(sample.stamp - drive.samples.front().stamp);
       stretch.sprung.push_back(sample.sprung_acceleration);
       stretch.wheel.push_back(sample.unsprung_acceleration);
+      stretch.driving.push_back(drive.low_pass.taps.empty() ? stretch.wheel.back() : drive.low_pass.unfiltered[k]);
       stretch.stamps.push_back(sample.stamp);
     } else if (!stretch.wheel.empty()) {  // the readings that turn out to be stuck are in it already
       stretch.cut(stretch.wheel.size() - std::min<std::size_t>(stretch.wheel.size(), kStuckRepeats));
@@ -66,34 +69,37 @@ DriveRecord::DriveRecord(const Drive& drive, double period, int steps, double dr
     count += static_cast<double>(stretch.wheel.size());
   }
   mean_wheel_ = count > 0.0 ? sum / count : 0.0;
-  for (const Stretch& stretch : stretches) addSegment(stretch);
+  for (const Stretch& stretch : stretches) addSegment(stretch, drive.low_pass.taps);
   for (DriveSegment& segment : segments_) segment.driven_before = driven_before;
   addBodyChannels(drive.body, segments_);
 }
 
-void DriveRecord::addSegment(const Stretch& stretch) {
+void DriveRecord::addSegment(const Stretch& stretch, const std::vector<double>& taps) {
   constexpr std::size_t kEnd = BandlimitedInterpolator::kHalfWidth;
-  if (stretch.wheel.size() < 2 * kEnd + kShortestSegment) return;
-  std::vector<double> wheel = stretch.wheel;
-  for (double& w : wheel) w -= mean_wheel_;
+  const std::size_t lead = taps.size() / 2;
+  if (stretch.wheel.size() < 2 * (kEnd + lead) + kShortestSegment) return;
+  std::vector<double> driving = stretch.driving;
+  for (double& w : driving) w -= mean_wheel_;
   std::vector<WheelInterpolator> interpolators;
   for (int step = 0; step < steps_; ++step)
     interpolators.emplace_back(static_cast<double>(step) / steps_, (step + 1.0) / steps_, period_);
 
   DriveSegment segment;
-  segment.start = stretch.start + static_cast<double>(kEnd) * period_;
+  const std::size_t first = kEnd + lead, last = driving.size() - 1 - kEnd;
+  segment.start = stretch.start + static_cast<double>(first) * period_;
   segment.period = period_;
   segment.steps = steps_;
-  const std::size_t last = wheel.size() - 1 - kEnd;
-  for (std::size_t k = kEnd; k <= last; ++k) {
+  segment.taps = taps;
+  for (std::size_t k = first; k <= last - lead; ++k) {
     segment.sprung.push_back(stretch.sprung[k] - mean_wheel_);
     segment.body[static_cast<std::size_t>(BodyChannel::kGravity)].push_back(mean_wheel_);
     segment.stamps.push_back(stretch.stamps[k]);
-    segment.unsprung.push_back(wheel[k]);
-    if (k < last)
-      for (const WheelInterpolator& interpolate : interpolators)
-        segment.wheel.push_back(interpolate(&wheel[k + 1 - kEnd]));
+    segment.unsprung.push_back(stretch.wheel[k] - mean_wheel_);
+    segment.driving.push_back(driving[k]);
   }
+  for (std::size_t k = kEnd; k < last; ++k)
+    for (const WheelInterpolator& interpolate : interpolators)
+      segment.wheel.push_back(interpolate(&driving[k + 1 - kEnd]));
   segments_.push_back(std::move(segment));
 }
 

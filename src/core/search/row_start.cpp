@@ -8,6 +8,7 @@
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/rough_model.h"
 #include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/signal/low_pass.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -44,7 +45,7 @@ RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelF
   double travel = 0.0, rate = 0.0;
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const DriveSegment& segment = *segments[s];
-    std::vector<double> relative = segment.unsprung;
+    std::vector<double> relative = segment.driving;
     for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment.sprung[k];
     const MotionError motion = motionError(relative, mean(relative), segment.period, b0);
     const auto length =
@@ -53,11 +54,13 @@ RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelF
       for (std::size_t k = first; k < end; ++k) {
         motion_.push_back({motion.travel[k], motion.travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});
         measured.push_back(segment.sprung[k]);
-        weight.push_back(held_out.training[s][k]);
+        const bool is_whole = k >= first + segment.lead() && k + segment.lead() < end;  // what the filter reaches
+        weight.push_back(is_whole ? held_out.training[s][k] : 0.0);
         travel += square(motion.travel[k]);
         rate += square(motion.travel_rate[k]);
       }
       ends_.push_back(motion_.size());
+      taps_.push_back(segment.taps);
     }
   }
   const auto count = static_cast<Eigen::Index>(motion_.size());
@@ -71,15 +74,27 @@ RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelF
   }
   for (std::size_t j = 0; j < effects.size(); ++j)
     common.col(2 + static_cast<Eigen::Index>(j)) = forceAlong(effects[j].effect, effects[j].shapes, motion_, ends_);
+  for (Eigen::Index j = 0; j < common.cols(); ++j) passLow(common.col(j));
   rows_ = WeightedProjection(common, Eigen::Map<const Eigen::VectorXd>(weight.data(), count),
                              Eigen::Map<const Eigen::VectorXd>(measured.data(), count));
+}
+
+void RowStart::passLow(Eigen::Ref<Eigen::VectorXd> column) const {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    auto stretch = column.segment(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(ends_[i] - begin));
+    stretch = lowPassed(taps_[i], stretch);
+    begin = ends_[i];
+  }
 }
 
 std::optional<RowStart::Start> RowStart::with(const ForceEffect& effect) const {
   std::optional<Start> best;
   const double left = rows_.left();
   for (const std::vector<double>& shapes : scanShapes(effect, scale_)) {
-    const auto part = rows_.project(forceAlong(effect, shapes, motion_, ends_));
+    Eigen::VectorXd column = forceAlong(effect, shapes, motion_, ends_);
+    passLow(column);
+    const auto part = rows_.project(column);
     if (!part) continue;
     const double coefficient = part->coefficients[0], share = part->gain / left;
     if (!(share > (best ? best->share : 0.0)) || (effect.positive && !(coefficient > 0.0))) continue;

@@ -63,7 +63,7 @@ MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t diffe
       flat_(std::min(kBand, kWidestFlat / toSeconds(period))),
       delay_(static_cast<int>(std::ceil(kShortest * kWidestFlat / (flat_ * toSeconds(period)) - 1e-9))),
       num_taps_(static_cast<std::size_t>(2 * delay_ + 1)),
-      instant_{{}, std::vector<double>(filtered), std::vector<double>(differentiated)},
+      instant_{{}, std::vector<double>(filtered), std::vector<double>(differentiated), std::vector<double>(filtered)},
       history_(2 * num_taps_ * (filtered + differentiated)),
       stamps_(num_taps_),
       newest_(num_taps_ - 1) {
@@ -90,7 +90,10 @@ const MotionFilter::Instant* MotionFilter::push(Stamp stamp, const std::vector<d
     return Eigen::Map<const Eigen::VectorXd>(&history_[signal * 2 * num_taps_ + newest_ + 1], value_.size());
   };
   const std::size_t filtered = instant_.values.size();
-  for (std::size_t i = 0; i < filtered; ++i) instant_.values[i] = value_.dot(windowOf(i));
+  for (std::size_t i = 0; i < filtered; ++i) {
+    instant_.values[i] = value_.dot(windowOf(i));
+    instant_.unfiltered[i] = windowOf(i)[delay_];
+  }
   for (std::size_t i = 0; i < instant_.rates.size(); ++i) instant_.rates[i] = rate_.dot(windowOf(filtered + i));
   instant_.stamp = stamps_[(newest_ + 1 + static_cast<std::size_t>(delay_)) % num_taps_];
   return &instant_;

@@ -62,7 +62,9 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   const StrutVector neighbours = weights_.neighbours(moving, forces, modelled + by_bars) + by_bars;
   const StrutVector unseen = weights_.leaked(stiffness.cwiseProduct(slow) + slow_by_bars) + slow_by_bars;
   out_.sprung -= neighbours;
-  out_.unsprung -= neighbours - unseen.cwiseQuotient(stiffness);
+  const StrutVector by_others = neighbours - unseen.cwiseQuotient(stiffness);
+  out_.unsprung -= by_others;
+  if (out_.unfiltered.size() > 0) out_.unfiltered -= by_others;
   return &out_;
 }
 

@@ -54,15 +54,28 @@ std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
 VehicleSample sampleOf(const VehicleDrive& drive, std::size_t k) {
   const auto n = static_cast<Eigen::Index>(drive.struts.size());
   VehicleSample sample{drive.struts.front().samples[k].stamp, StrutVector(n), StrutVector(n),
-                       ForceVector(static_cast<Eigen::Index>(drive.forces.size()))};
+                       ForceVector(static_cast<Eigen::Index>(drive.forces.size())),
+                       StrutVector(drive.struts.front().low_pass.unfiltered.empty() ? 0 : n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const CornerSample& strut = drive.struts[static_cast<std::size_t>(i)].samples[k];
     sample.sprung[i] = strut.sprung_acceleration;
     sample.unsprung[i] = strut.unsprung_acceleration;
+    if (sample.unfiltered.size() > 0)
+      sample.unfiltered[i] = drive.struts[static_cast<std::size_t>(i)].low_pass.unfiltered[k];
   }
   for (Eigen::Index i = 0; i < sample.forces.size(); ++i)
     sample.forces[i] = drive.forces[static_cast<std::size_t>(i)].values[k];
   return sample;
+}
+
+void append(const VehicleSample& sample, VehicleDrive& drive) {
+  for (std::size_t i = 0; i < drive.struts.size(); ++i) {
+    drive.struts[i].samples.push_back(sample.ofStrut(i));
+    if (sample.unfiltered.size() > 0)
+      drive.struts[i].low_pass.unfiltered.push_back(sample.unfiltered[static_cast<Eigen::Index>(i)]);
+  }
+  for (std::size_t k = 0; k < drive.forces.size(); ++k)
+    drive.forces[k].values.push_back(sample.forces[static_cast<Eigen::Index>(k)]);
 }
 
 std::vector<std::string> forceNames(const VehicleDrive& drive) {
@@ -101,15 +114,15 @@ CouplingEstimate coupleStruts(const std::vector<VehicleDrive>& drives, double pe
 StrutDrives separateStruts(const VehicleDrive& drive, double period, const Coupling& coupling,
                            const std::vector<StrutModel>& models) {
   Decoupler decoupler(period, coupling, models);
-  StrutDrives separated(drive.struts.size());
+  VehicleDrive separated{StrutDrives(drive.struts.size())};
+  for (std::size_t i = 0; i < drive.struts.size(); ++i)
+    separated.struts[i].low_pass.taps = drive.struts[i].low_pass.taps;
   replay(
       drive, period, [&] { decoupler.startNewSeries(); },
       [&](const VehicleSample& sample) {
-        const VehicleSample* own = decoupler.push(sample);
-        for (std::size_t i = 0; own != nullptr && i < separated.size(); ++i)
-          separated[i].samples.push_back(own->ofStrut(i));
+        if (const VehicleSample* own = decoupler.push(sample)) append(*own, separated);
       });
-  return separated;
+  return separated.struts;
 }
 
 // Known forces have none.

@@ -100,11 +100,11 @@ Weights weightsOf(std::size_t strut, std::size_t num_struts, const Covariances& 
 }
 
 /// @return the samples of which all is known that the others tell of their noise, without it.
-std::vector<CornerSample> without(const Weights& weights, std::size_t strut, const std::vector<CornerSample>& samples,
-                                  const std::vector<Left>& left) {
+Drive without(const Weights& weights, std::size_t strut, const Drive& drive, const std::vector<Left>& left) {
   const Eigen::Index reach = weights.rows() / 2;
-  std::vector<CornerSample> cleaned;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
+  Drive cleaned;
+  cleaned.low_pass.taps = drive.low_pass.taps;
+  for (std::size_t k = 0; k < drive.samples.size(); ++k) {
     double told = 0.0;
     bool is_known = true;
     Eigen::Index column = 0;
@@ -115,8 +115,9 @@ std::vector<CornerSample> without(const Weights& weights, std::size_t strut, con
         told += weights.col(column++).dot(left[j].values.segment(static_cast<Eigen::Index>(k) - reach, weights.rows()));
     }
     if (!is_known) continue;
-    cleaned.push_back(samples[k]);
-    cleaned.back().sprung_acceleration -= told;
+    cleaned.samples.push_back(drive.samples[k]);
+    cleaned.samples.back().sprung_acceleration -= told;
+    if (!drive.low_pass.unfiltered.empty()) cleaned.low_pass.unfiltered.push_back(drive.low_pass.unfiltered[k]);
   }
   return cleaned;
 }
@@ -137,8 +138,8 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
   for (std::size_t i = 0; i < noise.size(); ++i) {
     const Weights weights = weightsOf(i, noise.size(), covariance, reach);
     for (std::size_t d = 0; d < drives.size(); ++d)
-      drives[d][i].samples = without(weights, i, drives[d][i].samples, of_drives[d]);
-    noise[i].samples = without(weights, i, noise[i].samples, of_noise);
+      drives[d][i] = without(weights, i, drives[d][i], of_drives[d]);
+    noise[i] = without(weights, i, noise[i], of_noise);
   }
 }
 

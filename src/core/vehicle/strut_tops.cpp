@@ -34,7 +34,8 @@ StrutTops::StrutTops(Stamp period, const VehicleChannels& channels) : channels_(
   sample_ = {{},
              StrutVector::Zero(number),
              StrutVector::Zero(number),
-             ForceVector::Zero(static_cast<Eigen::Index>(channels_.known_forces.size()))};
+             ForceVector::Zero(static_cast<Eigen::Index>(channels_.known_forces.size())),
+             StrutVector::Zero(filter_ ? number : 0)};
 }
 
 const VehicleSample* StrutTops::push(const GridInstant& instant) {
@@ -48,6 +49,11 @@ const VehicleSample* StrutTops::push(const GridInstant& instant) {
   if (filtered == nullptr) return nullptr;
   sample_.stamp = filtered->stamp;
   spread(filtered->values, filtered->rates);
+  auto wheel = filtered->unfiltered.begin();
+  for (std::size_t i = 0; i < channels_.struts.size(); ++i) {
+    sample_.unfiltered[static_cast<Eigen::Index>(i)] = *wheel;
+    wheel += channels_.struts[i].sprung ? 2 : 1;
+  }
   return &sample_;
 }
 
@@ -87,6 +93,11 @@ void StrutTops::spread(const std::vector<double>& values, const std::vector<doub
     if (!strut.sprung) sample_.sprung[i] = upward + rates[0] * r.y() - rates[1] * r.x() + products.dot(r);
     ++i;
   }
+}
+
+std::vector<double> StrutTops::lowPass() const {
+  if (!filter_) return {};
+  return {filter_->lowPass().data(), filter_->lowPass().data() + filter_->lowPass().size()};
 }
 
 void StrutTops::reset() {

@@ -89,6 +89,11 @@ SensorNoise VehicleGrid::noise() const {
   return noiseOfStrutTops(vehicle_, period_, hasHeardNoise() ? deviation(3) / deviation(0) : kUsualGyroNoise);
 }
 
+void VehicleGrid::describe(VehicleDrive& drive) const {
+  drive.noise = noise();
+  for (Drive& strut : drive.struts) strut.low_pass.taps = tops_.lowPass();
+}
+
 Eigen::Vector2d VehicleGrid::stampErrors(std::size_t strut) const {
   const VehicleChannels::Strut& streams = vehicle_.struts[strut];
   const std::size_t top = streams.sprung ? *streams.sprung : *vehicle_.body_imu;

@@ -14,7 +14,7 @@ Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>&
                            const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends);
 
 /// What a small additional force would do to a free run: the model linearised along the motion that a fit gave it.
-///   x'' = -(F_d x + F_v x' + f),   change of z'' = F_d x + F_v x' + f,
+///   x'' = -(F_d x + F_v x' + f),   change of z'' = F_d x + F_v x' + f, behind the filter of the drive, if it has one,
 /// x the change of travel, F_d and F_v the slopes of the model's force there, f the additional force per unit mass.
 /// A few operations per sample instead of a nonlinear fit: for screening many candidates.
 ///
@@ -55,8 +55,8 @@ class LinearResponse {
   std::vector<double> predicted_;
   std::vector<double> slope_travel_, slope_rate_;  // F_d [1/s^2], F_v [1/s]
   std::vector<std::size_t> ends_;
-  std::vector<const BodyChannels*> bodies_;  // by segment
-  ReadingSizes sizes_;                       // of what is predicted
+  std::vector<const DriveSegment*> segments_;
+  ReadingSizes sizes_;  // of what is predicted
 };
 
 }  // namespace suspension_health_monitor

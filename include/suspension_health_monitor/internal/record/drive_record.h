@@ -17,11 +17,18 @@ struct DriveSegment {
   int steps = 1;                 ///< integration steps per sample
   std::vector<double> sprung;    ///< z'' less the drive's mean w'' [m/s^2], one per sample
   std::vector<double> unsprung;  ///< w'' less its mean [m/s^2], one per sample
-  std::vector<WheelStep> wheel;  ///< what the wheel does, one per integration step
+  /// w'' as it drives a model, before what both signals may have been filtered by; and what the wheel does by it, one
+  /// per integration step from lead() samples before the first sample to as many after the last.
+  std::vector<double> driving;
+  std::vector<WheelStep> wheel;
+  std::vector<double> taps;      ///< of the filter that predictions are to pass (LowPass)
   std::vector<Stamp> stamps;     ///< one per sample
   BodyChannels body;             ///< what else the body's IMU measured; empty: not measured, or it never changes
 
   std::size_t size() const { return sprung.size(); }
+
+  /// @return samples that the filter reaches to either side.
+  std::size_t lead() const { return taps.size() / 2; }
 
   /// @return since the start of the drive [s].
   double time(std::size_t sample) const { return start + static_cast<double>(sample) * period; }
@@ -35,7 +42,7 @@ struct DriveSegment {
 /// The mean of w'' is taken off both signals: a vehicle stays where it is, so this is gravity and the offset of the
 /// wheel's sensor; what the body's sensor has besides stays.
 /// A stretch ends at a gap, and where a sensor repeats one value: a reading that is stuck or lost.
-/// Samples at the ends of a stretch that the interpolation of w'' needs are not part of it.
+/// Samples at the ends of a stretch that the interpolation of w'' and a filter need are not part of it.
 /// The body's motion comes to the samples by linear interpolation between its messages. Accelerations lose their mean
 /// over the drive. Angular rates are differentiated by the slope of a cubic through the neighbours (least squares), of
 /// 2 to 12 on either side: as few as the noise of the rate allows.
@@ -56,7 +63,7 @@ class DriveRecord {
   struct Stretch;
 
   static std::vector<Stretch> stretchesOf(const Drive& drive, double period);
-  void addSegment(const Stretch& stretch);
+  void addSegment(const Stretch& stretch, const std::vector<double>& taps);
 
   double period_;
   int steps_;

@@ -35,8 +35,9 @@ class MotionFilter {
 
   struct Instant {
     Stamp stamp{};
-    std::vector<double> values;  ///< of the filtered signals
-    std::vector<double> rates;   ///< of the differentiated ones, per s
+    std::vector<double> values;      ///< of the filtered signals
+    std::vector<double> rates;       ///< of the differentiated ones, per s
+    std::vector<double> unfiltered;  ///< the signals to filter as they were at this instant
   };
 
   /// Takes in the next sample of all signals. One that follows less than half a period after the one before is left
@@ -48,6 +49,7 @@ class MotionFilter {
   void reset() { samples_ = 0; }
 
   int delay() const { return delay_; }   ///< samples; so late is an instant
+  const Eigen::VectorXd& lowPass() const { return value_; }  ///< taps of H, 2 delay() + 1
   double flat() const { return flat_; }  ///< [Hz]
   double stop() const;                   ///< [Hz]
 

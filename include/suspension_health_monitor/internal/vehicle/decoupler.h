@@ -19,7 +19,8 @@ namespace suspension_health_monitor {
 /// The models of the neighbours see their travel by a TravelObserver, and with it everything is late by delay(). What
 /// is slower than that observes, E of n_i, is not seen. A strut passes it nearly as it is, S = G W with G near 1: what
 /// it leaves, (1 - G) E = G E'' / (b1 s + b0), is that of a wheel which moves by E'' / b0, and E'' needs no travel,
-/// only the slow part of u_j. Cost per sample: O(N^2), no allocation.
+/// only the slow part of u_j. What wheels do before a filter loses the same n_i: a body moves little above the filter.
+/// Cost per sample: O(N^2), no allocation.
 class Decoupler {
  public:
   /// @param period  T [s].  @param models  of the struts, b0 > 0: as they show in others.

@@ -10,6 +10,9 @@ namespace suspension_health_monitor {
 /// @return what all accelerometers of a recorded drive read at its k-th instant, and its known forces.
 VehicleSample sampleOf(const VehicleDrive& drive, std::size_t k);
 
+/// Writes it down as the next one of a drive, which has its struts and known forces.
+void append(const VehicleSample& sample, VehicleDrive& drive);
+
 /// @param names  of the struts.  @param forces  names of the known forces.
 /// @return an estimate as users see it.
 VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std::string>& names,

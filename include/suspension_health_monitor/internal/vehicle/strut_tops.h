@@ -35,7 +35,8 @@ struct VehicleChannels {
 /// Gravity in a belongs to z_i'' as it would in the reading of an IMU there.
 ///
 /// alpha comes from a MotionFilter, and everything else passes the same low-pass filter, the products of the angular
-/// rates after they have been formed: then all of them are still those of one motion. Where no strut needs the body's
+/// rates after they have been formed: then all of them are still those of one motion. What the wheels do is known
+/// beside it as it was, for models whose laws are not linear. Where no strut needs the body's
 /// IMU nothing is filtered or late. Cost per instant: O(struts), no allocation.
 class StrutTops {
  public:
@@ -50,6 +51,9 @@ class StrutTops {
 
   /// @return samples by which a sample is late.
   int delay() const { return filter_ ? filter_->delay() : 0; }
+
+  /// @return taps of the low-pass filter that samples have passed; none: nothing is filtered.
+  std::vector<double> lowPass() const;
 
   void reset();
 

@@ -57,6 +57,9 @@ class VehicleGrid {
   /// known by what is usual. Allocates.
   SensorNoise noise() const;
 
+  /// Writes down what the samples of a drive have gone through: noise() and the taps of their filter.
+  void describe(VehicleDrive& drive) const;
+
   /// @return instants of the grid so far.
   std::uint64_t numInstants() const { return num_instants_; }
 

@@ -33,6 +33,8 @@ struct VehicleSample {
   StrutVector sprung;    ///< z_i'' [m/s^2] of the body at the top of strut i
   StrutVector unsprung;  ///< w_i'' [m/s^2] of its wheel carrier
   ForceVector forces;    ///< known forces, in any unit
+  /// w_i'' before the low-pass filter that everything else here has passed [m/s^2]; empty: nothing has been filtered.
+  StrutVector unfiltered{};
 
   /// @return what the two accelerometers of strut i read.
   CornerSample ofStrut(std::size_t i) const {
