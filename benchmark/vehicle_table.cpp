@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,26 @@ void printTwo(const char* kind, unsigned seed, const Measured& how) {
               other.name, driven.names[second].c_str(), found.summary.c_str());
 }
 
+/// @return rms error of the force that a model has for strut `at`, over that of the force which is hidden there, along
+/// normal motion of the drive's size [%]; nan for a law with memory, whose force depends on what was before.
+double forceError(const Driven& driven, std::size_t at, const StrutModel& model) {
+  for (const ActiveEffect& active : model.effects)
+    if (active.effect.memory_rate) return std::nan("");
+  const double mobility = driven.vehicle.mobility(at, at);
+  const std::vector<double> memory(model.effects.size());
+  double error = 0.0, size = 0.0;
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 20000; ++i) {
+    const double travel = driven.record.travel[at] * normal(random), rate = driven.record.travel_rate[at] * normal(random);
+    const double hidden = mobility * driven.options.hidden[at](travel, rate, 0.0);
+    const double truth = driven.vehicle.b1(at) * rate + driven.vehicle.b0(at) * travel + hidden;
+    error += std::pow(model.force(travel, rate, 0.0, memory.data()) - truth, 2);
+    size += hidden * hidden;
+  }
+  return 100.0 * std::sqrt(error / size);
+}
+
 void printEffect(const char* kind, unsigned seed, const Measured& how) {
   Driven driven = prepared(kind, seed, how);
   drive(driven);
@@ -85,7 +106,8 @@ void printEffect(const char* kind, unsigned seed, const Measured& how) {
   hide(driven, law, at);
   drive(driven);
   const VehicleDiagnosis found = diagnoseVehicle({driven.asMeasured()}, driven.names);
-  std::printf("%-6s %3u  %-18s in %-7s  %s\n", kind, seed, law.name, driven.names[at].c_str(), found.summary.c_str());
+  std::printf("%-6s %3u  %-18s in %-7s  %7.1f  %s\n", kind, seed, law.name, driven.names[at].c_str(),
+              forceError(driven, at, found.struts[at].model()), found.summary.c_str());
 }
 
 // @return largest error of LA in any strut, of b1 and b0 alike [%].
@@ -230,7 +252,7 @@ struct Table {
 constexpr std::array kTables{
     Table{"linear", "kind  seed  b1 off %  b0 off %  inside  rmse/floor  verdict", printLinear},
     Table{"coupling", "kind  seed  ratio off  mean square  condition", printCoupling},
-    Table{"effect", "kind  seed  hidden                           verdict", printEffect},
+    Table{"effect", "kind  seed  hidden                         error %  verdict", printEffect},
     Table{"two", "kind  seed  hidden                        and                            verdict", printTwo},
     Table{"bar", "kind  seed  stiffness off %  verdict", printBar},
     Table{"force", "kind  seed   known %  unknown %  coeff. off %  hidden                         verdict", printForce},

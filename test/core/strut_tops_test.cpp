@@ -161,6 +161,30 @@ TEST(StrutTops, OfOneMotionAgreeHoweverTheyAreMeasuredUpToHalfTheSamplingRate) {
   }
 }
 
+// Own IMUs' readings lie between the wheels': whose is whose is told by the streams.
+TEST(StrutTops, KnowWhatWheelsDidBeforeTheFilter) {
+  VehicleChannels channels;
+  channels.body_imu = 0;
+  channels.struts = {{6, {}, Vector3d(1.0, 0.0, 0.0)}, {7, 9, Vector3d::Zero()}, {8, {}, Vector3d(-1.0, 0.0, 0.0)}};
+  StrutTops tops(kPeriod, channels);
+  const auto wheel = [](int strut, int k) { return strut + (k % 2 == 0 ? 0.5 : -0.5); };
+  int instants = 0;
+  for (int k = 0; k < 100; ++k) {
+    const VehicleSample* instant = tops.push(instantOf({0.0, 0.0, kGravity}, Vector3d::Zero(),
+                                                       {wheel(1, k), wheel(2, k), wheel(3, k), kGravity}, k));
+    if (instant == nullptr) continue;
+    ++instants;
+    ASSERT_EQ(instant->unfiltered.size(), 3);
+    const int then = static_cast<int>(instant->stamp / kPeriod);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(instant->unfiltered[i], wheel(i + 1, then));
+      EXPECT_NEAR(instant->unsprung[i], i + 1.0, 1e-3);  // nothing of half the sampling rate passes
+    }
+  }
+  EXPECT_GT(instants, 10);
+  EXPECT_EQ(tops.lowPass().size(), static_cast<std::size_t>(2 * tops.delay() + 1));
+}
+
 TEST(StrutTops, AreTheReadingsThemselvesWhereEveryStrutHasItsOwn) {
   VehicleChannels channels;
   channels.struts = {ownImu(0, 1), ownImu(2, 3)};
@@ -172,6 +196,8 @@ TEST(StrutTops, AreTheReadingsThemselvesWhereEveryStrutHasItsOwn) {
   EXPECT_EQ(tops.delay(), 0);
   EXPECT_EQ(instant->stamp, Stamp(7));
   EXPECT_EQ(instant->unsprung, Eigen::Vector2d(1.0, 3.0));
+  EXPECT_EQ(instant->unfiltered.size(), 0);
+  EXPECT_TRUE(tops.lowPass().empty());
   EXPECT_EQ(instant->sprung, Eigen::Vector2d(2.0, 4.0));
   ASSERT_EQ(instant->forces.size(), 1);
   EXPECT_EQ(instant->forces[0], 5.0);

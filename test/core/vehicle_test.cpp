@@ -117,8 +117,8 @@ TEST(DiagnosedVehicle, NamesAnEffectThatOneBodyImuTells) {
   }
   ASSERT_TRUE(found.struts[2].final_fit);
   const FittedModel& fit = *found.struts[2].final_fit;
-  EXPECT_NEAR(fit.model.effects.front().coefficient, 12.0, 2.0 * fit.stddev[2]) << fit.stddev[2];
-  EXPECT_NE(found.struts[2].suggested_drive.find("IMUs at the strut tops"), std::string::npos);
+  EXPECT_NEAR(fit.model.effects.front().coefficient, 12.0, 3.0 * fit.stddev[2]) << fit.stddev[2];
+  EXPECT_LT(fit.stddev[2], 0.1 * 12.0);
 }
 
 // A model of another day, of a damper that has lost a third since: its strut's neighbours lack nothing.

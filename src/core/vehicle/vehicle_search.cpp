@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,36 +14,8 @@ namespace {
 // A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
 constexpr double kWorthNaming = 0.02;
 
-// Signals from one IMU on the body end at 15 Hz (MotionFilter). The law of a filtered travel is not the filtered law:
-// it is rounder, and 10 to 35 % smaller in trials with wheels that hop at 10 to 16 Hz.
-constexpr double kFilteredAway = 1.0 / 3.0;
-
 bool names(const Diagnosis& strut) {
   return strut && (strut.verdict == Verdict::kEffectFound || strut.verdict == Verdict::kSuspect);
-}
-
-// @return what a model gains by the laws that it has beyond another: their coefficients, and what b1 and b0 lose to
-// them; 0 for all other numbers.
-std::vector<double> gainOf(const StrutModel& model, const StrutModel& before) {
-  std::vector<double> gain{model.damping_to_mass - before.damping_to_mass,
-                           model.stiffness_to_mass - before.stiffness_to_mass};
-  for (const ActiveEffect& active : model.effects) {
-    const auto old = std::find_if(before.effects.begin(), before.effects.end(),
-                                  [&](const ActiveEffect& each) { return each.effect.name == active.effect.name; });
-    gain.push_back(active.coefficient - (old != before.effects.end() ? old->coefficient : 0.0));
-    gain.resize(gain.size() + active.shapes.size());
-  }
-  gain.resize(numbersOf(model).size());
-  return gain;
-}
-
-// Says what the filter may have taken from the laws that were found, and has it in their standard deviations.
-void allowForFilter(Diagnosis& strut) {
-  if (!strut.final_fit || strut.final_fit->model.effects.empty()) return;
-  strut.suggested_drive += (strut.suggested_drive.empty() ? "" : " ") + std::string(kBehindOneImu);
-  const std::vector<double> gain = gainOf(strut.final_fit->model, strut.base.model);
-  std::vector<double>& stddev = strut.final_fit->stddev;
-  for (std::size_t i = 0; i < gain.size(); ++i) stddev[i] = std::hypot(stddev[i], kFilteredAway * gain[i]);
 }
 
 // @return mean square that what was found explains [(m/s^2)^2].
@@ -113,7 +84,6 @@ void VehicleSearch::fitFound() {
   for (std::size_t k = 0; k < found.size(); ++k) {
     Diagnosis& strut = result_.struts[found[k]];
     if (fits[k]) strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
-    allowForFilter(strut);
   }
 }
 

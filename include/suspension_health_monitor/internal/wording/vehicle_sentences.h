@@ -19,11 +19,6 @@ std::string describe(InertiaDoubt doubt);
 /// @return how the body's IMU was found to be turned, if it was; else empty.
 std::string describe(const BodyLevel& level);
 
-/// What a law that was found with one IMU on the body lacks, and what to do.
-inline constexpr const char* kBehindOneImu =
-    "Behind one IMU on the body, filtered at 15 Hz, a law comes out rounder (friction as digressive_damping) and up to "
-    "a third smaller, and damping/mass larger instead: IMUs at the strut tops tell its numbers better.";
-
 /// To be added to a reason.
 inline constexpr const char* kWheelsFolded =
     "; a wheel still shakes at half the sampling rate, which is the likely cause: record at twice the rate, or with "
