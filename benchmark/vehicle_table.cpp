@@ -89,7 +89,8 @@ double forceError(const Driven& driven, std::size_t at, const StrutModel& model)
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 20000; ++i) {
-    const double travel = driven.record.travel[at] * normal(random), rate = driven.record.travel_rate[at] * normal(random);
+    const double travel = driven.record.travel[at] * normal(random),
+                 rate = driven.record.travel_rate[at] * normal(random);
     const double hidden = mobility * driven.options.hidden[at](travel, rate, 0.0);
     const double truth = driven.vehicle.b1(at) * rate + driven.vehicle.b0(at) * travel + hidden;
     error += std::pow(model.force(travel, rate, 0.0, memory.data()) - truth, 2);

@@ -58,8 +58,8 @@ class VehiclePipeline {
   /// @return stamp of the newest sample; 0 before the first.
   Stamp newest() const { return newest_; }
 
-  /// @return the samples kept, of diagnose_window, that are at most `span` [s] older than the newest one; what they have
-  /// gone through the grid describes.
+  /// @return the samples kept, of diagnose_window, that are at most `span` [s] older than the newest one; what they
+  /// have gone through the grid describes.
   VehicleDrive newestSamples(double span) const;
 
   /// @return messages of a sensor that were kept out so far, wherever it was noticed.

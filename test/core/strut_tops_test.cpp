@@ -170,8 +170,8 @@ TEST(StrutTops, KnowWhatWheelsDidBeforeTheFilter) {
   const auto wheel = [](int strut, int k) { return strut + (k % 2 == 0 ? 0.5 : -0.5); };
   int instants = 0;
   for (int k = 0; k < 100; ++k) {
-    const VehicleSample* instant = tops.push(instantOf({0.0, 0.0, kGravity}, Vector3d::Zero(),
-                                                       {wheel(1, k), wheel(2, k), wheel(3, k), kGravity}, k));
+    const VehicleSample* instant = tops.push(
+        instantOf({0.0, 0.0, kGravity}, Vector3d::Zero(), {wheel(1, k), wheel(2, k), wheel(3, k), kGravity}, k));
     if (instant == nullptr) continue;
     ++instants;
     ASSERT_EQ(instant->unfiltered.size(), 3);

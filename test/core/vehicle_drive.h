@@ -43,7 +43,8 @@ inline VehicleDrive bodyImuDrive(const Vehicle& vehicle, const VehicleDriveOptio
     layout.struts.push_back(
         {strut.name, "/" + strut.name, {}, {{strut.x - imu.x, strut.y - imu.y, strut.z - imu.z}}, {}});
   VehicleDrive drive{StrutDrives(vehicle.struts.size())};
-  VehicleGrid grid(1.0 / options.rate, VehicleStreams(layout), {}, [&](const VehicleSample& sample) { append(sample, drive); });
+  VehicleGrid grid(1.0 / options.rate, VehicleStreams(layout), {},
+                   [&](const VehicleSample& sample) { append(sample, drive); });
   for (const VehicleInstant& instant : driveVehicle(vehicle, options)) {
     const Eigen::Vector3d &a = instant.body->acceleration, &w = instant.body->angular_rate;
     grid.push(0, instant.stamp, {a[0], a[1], a[2], w[0], w[1], w[2]});

@@ -12,7 +12,7 @@ namespace {
 constexpr double kTimeConstants = 10.0;
 constexpr int kMostSteps = 6;
 constexpr double kStateStep = 1e-4;  // of the drive's size
-constexpr double kConverged = 1e-6;   // of the residual
+constexpr double kConverged = 1e-6;  // of the residual
 
 /// The part of a segment that remembers its start.
 DriveSegment beginning(const DriveSegment& segment, const StrutModel& model) {

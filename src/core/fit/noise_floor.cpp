@@ -61,7 +61,8 @@ InterpolationRows interpolationRows(const Segments& segments, const std::vector<
       rows(r, kReach + i) = y[1 + i];
     }
     for (Eigen::Index i = 0; i < 2 * kReach; ++i) {
-      const auto step = (segment.lead() + static_cast<std::size_t>(k - kReach + i)) * static_cast<std::size_t>(segment.steps);
+      const auto step =
+          (segment.lead() + static_cast<std::size_t>(k - kReach + i)) * static_cast<std::size_t>(segment.steps);
       rows(r, 2 * kReach + i) = segment.wheel[step].end_velocity / segment.period;
     }
     rows(r, kTerms - 1) = 1.0;

@@ -15,8 +15,9 @@ namespace suspension_health_monitor {
 /// The travel is told by the measurements themselves, d'' = w'' - z'', integrated twice and once by an integral that
 /// forgets what is slower than a third of the natural frequency (motionError()). Along it the law is one more column of
 ///   z'' = b1 v + b0 d + sum_j c_j f_j + c f,
-/// each behind the filter of the drive if it has one, by least squares over the training samples, shape by shape of the scan. Of long drives stretches are
-/// looked at, evenly spread. Too coarse for an estimate: the noise of the sensors is in d and v; it does for a start.
+/// each behind the filter of the drive if it has one, by least squares over the training samples, shape by shape of the
+/// scan. Of long drives stretches are looked at, evenly spread. Too coarse for an estimate: the noise of the sensors is
+/// in d and v; it does for a start.
 class RowStart {
  public:
   /// @param fit  the present model: its effects stay, with their shapes.
@@ -34,8 +35,8 @@ class RowStart {
   void passLow(Eigen::Ref<Eigen::VectorXd> column) const;
 
   const ModelFit& fit_;
-  std::vector<StrutMotion> motion_;  // per sample of all stretches
-  std::vector<std::size_t> ends_;    // of the stretches
+  std::vector<StrutMotion> motion_;        // per sample of all stretches
+  std::vector<std::size_t> ends_;          // of the stretches
   std::vector<std::vector<double>> taps_;  // of the filter of each stretch
   MotionScale scale_;
   WeightedProjection rows_;  // of z'' by v, d and the forces of the present effects; weight 0 where held out

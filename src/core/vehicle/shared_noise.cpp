@@ -137,8 +137,7 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
   const Covariances covariance(of_noise, 2 * reach);
   for (std::size_t i = 0; i < noise.size(); ++i) {
     const Weights weights = weightsOf(i, noise.size(), covariance, reach);
-    for (std::size_t d = 0; d < drives.size(); ++d)
-      drives[d][i] = without(weights, i, drives[d][i], of_drives[d]);
+    for (std::size_t d = 0; d < drives.size(); ++d) drives[d][i] = without(weights, i, drives[d][i], of_drives[d]);
     noise[i] = without(weights, i, noise[i], of_noise);
   }
 }

@@ -16,8 +16,8 @@ using SampleMask = std::vector<char>;
 /// measured - predicted, per segment of all records and sample [m/s^2].
 using Residuals = std::vector<std::vector<double>>;
 
-/// FreeRun::follow() over a segment, with the filter that its signals have passed and the faults of the reading that the
-/// model has.
+/// FreeRun::follow() over a segment, with the filter that its signals have passed and the faults of the reading that
+/// the model has.
 /// @param state  lead() samples before the first one.
 /// @param predicted  z'' at every sample [m/s^2]; resized.
 /// @param motion  travel and travel rate at every sample, if wanted.

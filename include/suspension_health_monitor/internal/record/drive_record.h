@@ -21,9 +21,9 @@ struct DriveSegment {
   /// per integration step from lead() samples before the first sample to as many after the last.
   std::vector<double> driving;
   std::vector<WheelStep> wheel;
-  std::vector<double> taps;      ///< of the filter that predictions are to pass (LowPass)
-  std::vector<Stamp> stamps;     ///< one per sample
-  BodyChannels body;             ///< what else the body's IMU measured; empty: not measured, or it never changes
+  std::vector<double> taps;   ///< of the filter that predictions are to pass (LowPass)
+  std::vector<Stamp> stamps;  ///< one per sample
+  BodyChannels body;          ///< what else the body's IMU measured; empty: not measured, or it never changes
 
   std::size_t size() const { return sprung.size(); }
 

@@ -48,10 +48,10 @@ class MotionFilter {
 
   void reset() { samples_ = 0; }
 
-  int delay() const { return delay_; }   ///< samples; so late is an instant
+  int delay() const { return delay_; }                       ///< samples; so late is an instant
   const Eigen::VectorXd& lowPass() const { return value_; }  ///< taps of H, 2 delay() + 1
-  double flat() const { return flat_; }  ///< [Hz]
-  double stop() const;                   ///< [Hz]
+  double flat() const { return flat_; }                      ///< [Hz]
+  double stop() const;                                       ///< [Hz]
 
  private:
   Stamp period_;
