@@ -114,7 +114,7 @@ EvaluatedModel Search::reconsidered(EvaluatedModel current, const Names& added, 
     if (!without.ranked.fitted) continue;
     const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(without, tick);
     if (ranking.empty() || !ranking.front().ranked.fitted) continue;
-    const Selection selection = select(ranking);
+    const Selection selection = select(ranking, evaluator_.heldOut());
     noteGroup(selection);
     if (!contains(selection.group, name) ||
         complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
@@ -150,7 +150,7 @@ EvaluatedModel Search::extend() {
     // Whatever a free run leaves of data that it was not fitted to is above the floor.
     result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
     if (!ranking.front().ranked.significant) break;
-    const Selection selection = select(ranking);
+    const Selection selection = select(ranking, evaluator_.heldOut());
     if (round == 0) suspect_ = selection;
     current = withoutSuperfluous(selection.chosen);
   }

@@ -3,8 +3,13 @@
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
+namespace {
 
-Selection select(const std::vector<EvaluatedModel>& ranking) {
+constexpr double kStraight = 0.01;  // of a reading: what accelerometers' gains, axes and linearity are good for
+
+}  // namespace
+
+Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOut& held_out) {
   const EvaluatedModel& best = ranking.front();
   Selection selection{best, {}, {}};
   for (const EvaluatedModel& rival : ranking) {
@@ -12,7 +17,8 @@ Selection select(const std::vector<EvaluatedModel>& ranking) {
     const bool simpler = complexity(rival.ranked.model) < complexity(best.ranked.model);
     const double chance = simpler ? kFalseAlarm / static_cast<double>(ranking.size()) : kSure;
     const PairedTest gain = rival.gainOf(best);
-    if (gain.removed_share > kWorthHaving || isSignificant(gain, chance)) continue;
+    const bool is_resolved = rival.loss - best.loss > square(kStraight) * held_out.size();
+    if (is_resolved && (gain.removed_share > kWorthHaving || isSignificant(gain, chance))) continue;
     selection.group.push_back(rival.added);
     selection.models.push_back(rival.ranked.model);
     if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;

@@ -14,8 +14,11 @@ struct Selection {
   std::vector<StrutModel> models;  ///< of the group
 };
 
-/// A number more must pay as surely as another effect: a simpler rival is as good until it is clear that it is not.
+/// A number more must pay as surely as another effect: a simpler rival is as good until it is clear that it is not. So
+/// is one whose z'' is hardly another one: no sensor, mount or filter before the sampling is as straight as a long drive
+/// would be sure, and what they make of a law may be what another law says (dry friction behind an anti-alias filter
+/// turns round as a digressive damper does).
 /// @pre the first of the ranking is fitted.
-Selection select(const std::vector<EvaluatedModel>& ranking);
+Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOut& held_out);
 
 }  // namespace suspension_health_monitor
