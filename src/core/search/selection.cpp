@@ -5,7 +5,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kStraight = 0.01;  // of a reading: what accelerometers' gains, axes and linearity are good for
+constexpr double kStraight = 0.005;  // of a reading: the nonlinearity of accelerometers
 
 }  // namespace
 
@@ -18,10 +18,12 @@ Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOut& held
     const double chance = simpler ? kFalseAlarm / static_cast<double>(ranking.size()) : kSure;
     const PairedTest gain = rival.gainOf(best);
     const bool is_resolved = rival.loss - best.loss > square(kStraight) * held_out.size();
-    if (is_resolved && (gain.removed_share > kWorthHaving || isSignificant(gain, chance))) continue;
+    const bool is_worse = gain.removed_share > kWorthHaving || isSignificant(gain, chance);
+    if (is_worse && is_resolved) continue;
     selection.group.push_back(rival.added);
     selection.models.push_back(rival.ranked.model);
-    if (complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model)) selection.chosen = rival;
+    if (!is_worse && complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model))
+      selection.chosen = rival;
   }
   return selection;
 }

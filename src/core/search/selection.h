@@ -7,16 +7,16 @@
 
 namespace suspension_health_monitor {
 
-/// The best of a ranking, or the simplest that is as good, and all that are as good.
+/// The best of a ranking, or the simplest that is as good, and all that cannot be told from the best.
 struct Selection {
   EvaluatedModel chosen;
   std::vector<std::string> group;
   std::vector<StrutModel> models;  ///< of the group
 };
 
-/// A number more must pay as surely as another effect: a simpler rival is as good until it is clear that it is not. So
-/// is one whose z'' is hardly another one: no sensor, mount or filter before the sampling is as straight as a long drive
-/// would be sure, and what they make of a law may be what another law says (dry friction behind an anti-alias filter
+/// A number more must pay as surely as another effect: a simpler rival is as good until it is clear that it is not.
+/// A rival whose z'' is hardly another one cannot be told from the best, however sure a long drive would be: no sensor
+/// is as straight, and what a filter before the sampling makes of a law may be what another law says (dry friction
 /// turns round as a digressive damper does).
 /// @pre the first of the ranking is fitted.
 Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOut& held_out);
