@@ -147,6 +147,54 @@ TEST(Decoupler, LeavesEveryStrutItsOwnHoweverSlowTheBodyMoves) {
   }
 }
 
+// One damper's orifice, a wheel that hops beyond the filter, and three struts that do nothing: what is left at their
+// tops is nothing where the model of the first sees its travel as it was.
+TEST(Decoupler, BehindAFilterTakesOffTheLawAsItIs) {
+  constexpr double kPeriod = 0.01, kDamping = 3.0, kStiffness = 60.0, kOrifice = 5.0;
+  const std::vector<double> taps{0.1, 0.2, 0.4, 0.2, 0.1};  // 18 Hz are damped to a fifth
+  StrutModel orifice{kDamping, kStiffness, {{findEffect(forceEffects(), "quadratic_damping"), kOrifice, {}}}, {}};
+  const StrutModel linear{kDamping, kStiffness, {}, {}};
+  const Coupling coupling = couplingOf(ratiosOfFour());
+  const auto swing = [](double t, int derivative) {
+    double sum = 0.0;
+    for (const auto& [amplitude, frequency] : {std::array{0.02, 2.0}, std::array{0.003, 18.0}}) {
+      const double omega = 2.0 * kPi * frequency;
+      sum += amplitude * std::pow(omega, derivative) * std::sin(omega * t + derivative * kPi / 2.0);
+    }
+    return sum;
+  };
+  const auto own = [&](double t) {
+    const double rate = swing(t, 1);
+    return kDamping * rate + kStiffness * swing(t, 0) + kOrifice * rate * std::abs(rate);
+  };
+  const auto passed = [&](const auto& signal, double t) {
+    double sum = 0.0;
+    for (int k = -2; k <= 2; ++k) sum += taps[static_cast<std::size_t>(k + 2)] * signal(t + kPeriod * k);
+    return sum;
+  };
+  const auto leftBy = [&](const std::vector<double>& low_pass) {
+    Decoupler decoupler(kPeriod, coupling, {orifice, linear, linear, linear}, low_pass);
+    double left = 0.0;
+    for (int k = 0; k < 3000; ++k) {
+      const double t = kPeriod * k, told = passed(own, t);
+      VehicleSample sample{fromSeconds(t + 1.0), coupling.ratios.col(0) * told, StrutVector(4), ForceVector(0)};
+      sample.unsprung = sample.unfiltered = sample.sprung;
+      sample.unsprung[0] += passed([&](double at) { return swing(at, 2); }, t);
+      sample.unfiltered[0] += swing(t, 2);
+      const VehicleSample* found = decoupler.push(sample);
+      if (found == nullptr || k < 2000) continue;
+      for (int i = 1; i < 4; ++i) left += std::pow(found->sprung[i], 2) / 3000.0;
+    }
+    return std::sqrt(left);
+  };
+  double size = 0.0;
+  for (int k = 0; k < 1000; ++k) size += std::pow(passed(own, kPeriod * k), 2) / 1000.0;
+  // The observer is right to a few percent, and a part of it only is told by the models (NeighbourWeights).
+  const double with = leftBy(taps), without = leftBy({});
+  EXPECT_LT(with, 0.02 * std::sqrt(size));
+  EXPECT_GT(without, 3.0 * with);
+}
+
 TEST(Decoupler, PassesWhatNoNeighbourTouchesAndSaysHowLate) {
   const StrutModel model{3.0, 60.0, {}, {}};
   Decoupler decoupler(0.01, couplingOf(StrutMatrix::Identity(2, 2)), {model, model});

@@ -20,28 +20,38 @@ int naturalPeriod(const std::vector<StrutModel>& models, double period) {
 
 }  // namespace
 
-Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models)
+Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models,
+                     const std::vector<double>& low_pass)
     : period_(period),
       weights_(coupling),
       bars_(coupling.bars),
+      taps_(low_pass.empty() ? std::vector<double>{1.0} : low_pass),
       force_means_(static_cast<std::size_t>(coupling.forces.cols()), LimitedMean(std::exp(-period / kMeanMemory))) {
   const int natural_period = naturalPeriod(models, period);
   for (const StrutModel& model : models)
     struts_.push_back({model, TravelObserver(period, model.stiffness_to_mass, natural_period),
-                       LimitedMean(std::exp(-period / kMeanMemory))});
-  recent_.set_capacity(static_cast<std::size_t>(TravelObserver::delayOf(natural_period)) + 1);
+                       LimitedMean(std::exp(-period / kMeanMemory)),
+                       boost::circular_buffer<Eigen::Vector3d>(taps_.size())});
+  recent_.set_capacity(static_cast<std::size_t>(TravelObserver::delayOf(natural_period)) + taps_.size() / 2 + 1);
 }
 
 const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   recent_.push_back(sample);
+  const StrutVector& wheels = taps_.size() > 1 ? sample.unfiltered : sample.unsprung;
   for (std::size_t j = 0; j < struts_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
     struts_[j].gravity.add(sample.sprung[place]);
-    struts_[j].travel.push(sample.unsprung[place] - sample.sprung[place]);
+    struts_[j].travel.push(wheels[place] - sample.sprung[place]);
   }
   for (std::size_t k = 0; k < force_means_.size(); ++k)
     force_means_[k].add(sample.forces[static_cast<Eigen::Index>(k)]);
   if (!struts_.front().travel.full()) return nullptr;
+  const std::size_t observed = recent_.size() + taps_.size() / 2 - recent_.capacity();
+  const StrutVector& body = recent_[observed].sprung;
+  for (std::size_t j = 0; j < struts_.size(); ++j)
+    follow(struts_[j], body[static_cast<Eigen::Index>(j)] - struts_[j].gravity.mean());
+  if (!struts_.front().told.full()) return nullptr;
+
   out_ = recent_.front();
   ForceVector forces = out_.forces;
   for (std::size_t k = 0; k < force_means_.size(); ++k) forces[static_cast<Eigen::Index>(k)] -= force_means_[k].mean();
@@ -49,13 +59,12 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
               slow = modelled;
   for (std::size_t j = 0; j < struts_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
-    Strut& strut = struts_[j];
-    moving[place] -= strut.gravity.mean();
-    follow(strut, moving[place]);
-    travel[place] = strut.motion.travel;
-    slow[place] = out_.unsprung[place] - out_.sprung[place] - strut.travel.acceleration();
-    stiffness[place] = strut.model.stiffness_to_mass;
-    modelled[place] = strut.model.force(strut.motion.travel, strut.motion.travel_rate, 0.0, strut.memory.data());
+    const Eigen::Vector3d told = filtered(struts_[j]);
+    moving[place] -= struts_[j].gravity.mean();
+    modelled[place] = told[0];
+    travel[place] = told[1];
+    slow[place] = out_.unsprung[place] - out_.sprung[place] - told[2];
+    stiffness[place] = struts_[j].model.stiffness_to_mass;
   }
   // At its own strut, too, what a bar does is not the strut's.
   const StrutVector by_bars = ofBars(travel), slow_by_bars = ofBars(slow);
@@ -72,6 +81,14 @@ void Decoupler::follow(Strut& strut, double body_acceleration) const {
   const StrutMotion now{strut.travel.travel(), strut.travel.travelRate(), 0.0, 0.0, body_acceleration};
   followMemories(strut.model, strut.motion, now, period_, strut.memory);
   strut.motion = now;
+  strut.told.push_back({strut.model.force(now.travel, now.travel_rate, 0.0, strut.memory.data()), now.travel,
+                        strut.travel.acceleration()});
+}
+
+Eigen::Vector3d Decoupler::filtered(const Strut& strut) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < taps_.size(); ++k) sum += taps_[k] * strut.told[k];
+  return sum;
 }
 
 // @return sum over m of bar_im (x_i - x_m).
@@ -83,6 +100,7 @@ void Decoupler::startNewSeries() {
   recent_.clear();
   for (Strut& strut : struts_) {
     strut.travel.startNewSeries();
+    strut.told.clear();
     strut.motion = {};
     strut.memory = {};
   }

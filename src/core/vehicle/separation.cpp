@@ -113,7 +113,7 @@ CouplingEstimate coupleStruts(const std::vector<VehicleDrive>& drives, double pe
 
 StrutDrives separateStruts(const VehicleDrive& drive, double period, const Coupling& coupling,
                            const std::vector<StrutModel>& models) {
-  Decoupler decoupler(period, coupling, models);
+  Decoupler decoupler(period, coupling, models, drive.struts.front().low_pass.taps);
   VehicleDrive separated{StrutDrives(drive.struts.size())};
   for (std::size_t i = 0; i < drive.struts.size(); ++i)
     separated.struts[i].low_pass.taps = drive.struts[i].low_pass.taps;

@@ -19,12 +19,18 @@ namespace suspension_health_monitor {
 /// The models of the neighbours see their travel by a TravelObserver, and with it everything is late by delay(). What
 /// is slower than that observes, E of n_i, is not seen. A strut passes it nearly as it is, S = G W with G near 1: what
 /// it leaves, (1 - G) E = G E'' / (b1 s + b0), is that of a wheel which moves by E'' / b0, and E'' needs no travel,
-/// only the slow part of u_j. What wheels do before a filter loses the same n_i: a body moves little above the filter.
-/// Cost per sample: O(N^2), no allocation.
+/// only the slow part of u_j.
+/// Behind a low-pass filter a neighbour's travel is observed with what its wheel did before it, and what its model says
+/// passes it: the law of a filtered travel is not the filtered law. Above the filter z'' is missing in that travel, and
+/// n_i in the W_i that is known unfiltered; a body moves little there.
+/// Cost per sample: O(N^2 + N taps), no allocation.
 class Decoupler {
  public:
   /// @param period  T [s].  @param models  of the struts, b0 > 0: as they show in others.
-  Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models);
+  /// @param low_pass  taps of the filter that samples have passed, if they come with what the wheels did before it
+  /// (LowPass); none: models see the motion of the samples.
+  Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models,
+            const std::vector<double>& low_pass = {});
 
   /// From the next sample on. Effects with a memory go on with what they remember.
   void setCoupling(const Coupling& coupling) {
@@ -47,17 +53,20 @@ class Decoupler {
   struct Strut {
     StrutModel model;
     TravelObserver travel;
-    LimitedMean gravity;  // of z''
+    LimitedMean gravity;                           // of z''
+    boost::circular_buffer<Eigen::Vector3d> told;  // before the filter: its model's force, travel, u that belongs to it
     StrutMotion motion{};
     std::array<double, kMostEffects> memory{};
   };
 
   void follow(Strut& strut, double body_acceleration) const;
+  Eigen::Vector3d filtered(const Strut& strut) const;
   StrutVector ofBars(const StrutVector& travels) const;
 
   double period_;
   NeighbourWeights weights_;
   StrutMatrix bars_;
+  std::vector<double> taps_;  // of the low-pass filter; 1: there is none
   std::vector<Strut> struts_;
   std::vector<LimitedMean> force_means_;  // of each x
   boost::circular_buffer<VehicleSample> recent_;
