@@ -108,7 +108,7 @@ void printEffect(const char* kind, unsigned seed, const Measured& how) {
   drive(driven);
   const VehicleDiagnosis found = diagnoseVehicle({driven.asMeasured()}, driven.names);
   std::printf("%-6s %3u  %-18s in %-7s  %7.1f  %s\n", kind, seed, law.name, driven.names[at].c_str(),
-              forceError(driven, at, found.struts[at].model()), found.summary.c_str());
+              found ? forceError(driven, at, found.struts[at].model()) : std::nan(""), found.summary.c_str());
 }
 
 // @return largest error of LA in any strut, of b1 and b0 alike [%].

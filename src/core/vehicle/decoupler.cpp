@@ -30,7 +30,7 @@ Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<
   const int natural_period = naturalPeriod(models, period);
   for (const StrutModel& model : models)
     struts_.push_back({model, TravelObserver(period, model.stiffness_to_mass, natural_period),
-                       LimitedMean(std::exp(-period / kMeanMemory)),
+                       LimitedMean(std::exp(-period / kMeanMemory)), RunningMean(std::exp(-period / kMeanMemory)),
                        boost::circular_buffer<Eigen::Vector3d>(taps_.size())});
   recent_.set_capacity(static_cast<std::size_t>(TravelObserver::delayOf(natural_period)) + taps_.size() / 2 + 1);
 }
@@ -78,11 +78,13 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
 }
 
 void Decoupler::follow(Strut& strut, double body_acceleration) const {
-  const StrutMotion now{strut.travel.travel(), strut.travel.travelRate(), 0.0, 0.0, body_acceleration};
+  const double mean_travel = -strut.laws.mean() / strut.model.stiffness_to_mass;
+  const StrutMotion now{strut.travel.travel() + mean_travel, strut.travel.travelRate(), 0.0, 0.0, body_acceleration};
   followMemories(strut.model, strut.motion, now, period_, strut.memory);
   strut.motion = now;
-  strut.told.push_back({strut.model.force(now.travel, now.travel_rate, 0.0, strut.memory.data()), now.travel,
-                        strut.travel.acceleration()});
+  const double force = strut.model.force(now.travel, now.travel_rate, 0.0, strut.memory.data());
+  strut.laws.add(force - strut.model.damping_to_mass * now.travel_rate - strut.model.stiffness_to_mass * now.travel);
+  strut.told.push_back({force, strut.travel.travel(), strut.travel.acceleration()});
 }
 
 Eigen::Vector3d Decoupler::filtered(const Strut& strut) const {

@@ -56,13 +56,13 @@ std::string suggestForUnexplained(const SearchResult& result) {
            "is the likely cause: record at twice the rate, or with the filter of the IMU set below half of it.";
   if (result.turns_body)
     return "The strut turns its body, so that others must hold it: other struts move the same body, give their IMUs, "
-           "too "
-           "(--vehicle, vehicle.launch).";
+           "too (--vehicle, vehicle.launch).";
   if (result.surface_share > kLawOfTravelAndRate)
     return "A force that depends on travel and travel rate alone would explain " + percent(result.surface_share) +
            " of what is missing: describe it as a law of your own and diagnose again.";
   return "A force of travel and travel rate would explain only " + percent(result.surface_share) +
-         " of what is missing. If other struts move the same body, give their IMUs, too (--vehicle, vehicle.launch). "
+         " of what is missing. If struts that are not given move the same body, give their IMUs, too (--vehicle, "
+         "vehicle.launch). "
          "Else drive the same road again with engine and load at rest, and at another speed: a force that does not "
          "come through the strut keeps its own time and size.";
 }

@@ -78,7 +78,10 @@ std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::
   if (!missing.empty()) sentences.push_back("Missing from the model: " + join(missing) + ".");
   if (!suspects.empty()) sentences.push_back("Main suspect: " + join(suspects) + ".");
   if (!unexplained.empty())
-    sentences.push_back("Something that no known effect explains is missing in " + join(unexplained) + ".");
+    sentences.push_back("Something that no known effect explains is " +
+                        (sentences.empty() ? "missing in " + join(unexplained) + "."
+                                           : "left in " + join(unexplained) +
+                                                 ": missing there, or carried over from the strut that lacks more."));
   if (!silent.empty()) sentences.push_back("Nothing can be said of " + join(silent) + ".");
   if (sentences.empty()) return "Nothing is missing in any strut: what the models leave is noise.";
   return join(sentences, " ");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/identification/limited_mean.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/vehicle/neighbour_weights.h"
 #include "suspension_health_monitor/internal/vehicle/travel_observer.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
@@ -20,6 +21,7 @@ namespace suspension_health_monitor {
 /// is slower than that observes, E of n_i, is not seen. A strut passes it nearly as it is, S = G W with G near 1: what
 /// it leaves, (1 - G) E = G E'' / (b1 s + b0), is that of a wheel which moves by E'' / b0, and E'' needs no travel,
 /// only the slow part of u_j.
+/// The travel observed has no mean; that of a strut has the one at which its force has none, as in a free run.
 /// Behind a low-pass filter a neighbour's travel is observed with what its wheel did before it, and what its model says
 /// passes it: the law of a filtered travel is not the filtered law. Above the filter z'' is missing in that travel, and
 /// n_i in the W_i that is known unfiltered; a body moves little there.
@@ -54,6 +56,7 @@ class Decoupler {
     StrutModel model;
     TravelObserver travel;
     LimitedMean gravity;                           // of z''
+    RunningMean laws;                              // of the force beside b1 v + b0 d
     boost::circular_buffer<Eigen::Vector3d> told;  // before the filter: its model's force, travel, u that belongs to it
     StrutMotion motion{};
     std::array<double, kMostEffects> memory{};
