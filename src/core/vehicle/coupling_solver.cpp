@@ -14,7 +14,7 @@ namespace {
 constexpr int kFirstSteps = 30, kBarSteps = 10, kSteps = 3;  // of the alternation: from nothing, with one bar more, on
 // A law in one strut shows in the columns of another by chance only; a bar that is worth having takes a tenth.
 constexpr double kLeastOfBar = 0.1;
-constexpr double kCertain = 50.0;  // chi^2 of two more unknowns: chance gives as much once in 7e10
+constexpr double kChiSquare = 50.0;  // chi^2 of two more unknowns: chance gives as much once in 7e10
 
 }  // namespace
 
@@ -183,6 +183,6 @@ double CouplingSolver::shareLeft() const {
 }
 
 // @return true if rows that are left so much of by two models are so by no chance.
-bool CouplingSolver::isCertain(double left, double less) const { return rows_ * (left - less) >= kCertain * less; }
+bool CouplingSolver::isCertain(double left, double less) const { return rows_ * (left - less) >= kChiSquare * less; }
 
 }  // namespace suspension_health_monitor

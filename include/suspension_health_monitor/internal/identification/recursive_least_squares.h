@@ -77,24 +77,8 @@ class RecursiveEstimator {
   /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
   void hold(int i, bool held);
 
-  /// An estimate as it was after some row.
-  struct Past {
-    Eigen::VectorXd theta;
-    UdCovariance covariance;
-  };
-  Past present() const { return {theta_, covariance_}; }
-
-  /// Without allocation, if `past` is one of as many parameters.
-  void copyTo(Past& past) const {
-    past.theta = theta_;
-    past.covariance = covariance_;
-  }
-
-  /// Forgets the rows since then.
-  void goBackTo(const Past& past) {
-    theta_ = past.theta;
-    covariance_ = past.covariance;
-  }
+  /// @return true if some parameter is held: P is not that of the rows beside it.
+  bool holdsAny() const { return num_held_ > 0; }
 
   /// Takes a row into the running means only: neither does the estimate move nor is anything forgotten.
   /// @return the innovation psi - phi' theta, in the unit of psi.

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/every_n.h"
+#include "suspension_health_monitor/internal/identification/noise_level.h"
+#include "suspension_health_monitor/internal/identification/paired_estimators.h"
+#include "suspension_health_monitor/internal/identification/regressor_noise.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
+#include "suspension_health_monitor/internal/identification/skew_profile.h"
+#include "suspension_health_monitor/internal/identification/stamp_noise.h"
+#include "suspension_health_monitor/internal/identification/wheel_history.h"
+#include "suspension_health_monitor/monitor_report.h"
+
+namespace suspension_health_monitor {
+
+/// What the estimates of a strut are off by beyond the scatter of rows, and their standard deviations with it: by noise
+/// of the sensors in the regressors (RegressorNoise), whose shift is taken off once it is known; by stamps that may be
+/// off (StampNoise); by the skew of the clocks (SkewProfile); by what the samples went through before. These add up as
+/// squares (doc/uncertainty.md).
+///
+/// The first three put a moment E[phi e] into the rows, which R^-1 turns into a shift of the estimates. It is that of
+/// LS for both: of normal residuals LA has the same. Cost per row: O(1), and O(p^2) every few rows for p columns; no
+/// allocation.
+class ErrorBudget {
+ public:
+  /// @param noise  of the same filter.  @param num_columns  of the regression.
+  /// @param forgetting_factor  of the estimators.
+  /// @param removes_noise_shift  false: what the noise shifts is left in the estimates.
+  ErrorBudget(const IntegralFilterOptions& filter, const RegressorNoise& noise, int num_columns,
+              double forgetting_factor, bool removes_noise_shift);
+
+  /// @param columns  where those of the estimators come from now. Allocates.
+  void changeColumns(const std::vector<ColumnOrigin>& columns);
+
+  /// Takes in the next sample of an uninterrupted series.
+  void addSample(const CornerSample& sample) { stamp_noise_.add(sample); }
+
+  /// Takes in what a skew of the clocks does to a row that the estimators are about to take in.
+  /// @param skew  by which the wheel's readings were moved [s].
+  /// @param strut  parameters, of which b1 and b0 count.
+  void addSkew(const RegressionRow& row, const WheelRow& wheel, double skew, const Eigen::VectorXd& strut);
+
+  /// @param innovation  of LA by such a row, in the unit of psi.
+  void addInnovation(double innovation) {
+    if (hears_noise_ && noise_level_) noise_level_->add(innovation);
+  }
+
+  /// The next sample does not follow the one before.
+  void interrupt();
+
+  /// Noise is heard in what a valid estimate leaves; to be called for every row.
+  void noteValidity(const StrutEstimate& la);
+
+  void setForgettingFactor(double forgetting_factor);
+
+  /// As StrutIdentifier::setInputStddevs().
+  void setInputStddevs(const Eigen::Vector2d& stddevs) { input_stddevs_ = stddevs; }
+
+  /// As StrutIdentifier::setStampErrors().
+  void setStampErrors(const Eigen::Vector2d& stddevs) { stamp_noise_.setStamps(stddevs); }
+
+  /// @return what is to be taken off the parameters of LS and LA, one per column; 0 if it is left in them.
+  const Eigen::VectorXd& noiseShift() const { return noise_shift_; }
+
+  /// Writes the standard deviations, every few rows, and says what noiseShift() is from then on.
+  /// @param skew  none: clocks are taken at their word.
+  /// @param ls, la  as the estimators have them, with the noise's shift taken off.
+  void describe(const PairedEstimators& estimators, const SkewProfile* skew, StrutEstimate& ls, StrutEstimate& la);
+
+  /// One gyro tells the tops of a vehicle's struts with more noise than they may have of motion.
+  /// @return StrutEstimate::explained of what is left of psi and of the residual without it [-]; of a single strut as
+  /// it is.
+  double explainedBesideNoise(const StrutEstimate& estimate) const;
+
+ private:
+  /// What a skew of the clocks does to the rows of the memory: tau x is in psi, x = b1 I_2^2 w'' + b0 I_1^2 w''.
+  /// Means of x phi_1, x phi_0, and of the skew taken off.
+  enum SkewEffect : std::size_t { kOnDamping, kOnStiffness, kTakenOff, kNumSkewEffects };
+
+  /// E[phi e] of a row by the sensors' noise, its standard deviation, and that by stamps that may be off.
+  struct NoiseMoments {
+    Eigen::Vector2d mean, spread, of_stamps;
+  };
+
+  NoiseMoments takeNoise(const PairedEstimators& estimators, const Eigen::Vector2d& strut);
+  double fittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut, double left) const;
+  void removeShift(const PairedEstimators& estimators, const Eigen::Vector2d& moment);
+  double skewShift(const RecursiveLeastSquares& least_squares, const SkewProfile* skew, int i) const;
+
+  RegressorNoise noise_;
+  std::optional<NoiseLevel> noise_level_;  // none: what the noise shifts is left in the estimates
+  bool hears_noise_ = false;               // in what LA leaves
+  double noise_share_ = 0.0;               // of the residuals' variance
+  Eigen::VectorXd noise_shift_;            // of the parameters
+  StampNoise stamp_noise_;
+  RunningMeans<kNumSkewEffects> skew_effect_;
+  Eigen::Vector2d input_stddevs_ = Eigen::Vector2d::Zero();
+  EveryN stddevs_due_;
+};
+
+}  // namespace suspension_health_monitor

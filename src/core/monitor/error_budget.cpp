@@ -1,0 +1,151 @@
+#include "suspension_health_monitor/internal/monitor/error_budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/identification/excitation.h"
+#include "suspension_health_monitor/internal/pi.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr int kStddevsEvery = 8;    // rows
+constexpr double kMostNoise = 0.8;  // of a residual: no level of noise is known better than within a tenth
+
+double& stddevOf(StrutEstimate& estimate, int i) {
+  return i == kDampingToMass     ? estimate.damping_to_mass_stddev
+         : i == kStiffnessToMass ? estimate.stiffness_to_mass_stddev
+                                 : estimate.coefficient_stddevs[static_cast<std::size_t>(i - kNumStrutParameters)];
+}
+
+// What LS and LA differ by beyond the scatter of LS is an error of LS, which suffers wrong readings for as long as it
+// remembers them, and whose own scatter does not show that they were all of one sign.
+double withDifference(double stddev, double ls, double la) {
+  return std::hypot(stddev, std::max(0.0, std::abs(ls - la) - stddev));
+}
+
+}  // namespace
+
+ErrorBudget::ErrorBudget(const IntegralFilterOptions& filter, const RegressorNoise& noise, int num_columns,
+                         double forgetting_factor, bool removes_noise_shift)
+    : noise_(noise),
+      noise_shift_(Eigen::VectorXd::Zero(num_columns)),
+      stamp_noise_(filter.period, forgetting_factor),
+      skew_effect_(forgetting_factor),
+      stddevs_due_(kStddevsEvery) {
+  if (removes_noise_shift) noise_level_.emplace(filter);
+}
+
+void ErrorBudget::changeColumns(const std::vector<ColumnOrigin>& columns) {
+  const Eigen::VectorXd before = noise_shift_;
+  noise_shift_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    if (columns[j].before) noise_shift_[static_cast<Eigen::Index>(j)] = before[*columns[j].before];
+  stddevs_due_.restart();
+}
+
+void ErrorBudget::addSkew(const RegressionRow& row, const WheelRow& wheel, double skew, const Eigen::VectorXd& strut) {
+  const double x = strut[kDampingToMass] * wheel.output + strut[kStiffnessToMass] * wheel.damping;
+  skew_effect_.add({x * row.regressor[kDampingToMass], x * row.regressor[kStiffnessToMass], skew});
+}
+
+void ErrorBudget::interrupt() {
+  if (noise_level_) noise_level_->interrupt();
+  stamp_noise_.interrupt();
+}
+
+void ErrorBudget::noteValidity(const StrutEstimate& la) {
+  // Noise that is as large as the motion is to be known before an estimate can be valid.
+  hears_noise_ = la.valid() || (noise_.isOfVehicle() && la.doubt == EstimateDoubt::kNotExplained);
+}
+
+void ErrorBudget::setForgettingFactor(double forgetting_factor) {
+  skew_effect_.setForgettingFactor(forgetting_factor);
+  stamp_noise_.setForgettingFactor(forgetting_factor);
+}
+
+void ErrorBudget::describe(const PairedEstimators& estimators, const SkewProfile* skew, StrutEstimate& ls,
+                           StrutEstimate& la) {
+  // Of the start values there is no error to tell, and the first estimate comes with its own.
+  const bool is_due = stddevs_due_() || std::isnan(la.damping_to_mass_stddev);
+  if (!is_due || !(la.effective_rows > 0.0)) return;
+  const RecursiveLeastSquares& least_squares = estimators.leastSquares();
+  const RecursiveLeastAbsolute& least_absolute = estimators.leastAbsolute();
+  const NoiseMoments moments = takeNoise(estimators, {la.damping_to_mass, la.stiffness_to_mass});
+  for (int i = 0; i < kNumStrutParameters + static_cast<int>(la.num_effects); ++i) {
+    const double by_noise =
+        std::hypot(least_squares.parameterShift(i, moments.mean) - noise_shift_[i],
+                   least_squares.parameterShift(i, moments.spread), least_squares.parameterShift(i, moments.of_stamps));
+    const double by_skew = skewShift(least_squares, skew, i);
+    const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
+    const auto with_all = [&](double random) {
+      return std::hypot(std::hypot(std::sqrt(random), by_noise), by_skew, by_input);
+    };
+    stddevOf(ls, i) = withDifference(with_all(least_squares.parameterVariance(i)), least_squares.parameters()[i],
+                                     least_absolute.parameters()[i]);
+    stddevOf(la, i) = with_all(least_absolute.parameterVariance(i));
+  }
+}
+
+// The shift by the sensors' noise is taken off from the next description on, by the strut that it leaves now: the fixed
+// point of that is the strut whose rows, less the noise's share of their moments, it solves. What is left is what it is
+// not taken off of, and that nobody knows how the noise is divided between the sensors.
+ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimators, const Eigen::Vector2d& strut) {
+  // For a normal distribution the variance is pi/2 times the mean size squared.
+  const double size = estimators.leastAbsolute().usualResidual();
+  const double left = 0.5 * kPi * size * size / noise_.residualGain(strut);
+  // Beside a parameter that is held P is not that of the rows.
+  const bool knows_rows = !estimators.leastSquares().holdsAny();
+  const double fitted = noise_level_ && knows_rows ? fittedNoise(estimators.leastSquares(), strut, left) : 1.0;
+  const double present = fitted * left;
+  const std::optional<double> lasting =
+      noise_level_ ? noise_level_->sensorVariance(noise_, strut, fitted) : std::nullopt;
+  const double variance = std::min(lasting.value_or(present), present);
+  noise_share_ = lasting ? variance / present : 0.0;
+  const Eigen::Vector2d moment = noise_.moment(strut, variance);
+  const bool removes = lasting && knows_rows;
+  if (removes) removeShift(estimators, moment);
+  const Eigen::Vector2d spread = removes ? noise_.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
+  // All of it or none, or a part: a uniform distribution from its end, which the estimate is at.
+  return {moment, spread, noise_.momentOf(strut, stamp_noise_.variances()) / std::sqrt(3.0)};
+}
+
+// Least squares fits the noise, too, which is missing from what it leaves: where g is the residual's variance by that
+// of a sensor, v, and v m the noise's moment, it leaves g v - v^2 m'R^-1 m. @return v by what g alone would make of
+// that.
+double ErrorBudget::fittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut,
+                                double left) const {
+  const Eigen::Vector2d moment = noise_.moment(strut, 1.0);
+  const Eigen::Vector2d shift(least_squares.parameterShift(kDampingToMass, moment),
+                              least_squares.parameterShift(kStiffnessToMass, moment));
+  const double share = 4.0 * left * moment.dot(shift) / noise_.residualGain(strut);
+  return 2.0 / (1.0 + std::sqrt(std::clamp(1.0 - share, 0.0, 1.0)));
+}
+
+// Noise does no more to a parameter that is excited than kLeastExcitation says.
+void ErrorBudget::removeShift(const PairedEstimators& estimators, const Eigen::Vector2d& moment) {
+  const RecursiveLeastSquares& least_squares = estimators.leastSquares();
+  for (int i = 0; i < estimators.numModelColumns(); ++i) {
+    const double most = std::abs(least_squares.parameters()[i]) / Excitation::kLeastExcitation;
+    noise_shift_[i] = std::clamp(least_squares.parameterShift(i, moment), -most, most);
+  }
+}
+
+// What parameter i is off by if the skew is off by its standard deviation, and by what the rows of the memory, which
+// were made with the skew as it was known then, differ by from it.
+double ErrorBudget::skewShift(const RecursiveLeastSquares& least_squares, const SkewProfile* skew, int i) const {
+  if (skew == nullptr) return 0.0;
+  const Eigen::Vector2d moment(skew_effect_.mean(kOnDamping), skew_effect_.mean(kOnStiffness));
+  const double off = std::hypot(std::sqrt(skew->variance()), skew->skew() - skew_effect_.mean(kTakenOff));
+  return off * least_squares.parameterShift(i, moment);
+}
+
+double ErrorBudget::explainedBesideNoise(const StrutEstimate& estimate) const {
+  if (!noise_.isOfVehicle()) return estimate.explained;
+  const double share = std::min(noise_share_, kMostNoise), left = std::pow(1.0 - estimate.explained, 2);
+  const Eigen::Vector2d strut(estimate.damping_to_mass, estimate.stiffness_to_mass);
+  const double of_output = 1.0 - share * left * noise_.outputGain() / noise_.residualGain(strut);
+  return of_output > 0.0 ? 1.0 - std::sqrt((1.0 - share) * left / of_output) : 0.0;
+}
+
+}  // namespace suspension_health_monitor
