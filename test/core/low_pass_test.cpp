@@ -100,12 +100,10 @@ TEST(DriveRecord, BehindAFilterIsDrivenByTheWheelBeforeItAndLosesWhatTheFilterRe
 TEST(Diagnosis, BehindAFilterFindsTheLawAsItIs) {
   constexpr double kB1 = 5.0, kB0 = 70.0, kFriction = 0.8, kSlip = 0.03;
   const BandNoise road(3, 0.5, 3.0, 0.7), hop(4, 10.0, 14.0, 10.0);
-  const DrivenMass strut{kRate, [&](double t) { return road(t) + hop(t); },
-                         [](const MassState& x, double) {
-                           return kB1 * x.v + kB0 * x.d + kFriction * std::tanh(x.v / kSlip);
-                         },
-                         [](const MassState&) { return 0.0; },
-                         0.02};
+  const DrivenMass strut{
+      kRate, [&](double t) { return road(t) + hop(t); },
+      [](const MassState& x, double) { return kB1 * x.v + kB0 * x.d + kFriction * std::tanh(x.v / kSlip); },
+      [](const MassState&) { return 0.0; }, 0.02};
   const Drive drive = behindFilter(strut.drive(6000));
   DiagnoseOptions options;
   options.sample_period = 1.0 / kRate;
