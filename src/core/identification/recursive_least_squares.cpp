@@ -65,9 +65,10 @@ void RecursiveEstimator::correct(const RegressionRow& row, double innovation, co
   const double lambda = options_.forgetting_factor;
   // Rows that are held in part say nothing of how residuals of whole ones are correlated.
   const bool has_settled = valid_rows_ > std::min(kStartMemories / (1.0 - lambda), kMostStartRows);
-  if (num_held_ == 0 && has_settled && !learn(row, innovation, weight)) valid_rows_ = 0.0;
-  const Eigen::VectorXd& gain = num_held_ == 0 ? covariance_.update(row.regressor, lambda / weight.weight, lambda)
-                                               : correctPartly(row, weight.weight);
+  const bool is_whole = !holdsAny();
+  if (is_whole && has_settled && !learn(row, innovation, weight)) valid_rows_ = 0.0;
+  const Eigen::VectorXd& gain =
+      is_whole ? covariance_.update(row.regressor, lambda / weight.weight, lambda) : correctPartly(row, weight.weight);
   theta_ += gain * innovation;
 }
 
@@ -90,10 +91,7 @@ const Eigen::VectorXd& RecursiveEstimator::correctPartly(const RegressionRow& ro
   return covariance_.update(excited_, 1.0 / weight, 1.0);
 }
 
-void RecursiveEstimator::hold(int i, bool held) {
-  held_[static_cast<std::size_t>(i)] = held;
-  num_held_ = static_cast<int>(std::count(held_.begin(), held_.end(), true));
-}
+void RecursiveEstimator::hold(int i, bool held) { held_[static_cast<std::size_t>(i)] = held; }
 
 void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residual_variance, double unit) {
   for (int i = 0; i < numParameters(); ++i) {
@@ -117,7 +115,6 @@ void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns)
   }
   covariance_ = UdCovariance(covariance_, sources);
   held_.assign(columns.size(), false);  // the plain strut's own are held anew when its excitation is judged
-  num_held_ = 0;
   excited_ = best_ = theta_;
   drifted_.regressor = course_ = theta_.head(numScores());
   if (options_.drifting) sources.pop_back();

@@ -8,12 +8,12 @@ namespace {
 
 constexpr int kRowsOfHorizon = 64, kFewestHorizonRows = 32;
 constexpr int kHorizonsOfBlock = 8;
-constexpr double kAlike = 6.0;       // rows that count as one
-constexpr double kFitted = 3.0;      // parameters of every block
-constexpr double kUsualSteps = 3.0;  // half of all skews are within it beforehand
-constexpr double kSkewMemories = 30.0;   // of the estimator: clocks differ by as much for long
-constexpr double kCertain = 4.0;     // standard deviations
-constexpr double kRounding = 1e-12;  // of squares
+constexpr double kAlike = 6.0;          // rows that count as one
+constexpr double kFitted = 3.0;         // parameters of every block
+constexpr double kUsualSteps = 3.0;     // half of all skews are within it beforehand
+constexpr double kSkewMemories = 30.0;  // of the estimator: clocks differ by as much for long
+constexpr double kCertain = 4.0;        // standard deviations
+constexpr double kRounding = 1e-12;     // of squares
 
 /// The parabola through three values a step apart; x in steps.
 struct Parabola {
@@ -46,10 +46,10 @@ void SkewProfile::setForgettingFactor(double forgetting_factor) {
 }
 
 bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, double output) {
-  if (++rows_ % every_ == 0) {
-    num_ += 1.0;
-    output_ += output;
-    output_square_ += output * output;
+  if (++sums_.rows % every_ == 0) {
+    sums_.num += 1.0;
+    sums_.output += output;
+    sums_.output_square += output * output;
     Profile damping, stiffness;
     for (std::size_t j = 0; j < kNumSkews; ++j) {
       const WheelRow row = wheel.at(places_[j]);
@@ -64,36 +64,35 @@ bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, do
     sums_.damping_output += damping * output;
     sums_.stiffness_output += stiffness * output;
   }
-  if (rows_ % horizon_rows_ != 0) return false;
+  if (sums_.rows % horizon_rows_ != 0) return false;
   closeHorizon();
-  if (rows_ >= kHorizonsOfBlock * horizon_rows_) interrupt();
+  if (sums_.rows >= kHorizonsOfBlock * horizon_rows_) interrupt();
   return true;
 }
 
 // About the means, since every block has an offset of its own.
 Eigen::Matrix3d SkewProfile::momentsAt(std::size_t j) const {
-  const Eigen::Vector3d means = Eigen::Vector3d(output_, sums_.damping[j], sums_.stiffness[j]) / num_;
+  const Eigen::Vector3d means = Eigen::Vector3d(sums_.output, sums_.damping[j], sums_.stiffness[j]) / sums_.num;
   Eigen::Matrix3d squares;
-  squares << output_square_, sums_.damping_output[j], sums_.stiffness_output[j],  //
-      sums_.damping_output[j], sums_.damping_square[j], sums_.both[j],            //
+  squares << sums_.output_square, sums_.damping_output[j], sums_.stiffness_output[j],  //
+      sums_.damping_output[j], sums_.damping_square[j], sums_.both[j],                 //
       sums_.stiffness_output[j], sums_.both[j], sums_.stiffness_square[j];
-  return squares - num_ * means * means.transpose();
+  return squares - sums_.num * means * means.transpose();
 }
 
 void SkewProfile::closeHorizon() {
   Profile plain, of_noise;
-  const double rounding = kRounding * output_square_;
+  const double rounding = kRounding * sums_.output_square;
   for (std::size_t j = 0; j < kNumSkews; ++j) {
     const ResidualSquares left = residuals_.solve(momentsAt(j));
     if (!std::isfinite(left.plain)) return;
     plain[j] = std::max(left.plain, rounding);
     of_noise[j] = std::max(left.of_noise, rounding / noise_of_psi_);
   }
-  const double weight = (num_ - kFitted) / kAlike;
+  const double weight = (sums_.num - kFitted) / kAlike;
   if (!plain_.take(plain, weight)) return;
   of_noise_.take(of_noise, weight);
-  if (is_known_ && !newestAgrees()) forgetOlder();
-  is_known_ = true;
+  if (found_ && !newestAgrees()) forgetOlder();
   locate();
 }
 
@@ -110,12 +109,12 @@ void SkewProfile::Evidence::closeBlock(double share) {
 }
 
 bool SkewProfile::newestAgrees() const {
-  const long j = std::lround(skew_ / step_) + kSteps;
+  const long j = std::lround(found_->skew / step_) + kSteps;
   if (j < 1 || j >= 2 * kSteps) return true;
   const auto here = static_cast<std::size_t>(j);
   const Profile& newest = plain_.newest;
   const Parabola parabola(newest[here - 1], newest[here], newest[here + 1]);
-  const double at_skew = parabola.at((skew_ - skewAt(here)) / step_);
+  const double at_skew = parabola.at((found_->skew - skewAt(here)) / step_);
   return at_skew - newest.minCoeff() < kCertain * kCertain;
 }
 
@@ -132,26 +131,23 @@ SkewProfile::Optimum SkewProfile::optimumOf(const Evidence& evidence) const {
 
 void SkewProfile::locate() {
   const Optimum plain = optimumOf(plain_);
-  is_within_ = plain.is_within;
-  if (!is_within_) return;
-  skew_ = plain.skew;
-  variance_ = plain.variance + std::pow(optimumOf(of_noise_).skew - plain.skew, 2) / 3.0;
+  if (!found_) found_ = Optimum{0.0, 0.0, true};
+  found_->is_within = plain.is_within;
+  if (!plain.is_within) return;
+  found_->skew = plain.skew;
+  found_->variance = plain.variance + std::pow(optimumOf(of_noise_).skew - plain.skew, 2) / 3.0;
 }
 
 void SkewProfile::interrupt() {
   plain_.closeBlock(share_);
   of_noise_.closeBlock(share_);
   sums_ = {};
-  output_ = output_square_ = num_ = 0.0;
-  rows_ = 0;
 }
 
 void SkewProfile::restart() {
   interrupt();
   forgetOlder();
-  is_known_ = false;
-  is_within_ = true;
-  skew_ = variance_ = 0.0;
+  found_.reset();
 }
 
 }  // namespace suspension_health_monitor

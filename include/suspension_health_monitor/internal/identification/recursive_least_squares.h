@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -78,7 +79,7 @@ class RecursiveEstimator {
   void hold(int i, bool held);
 
   /// @return true if some parameter is held: P is not that of the rows beside it.
-  bool holdsAny() const { return num_held_ > 0; }
+  bool holdsAny() const { return std::find(held_.begin(), held_.end(), true) != held_.end(); }
 
   /// Takes a row into the running means only: neither does the estimate move nor is anything forgotten.
   /// @return the innovation psi - phi' theta, in the unit of psi.
@@ -143,7 +144,6 @@ class RecursiveEstimator {
 
   int num_released_ = 0;
   std::vector<bool> held_;
-  int num_held_ = 0;
   Eigen::VectorXd excited_;  // the regressor without what is held
   double valid_rows_ = 0.0;  // in a row
   Eigen::VectorXd best_;     // estimate of the parameters

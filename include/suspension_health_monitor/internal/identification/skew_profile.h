@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/identification/regressor_noise.h"
@@ -44,14 +45,14 @@ class SkewProfile {
   /// @return true if a horizon of rows is complete: all that follows may have changed.
   bool add(const WheelHistory& wheel, const Eigen::Vector2d& body, double output);
 
-  bool isKnown() const { return is_known_; }  ///< a horizon of rows has been seen
+  bool isKnown() const { return found_.has_value(); }  ///< a horizon of rows has been seen
 
-  double skew() const { return skew_; }  ///< by which the wheel's readings are stamped late [s]
+  double skew() const { return found_ ? found_->skew : 0.0; }  ///< by which the wheel's readings are stamped late [s]
 
-  double variance() const { return variance_; }  ///< of skew() [s^2]
+  double variance() const { return found_ ? found_->variance : 0.0; }  ///< of skew() [s^2]
 
   /// @return true if the skew lies within those that are looked for.
-  bool isWithin() const { return is_within_; }
+  bool isWithin() const { return !found_ || found_->is_within; }
 
   void setForgettingFactor(double forgetting_factor);
 
@@ -66,8 +67,10 @@ class SkewProfile {
 
   static Profile none() { return Profile::Zero(); }
 
-  /// Sums over the rows.
+  /// Sums over the rows of a block.
   struct Sums {
+    int rows = 0;                                                               // all of them
+    double num = 0.0, output = 0.0, output_square = 0.0;                        // of those looked at: 1, psi, psi^2
     Profile damping = none(), stiffness = none();                               // of phi_1, phi_0
     Profile damping_square = none(), stiffness_square = none(), both = none();  // of their products
     Profile damping_output = none(), stiffness_output = none();                 // of those with psi
@@ -102,12 +105,9 @@ class SkewProfile {
   double share_ = 1.0;  // of a block, that is left at the end of the next one
   std::vector<WheelHistory::Place> places_;
   Profile prior_;  // -2 log of what is known beforehand
-  Sums sums_;      // of the block
-  double output_ = 0.0, output_square_ = 0.0, num_ = 0.0;
-  int rows_ = 0;
+  Sums sums_;
   Evidence plain_, of_noise_;  // by least squares and by total least squares
-  bool is_known_ = false, is_within_ = true;
-  double skew_ = 0.0, variance_ = 0.0;
+  std::optional<Optimum> found_;
 };
 
 }  // namespace suspension_health_monitor
