@@ -47,6 +47,10 @@ struct BodyMotion {
 struct LowPass {
   std::vector<double> taps = {};        ///< of an FIR filter that delays nothing: h_-n .. h_n, h_-k = h_k; empty: none
   std::vector<double> unfiltered = {};  ///< w'' before it [m/s^2], one per sample
+
+  /// @param num_samples  of the drive.
+  /// @throws std::invalid_argument  if the taps have no middle, or w'' before them is not known at every sample.
+  void validate(std::size_t num_samples) const;
 };
 
 /// A recorded drive of one strut: what diagnose(), compare() and identify() work on.

@@ -13,6 +13,15 @@ constexpr double kShortestPeriod = 1e-5, kLongestPeriod = 10.0;  // [s], as of s
 
 }  // namespace
 
+void LowPass::validate(std::size_t num_samples) const {
+  if (!taps.empty() && taps.size() % 2 == 0)
+    throw std::invalid_argument("low_pass has " + std::to_string(taps.size()) + " taps, must be an odd number");
+  const std::size_t needed = taps.empty() ? 0 : num_samples;
+  if (unfiltered.size() != needed)
+    throw std::invalid_argument("low_pass has " + std::to_string(unfiltered.size()) + " unfiltered values, must have " +
+                                std::to_string(needed));
+}
+
 Drive makeDrive(double period, const std::vector<double>& sprung_acceleration,
                 const std::vector<double>& unsprung_acceleration) {
   if (!(period >= kShortestPeriod && period <= kLongestPeriod))

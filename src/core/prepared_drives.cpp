@@ -45,6 +45,7 @@ PreparedDrives lacking(Shortcoming shortcoming, const StrutModel& start) {
 PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::optional<double>& sample_period,
                              const std::optional<int>& horizon_samples, const std::optional<StrutModel>& model) {
   const double period = periodOf(drives, sample_period);
+  for (const Drive& drive : drives) drive.low_pass.validate(drive.samples.size());
   if (model) requireUsable(model->effects);
   StrutModel start = model ? *model : roughStart(drives, period, horizon_samples);
   const std::optional<LaggedStrut> lagged = model ? std::nullopt : lookForClockLag(drives, period);

@@ -9,7 +9,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kMostKept = 4000000.0;  // samples of one strut, of 24 bytes each
+constexpr double kMostKept = 4000000.0;  // samples of one strut, of 40 bytes each
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include "hidden_effect.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -118,6 +119,14 @@ TEST(Facade, WrongOptionsAreRefused) {
   options = {};
   options.threads = 0;
   EXPECT_THROW(diagnose({carWithAStop()}, options), std::invalid_argument);
+  Drive filtered = carWithAStop();
+  const std::vector<double> unfiltered(filtered.samples.size());
+  for (const LowPass& low_pass :
+       {LowPass{{0.5, 0.5}, unfiltered}, LowPass{{1.0}, {}}, LowPass{{}, unfiltered}, LowPass{{1.0}, {1.0, 2.0}}}) {
+    filtered.low_pass = low_pass;
+    EXPECT_THROW(diagnose({filtered}), std::invalid_argument);
+    EXPECT_THROW(diagnoseVehicle({{{filtered, filtered}}}, {"front", "rear"}), std::invalid_argument);
+  }
   EXPECT_THROW(makeDrive(0.01, {1.0, 2.0}, {1.0}), std::invalid_argument);
   EXPECT_THROW(makeDrive(0.0, {1.0}, {1.0}), std::invalid_argument);
 }

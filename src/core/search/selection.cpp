@@ -17,7 +17,7 @@ Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOut& held
     const bool simpler = complexity(rival.ranked.model) < complexity(best.ranked.model);
     const double chance = simpler ? kFalseAlarm / static_cast<double>(ranking.size()) : kSure;
     const PairedTest gain = rival.gainOf(best);
-    const bool is_resolved = rival.loss - best.loss > square(kStraight) * held_out.size();
+    const bool is_resolved = rival.loss - best.loss > square(kStraight) * held_out.measuredSquares();
     const bool is_worse = gain.removed_share > kWorthHaving || isSignificant(gain, chance);
     if (is_worse && is_resolved) continue;
     selection.group.push_back(rival.added);

@@ -23,12 +23,15 @@ void replay(const VehicleDrive& drive, double period, const Begin& begin_series,
   }
 }
 
-void requireSameStamps(const VehicleDrive& drive) {
+void requireOneGrid(const VehicleDrive& drive) {
   const auto& first = drive.struts.front().samples;
   for (const Drive& strut : drive.struts) {
     const auto same = [](const CornerSample& a, const CornerSample& b) { return a.stamp == b.stamp; };
     if (!std::equal(first.begin(), first.end(), strut.samples.begin(), strut.samples.end(), same))
       throw std::invalid_argument("the struts of a drive must have samples of the same stamps");
+    strut.low_pass.validate(first.size());
+    if (strut.low_pass.taps != drive.struts.front().low_pass.taps)
+      throw std::invalid_argument("the struts of a drive must have passed the same filter");
   }
   for (const KnownForceRecord& force : drive.forces)
     if (force.values.size() != first.size())
@@ -104,7 +107,7 @@ CouplingEstimate coupleStruts(const std::vector<VehicleDrive>& drives, double pe
   CouplingSurvey survey({static_cast<int>(first.struts.size()), static_cast<int>(first.forces.size())}, period,
                         std::numeric_limits<double>::infinity(), knownNoise(first.noise, first.struts.size()));
   for (const VehicleDrive& drive : drives) {
-    requireSameStamps(drive);
+    requireOneGrid(drive);
     replay(
         drive, period, [&] { survey.startNewSeries(); }, [&](const VehicleSample& sample) { survey.add(sample); });
   }

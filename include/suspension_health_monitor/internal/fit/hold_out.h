@@ -52,7 +52,7 @@ class HoldOut {
   double fitPercent(double rmse) const { return 100.0 * (1.0 - rmse / deviation_); }
 
   /// @return sum of squares of the held-out measurement about its mean.
-  double size() const { return samples_ * deviation_ * deviation_; }
+  double measuredSquares() const { return samples_ * deviation_ * deviation_; }
 
  private:
   friend std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_mass);

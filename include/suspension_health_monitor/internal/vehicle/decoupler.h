@@ -69,7 +69,7 @@ class Decoupler {
   double period_;
   NeighbourWeights weights_;
   StrutMatrix bars_;
-  std::vector<double> taps_;  // of the low-pass filter; 1: there is none
+  std::vector<double> taps_;  // of the low-pass filter; {1}: there is none
   std::vector<Strut> struts_;
   std::vector<LimitedMean> force_means_;  // of each x
   boost::circular_buffer<VehicleSample> recent_;

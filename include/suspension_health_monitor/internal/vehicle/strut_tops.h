@@ -36,8 +36,8 @@ struct VehicleChannels {
 ///
 /// alpha comes from a MotionFilter, and everything else passes the same low-pass filter, the products of the angular
 /// rates after they have been formed: then all of them are still those of one motion. What the wheels do is known
-/// beside it as it was, for models whose laws are not linear. Where no strut needs the body's
-/// IMU nothing is filtered or late. Cost per instant: O(struts), no allocation.
+/// beside it as it was, for models whose laws are not linear. Where no strut needs the body's IMU nothing is filtered
+/// or late. Cost per instant: O(struts), no allocation.
 class StrutTops {
  public:
   /// @param period  T > 0.
