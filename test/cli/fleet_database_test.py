@@ -7,6 +7,7 @@ import pytest
 
 pytest.importorskip("sqlalchemy")
 from suspension_health_monitor.fleet import database, wording  # noqa: E402  after the reason to skip
+from suspension_health_monitor.fleet.drive import CRASHED, OK, POOR, UNREAD, UNREADABLE, Drive  # noqa: E402
 from suspension_health_monitor.fleet.errors import FleetError, UsageError  # noqa: E402
 
 
@@ -21,8 +22,8 @@ def bag(key, path="a.bag", **more):
 
 
 def drive(start, damping, valid=True):
-    return database.Drive(
-        database.OK, start=start, duration=120.0, struts=[estimate("left", damping, valid), estimate("right", 5.0)],
+    return Drive(
+        OK, start=start, duration=120.0, struts=[estimate("left", damping, valid), estimate("right", 5.0)],
         events=[dict(strut="left", time=start + 7, level="WARN", message="damping low")],
         findings=[dict(strut="left", verdict="effect_found", effects="bump_stop coulomb_friction", page=None)])
 
@@ -54,33 +55,33 @@ def test_a_bag_is_written_once(engine):
 def test_what_is_known_is_replaced_if_asked(engine):
     database.write(engine, bag("k"), drive(0.0, 4.0))
     database.write(engine, bag("other", "c.bag"), drive(9.0, 4.0))
-    assert database.write(engine, bag("k", "b.bag"), database.Drive(database.UNREADABLE, "cut off"), again=True)
+    assert database.write(engine, bag("k", "b.bag"), Drive(UNREADABLE, "cut off"), again=True)
     assert count_all(engine) == {"fleet_schema": 1, "drives": 2, "struts": 2, "events": 1, "findings": 1}
     assert database.counts(engine) == {"ok": 1, "unreadable": 1}
 
 
-@pytest.mark.parametrize("status", [database.CRASHED, database.UNREAD])
+@pytest.mark.parametrize("status", [CRASHED, UNREAD])
 def test_a_reading_that_failed_takes_no_good_result_away(engine, status):
-    failed = database.Drive(status, "was ended by SIGKILL")
+    failed = Drive(status, "was ended by SIGKILL")
     database.write(engine, bag("k"), drive(0.0, 4.0))
     before = count_all(engine)
     assert not database.write(engine, bag("k"), failed, again=True)
     assert not database.write(engine, bag("k", diagnose=True), failed)
     assert count_all(engine) == before and database.counts(engine) == {"ok": 1}
-    database.write(engine, bag("k"), database.Drive(database.POOR, "parked"), again=True)
+    database.write(engine, bag("k"), Drive(POOR, "parked"), again=True)
     assert database.write(engine, bag("k"), failed, again=True), "of a drive that tells of no strut"
     assert database.counts(engine) == {status: 1}
 
 
 def test_a_lost_worker_says_nothing_about_the_bag(engine):
-    assert database.write(engine, bag("k"), database.Drive(database.UNREAD, "its worker ended"))
+    assert database.write(engine, bag("k"), Drive(UNREAD, "its worker ended"))
     assert not database.is_known(engine, bag("k"))
     assert database.write(engine, bag("k"), drive(0.0, 4.0))
     assert database.counts(engine) == {"ok": 1}
 
 
 def test_all_of_a_bag_or_nothing(engine):
-    broken = database.Drive(database.OK, start=0.0, struts=[estimate("left", 4.0)],
+    broken = Drive(OK, start=0.0, struts=[estimate("left", 4.0)],
                             events=[dict(strut="left", time=None, level="OK", message="no time")])
     with pytest.raises(Exception, match="events.time"):
         database.write(engine, bag("k"), broken)
@@ -171,7 +172,7 @@ def test_values_of_another_kind_are_refused(engine, column, value, words):
 
 def test_histories(engine):
     database.write(engine, bag("late", "late.bag"), drive(1e9 + 2000, 3.0))
-    database.write(engine, bag("bad", "bad.bag"), database.Drive(database.UNREADABLE, "cut off"))
+    database.write(engine, bag("bad", "bad.bag"), Drive(UNREADABLE, "cut off"))
     database.write(engine, bag("early", "early.bag"), drive(1e9 + 1000, 4.0))
     database.write(engine, bag("parked", "parked.bag"), drive(1e9 + 1500, 9.0, valid=False))
     left, right = database.histories(engine)

@@ -21,6 +21,7 @@ import imu_bag
 
 pytest.importorskip("sqlalchemy")
 from suspension_health_monitor.fleet import database, outlook, report, report_data, show  # noqa: E402
+from suspension_health_monitor.fleet.drive import OK, Drive  # noqa: E402
 from suspension_health_monitor.fleet.command import main  # noqa: E402  after the reason to skip
 from suspension_health_monitor.fleet.history import YEAR, Event, series  # noqa: E402
 
@@ -48,7 +49,7 @@ def write_fleet(engine, folder):
             finding = dict(strut="left", verdict="effect_found", effects="bump_stop coulomb_friction",
                            page=str(folder / "pages" / "a:<b>&" / "report.html"))
             bag = database.Bag(f"{vehicle} {k}", f"{vehicle}/{k}.bag", vehicle)
-            database.write(engine, bag, database.Drive(database.OK, start=start, duration=60.0, struts=struts,
+            database.write(engine, bag, Drive(OK, start=start, duration=60.0, struts=struts,
                                                        events=last * [event], findings=last * [finding]))
 
 
@@ -122,7 +123,7 @@ def test_wrong_clocks_change_nothing_but_are_named(fleet, tmp_path):
         struts = [dict(strut="left", estimator="iv", damping_to_mass=9.0, damping_to_mass_stddev=0.04, stiffness_to_mass=60.0,
                        stiffness_to_mass_stddev=0.6, offset=0.0, temperature=None, valid=True, reason=None)]
         database.write(engine, database.Bag(str(start), f"{start}.bag", HOSTILE),
-                       database.Drive(database.OK, start=start, duration=60.0, struts=struts))
+                       Drive(OK, start=start, duration=60.0, struts=struts))
     assert main(["show", "--db", f"sqlite:///{copy}", "--json", str(tmp_path / "x.json")]) == 0
     told = json.loads((tmp_path / "x.json").read_text())
     said = "; 2 drives have a wrong clock"

@@ -10,8 +10,9 @@ import rosbag
 
 import conftest
 import fleet
-from suspension_health_monitor.fleet import bag_work, database
+from suspension_health_monitor.fleet import bag_work
 from suspension_health_monitor.fleet.bag_key import BLOCK, bag_key
+from suspension_health_monitor.fleet.drive import CRASHED
 from suspension_health_monitor.fleet.errors import FleetError, UsageError
 from suspension_health_monitor.fleet.find_bags import FOLDER_OF_THE_BAG, find_bags, vehicle_pattern
 
@@ -161,11 +162,11 @@ def test_crashes_and_hangs_are_rows_with_a_reason(program, bag, tmp_path, monkey
     monkeypatch.setenv("REAL", program.path)
     killed = fleet.write_program(tmp_path / "killed", '[ "$1" = health ] && kill -9 $$')
     drive = bag_work.read_bag(str(bag), "key", bag_work.Work(str(killed)))
-    assert drive.status == database.CRASHED and "health was ended by SIGKILL, as for want of memory" in drive.reason
+    assert drive.status == CRASHED and "health was ended by SIGKILL, as for want of memory" in drive.reason
     assert drive.struts[0]["valid"], "what has been told before is kept"
     hangs = fleet.write_program(tmp_path / "hangs", '[ "$1" = identify ] && exec sleep 1000')
     drive = bag_work.read_bag(str(bag), "key", bag_work.Work(str(hangs), time_limit=0.2))
-    assert drive.status == database.CRASHED and "--time-limit" in drive.reason
+    assert drive.status == CRASHED and "--time-limit" in drive.reason
     failing = fleet.write_program(tmp_path / "failing", "exit 77")
     assert "ended with status 77" in bag_work.read_bag(str(bag), "key", bag_work.Work(str(failing))).reason
 

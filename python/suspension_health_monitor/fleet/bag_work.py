@@ -11,7 +11,7 @@ import sys
 import tempfile
 from typing import Optional, Tuple
 
-from .database import CRASHED, OK, POOR, UNREADABLE, Drive
+from .drive import CRASHED, OK, POOR, UNREADABLE, Drive
 from .errors import FleetError, UsageError
 
 ONLY_STRUT = "strut"  # the name of a strut that is judged alone

@@ -14,15 +14,18 @@ from distributed.scheduler import KilledWorker
 
 from . import interruptions
 from .bag_work import read_bag
-from .database import UNREAD, Drive
+from .drive import UNREAD, Drive
 from .errors import FleetError
 
 PER_THREAD = 2  # bags under way for each thread: one that is read, one that waits for it
 # What a scheduler keeps of tasks that are done; by default the last 100 000, which is memory that grows with a scan.
 KEPT = {"distributed.scheduler.transition-log-length": 100, "distributed.scheduler.events-log-length": 100,
-        "distributed.admin.log-length": 100, "distributed.diagnostics.computations.max-history": 1,
-        "distributed.worker.profile.interval": "24h", "distributed.worker.profile.cycle": "24h",
-        "distributed.worker.memory.spill": False}
+        "distributed.admin.log-length": 100, "distributed.diagnostics.computations.max-history": 1}
+# How often Dask looks at itself: by default 50 times a second in every process, which is a tenth of what the bags take.
+WATCHED = {"distributed.admin.tick.interval": "1s", "distributed.admin.system-monitor.interval": "10s",
+           "distributed.worker.profile.interval": "24h",
+           "distributed.worker.profile.cycle": "24h", "distributed.worker.memory.spill": False,
+           "distributed.diagnostics.computations.ignore-modules": [""]}  # all: the source of who submits is not looked up
 
 
 @contextlib.contextmanager
@@ -35,7 +38,7 @@ def open_client(workers=None, scheduler=None, patience=60):
     for name in ("distributed", "distributed.client", "tornado", "tornado.application", "asyncio"):
         logging.getLogger(name).setLevel(logging.CRITICAL + 1)  # what matters ends in a row, or is raised
     with contextlib.ExitStack() as stack:
-        stack.enter_context(dask.config.set(KEPT))
+        stack.enter_context(dask.config.set({**KEPT, **WATCHED}))
         if scheduler is None:
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="suspension_fleet."))
             with interruptions.held():  # the client ends its workers

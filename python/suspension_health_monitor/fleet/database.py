@@ -8,7 +8,7 @@ import dataclasses
 import logging
 import re
 import time
-from typing import Any, Dict, List, Optional
+from typing import Optional
 
 import numpy as np
 from sqlalchemy import (Boolean, Column, Float, ForeignKey, Integer, MetaData, String, Table, Text, create_engine,
@@ -16,6 +16,7 @@ from sqlalchemy import (Boolean, Column, Float, ForeignKey, Integer, MetaData, S
 from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
 
 from . import wording
+from .drive import CRASHED, OK, UNREAD, UNREADABLE
 from .errors import FleetError, UsageError, naming
 from .history import Event, Finding, StrutHistory
 
@@ -23,10 +24,6 @@ SCHEMA_VERSION = 1
 # A computer without a clock begins at 1970 or where its maker did, ROS is of 2007; simulated time begins at 0.
 EARLIEST = 946684800.0  # [s since 1970] 1 January 2000: what begins before is no date, or a clock of its own
 LOCK_TIMEOUT = 60  # [s] that a client waits while others write into the same SQLite file
-
-# Of a drive: at least one strut is identified; none is; no bag, or none with what was asked for; the program was ended
-# by a signal or took too long; the file was not to be had or the worker was lost, which says nothing about the bag.
-OK, POOR, UNREADABLE, CRASHED, UNREAD = STATUSES = ("ok", "poor", "unreadable", "crashed", "unread")
 
 
 class Time(Float):
@@ -63,19 +60,6 @@ events = Table(
 findings = Table(
     "findings", metadata, Column("id", Integer, primary_key=True), _of_drive(), Column("strut", Text, nullable=False),
     Column("verdict", Text, nullable=False), Column("effects", Text, nullable=False), Column("page", Text))
-
-
-@dataclasses.dataclass(frozen=True)
-class Drive:
-    """What a bag has said. struts, events, findings: rows of their tables, without drive_id."""
-    status: str
-    reason: Optional[str] = None
-    start: Optional[float] = None     # [s] since 1970: the bag's first stamp
-    duration: Optional[float] = None  # [s]
-    diagnosed: bool = False
-    struts: List[Dict[str, Any]] = dataclasses.field(default_factory=list)
-    events: List[Dict[str, Any]] = dataclasses.field(default_factory=list)
-    findings: List[Dict[str, Any]] = dataclasses.field(default_factory=list)
 
 
 def connect(url, create=False):

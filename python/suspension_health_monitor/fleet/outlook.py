@@ -9,7 +9,6 @@ from .errors import FleetError
 from .options import add_db, at_least_one
 from .part_wear import Options
 from .progress import bar
-from .prognosis import prognosis
 
 
 def add_options(command):
@@ -27,6 +26,7 @@ def read(options):
 
 def in_order(histories, options, workers):
     """[(StrutHistory, Prognosis or None)]. :raises FleetError: one of the processes has been ended."""
+    from .prognosis import prognosis  # with SciPy: a scan need not wait for it
     work = functools.partial(prognosis, options=options)
     results = []
     pool = concurrent.futures.ProcessPoolExecutor(workers, initializer=interruptions.leave_to_parent)

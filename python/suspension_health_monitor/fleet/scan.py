@@ -7,6 +7,7 @@ import sys
 from . import database
 from .bag_key import bag_key
 from .cluster import read_bags
+from .drive import UNREAD, Drive
 from .wording import plain
 
 KNOWN = "known"
@@ -28,7 +29,7 @@ class Scan:
             if not self._again and database.is_known(self._engine, bag):
                 self._count(KNOWN)
             elif doubt:
-                self._write(bag, database.Drive(database.UNREAD, doubt))
+                self._write(bag, Drive(UNREAD, doubt))
             else:
                 yield bag
 
