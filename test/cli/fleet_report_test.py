@@ -18,11 +18,12 @@ import pytest
 import browser
 import conftest
 import imu_bag
+from fleet import session
 
 pytest.importorskip("sqlalchemy")
-from suspension_health_monitor.fleet import database, outlook, report, report_data, show  # noqa: E402
-from suspension_health_monitor.fleet.drive import OK, Drive  # noqa: E402
+from suspension_health_monitor.fleet import database, outlook, prognosis, report, report_data, show  # noqa: E402
 from suspension_health_monitor.fleet.command import main  # noqa: E402  after the reason to skip
+from suspension_health_monitor.fleet.drive import OK, Drive  # noqa: E402
 from suspension_health_monitor.fleet.history import YEAR, Event, series  # noqa: E402
 
 BEGIN, DRIVES = 1.6e9, 60
@@ -229,12 +230,20 @@ def test_a_report_that_is_ended_says_so_and_leaves_nothing(fleet, tmp_path, numb
     assert process.returncode == -number and list(tmp_path.iterdir()) == []
 
 
+def test_no_process_outlives_a_show_that_is_killed(fleet):
+    process = show_as_a_process(fleet, start_new_session=True, stdout=subprocess.DEVNULL)
+    conftest.wait_until(lambda: len(session(process.pid)) >= 3)  # with the tracker of resources, and one that works
+    process.kill()
+    process.communicate(timeout=conftest.HANGS)
+    conftest.wait_until(lambda: not session(process.pid))
+
+
 def end_this_process(*_, **__):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
 def test_a_process_that_is_ended_is_said_in_words(fleet, monkeypatch, capsys):
-    monkeypatch.setattr(outlook, "prognosis", end_this_process)
+    monkeypatch.setattr(prognosis, "prognosis", end_this_process)
     assert main(["show", "--db", fleet.url, "--workers", "1"]) == 3
     assert capsys.readouterr().err == (
         "suspension_fleet show: one of 1 processes has ended, as for want of memory: fewer --workers need less\n")

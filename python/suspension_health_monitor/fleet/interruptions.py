@@ -1,5 +1,6 @@
 """Ctrl-C and SIGTERM: when a command hears them, and when not."""
 import contextlib
+import multiprocessing
 import os
 import signal
 import sys
@@ -41,10 +42,18 @@ def hear():
 
 
 def leave_to_parent():
-    """In a process that was started while they waited: Ctrl-C is for its parent to take, SIGTERM ends it without a word."""
+    """In a process that was started while they waited: Ctrl-C is for its parent to take, SIGTERM ends it without a word,
+    and so does its parent's end."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, NUMBERS.values())
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent():
+    """One that was killed with -9 has told nobody: its processes would wait for more work for good."""
+    multiprocessing.parent_process().join()
+    os._exit(1)
 
 
 @contextlib.contextmanager
