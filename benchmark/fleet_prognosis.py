@@ -8,11 +8,13 @@ import sys
 
 import numpy as np
 
-from suspension_health_monitor.fleet.history import MONTH, YEAR, StrutHistory
+from suspension_health_monitor.fleet import change_points
+from suspension_health_monitor.fleet.history import MONTH, YEAR, StrutHistory, series
 from suspension_health_monitor.fleet.part_wear import Options
 from suspension_health_monitor.fleet.prognosis import prognosis
 
 BEGIN = 1.6e9  # [s since 1970]
+LOOKS = 10  # at a history, as it grows
 KINDS = ("healthy", "wearing", "repaired", "spring")
 
 
@@ -95,6 +97,14 @@ def cut(history, drives):
             "time", "damping_to_mass", "damping_to_mass_stddev", "stiffness_to_mass", "stiffness_to_mass_stddev")})
 
 
+def told_changes(history, options):
+    """Sets of times, as they are told at each of LOOKS, evenly over the drives."""
+    for look in range(1, LOOKS + 1):
+        ratio, *_ = series(cut(history, len(history.time) * look // LOOKS))
+        starts, _ = change_points.find(ratio, options.season, options.false_changes)
+        yield {ratio.time[start] for start in starts[1:]}
+
+
 @dataclasses.dataclass
 class Tally:
     """Counts over struts of one kind."""
@@ -104,7 +114,7 @@ class Tally:
     told: int = 0  # earliest dates: of all but those that have probably changed
     bounds: int = 0  # that the truth is not before
     years: float = 0.0
-    false_changes: int = 0  # more than 3 drives from a repair
+    false_changes: int = 0  # more than 3 drives from a repair, told at any of LOOKS
     repairs: int = 0
     found: int = 0  # of them repairs, within 3 drives
 
@@ -112,8 +122,8 @@ class Tally:
         result = prognosis(history, options)
         self.struts += 1
         self.years += truth.span
-        near = set(history.time[max(0, truth.first_new - 3):truth.first_new + 4])
-        self.false_changes += sum(truth.kind != "repaired" or change.time not in near for change in result.changes)
+        near = set(history.time[max(0, truth.first_new - 3):truth.first_new + 4]) if truth.kind == "repaired" else set()
+        self.false_changes += max(len(told - near) for told in told_changes(history, options))
         part = "stiffness" if truth.kind == "spring" else "damping"
         true_date = history.time[truth.first_new] + YEAR * truth.life(options.threshold)
         if result.likely_change is None:

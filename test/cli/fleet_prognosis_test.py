@@ -290,7 +290,7 @@ def test_fleets_whose_truth_is_known():
     assert tallies["healthy"].dates <= 3  # 0.6
     wearing = tallies["wearing"]
     assert wearing.dates >= 15 and wearing.right >= stats.binom.ppf(1e-3, wearing.dates, 0.9)
-    assert tallies["repaired"].found >= 15
+    assert tallies["repaired"].found >= stats.binom.ppf(1e-3, 30, 0.9)
 
 
 # Words and options -------------------------------------------------------------------------------------------------

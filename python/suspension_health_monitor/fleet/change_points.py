@@ -9,6 +9,9 @@ from .segments import SLOPE_STDDEV, STEP_STDDEV, Layout, design, lay_out, precis
 
 LEAST_DRIVES = 3  # of a segment: fewer may be single wrong drives
 YEARS_OF_A_PART = 5.0
+# The bound below over what is measured (benchmark/fleet_prognosis.py). By a change of measure false changes are A / R times
+# as many as it allows, in the mean over struts that do change; and their R, the sum, is mostly far beyond A.
+BOUND_OVER_MEASURED = 10.0
 _CANDIDATES = 6  # that are looked at closely; the others count as nothing, which only makes a change harder to prove
 
 
@@ -17,9 +20,9 @@ def find(series, season, false_rate):
 
     A change at drive k is judged by its Bayes factor L_k, the evidence of a model with a step and another slope there
     over that of one without. Without a change the sum of L_k over all k has the expectation of their number, and first
-    exceeds A after A drives in the mean at least (Shiryaev-Roberts; Pollak 1985). So a false change in 1 / false_rate
-    strut-years needs A = drives a year / false_rate. It is likely once it is more probable than none, if parts are
-    renewed every YEARS_OF_A_PART.
+    exceeds A after A drives in the mean at least (Shiryaev-Roberts; Pollak 1985), and after BOUND_OVER_MEASURED A as it
+    turns out. So a false change in 1 / false_rate strut-years needs A = drives a year / false_rate over that. It is
+    likely once it is more probable than none, if parts are renewed every YEARS_OF_A_PART.
 
     :param false_rate: [1/year]
     """
@@ -31,7 +34,8 @@ def find(series, season, false_rate):
             break
         drives, logarithms = np.array([*factors]), np.array([*factors.values()])
         best = int(drives[logarithms.argmax()])
-        if np.logaddexp.reduce(logarithms) < np.log(len(time) / time[-1] / false_rate):
+        drives_a_year = len(time) / time[-1]
+        if np.logaddexp.reduce(logarithms) < np.log(drives_a_year / false_rate / BOUND_OVER_MEASURED):
             expected = (time[drives] - time[drives - 1]) / YEARS_OF_A_PART
             return starts, best if np.sum(expected * np.exp(logarithms)) > 1 else None
         starts = sorted([*starts, best])
