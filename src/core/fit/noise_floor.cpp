@@ -176,8 +176,8 @@ class FreeFormLaws {
   double travel_ = 0.0, travel_rate_ = 0.0;  // rms
 };
 
-/// @return standard deviation of what an interpolation cannot tell; 0 if there are too few samples.
-double untold(const Segments& segments, const StrutModel& model, bool without_laws) {
+/// @return standard deviation of what an interpolation of z'' cannot tell, laws taken out; 0 if there are too few samples.
+double untold(const Segments& segments, const StrutModel& model) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());
   if (count <= 2.0 * kTerms) return 0.0;
@@ -185,7 +185,7 @@ double untold(const Segments& segments, const StrutModel& model, bool without_la
   Regression interpolation(interpolationRows(segments, places, series));
   const double plain = interpolation.deviation() * std::sqrt(count / (count - kTerms));
   FreeFormLaws laws(segments);
-  if (!without_laws || count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return plain;
+  if (count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return plain;
   double deviation = 0.0;
   for (int round = 1;; ++round) {
     const Regression fit(laws.interpolated(places, interpolation.solution), interpolation.error);
@@ -203,20 +203,26 @@ double ofBothSensors(double body_noise, double period, const StrutModel& model) 
   return body_noise * std::sqrt(1.0 + period * (square(b1) + b0) / (2.0 * b1));
 }
 
-double floorOfNoise(const Records& records, const StrutModel& model, bool without_laws) {
-  if (!records.front()->noise().empty()) return floorOfKnownNoise(records, model);
-  return ofBothSensors(untold(segmentsOf(records), model, without_laws), records.front()->period(), model);
-}
-
 }  // namespace
 
 double estimateNoiseFloor(const Records& records, const StrutModel& model) {
-  const double floor = floorOfNoise(records, model, true);
+  const double floor = records.front()->noise().empty()
+                           ? ofBothSensors(untold(segmentsOf(records), model), records.front()->period(), model)
+                           : floorOfKnownNoise(records, model);
   return floor > 0.0 ? std::max(floor, accuracyOfFreeRuns(records)) : 0.0;
 }
 
-double estimateSamplingFloor(const Records& records, const StrutModel& model) {
-  return floorOfNoise(records, model, false);
+double lostInSampling(const Records& records, const ModelFit& fit) {
+  const Segments segments = segmentsOf(records);
+  const std::vector<Place> places = choosePlaces(segments);
+  const auto count = static_cast<double>(places.size());
+  if (count <= 2.0 * kTerms) return 0.0;
+  Series predicted = sprungOf(segments);
+  for (std::size_t s = 0; s < predicted.size(); ++s)
+    for (std::size_t k = 0; k < predicted[s].size(); ++k) predicted[s][k] -= fit.residuals[s][k];
+  const Regression interpolation(interpolationRows(segments, places, predicted));
+  const double lost = std::sqrt(interpolation.error.squaredNorm() / (count - kTerms));
+  return ofBothSensors(lost, records.front()->period(), fit.model);
 }
 
 double accuracyOfFreeRuns(const Records& records) {

@@ -189,12 +189,11 @@ void Search::conclude(const EvaluatedModel& last) {
   result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
   if (result_.structured_share > 0.0)
     result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
-  if (!namesBeyond(base_, last).empty() && explanation_->isExplained(last)) return name(Verdict::kEffectFound, last);
+  if (!namesBeyond(base_, last).empty() && explanation_->isExplained(last, result_.noise_floor))
+    return name(Verdict::kEffectFound, last);
   result_.indistinguishable.clear();
   result_.separating.clear();
-  const bool suspected = suspect_ && explanation_->share(suspect_->chosen, result_.noise_floor) > kMostOfIt &&
-                         !explanation_->mayBeOtherStruts(suspect_->chosen);
-  if (suspected) {
+  if (suspect_ && explanation_->isSuspect(suspect_->chosen)) {
     noteGroup(*suspect_);
     result_.remainder_surface_share = evaluator_.surfaceGain(suspect_->chosen);
     return name(Verdict::kSuspect, suspect_->chosen);

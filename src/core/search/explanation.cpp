@@ -1,6 +1,7 @@
 #include "explanation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "body_turning.h"
 #include "suspension_health_monitor/internal/fit/band_noise.h"
@@ -9,8 +10,6 @@
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kTakenByAnother = 0.3;  // of what is left
 
 /// A force that goes with the body's own motion, not with the strut's.
 bool actsOnBody(const ActiveEffect& active) {
@@ -26,7 +25,6 @@ Explanation::Explanation(const Records& records, const ModelEvaluator& evaluator
     : records_(records),
       evaluator_(evaluator),
       base_(base),
-      sampling_floor_(estimateSamplingFloor(records, base.ranked.model)),
       turning_share_(shareOfTurning(records, evaluator.heldOut(), evaluator.motionOf(base))) {}
 
 double Explanation::share(const EvaluatedModel& after, double floor) const {
@@ -39,17 +37,19 @@ double Explanation::floorOf(const EvaluatedModel& after, double floor) const {
                          after.ranked.model);
 }
 
-bool Explanation::isExplained(const EvaluatedModel& after) const {
-  const double lowest = floorOf(after, sampling_floor_);
-  const double explained = share(after, lowest);
-  if (explained < kMostOfIt || mayBeOtherStruts(after)) return false;
-  // Where only the reading is to be at fault, what that leaves has been there before, as the noise of a filtered sensor
-  // has: no law hid it.
+bool Explanation::isExplained(const EvaluatedModel& after, double floor) const {
+  constexpr double kAll = 1.0 - kStructured;
+  if (mayBeOtherStruts(after)) return false;
+  const double lowest = std::hypot(floor, lostInSampling(records_, after.fit));
+  if (share(after, lowest) > kAll) return true;
+  // The rest may be noise that a sensor has filtered. Where only the reading is to be at fault, that has been there
+  // before: no law hid it.
   const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
-  if (only_reading && share(after, floorOf(base_, sampling_floor_)) < kMostOfIt) return false;
-  const double left = square(after.ranked.held_out_rmse) - square(lowest);
-  return explained > 1.0 - kWorthHaving || !isStructured(after.ranked.held_out_rmse, lowest) ||
-         evaluator_.surfaceGain(after) * square(after.ranked.held_out_rmse) < kTakenByAnother * left;
+  return !only_reading && share(after, floorOf(after, lowest)) > kAll;
+}
+
+bool Explanation::isSuspect(const EvaluatedModel& after) const {
+  return !mayBeOtherStruts(after) && share(after, 0.0) > kMostOfIt;
 }
 
 bool Explanation::mayBeOtherStruts(const EvaluatedModel& after) const {

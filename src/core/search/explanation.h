@@ -16,10 +16,12 @@ class Explanation {
   /// @return the noise floor of what a model leaves, see floorOfResidual().
   double floorOf(const EvaluatedModel& after, double floor) const;
 
-  /// Names are given if the model with them leaves noise only, or next to nothing of what there was to explain; or if
-  /// it takes most of that and no other law of travel and travel rate would take the rest: that comes from elsewhere,
-  /// or was lost in sampling.
-  bool isExplained(const EvaluatedModel& after) const;
+  /// Names are given if the model with them takes all of the structure but what counts as noise (kStructured), or what
+  /// sampling loses of its own forces.
+  bool isExplained(const EvaluatedModel& after, double floor) const;
+
+  /// A suspect makes the error smaller by more than half (kMostOfIt of its mean square).
+  bool isSuspect(const EvaluatedModel& after) const;
 
   /// @return true if other struts of the same body may have done what is taken for something else: on a body that the
   /// strut itself turns, see body_turning.h, they imitate any fault of its IMU but an offset, and forces on the body.
@@ -32,7 +34,6 @@ class Explanation {
   const Records& records_;
   const ModelEvaluator& evaluator_;
   const EvaluatedModel& base_;
-  double sampling_floor_;  // [m/s^2]
   double turning_share_;
 };
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/statistics.h"
-#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 
@@ -20,9 +19,11 @@ namespace suspension_health_monitor {
 /// @return 0 if there are too few samples to tell; not below accuracyOfFreeRuns().
 double estimateNoiseFloor(const Records& records, const StrutModel& model);
 
-/// The same without taking out what changes quickly: noise, and what sampling loses of forces with corners. No model
-/// that is driven by samples of w'' can be asked to leave less.
-double estimateSamplingFloor(const Records& records, const StrutModel& model);
+/// What sampling loses of a model's own forces [m/s^2]: the rms of what the same interpolation cannot tell of the z'' that
+/// the model predicts, in which no sensor has noise. The wheel's samples lose as much, which comes through the model. Next
+/// to nothing of what is linear; a model with corners, that friction or a stop has, cannot be asked to leave less beside the
+/// noise, since nothing tells it where between two samples they were.
+double lostInSampling(const Records& records, const ModelFit& fit);
 
 /// What a free run of the true model leaves where no sensor has noise: the interpolation of w'' is not exact [m/s^2].
 double accuracyOfFreeRuns(const Records& records);
