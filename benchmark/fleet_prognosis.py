@@ -97,10 +97,13 @@ def cut(history, drives):
             "time", "damping_to_mass", "damping_to_mass_stddev", "stiffness_to_mass", "stiffness_to_mass_stddev")})
 
 
-def told_changes(history, options):
-    """Sets of times, as they are told at each of LOOKS, evenly over the drives."""
-    for look in range(1, LOOKS + 1):
-        ratio, *_ = series(cut(history, len(history.time) * look // LOOKS))
+def told_changes(history, truth, options):
+    """Sets of times, as they are told at each of LOOKS, evenly over the drives; but not while a repair is so new that it
+    cannot be told where it belongs."""
+    for drives in (len(history.time) * look // LOOKS for look in range(1, LOOKS + 1)):
+        if truth.kind == "repaired" and 0 < drives - truth.first_new < change_points.LEAST_DRIVES:
+            continue
+        ratio, *_ = series(cut(history, drives))
         starts, _ = change_points.find(ratio, options.season, options.false_changes)
         yield {ratio.time[start] for start in starts[1:]}
 
@@ -123,7 +126,7 @@ class Tally:
         self.struts += 1
         self.years += truth.span
         near = set(history.time[max(0, truth.first_new - 3):truth.first_new + 4]) if truth.kind == "repaired" else set()
-        self.false_changes += max(len(told - near) for told in told_changes(history, options))
+        self.false_changes += max(len(told - near) for told in told_changes(history, truth, options))
         part = "stiffness" if truth.kind == "spring" else "damping"
         true_date = history.time[truth.first_new] + YEAR * truth.life(options.threshold)
         if result.likely_change is None:
@@ -145,6 +148,7 @@ def percent(part, whole):
 
 ROWS = {
     "any": (None, {}), **{kind: (kind, {}) for kind in KINDS},
+    "repaired-at-8-of-20": ("repaired", {"drives": 20, "first_new": 8}),
     "repaired-at-40-of-60": ("repaired", {"drives": 60, "first_new": 40}),
     "power-1.5": ("wearing", {"law": 1.5}), "power-0.7": ("wearing", {"law": 0.7}),
     "weather-healthy": ("healthy", {"weather": 0.02}), "weather-wearing": ("wearing", {"weather": 0.02}),
