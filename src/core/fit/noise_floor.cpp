@@ -176,7 +176,8 @@ class FreeFormLaws {
   double travel_ = 0.0, travel_rate_ = 0.0;  // rms
 };
 
-/// @return standard deviation of what an interpolation of z'' cannot tell, laws taken out; 0 if there are too few samples.
+/// @return standard deviation of what an interpolation of z'' cannot tell, laws taken out; 0 if there are too few
+/// samples.
 double untold(const Segments& segments, const StrutModel& model) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());

@@ -23,7 +23,6 @@ bool actsOnBody(const ActiveEffect& active) {
 
 Explanation::Explanation(const Records& records, const ModelEvaluator& evaluator, const EvaluatedModel& base)
     : records_(records),
-      evaluator_(evaluator),
       base_(base),
       turning_share_(shareOfTurning(records, evaluator.heldOut(), evaluator.motionOf(base))) {}
 
@@ -38,14 +37,18 @@ double Explanation::floorOf(const EvaluatedModel& after, double floor) const {
 }
 
 bool Explanation::isExplained(const EvaluatedModel& after, double floor) const {
-  constexpr double kAll = 1.0 - kStructured;
   if (mayBeOtherStruts(after)) return false;
   const double lowest = std::hypot(floor, lostInSampling(records_, after.fit));
-  if (share(after, lowest) > kAll) return true;
+  if (takesAllBut(after, lowest)) return true;
   // The rest may be noise that a sensor has filtered. Where only the reading is to be at fault, that has been there
   // before: no law hid it.
   const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
-  return !only_reading && share(after, floorOf(after, lowest)) > kAll;
+  return !only_reading && takesAllBut(after, floorOf(after, lowest));
+}
+
+bool Explanation::takesAllBut(const EvaluatedModel& after, double floor) const {
+  const double taken = share(after, floor);
+  return taken > 1.0 - kWorthHaving || (taken > 1.0 - kStructured && !isStructured(after.ranked.held_out_rmse, floor));
 }
 
 bool Explanation::isSuspect(const EvaluatedModel& after) const {

@@ -16,8 +16,8 @@ class Explanation {
   /// @return the noise floor of what a model leaves, see floorOfResidual().
   double floorOf(const EvaluatedModel& after, double floor) const;
 
-  /// Names are given if the model with them takes all of the structure but what counts as noise (kStructured), or what
-  /// sampling loses of its own forces.
+  /// Names are given if the model with them leaves noise only, or next to nothing of what there was to explain. What
+  /// sampling loses of the model's own forces, and what a sensor has filtered, counts as noise.
   bool isExplained(const EvaluatedModel& after, double floor) const;
 
   /// A suspect makes the error smaller by more than half (kMostOfIt of its mean square).
@@ -31,8 +31,9 @@ class Explanation {
   double turningShare() const { return turning_share_; }
 
  private:
+  bool takesAllBut(const EvaluatedModel& after, double floor) const;
+
   const Records& records_;
-  const ModelEvaluator& evaluator_;
   const EvaluatedModel& base_;
   double turning_share_;
 };

@@ -15,7 +15,7 @@ namespace suspension_health_monitor {
 /// two models.
 inline constexpr double kWorthHaving = 0.02;
 
-/// What takes less of the structure is not given a name.
+/// What takes less of the error (mean square) is not given a name.
 inline constexpr double kMostOfIt = 0.5;
 
 /// A model and how it did, or is expected to do, on what was held out.
