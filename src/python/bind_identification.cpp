@@ -6,6 +6,7 @@
 #include "readings.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
 
 namespace suspension_health_monitor {
 
@@ -39,7 +40,9 @@ Identification identify(const Recordings& recordings, MonitorOptions options, co
   if (model) made.setEffects(model->effects);
   const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
   forEachReading(recordings, shift, work, take, [] {});
-  return Identification::of(made, made.rejected(), course);
+  Identification found = Identification::of(made, made.rejected(), course);
+  found.change = describeChange(found, nominalOf(options), options);
+  return found;
 }
 
 }  // namespace
@@ -73,6 +76,7 @@ void bindIdentification(py::module& module) {
       .def_readonly("bridged", &Identification::bridged, "samples made of readings around a gap")
       .def_readonly("tyre", &Identification::tyre, "of a recording with a road sensor, else None")
       .def_readonly("sprung_mass", &Identification::sprung_mass, "[kg], as it was given, or None")
+      .def_readonly("change", &Identification::change, "against nominal values, in a sentence; empty: none are given")
       .def_readonly("course", &Identification::course, "estimates over time");
   module.def(
       "identify",

@@ -175,6 +175,7 @@ def test_a_period_far_below_the_spacing_is_refused(call, drive):
     (lambda: shm.diagnose(T, N, N, threads=0), "threads = 0, must be 1 or more"),
     (lambda: shm.diagnose(T, N, N, threads=1.5), "threads = 1.5, must be a whole number"),
     (lambda: shm.compare(T, N, N, model=3), "model = 3, must be a StrutModel, a dict"),
+    (lambda: shm.health(T, N, N, baseline=3), "baseline = 3, must be a Baseline or the path"),
     (lambda: shm.compare(T, N, N, model={"damping_to_mass": 3.0}), "stiffness_to_mass"),
     (lambda: shm.compare(0.01, N, N), "the drives"),
     (lambda: shm.StrutMonitor(memry=3), "the nearest known name is memory"),

@@ -4,8 +4,9 @@ import pytest
 import conftest
 
 USAGE = {
-    "no bag": ([], ["bag"]),
-    "unknown option": (["{bag}", "--bogus"], ["--bogus"]),
+    "no bag": ([], ["no bag is given; usage: suspension_bag identify BAG..."]),
+    "unknown option": (["{bag}", "--bogus"], ["--bogus'\n"]),
+    "mistyped option": (["{bag}", "--sprung", "/imu"], ["--sprung'; the nearest known name is --sprung-topic"]),
     "abbreviated option": (["{bag}", "--conf", "x"], ["--conf"]),
     "option without its value": (["{bag}", "--csv"], ["--csv"]),
     "option twice": (["{bag}", "--json", "a", "--json", "b"], ["--json"]),
@@ -111,13 +112,13 @@ def test_set_overrides_the_file(program, paper_bag):
     (["--set", "stamp_jitter=0.02"], ["stamp_jitter = 0.02", "one sample period"]),
     (["--set", "damping_ramp=false"], ["damping_ramp is no option any more", "damping_end_fraction: 1"]),
     (["--set", "sede=1"], ["sede", "nearest", "seed"]),
-    (["stray.bag"], ["positional"])])
+    (["stray.bag"], ["options only", "-o OUT.bag"])])
 def test_wrong_simulation(program, tmp_path, arguments, words):
     program.refuse(2, ["simulate", *arguments, "-o", tmp_path / "drive.bag"], words, tmp_path)
 
 
 def test_simulation_needs_an_output(program, tmp_path):
-    program.refuse(2, ["simulate"], ["--output"], tmp_path)
+    program.refuse(2, ["simulate"], ["--output is missing", "-o OUT.bag"], tmp_path)
 
 
 @pytest.mark.parametrize("b1, b0, word", [("-1", "10", "damping_to_mass = -1"), ("1", "0", "stiffness_to_mass = 0"),
