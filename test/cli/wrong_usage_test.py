@@ -89,6 +89,11 @@ def test_settings_file_that_cannot_be_read(program, paper_bag, tmp_path, name): 
     program.refuse(2, ["identify", paper_bag, "--config", path], [path, "must be a YAML file"], tmp_path)
 
 
+def test_a_relative_path_is_told_with_its_folder(program, paper_bag, tmp_path):
+    result = program("identify", paper_bag, "--config", "missing.yaml", cwd=tmp_path)
+    assert f"missing.yaml: cannot be read in {tmp_path}, must be a YAML file" in result.stderr
+
+
 def test_settings_that_contradict_each_other(program, paper_bag, tmp_path):
     arguments = ["--set", "memory=1", "--set", "fastest_memory=2"]
     program.refuse(2, ["identify", paper_bag, *arguments],
