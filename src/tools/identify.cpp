@@ -4,7 +4,6 @@
 
 #include "../ros/whole_file.h"
 #include "bag_options.h"
-#include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
 #include "healthy_strut.h"

@@ -47,8 +47,10 @@ def test_gravity_and_stamps_shift_nothing_but_time(drive):
 
 def test_swapped_sensors_are_no_strut(drive):
     stamps, body, wheel = drive
-    with pytest.raises(ValueError, match="no horizon can be proposed"):
+    with pytest.raises(ValueError, match="no horizon can be proposed.* swapped, or not in m/s"):
         shm.identify(stamps, wheel, body)
+    with pytest.raises(ValueError, match="no horizon can be proposed.* an axis the wrong way up"):
+        shm.identify(stamps, body, -wheel)
 
 
 def test_readings_that_are_no_numbers_are_counted(drive):
