@@ -29,7 +29,8 @@ def identify(*drives: Any, vehicle: Optional[Path] = None, model: Model = None, 
     """Damping/mass b1 [1/s] and stiffness/mass b0 [1/s^2] of a strut from recorded drives.
 
     :param drives: arrays, as Recording takes them: stamps (n,), body (n,), wheel (n,), or stamps_body, body,
-        stamps_wheel, wheel; or Recordings; or paths of bags. All of one strut, taken one after the other.
+        stamps_wheel, wheel; or Recordings; or paths of bags, which bag= takes as well. All of one strut, taken one
+        after the other.
     :param vehicle: of bags the path of the YAML file with the IMUs of a whole vehicle, instead of topics.
     :param model: with effects that are in the model of ls and la; a StrutModel, a dict or a model file.
     :param effects_file: path of a YAML file with laws of your own, which the model may have.
@@ -39,8 +40,8 @@ def identify(*drives: Any, vehicle: Optional[Path] = None, model: Model = None, 
         axes, frames, ranges, rates and what is published. Of bags also sprung_topic, unsprung_topic,
         road_topic, start [s], end [s]. Left out: the period is measured, the horizon proposed from the data.
         strut: of the vehicle, the only one that is wanted.
-    :returns: an Identification: .la, .ls, .iv with .damping_to_mass, .stiffness_to_mass, their _stddev, .valid ...; of a
-        vehicle a dict of them by strut.
+    :returns: an Identification: .la, .ls, .iv with .damping_to_mass, .stiffness_to_mass, their _stddev, .valid ...;
+        .change, a sentence, where nominal values are given; of a vehicle a dict of them by strut.
     :raises ValueError: wrong option, array or file; or too little data, saying what would be enough.
     """
     call = _Call("identify", drives, vehicle, options, ["model", "effects_file"], progress)
@@ -172,7 +173,8 @@ class _Call:
 
     def __init__(self, name, drives, vehicle, options, arguments, progress):
         self._name, self._progress = name, progress
-        kind, self._source = to_source(drives)
+        bags = options.pop("bag", ())
+        kind, self._source = to_source((*drives, *((bags,) if is_path(bags) else bags)))
         self.is_of_bags = kind == "bags"
         self._of_bags = {key: options.pop(key) for key in _OF_BAGS if key in options}
         self.is_of_vehicle = vehicle is not None
@@ -182,7 +184,7 @@ class _Call:
             raise ValueError(f"{next(iter(self._of_bags))} is an option of bags, must not come with arrays")
         self._config = options.pop("config", None)
         self._keywords = array_keywords(options, None if self.is_of_bags else self._config,
-                                        [*_OF_BAGS, "config", "progress", *arguments])
+                                        [*_OF_BAGS, "bag", "config", "progress", *arguments])
 
     def of_bags(self, name, *more, settings=(), **flags):
         command = getattr(files(), f"{name}_struts" if self.is_of_vehicle else name)

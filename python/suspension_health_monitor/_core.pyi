@@ -69,6 +69,7 @@ class Course:
 class Diagnosis:
     base: RankedModel
     base_fit_percent: float
+    change: str
     explained_share: float
     extended: Optional[RankedModel]
     extended_fit_percent: float
@@ -158,6 +159,7 @@ class HealthReport:
 class Identification:
     alignment: str
     bridged: int
+    change: str
     clock_jumps: int
     course: Course
     gaps: int
@@ -278,6 +280,7 @@ class Simulation:
     travel_rate: Numbers
     wheel: Numbers
     def plot(self, axes: Any = ...) -> Any: ...
+    def _repr_html_(self) -> str: ...
 
 class StrutEstimate:
     clock_skew: float

@@ -79,7 +79,7 @@ def _identification_html(self):
     rows = [_estimate_row(name, getattr(self, name)) for name in ("la", "ls", "iv")]
     caption = f"{self.samples} samples of {self.sample_period:.6g} s, horizon {self.horizon_samples} samples, " \
               f"{self.gaps} gaps, {sum(self.rejected.values())} readings kept out"
-    return _table(_ESTIMATE_HEAD, rows, caption) + _paragraphs(*self.warnings)
+    return _table(_ESTIMATE_HEAD, rows, caption) + _paragraphs(self.change, *self.warnings)
 
 
 # Health ------------------------------------------------------------------------------------------------------------
@@ -135,7 +135,8 @@ def _diagnosis_html(self):
              "yes" if each.significant else "no") for each in self.ranking[:8]]
     rows.insert(0, ("the model as it is", _number(self.base.held_out_rmse), "", ""))
     stddev = self.final_fit.stddev if self.final_fit is not None else ()
-    return _paragraphs(_Markup(f"<b>{html.escape(self.summary)}</b>"), self.remainder, *groups, self.suggested_drive) \
+    return _paragraphs(_Markup(f"<b>{html.escape(self.summary)}</b>"), self.remainder, self.change, *groups,
+                       self.suggested_drive) \
         + _table(("added alone", "held-out rmse [m/s²]", "error removed [%]", "significant"), rows) \
         + _model_table(self.model, stddev)
 
@@ -144,16 +145,24 @@ def _simulation(self):
     return f"<Simulation: {len(self.body)} readings of the body, {len(self.wheel)} of the wheel, {self.time[-1]:.6g} s>"
 
 
+def _simulation_html(self):
+    sensors = [("body", self.body), ("wheel carrier", self.wheel), *([("road", self.road)] if len(self.road) else [])]
+    return _table(("sensor", "readings", "mean [m/s²]", "standard deviation [m/s²]"), [
+        (name, len(readings), _number(readings.mean()), _number(readings.std())) for name, readings in sensors],
+        f"{self.time[-1]:.6g} s, simulated; plot() draws them")
+
+
 def install():
     """Gives the compiled classes their looks."""
     for cls, in_line, in_notebook in (
             (_core.Identification, _identification, _identification_html), (_core.Health, _health, _health_html),
             (_core.Comparison, _comparison, _comparison_html), (_core.Diagnosis, _diagnosis, _diagnosis_html),
-            (_core.StrutModel, _model, _model_table)):
+            (_core.StrutModel, _model, _model_table), (_core.Simulation, _simulation, _simulation_html)):
         cls.__repr__, cls._repr_html_ = in_line, in_notebook
     for cls in (_core.StrutEstimate, _core.IdentifiedStrut):
         cls.__repr__ = lambda self: f"<{type(self).__name__}: {_estimate(self)}>"
-    _core.Simulation.__repr__ = _simulation
+    _core.PredictionError.__repr__ = \
+        lambda self: f"<rmse {_number(self.rmse)} m/s^2, fit {_number(self.fit_percent)} %>"
     _core.Effect.__repr__ = lambda self: f"<Effect {self.name}: {self.law}>"
     _core.HealthMoment.__repr__ = lambda self: f"<{self.time:.2f} s {self.level}: {self.message}>"
     _core.FailureRegion.__repr__ = lambda self: f"<{self.sentence}>"

@@ -25,8 +25,10 @@ def to_model(model: Any, effects_file: Any = None) -> Any:
 
 def healthy_strut(baseline: Any) -> Any:
     """A Baseline, and the file that it was read from; None and no file: of None."""
-    if not is_path(baseline):
+    if baseline is None or isinstance(baseline, _core.Baseline):
         return baseline, ""
+    if not is_path(baseline):
+        raise ValueError(f"baseline = {baseline!r}, must be a Baseline or the path of a file with one")
     file = os.fspath(baseline)
     return files().read_baseline(file), file
 

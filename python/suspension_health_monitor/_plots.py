@@ -25,10 +25,10 @@ def _estimates(axes, course, values):
         axis.plot(course.time, getattr(course, f"ls_{name}"), linewidth=0.6, label="ls")
         for label, value in values(name):
             axis.axhline(value, linestyle="--", color="k", linewidth=0.8, label=label)
-        shown = middle[valid]
-        if len(shown):
-            margin = 0.5 * max(shown.max() - shown.min(), 0.1 * abs(shown.mean()))
-            axis.set_ylim(shown.min() - margin, shown.max() + margin)
+        shown = [*middle[valid], *(value for _, value in values(name))]  # not what an estimate is while it settles
+        if shown:
+            margin = 0.25 * max(max(shown) - min(shown), 0.2 * abs(shown[0]))
+            axis.set_ylim(min(shown) - margin, max(shown) + margin)
         axis.set_ylabel(title)
         axis.legend(loc="best", fontsize="small")
 
@@ -45,9 +45,10 @@ def _plot_identification(self, axes=None):
 def _plot_health(self, axes=None):
     """Level, damping and stiffness over time; returns the figure. axes: three, to draw into."""
     figure, axes = _axes(axes, 3, sharex=True)
-    levels = ["OK", "WARN", "ERROR", "STALE"]
+    levels = ["STALE", "OK", "WARN", "ERROR"]  # what nobody can tell is no worse than an error
     moments = [*self.events, self.end]
     axes[0].step([each.time for each in moments], [levels.index(each.level) for each in moments], where="post", color="k")
+    axes[0].set_ylim(-0.5, 3.5)
     axes[0].set_yticks(range(4))
     axes[0].set_yticklabels(levels)
     healthy = self.baseline
@@ -101,10 +102,9 @@ def _plot_diagnosis(self, axes=None):
         errors.append(self.extended.held_out_rmse)
     chosen = {*self.selected, names[-1]} if len(self.selected) > 1 else set(self.selected)
     axis.barh(names, errors, color=["tab:green" if name in chosen else "0.7" for name in names])
-    axis.axvline(self.noise_floor, color="k", linestyle="--", linewidth=0.8, label="noise floor, about")
+    axis.axvline(self.noise_floor, color="k", linestyle="--", linewidth=0.8)
     axis.invert_yaxis()
-    axis.set(xlabel="held-out rmse [m/s²]", title=self.summary)
-    axis.legend(loc="best", fontsize="small")
+    axis.set(xlabel="held-out rmse [m/s²]; dashed: noise floor, about", title=self.summary)
     return figure
 
 

@@ -43,6 +43,8 @@ Progress::Progress(std::string label, double total) : label_(std::move(label)), 
 
 Progress::~Progress() = default;
 
+void Progress::clear() {}  // nothing is drawn
+
 void Progress::update(double done) {
   if (current != nullptr && total_ > 0.0) current->update(done / total_);
 }

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "../ros/model_file.h"
 #include "../ros/simulated_drive.h"
@@ -15,6 +16,7 @@
 #include "bags_call.h"
 #include "options.h"
 #include "results.h"
+#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -34,7 +36,9 @@ Identification identifyBags(const Arguments& arguments, LongWork& work) {
   recorded.read(gaps);
   const DriveIdentification& made = recorded.made();
   gaps.explain([&] { requireRows(made.monitor(), made.grid(), recorded.rejected()); });
-  return Identification::of(made, recorded.rejected(), course);
+  Identification found = Identification::of(made, recorded.rejected(), course);
+  found.change = describeChange(found, knownHealthy(options.healthy, options.pipeline), options.pipeline.monitor);
+  return found;
 }
 
 HealthSummary watchBags(const Arguments& arguments, const std::optional<HealthyStrut>& healthy, LongWork& work) {
@@ -113,7 +117,8 @@ PYBIND11_MODULE(_bags, module) {
       [](const Arguments& arguments, int threads, const py::object& progress) {
         LongWork work(progress);
         const auto search = [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
-          return diagnoseBags(options, models, threads, gaps, work.callback()).found;
+          RecordedDiagnosis recorded = diagnoseBags(options, models, threads, gaps, work.callback());
+          return SearchedStrut{std::move(recorded.found), std::move(recorded.change)};
         };
         return asCommand([&] { return work.run([&] { return withDrives(arguments, work, search); }); });
       },

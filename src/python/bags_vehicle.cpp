@@ -8,6 +8,7 @@
 #include "../ros/vehicle_options.h"
 #include "../tools/bag_options.h"
 #include "../tools/errors.h"
+#include "../tools/healthy_strut.h"
 #include "../tools/recorded_vehicle.h"
 #include "../tools/strut_files.h"
 #include "../tools/vehicle_bags.h"
@@ -15,6 +16,7 @@
 #include "../tools/watched_vehicle.h"
 #include "bags_call.h"
 #include "results.h"
+#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -61,7 +63,9 @@ ByStrut<Identification> identifyStrutsOf(const Arguments& arguments, LongWork& w
     static_cast<IdentifyResult&>(result) = found.struts[i];
     result.mean_period = std::nan("");  // of the sensors' grid, not of one strut
     result.alignment = recorded.alignment;
-    result.sprung_mass = recorded.settings.struts[i].monitor.sprung_mass;
+    const PipelineOptions& options = recorded.settings.struts[i];
+    result.sprung_mass = options.monitor.sprung_mass;
+    result.change = describeChange(result, knownHealthy({}, options), options.monitor);
     result.course = courses[i];
   }
   return results;
@@ -87,7 +91,7 @@ ByStrut<Comparison> compareStrutsOf(const Arguments& arguments, LongWork& work) 
   return results;
 }
 
-ByStrut<Diagnosis> diagnoseStrutsOf(const Arguments& arguments, int threads, LongWork& work) {
+ByStrut<SearchedStrut> diagnoseStrutsOf(const Arguments& arguments, int threads, LongWork& work) {
   const ToolsWork tools(work, 0);
   const po::variables_map values = parsed(arguments);
   RecordedVehicle recorded(values);
@@ -100,9 +104,10 @@ ByStrut<Diagnosis> diagnoseStrutsOf(const Arguments& arguments, int threads, Lon
   const VehicleDiagnosis found =
       diagnoseVehicle(recorded.drives, names, diagnoseOptionsOf(recorded.settings, options), models);
   recorded.gaps.explain([&] { requireCoupling(found.coupling); });
-  ByStrut<Diagnosis> results;
+  const std::vector<std::string> changes = changesOf(recorded.drives, names, recorded.settings);
+  ByStrut<SearchedStrut> results;
   for (const std::size_t i : recorded.vehicle.asked) {
-    Diagnosis& result = results[names[i]] = found.struts[i];
+    SearchedStrut& result = results[names[i]] = {found.struts[i], changes[i]};
     if (!result) throw TooLittleError(names[i] + ": the drives " + result.reason);
     result.verdict = found.verdictOn(i);
     result.selected = found.selected(i);

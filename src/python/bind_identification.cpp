@@ -6,6 +6,8 @@
 #include "readings.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
 
 namespace suspension_health_monitor {
 
@@ -16,12 +18,16 @@ namespace {
 double proposeHorizon(const Recordings& recordings, const MonitorOptions& options, double period, Stamp shift,
                       LongWork& work) {
   const std::vector<Drive> drives = toDrives(recordings, options, period, shift, work);
-  const auto samples = surveyHorizon(drives, period, std::numeric_limits<std::size_t>::max());
-  if (!samples)
-    throw std::invalid_argument(
-        "no horizon can be proposed: the data show no damped spring; give integration_horizon to look at them all the "
-        "same");
-  return *samples * period;
+  const HorizonSurvey survey = surveyOf(drives, period, std::numeric_limits<std::size_t>::max());
+  if (const auto samples = survey.horizonSamples()) return *samples * period;
+  UniformGrid grid(period, MonitorSettings(options).grid(period));
+  recordings.front().forEach([&](Side side, Stamp stamp, double value) {
+    if (side == Side::kRoad) return;
+    for (auto sample = grid.push(side, stamp + shift, value); sample;) sample = grid.next();
+  });
+  throw std::invalid_argument("no horizon can be proposed: the data show no damped spring" +
+                              describeSuspicions(grid, survey.dampingIsNegative()) +
+                              "; give integration_horizon to look at them all the same");
 }
 
 Identification identify(const Recordings& recordings, MonitorOptions options, const std::optional<StrutModel>& model,
@@ -39,7 +45,9 @@ Identification identify(const Recordings& recordings, MonitorOptions options, co
   if (model) made.setEffects(model->effects);
   const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
   forEachReading(recordings, shift, work, take, [] {});
-  return Identification::of(made, made.rejected(), course);
+  Identification found = Identification::of(made, made.rejected(), course);
+  found.change = describeChange(found, nominalOf(options), options);
+  return found;
 }
 
 }  // namespace
@@ -73,6 +81,7 @@ void bindIdentification(py::module& module) {
       .def_readonly("bridged", &Identification::bridged, "samples made of readings around a gap")
       .def_readonly("tyre", &Identification::tyre, "of a recording with a road sensor, else None")
       .def_readonly("sprung_mass", &Identification::sprung_mass, "[kg], as it was given, or None")
+      .def_readonly("change", &Identification::change, "against nominal values, in a sentence; empty: none are given")
       .def_readonly("course", &Identification::course, "estimates over time");
   module.def(
       "identify",

@@ -51,10 +51,15 @@ struct Identification : IdentifyResult {
   std::uint64_t bridged = 0;
   std::optional<TyreReport> tyre;
   std::optional<double> sprung_mass;  ///< [kg], as it was given
+  std::string change;                 ///< how the strut is against the healthy one, in a sentence; empty: none is known
   Course course;
 
   /// @throws std::invalid_argument  saying why, if the readings have not given one regression row.
   static Identification of(const DriveIdentification& made, const RejectCounts& rejected, const Course& course);
+};
+
+struct SearchedStrut : Diagnosis {
+  std::string change;  ///< likewise
 };
 
 struct HealthSummary {

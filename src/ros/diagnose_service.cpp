@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "monitor_thread.h"
+#include "strut_search.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -41,6 +42,9 @@ class Running {
   const bool first_;
 };
 
+void takeFiguresOff(DiagnoseResponse& response) { response = withoutFigures(); }
+void takeFiguresOff(DiagnoseVehicleResponse&) {}  // it has none
+
 }  // namespace
 
 template <class Service>
@@ -64,6 +68,7 @@ DiagnoseService<Service>::~DiagnoseService() {
 template <class Service>
 bool DiagnoseService<Service>::onDiagnose(Request& request, Response& response) {
   const Running running(running_);
+  takeFiguresOff(response);
   if (!running.first()) {
     response.message = "a search is running already: call again when it has ended";
     return true;

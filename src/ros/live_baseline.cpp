@@ -132,14 +132,13 @@ std::string LiveBaseline::reference(const MonitorOptions& options) const {
 std::string LiveBaseline::keepLearned(const SuspensionMonitor& monitor) {
   if (known_ || !monitor.baseline().learned) return {};
   known_ = monitor.baseline();
-  if (path_.empty()) return "baseline learned";
+  if (path_.empty()) return "baseline learned, until the monitor ends: baseline_file would keep it";
   write(*known_, monitor);
   return "baseline learned and written to " + path_;
 }
 
 void LiveBaseline::save(const SuspensionMonitor* monitor) {
-  if (monitor == nullptr || !monitor->report().la.valid())
-    throw std::runtime_error("nothing to save: the monitor has no valid estimate");
+  if (monitor == nullptr || !monitor->report().la.valid()) throw std::runtime_error(kNothingToSave);
   if (path_.empty()) throw std::runtime_error("no file to write to: set the parameter baseline_file");
   const StrutEstimate& la = monitor->report().la;
   const MonitorOptions& options = monitor->options();

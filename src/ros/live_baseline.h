@@ -40,6 +40,9 @@ class LiveBaseline {
   std::optional<Baseline> known_;
 };
 
+/// Why a monitor has no model and no baseline to write.
+inline constexpr const char* kNothingToSave = "nothing to save yet: the monitor has no valid estimate, drive on";
+
 /// The file's text.
 std::string toYaml(const Baseline& baseline, double horizon, double sample_period);
 

@@ -146,7 +146,8 @@ std::vector<std::string> LiveModel::remarks() const {
   std::vector<std::string> all;
   if (!model_file_.empty() && !loaded_)
     all.push_back("model_file " + model_file_ +
-                  (std::filesystem::exists(model_file_) ? " has no model of " + strut_ : " is not there yet") +
+                  (std::filesystem::exists(model_file_) ? " has no model of " + strut_
+                                                        : " is not there yet" + inWhichFolder(model_file_)) +
                   ": starting with " + describe());
   if (loaded_)
     for (const ActiveMeasurementEffect& reading : loaded_->reading)

@@ -44,11 +44,18 @@ Diagnosis searchEffects(const SearchTask& task) {
 
 }  // namespace
 
-DiagnoseResponse toResponse(const Diagnosis& found) {
+DiagnoseResponse withoutFigures() {
   DiagnoseResponse response;
-  response.success = true;
+  response.base_held_out_rmse = response.base_fit_percent = response.noise_floor = kUnknown;
+  response.structured_share = response.surface_share = kUnknown;
   response.extended_held_out_rmse = response.extended_fit_percent = kUnknown;
   response.damping_to_mass = response.stiffness_to_mass = kUnknown;
+  return response;
+}
+
+DiagnoseResponse toResponse(const Diagnosis& found) {
+  DiagnoseResponse response = withoutFigures();
+  response.success = true;
   response.message = found.remainder.empty() ? found.summary : found.summary + ' ' + found.remainder;
   response.verdict = nameOf(found.verdict);
   response.base_held_out_rmse = found.base.held_out_rmse;

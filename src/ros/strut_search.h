@@ -20,6 +20,9 @@ struct SearchTask {
 /// @throws std::invalid_argument  naming the window and what is allowed.
 double searchSpan(double window, double kept);
 
+/// An answer of ~diagnose without one: every figure is NaN.
+DiagnoseResponse withoutFigures();
+
 /// The answer of ~diagnose: the whole result as plain fields.
 DiagnoseResponse toResponse(const Diagnosis& found);
 

@@ -58,8 +58,7 @@ std::optional<MotionScale> StrutServices::motionScaleNow() const {
 bool StrutServices::onSaveModel(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   const SuspensionMonitor* monitor = strut_.monitor();
   try {
-    if (monitor == nullptr || !monitor->report().la.valid())
-      throw std::runtime_error("nothing to save: the monitor has no valid estimate");
+    if (monitor == nullptr || !monitor->report().la.valid()) throw std::runtime_error(kNothingToSave);
     const StrutEstimate& la = monitor->report().la;
     model_.save({la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}});
     response.success = true;

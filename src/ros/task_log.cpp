@@ -2,6 +2,10 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
@@ -17,15 +21,26 @@ ros::console::Level lineOf(unsigned char level) {
 }  // namespace
 
 void TaskLog::note(const Status& status) {
-  const auto level = static_cast<unsigned char>(status.level);
+  const Said said = saidBy(status);
   const ros::WallTime now = ros::WallTime::now();
-  if (!now_ || now_->value != level) now_ = Level{level, now};
-  if (told_ == level || now - now_->since < lasting_) return;
-  const bool is_worth_telling = level >= least_ || (told_ && *told_ >= least_);
-  told_ = level;
+  if (!(now_ == said)) {
+    now_ = said;
+    since_ = now;
+  }
+  if (told_ == said || now - since_ < lasting_) return;
+  const bool is_worth_telling = said.level >= least_ || (told_ && told_->level >= least_);
+  told_ = said;
   if (is_worth_telling)
-    ROS_LOG(lineOf(level), ROSCONSOLE_DEFAULT_NAME, "%s: %s: %s", task_.c_str(),
-            nameOf(static_cast<HealthLevel>(level)), status.message.c_str());
+    ROS_LOG(lineOf(said.level), ROSCONSOLE_DEFAULT_NAME, "%s: %s: %s", task_.c_str(),
+            nameOf(static_cast<HealthLevel>(said.level)), status.message.c_str());
+}
+
+TaskLog::Said TaskLog::saidBy(const Status& status) const {
+  Said said{static_cast<unsigned char>(status.level), {}};
+  if (lasting_.isZero() || said.level < least_) return said;
+  std::copy_if(status.message.begin(), status.message.end(), std::back_inserter(said.reason),
+               [](unsigned char c) { return std::isdigit(c) == 0 && c != '.'; });
+  return said;
 }
 
 }  // namespace suspension_health_monitor

@@ -15,23 +15,28 @@ class TaskLog {
 
   /// @param task  as the lines name it.
   /// @param least  levels below are told only as the end of one that was.
-  /// @param lasting  [s] of wall time that a level must last first.
+  /// @param lasting  [s] of wall time that a level must last first. Above 0 a new reason of a level from `least` on is
+  ///        told, too, once it has lasted as long; numbers in it may change.
   explicit TaskLog(const std::string& task, unsigned char least = Status::OK, double lasting = 0.0)
       : task_(task), least_(least), lasting_(lasting) {}
 
   void note(const Status& status);
 
  private:
-  struct Level {
-    unsigned char value;
-    ros::WallTime since;
+  struct Said {
+    unsigned char level;
+    std::string reason;  // without numbers; empty where it does not count
+
+    bool operator==(const Said& other) const { return level == other.level && reason == other.reason; }
   };
+
+  Said saidBy(const Status& status) const;
 
   std::string task_;
   unsigned char least_;
   ros::WallDuration lasting_;
-  std::optional<unsigned char> told_;
-  std::optional<Level> now_;
+  std::optional<Said> told_, now_;
+  ros::WallTime since_;  // of now_
 };
 
 }  // namespace suspension_health_monitor

@@ -113,11 +113,16 @@ OptionMap parseYaml(const std::string& text, const std::string& name) {
 OptionMap readYaml(const std::string& path) {
   if (std::filesystem::is_directory(path)) throw std::invalid_argument(path + ": is a folder, must be a YAML file");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::invalid_argument(path + ": cannot be read, must be a YAML file");
+  if (!file) throw std::invalid_argument(path + ": cannot be read" + inWhichFolder(path) + ", must be a YAML file");
   std::string text(kLargestText + 1, '\0');  // and no more, of what may have no end
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   return parseYaml(text, path);
+}
+
+std::string inWhichFolder(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::path(path).is_absolute() ? "" : " in " + std::filesystem::current_path(error).string();
 }
 
 }  // namespace suspension_health_monitor

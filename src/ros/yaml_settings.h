@@ -17,4 +17,8 @@ OptionMap parseYaml(const std::string& text, const std::string& name);
 /// @throws std::invalid_argument  naming the file, and the line where it is not a tree of names and plain values.
 OptionMap readYaml(const std::string& path);
 
+/// For messages about files that are not there: a node does not run in the folder where it was started from.
+/// @return " in FOLDER" of a relative path, empty of an absolute one.
+std::string inWhichFolder(const std::string& path);
+
 }  // namespace suspension_health_monitor

@@ -11,9 +11,6 @@
 
 namespace suspension_health_monitor {
 
-/// @return what in the readings may be why they show no strut: "; ..." for each suspicion, empty without any.
-std::string describeSuspicions(const UniformGrid& grid, bool negative_damping);
-
 /// What came of reading samples.
 struct ReadSamples {
   UniformGrid grid;  ///< after the last reading

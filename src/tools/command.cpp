@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "../ros/yaml_settings.h"
+#include "suspension_health_monitor/internal/nearest_name.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -22,6 +23,38 @@ std::vector<std::string> paths(const po::variables_map& values, const std::strin
   return values[option].as<std::vector<std::string>>();
 }
 
+/// "; the nearest known name is --NAME", of options other than that of bare arguments.
+std::string suggestOption(const std::string& unknown, const po::options_description& options,
+                          const std::string& positional) {
+  std::vector<std::string> names;
+  for (const auto& option : options.options())
+    if (option->long_name() != positional) names.push_back("--" + option->long_name());
+  return suggestNearest(unknown, names);
+}
+
+/// Parses, and says what is wrong in the words of the usage: nobody types --bag.
+po::variables_map parsed(const Arguments& arguments, const std::string& usage, const po::options_description& options,
+                         const std::string& positional) {
+  po::positional_options_description bare;
+  if (!positional.empty()) bare.add(positional.c_str(), -1);
+  po::variables_map values;
+  // No guessing: an abbreviated option would change its meaning when a new option appears.
+  const auto style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+  try {
+    po::store(po::command_line_parser(arguments).options(options).positional(bare).style(style).run(), values);
+    if (values.count("help") == 0) po::notify(values);
+  } catch (const po::unknown_option& error) {
+    throw std::invalid_argument(error.what() + suggestOption(error.get_option_name(), options, positional));
+  } catch (const po::required_option& error) {
+    const bool is_bare = error.get_option_name() == "--" + positional;
+    throw std::invalid_argument((is_bare ? "no bag is given" : error.get_option_name() + " is missing") +
+                                "; usage: suspension_bag " + usage);
+  } catch (const po::too_many_positional_options_error&) {
+    throw std::invalid_argument("options only, no other words; usage: suspension_bag " + usage);
+  }
+  return values;
+}
+
 /// The file that an output option with this value makes.
 fs::path writtenBy(const std::string& option, const std::string& value) {
   return option == kReport ? fs::path(value) / kReportFile : fs::path(value);
@@ -32,17 +65,11 @@ fs::path writtenBy(const std::string& option, const std::string& value) {
 std::optional<po::variables_map> parse(const Arguments& arguments, const std::string& usage,
                                        po::options_description options, const std::string& positional) {
   options.add_options()("help,h", "show this help");
-  po::positional_options_description bare;
-  if (!positional.empty()) bare.add(positional.c_str(), -1);
-  po::variables_map values;
-  // No guessing: an abbreviated option would change its meaning when a new option appears.
-  const auto style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
-  po::store(po::command_line_parser(arguments).options(options).positional(bare).style(style).run(), values);
+  po::variables_map values = parsed(arguments, usage, options, positional);
   if (values.count("help") != 0) {
     std::cout << "usage: suspension_bag " << usage << "\n" << options;
     return std::nullopt;
   }
-  po::notify(values);
   std::string line = "suspension_bag " + usage.substr(0, usage.find(' '));
   for (const std::string& word : arguments) line += ' ' + shellQuoted(word);
   values.emplace(kCommandLine, po::variable_value(line, true));

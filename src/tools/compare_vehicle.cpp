@@ -33,6 +33,7 @@ void compareStruts(const boost::program_options::variables_map& values) {
     const Comparison comparison = compare(separated.struts[i], options);
     requireEnough(comparison.shortcoming, comparison.reason);
     done += 1.0;
+    progress.clear();
     std::printf("\n%s\n", vehicle.names[i].c_str());
     printComparison(comparison);
     whole["struts"][vehicle.names[i]] = toJson(comparison);

@@ -4,32 +4,16 @@
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
-#include "healthy_strut.h"
+#include "identify_tables.h"
 #include "long_work.h"
 #include "recorded_strut.h"
 #include "report_page.h"
 #include "results.h"
-#include "strut_change.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace po = boost::program_options;
-
-namespace {
-
-/// @return how the strut is against the healthy one, as identify says it; empty where none is known.
-std::string changeOf(const RecordedDiagnosis& recorded, const PipelineOptions& pipeline) {
-  const Baseline healthy = knownHealthy({}, pipeline);
-  if (healthy.isEmpty()) return "";
-  IdentifyOptions options;
-  options.sample_period = recorded.options.sample_period;
-  options.horizon_samples = recorded.options.horizon_samples;
-  options.memory = pipeline.monitor.memory;
-  return describeChange(identify(recorded.drives, options), healthy, pipeline);
-}
-
-}  // namespace
 
 void diagnose(const Arguments& arguments) {
   po::options_description description("options");
@@ -67,8 +51,9 @@ void diagnose(const Arguments& arguments) {
       diagnoseBags(options, models, threads, gaps, [&](double share) { progress.update(share); });
   const Diagnosis& found = recorded.found;
 
-  const std::string change = changeOf(recorded, options.pipeline);
+  const std::string& change = recorded.change;
 
+  progress.clear();
   gaps.print();
   printSearch(found);
   printChange(change);

@@ -5,10 +5,10 @@
 #include "command.h"
 #include "errors.h"
 #include "healthy_strut.h"
+#include "identify_tables.h"
 #include "long_work.h"
 #include "recorded_vehicle.h"
 #include "results.h"
-#include "strut_change.h"
 #include "strut_files.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "vehicle_commands.h"
@@ -27,20 +27,6 @@ void requireOne(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
     if (found.struts[i]) return;
   const std::size_t first = vehicle.asked.front();
   throw TooLittleError(vehicle.names[first] + ": the drives " + found.struts[first].reason);
-}
-
-/// @return by strut how it is against the healthy one, as identify says it; empty where none is known.
-std::vector<std::string> changesOf(const std::vector<VehicleDrive>& drives, const AskedVehicle& vehicle,
-                                   const VehicleOptions& settings) {
-  std::vector<std::string> changes;
-  std::vector<Baseline> healthy;
-  for (const PipelineOptions& strut : settings.struts) healthy.push_back(knownHealthy({}, strut));
-  if (std::all_of(healthy.begin(), healthy.end(), [](const Baseline& strut) { return strut.isEmpty(); }))
-    return std::vector<std::string>(healthy.size());
-  const VehicleIdentification identified = identifyVehicle(drives, vehicle.names, identifyOptionsOf(settings));
-  for (std::size_t i = 0; i < healthy.size(); ++i)
-    changes.push_back(describeChange(identified.struts[i], healthy[i], settings.struts[i]));
-  return changes;
 }
 
 void print(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std::vector<std::string>& changes) {
@@ -101,7 +87,8 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   options.progress = [&](double share) { progress.update(share); };
   const VehicleDiagnosis found = diagnoseVehicle(drives, vehicle.names, diagnoseOptionsOf(settings, options), models);
   gaps.explain([&] { requireOne(found, vehicle); });
-  const std::vector<std::string> changes = changesOf(drives, vehicle, settings);
+  const std::vector<std::string> changes = changesOf(drives, vehicle.names, settings);
+  progress.clear();
   print(found, vehicle, changes);
   if (file) file->commit(toJson(found, vehicle, changes, gaps).dump(2) + '\n');
   if (model) model->commit(toYaml(modelsOf(found), vehicle));

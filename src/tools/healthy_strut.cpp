@@ -5,6 +5,7 @@
 #include "../ros/live_baseline.h"
 #include "../ros/yaml_settings.h"
 #include "strut_files.h"
+#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
 #include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
@@ -18,19 +19,12 @@ bool areSettings(const OptionMap& values) {
   });
 }
 
-Baseline nominalOf(const PipelineOptions& options) {
-  Baseline nominal;
-  nominal.damping_to_mass = options.monitor.nominal_damping_to_mass;
-  nominal.stiffness_to_mass = options.monitor.nominal_stiffness_to_mass;
-  return nominal;
-}
-
 }  // namespace
 
 HealthyStrut readHealthy(const std::string& path) {
   OptionMap values = readYaml(path);
   return prefixed(path + ": ", [&]() -> HealthyStrut {
-    if (areSettings(values)) return {nominalOf(PipelineOptions::fromValues(values)), path};
+    if (areSettings(values)) return {nominalOf(PipelineOptions::fromValues(values).monitor), path};
     return {takeBaseline(values), path};
   });
 }
@@ -54,7 +48,7 @@ std::vector<std::optional<HealthyStrut>> takeHealthy(const boost::program_option
   if (const OptionMap settings = readYaml(path); areSettings(settings))
     prefixed(path + ": ", [&] {
       for (const PipelineOptions& strut : VehicleOptions::fromValues(vehicle.layout, settings).struts)
-        baselines.emplace_back(nominalOf(strut));
+        baselines.emplace_back(nominalOf(strut.monitor));
     });
   else
     baselines = readBaselines(path, vehicle);
@@ -75,7 +69,20 @@ std::optional<HealthyStrut> beforehand(const std::optional<HealthyStrut>& given,
 
 Baseline knownHealthy(const std::optional<HealthyStrut>& given, const PipelineOptions& options) {
   const std::optional<HealthyStrut> known = beforehand(given, options);
-  return known ? known->baseline : nominalOf(options);
+  return known ? known->baseline : nominalOf(options.monitor);
+}
+
+std::vector<std::string> changesOf(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+                                   const VehicleOptions& settings) {
+  std::vector<std::string> changes(names.size());
+  std::vector<Baseline> healthy;
+  for (const PipelineOptions& strut : settings.struts) healthy.push_back(knownHealthy({}, strut));
+  if (std::all_of(healthy.begin(), healthy.end(), [](const Baseline& strut) { return strut.isEmpty(); }))
+    return changes;
+  const VehicleIdentification identified = identifyVehicle(drives, names, identifyOptionsOf(settings));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    changes[i] = describeChange(identified.struts[i], healthy[i], settings.struts[i].monitor);
+  return changes;
 }
 
 }  // namespace suspension_health_monitor

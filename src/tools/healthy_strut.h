@@ -43,4 +43,8 @@ std::optional<HealthyStrut> beforehand(const std::optional<HealthyStrut>& given,
 /// @return the same, else the nominal values, else nothing.
 Baseline knownHealthy(const std::optional<HealthyStrut>& given, const PipelineOptions& options);
 
+/// @return by strut of a vehicle how it is against the one known so, as identify says it; empty where none is known.
+std::vector<std::string> changesOf(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+                                   const VehicleOptions& settings);
+
 }  // namespace suspension_health_monitor

@@ -4,7 +4,6 @@
 
 #include "../ros/whole_file.h"
 #include "bag_options.h"
-#include "bag_samples.h"
 #include "command.h"
 #include "errors.h"
 #include "healthy_strut.h"
@@ -41,7 +40,7 @@ nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut)
 }
 
 void writeJson(std::FILE* out, const DriveIdentification& identification, const IdentifyResult& found,
-               const RejectCounts& counts, const TopicGaps& gaps) {
+               const RejectCounts& counts, const TopicGaps& gaps, const std::string& change) {
   const SuspensionMonitor& monitor = identification.monitor();
   nlohmann::json rejected = nlohmann::json::object();
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
@@ -64,6 +63,7 @@ void writeJson(std::FILE* out, const DriveIdentification& identification, const 
   if (const TyreTracker* tyre = identification.tyre())
     result["tyre"] = {{"ls", toJson(tyre->report().ls, monitor.report().ls)},
                       {"la", toJson(tyre->report().la, monitor.report().la)}};
+  if (!change.empty()) result["change"] = change;
   std::fprintf(out, "%s\n", result.dump(2).c_str());
 }
 
@@ -137,7 +137,8 @@ void identify(const Arguments& arguments) {
   table.finish();
 
   const IdentifyResult result = identification.result();
-  if (json_file) writeJson(json_file->stream(), identification, result, rejected, gaps);
+  const std::string change = describeChange(result, healthy, pipeline.monitor);
+  if (json_file) writeJson(json_file->stream(), identification, result, rejected, gaps, change);
   if (json_file) json_file->commit();
   if (csv) csv->commit();
   const std::optional<StrutOfDrive> strut = strutOf(result);
@@ -149,7 +150,7 @@ void identify(const Arguments& arguments) {
   printInput(monitor, identification.grid(), options, rejected);
   printTable(digest.items());
   printEnd(identification, result, pipeline.monitor.sprung_mass, !recorded.hasEffects());
-  printChange(describeChange(result, healthy, pipeline));
+  printChange(change);
   const auto reason = whyNotValid(monitor, ever_valid);
   if (!reason)
     for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());

@@ -97,6 +97,10 @@ nlohmann::json toJson(const IdentifiedStrut& estimate) {
   return result;
 }
 
+void printChange(const std::string& change) {
+  if (!change.empty()) std::printf("%s\n", change.c_str());
+}
+
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut) {
   const char* const doubt = estimate.valid() ? "" : "  NOT VALID: too little or too poor excitation";
   if (std::isnan(estimate.damping_to_wheel_mass)) {

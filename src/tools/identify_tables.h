@@ -27,6 +27,10 @@ void printResult(const char* name, const IdentifiedStrut& estimate, const std::o
 
 nlohmann::json toJson(const IdentifiedStrut& estimate);
 
+/// How the strut is against the healthy one.
+/// @param change  in a sentence; nothing is told of an empty one.
+void printChange(const std::string& change);
+
 /// @param strut  by the same estimator.
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);
 

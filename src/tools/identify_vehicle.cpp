@@ -92,8 +92,9 @@ void identifyStruts(const boost::program_options::variables_map& values) {
     printResult("LA", strut.la, its_settings.monitor.sprung_mass);
     std::printf("over the whole drive, by instrumental variables:\n");
     printResult("IV", strut.iv, its_settings.monitor.sprung_mass);
+    const std::string change = describeChange(strut, healthy[i], its_settings.monitor);
+    printChange(change);
     if (const std::optional<StrutOfDrive> its = strutOf(strut)) {
-      printChange(describeChange(*its, healthy[i], its_settings));
       const std::string not_nominal = whyNotNominal(strut, its_settings.monitor);
       if (not_nominal.empty())
         struts.emplace(vehicle.names[i], *its);
@@ -101,7 +102,8 @@ void identifyStruts(const boost::program_options::variables_map& values) {
         std::printf("warning: no settings of it are written: %s\n", not_nominal.c_str());
     }
     for (const std::string& warning : strut.warnings) std::printf("warning: %s\n", warning.c_str());
-    whole["struts"][vehicle.names[i]] = toJson(strut);
+    nlohmann::json& result = whole["struts"][vehicle.names[i]] = toJson(strut);
+    if (!change.empty()) result["change"] = change;
   }
   if (csv) csv->commit();
   if (file) file->commit(whole.dump(2) + '\n');

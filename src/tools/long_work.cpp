@@ -56,8 +56,11 @@ void Interruption::check() {
 Progress::Progress(std::string label, double total)
     : label_(std::move(label)), total_(total), visible_(isatty(STDERR_FILENO) != 0 && total > 0.0) {}
 
-Progress::~Progress() {
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
   if (drawn_percent_ >= 0) std::fprintf(stderr, "\r\033[K");
+  drawn_percent_ = -1;
 }
 
 void Progress::update(double done) {

@@ -47,6 +47,9 @@ class Progress {
   /// @throws Interrupted  as Interruption::check().
   void update(double done);
 
+  /// Takes the bar off, before anything else is said; the next update() draws it again.
+  void clear();
+
  private:
   std::string label_;
   double total_;

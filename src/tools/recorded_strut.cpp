@@ -6,8 +6,10 @@
 #include "../ros/live_model.h"
 #include "command.h"
 #include "errors.h"
+#include "healthy_strut.h"
 #include "identify_tables.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
 #include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
@@ -103,6 +105,8 @@ RecordedDiagnosis diagnoseBags(const BagOptions& options, const ModelOptions& mo
   recorded.drives = readDrives(options, gaps);
   recorded.found = diagnose(recorded.drives, recorded.options);
   gaps.explain([&] { requireEnough(recorded.found.shortcoming, recorded.found.reason); });
+  recorded.change =
+      describeChange(recorded.drives, recorded.options, knownHealthy({}, options.pipeline), options.pipeline.monitor);
   return recorded;
 }
 

@@ -86,6 +86,7 @@ struct RecordedDiagnosis {
   std::vector<Drive> drives;
   DiagnoseOptions options;
   Diagnosis found;
+  std::string change;  ///< how the strut is against the healthy one, as identify says it; empty: none is known
 };
 
 RecordedDiagnosis diagnoseBags(const BagOptions& options, const ModelOptions& models, int threads, TopicGaps& gaps,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../ros/shell_options.h"
-#include "strut_change.h"
+#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
 
 namespace suspension_health_monitor {
 

@@ -72,8 +72,19 @@ class Reader(html.parser.HTMLParser):
 
 
 # Notes what is wider than the page, or than the drawing that it is a part of, once the page's own scripts have run. What
-# lies in a box that scrolls can be reached.
+# lies in a box that scrolls can be reached. And the words in tables that go on in another line.
 MEASURE = """<script>(() => {
+const broken = [];
+for (const cell of document.querySelectorAll('th, td')) {
+  const texts = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT);
+  while (texts.nextNode())
+    for (const word of texts.currentNode.data.matchAll(/[\\p{L}\\d.]+/gu)) {
+      const range = document.createRange();
+      range.setStart(texts.currentNode, word.index);
+      range.setEnd(texts.currentNode, word.index + word[0].length);
+      if (new Set([...range.getClientRects()].map(box => Math.round(box.top))).size > 1) broken.push(word[0]);
+    }
+}
 const reaches = [...document.querySelectorAll('body *')].filter(node => {
   const box = node.getBoundingClientRect();
   const drawing = node.closest('svg');
@@ -85,6 +96,7 @@ Object.assign(parent.document.documentElement.dataset, {
   dark: matchMedia('(prefers-color-scheme: dark)').matches,
   cut: reaches.map(node => `${node.tagName}.${node.getAttribute('class')}`).join(' '),
   verdictEnds: document.querySelector('#verdict h1, .verdict h1')?.getBoundingClientRect().bottom,
+  broken: broken.join(' '),
   scrolls: [...document.querySelectorAll('.wide, .table')].filter(node => node.scrollWidth > node.clientWidth + 1).length
 });
 })();</script>"""

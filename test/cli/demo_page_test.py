@@ -49,5 +49,5 @@ def test_page_leads_to_the_fleet(demo):
 def test_nothing_is_cut_off_and_the_verdict_is_above_the_fold(demo, name, width, dark):
     root = browser.measured(demo / name, demo / "measured", width, dark).one("html").attributes
     assert (root["data-width"], root["data-dark"]) == (str(width), str(dark).lower())
-    assert (root["data-cut"], root["data-scrolls"]) == ("", "0")
+    assert (root["data-cut"], root["data-scrolls"], root["data-broken"]) == ("", "0", "")
     assert 0 < float(root["data-verdict-ends"]) <= FOLD

@@ -329,6 +329,13 @@ def test_a_large_fleet_is_small_enough(fleet):
     assert 500 * (sizes[0] + (365 - DRIVES) * of_drive) < MOST_BYTES
 
 
+def test_a_fleet_in_which_nothing_is_due_says_no_more_than_that(fleet, tmp_path):
+    pairs = [pair for pair in outlook.in_order(fleet.histories, outlook.Options(), 1) if not pair[1].dated]
+    report.write(pairs, tmp_path)
+    page = browser.shown(tmp_path / "index.html", tmp_path / "profile")
+    assert page.one("h1").text == "No strut is known to be due at the workshop"
+
+
 def test_map_and_list_have_every_strut(fleet):
     page = page_of(fleet)
     assert page.one("h1").text == "One strut is due at the workshop, now or by a date"

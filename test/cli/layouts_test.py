@@ -1,11 +1,14 @@
 """The layouts for rqt and PlotJuggler: well-formed, and every topic and field that they show exists."""
 import ast
+import collections
 import json
 import pathlib
 import re
 import xml.etree.ElementTree as ElementTree
 
 import pytest
+
+from terminal import Terminal
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 CONFIG = REPOSITORY / "config"
@@ -49,6 +52,23 @@ def test_curve_is_a_number_that_is_published(curve):
     node, topic, field = curve.strip("/").split("/")
     messages = {"monitor": topics_of_the_monitor(), "simulator": {"truth": "SimulationTruth"}}
     assert field in numeric_fields(messages[node][topic])
+
+
+def test_all_that_is_in_view_comes_from_a_running_system(tmp_path, port):
+    """The curves, and what the other plugins look at: /diagnostics, without an aggregator, and the settings."""
+    terminal = Terminal(tmp_path, port)
+    fields = collections.defaultdict(set)
+    for curve in [*rqt_curves(), *plotjuggler_curves()]:
+        topic, _, field = curve.strip("/").rpartition("/")
+        fields[topic].add(field)
+    with terminal.start("roslaunch suspension_health_monitor paper.launch duration:=3600", "launch.txt") as launched:
+        terminal.wait_for_master()
+        terminal.wait_for_words("launch.txt", "/monitor: STALE", launched)
+        for topic, its in fields.items():
+            message = terminal.run(f"timeout 120 rostopic echo -n 1 /{topic}")
+            assert its <= set(re.findall(r"^(\w+): \S", message, re.MULTILINE)), topic
+        assert "monitor: Health" in terminal.run("timeout 120 rostopic echo -n 3 /diagnostics")
+        assert "memory" in terminal.run("timeout 120 rosrun dynamic_reconfigure dynparam get /monitor")
 
 
 def test_perspective_has_the_settings_of_every_running_plugin_and_no_others():

@@ -47,8 +47,10 @@ def test_gravity_and_stamps_shift_nothing_but_time(drive):
 
 def test_swapped_sensors_are_no_strut(drive):
     stamps, body, wheel = drive
-    with pytest.raises(ValueError, match="no horizon can be proposed"):
+    with pytest.raises(ValueError, match="no horizon can be proposed.* swapped, or not in m/s"):
         shm.identify(stamps, wheel, body)
+    with pytest.raises(ValueError, match="no horizon can be proposed.* an axis the wrong way up"):
+        shm.identify(stamps, body, -wheel)
 
 
 def test_readings_that_are_no_numbers_are_counted(drive):
@@ -175,6 +177,7 @@ def test_a_period_far_below_the_spacing_is_refused(call, drive):
     (lambda: shm.diagnose(T, N, N, threads=0), "threads = 0, must be 1 or more"),
     (lambda: shm.diagnose(T, N, N, threads=1.5), "threads = 1.5, must be a whole number"),
     (lambda: shm.compare(T, N, N, model=3), "model = 3, must be a StrutModel, a dict"),
+    (lambda: shm.health(T, N, N, baseline=3), "baseline = 3, must be a Baseline or the path"),
     (lambda: shm.compare(T, N, N, model={"damping_to_mass": 3.0}), "stiffness_to_mass"),
     (lambda: shm.compare(0.01, N, N), "the drives"),
     (lambda: shm.StrutMonitor(memry=3), "the nearest known name is memory"),

@@ -1,6 +1,7 @@
 """The Python module says what the command line says, over bags and over arrays of the same readings."""
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -124,6 +125,19 @@ def test_diagnose_and_compare_with_what_was_found(program, tmp_path, rough_bag):
     for model in (found.model, tmp_path / "model.yaml"):
         assert shm.compare(rough_bag, model=model).free_run.rmse == \
             pytest.approx(compared["free_run"]["rmse"], rel=1e-12)
+
+
+def test_how_the_strut_is_against_nominal_values(program, tmp_path, rough_bag):
+    """The sentence of the command line, of bags and of arrays."""
+    nominal = {"nominal_damping_to_mass": 9.0, "integration_horizon": 0.25, "sample_period": 0.01}
+    settings = [f"--set={name.replace('nominal_', 'nominal/')}={value}" for name, value in nominal.items()]
+    for command, call in (("identify", shm.identify), ("diagnose", shm.diagnose)):
+        found = call(bag=rough_bag, **nominal)
+        assert re.match(r"the strut, .*: damping \d\d % below nominal", found.change)
+        assert found.change == said(program, tmp_path, command, rough_bag, *settings)["change"]
+        assert call(*arrays_of(rough_bag), **nominal).change == found.change
+        assert found.change in found._repr_html_()
+    assert shm.identify(rough_bag).change == ""
 
 
 @pytest.mark.parametrize("options", [{"nominal_damping_to_mass": 3.0}, {}], ids=["nominal", "learned"])

@@ -109,12 +109,21 @@ def results():
 
 def test_results_show_themselves(results):
     for name, result in results.items():
-        assert repr(result).startswith("<") and "object at" not in repr(result)
-        if name != "simulate":
-            page = result._repr_html_()
-            assert page.count("<table>") == page.count("</table>") > 0
+        assert repr(result).startswith("<") and "object at" not in repr(result), name
+        page = result._repr_html_()
+        assert page.count("<table>") == page.count("</table>") > 0, name
+    assert repr(results["compare"].free_run).startswith("<rmse 0.0")
     assert "quadratic_damping" in results["diagnose"]._repr_html_()
     assert "d |d|^(p-1)" in shm.effects()._repr_html_() and "<td" in shm.effects()._repr_html_()
+
+
+def assert_healthy_is_in_view(worn):
+    """However far the strut is from it; and nothing is drawn worse than an error."""
+    levels, damping, _ = worn.plot().axes
+    low, high = damping.get_ylim()
+    assert low < worn.la.damping_to_mass < 5 < 9 < high
+    assert [label.get_text() for label in levels.get_yticklabels()][-1] == "ERROR"
+    assert levels.get_ylim()[0] < 0 and levels.get_ylim()[1] > 3, "no level lies on the frame"
 
 
 def test_results_draw_themselves(results, tmp_path):
@@ -128,5 +137,6 @@ def test_results_draw_themselves(results, tmp_path):
         _, axes = pyplot.subplots(len(figure.axes), squeeze=False)
         assert result.plot(axes=list(axes[:, 0])) is not figure
         pyplot.close("all")
+    assert_healthy_is_in_view(shm.health(results["simulate"], nominal_damping_to_mass=9.0))
     with pytest.raises(ValueError, match="1 axes, must be 2"):
         results["identify"].plot(axes=[None])

@@ -4,8 +4,9 @@ import pytest
 import conftest
 
 USAGE = {
-    "no bag": ([], ["bag"]),
-    "unknown option": (["{bag}", "--bogus"], ["--bogus"]),
+    "no bag": ([], ["no bag is given; usage: suspension_bag identify BAG..."]),
+    "unknown option": (["{bag}", "--bogus"], ["--bogus'\n"]),
+    "mistyped option": (["{bag}", "--sprung", "/imu"], ["--sprung'; the nearest known name is --sprung-topic"]),
     "abbreviated option": (["{bag}", "--conf", "x"], ["--conf"]),
     "option without its value": (["{bag}", "--csv"], ["--csv"]),
     "option twice": (["{bag}", "--json", "a", "--json", "b"], ["--json"]),
@@ -88,6 +89,11 @@ def test_settings_file_that_cannot_be_read(program, paper_bag, tmp_path, name): 
     program.refuse(2, ["identify", paper_bag, "--config", path], [path, "must be a YAML file"], tmp_path)
 
 
+def test_a_relative_path_is_told_with_its_folder(program, paper_bag, tmp_path):
+    result = program("identify", paper_bag, "--config", "missing.yaml", cwd=tmp_path)
+    assert f"missing.yaml: cannot be read in {tmp_path}, must be a YAML file" in result.stderr
+
+
 def test_settings_that_contradict_each_other(program, paper_bag, tmp_path):
     arguments = ["--set", "memory=1", "--set", "fastest_memory=2"]
     program.refuse(2, ["identify", paper_bag, *arguments],
@@ -111,13 +117,13 @@ def test_set_overrides_the_file(program, paper_bag):
     (["--set", "stamp_jitter=0.02"], ["stamp_jitter = 0.02", "one sample period"]),
     (["--set", "damping_ramp=false"], ["damping_ramp is no option any more", "damping_end_fraction: 1"]),
     (["--set", "sede=1"], ["sede", "nearest", "seed"]),
-    (["stray.bag"], ["positional"])])
+    (["stray.bag"], ["options only", "-o OUT.bag"])])
 def test_wrong_simulation(program, tmp_path, arguments, words):
     program.refuse(2, ["simulate", *arguments, "-o", tmp_path / "drive.bag"], words, tmp_path)
 
 
 def test_simulation_needs_an_output(program, tmp_path):
-    program.refuse(2, ["simulate"], ["--output"], tmp_path)
+    program.refuse(2, ["simulate"], ["--output is missing", "-o OUT.bag"], tmp_path)
 
 
 @pytest.mark.parametrize("b1, b0, word", [("-1", "10", "damping_to_mass = -1"), ("1", "0", "stiffness_to_mass = 0"),

@@ -90,8 +90,9 @@ class LiveSearchTest(unittest.TestCase):
         diagnose, effects, save = self.before_the_drive
         self.assertFalse(diagnose.success or effects.success or save.success)
         self.assertIn("sample period", diagnose.message)
+        self.assertTrue(math.isnan(diagnose.base_held_out_rmse) and math.isnan(diagnose.damping_to_mass))
         self.assertIn("bump_stop/g [m] is not known yet", effects.message)
-        self.assertIn("no valid estimate", save.message)
+        self.assertIn("no valid estimate, drive on", save.message)
         self.assertFalse(self.after_three_seconds.success)
         self.assertRegex(self.after_three_seconds.message, r"the last [1-9][0-9.]* s .*drive on")
 

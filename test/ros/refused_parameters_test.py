@@ -26,6 +26,7 @@ WRONG = {
     "shape that nobody knows": ({"effects": "bump_stop"}, ["bump_stop/g [m] is not known yet", "model_file"]),
     "model that is a folder": ({"model_file": "/"}, ["model_file = /: is a folder, must be a YAML file"]),
     "laws that are not there": ({"effects_file": "/none.yaml"}, ["effects_file = /none.yaml: cannot be read"]),
+    "a relative path": ({"effects_file": "my_laws.yaml"}, ["my_laws.yaml: cannot be read in /", "must be a YAML file"]),
     "nested, of the search": ({"diagnose": {"window": 0}}, ["diagnose/window = 0", "must be in [0.01, 1000000]"]),
     "contradiction": ({"fastest_memory": 3.0}, ["fastest_memory = 3 [s]", "at most memory = 2 [s]"]),
     "former option": ({"forgetting_rule": "exponential"}, ["forgetting_rule is no option any more: preset: paper"]),

@@ -42,6 +42,14 @@ class TerminalTest(unittest.TestCase):
             self.assertRegex(program.output(), r"no message yet on /a_robot/body \(sensor_msgs/Imu is on .*/a_robot/imu")
         other.unregister()
 
+    def test_a_topic_that_appears_later_is_told_as_well(self):
+        with launch("monitor.launch", sprung_imu="/late_robot/body") as program:
+            wait_until(lambda: "no message yet on /late_robot/body" in program.output(), "the words")
+            other = rospy.Publisher("/late_robot/imu", Imu, queue_size=1)
+            wait_until(lambda: "/late_robot/imu" in program.output(), "the topic that has come")
+            self.assertRegex(program.output(), r"no message yet on /late_robot/body \(sensor_msgs/Imu is on .*/late_robot/imu")
+            other.unregister()
+
 
 if __name__ == "__main__":
     rospy.init_node("terminal_test")

@@ -88,7 +88,7 @@ bool HorizonSurvey::dampingIsNegative() const {
   return any && all;
 }
 
-std::optional<int> surveyHorizon(const std::vector<Drive>& drives, double period, std::size_t most_samples) {
+HorizonSurvey surveyOf(const std::vector<Drive>& drives, double period, std::size_t most_samples) {
   HorizonSurvey survey(period, IntegralFilterOptions{}.rule, HorizonSurvey::kLongest);
   for (const Drive& drive : drives) {
     const CornerSample* last = nullptr;
@@ -102,7 +102,11 @@ std::optional<int> surveyHorizon(const std::vector<Drive>& drives, double period
       last = &sample;
     }
   }
-  return survey.horizonSamples();
+  return survey;
+}
+
+std::optional<int> surveyHorizon(const std::vector<Drive>& drives, double period, std::size_t most_samples) {
+  return surveyOf(drives, period, most_samples).horizonSamples();
 }
 
 }  // namespace suspension_health_monitor

@@ -1,5 +1,7 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
+#include <cstdio>
+
 #include "suspension_health_monitor/internal/signal/early_readings.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/signal/stream_resampler.h"
@@ -7,6 +9,28 @@
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr double kMuchLarger = 3.0;  // mean deviation of the body over that of the wheel
+constexpr double kSpike = 50.0;      // mean deviations
+
+std::string describeSpike(const char* side, const StreamGate& gate) {
+  if (!(gate.farthest() > kSpike * gate.deviation() && gate.deviation() > 0.0)) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "; a %s reading is %.3g m/s^2 off the mean, %.0f times as far as usual: a spike? %s_range keeps out "
+                "what lies beyond it",
+                side, gate.farthest(), gate.farthest() / gate.deviation(), side);
+  return text;
+}
+
+// Of readings whose fourth powers vanish nothing can be computed, see isUsable().
+std::string describeStillness(const char* side, const StreamGate& gate) {
+  if (gate.timing().period() == 0.0 || gate.deviation() > 1e-60) return {};
+  char text[120];
+  std::snprintf(text, sizeof text, "; the %s readings differ by %.3g m/s^2 only: a dead sensor, or not in m/s^2?", side,
+                gate.deviation());
+  return text;
+}
 
 std::string healthyValue(const char* name, const std::optional<double>& value, double stddev, const char* unit) {
   if (!value) return {};
@@ -69,6 +93,17 @@ std::string describeReference(const Baseline& baseline, const std::string& file)
   if (!file.empty()) return "the baseline of " + file + ": " + values;
   return formatted("the baseline learned from %.2f s to %.2f s: ", toSeconds(baseline.from), toSeconds(baseline.to)) +
          values;
+}
+
+std::string describeSuspicions(const UniformGrid& grid, bool negative_damping) {
+  const StreamGate &body = grid.gate(Side::kSprung), &wheel = grid.gate(Side::kUnsprung);
+  std::string text = describeStillness("sprung", body) + describeStillness("unsprung", wheel);
+  text += describeSpike("sprung", body) + describeSpike("unsprung", wheel);
+  if (body.deviation() > kMuchLarger * wheel.deviation() && wheel.deviation() > 0.0)
+    text += "; the sprung IMU shakes far more than the unsprung one: swapped, or not in m/s^2?";
+  else if (negative_damping)
+    text += "; damping comes out negative: the IMUs swapped, or an axis the wrong way up?";
+  return text;
 }
 
 }  // namespace suspension_health_monitor

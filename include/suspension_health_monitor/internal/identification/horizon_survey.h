@@ -77,6 +77,10 @@ class HorizonSurvey {
 };
 
 /// @param period  sampling time [s].
+/// @return what was learnt of the drives.
+HorizonSurvey surveyOf(const std::vector<Drive>& drives, double period, std::size_t most_samples);
+
+/// @param period  sampling time [s].
 /// @param most_samples  of every drive, from its start on, that are looked at.
 /// @return L that is proposed for the drives; nothing if no horizon gives a strut.
 std::optional<int> surveyHorizon(const std::vector<Drive>& drives, double period, std::size_t most_samples);

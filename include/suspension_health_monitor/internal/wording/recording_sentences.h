@@ -19,6 +19,9 @@ std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut
 /// @return what was kept out, reason by reason: "; rejected clipped: 12"; empty if nothing was.
 std::string describeRejected(const RejectCounts& rejected);
 
+/// @return what in the readings may be why they show no strut: "; ..." for each suspicion, empty without any.
+std::string describeSuspicions(const UniformGrid& grid, bool negative_damping);
+
 /// @param where  there are too few readings: "on one of the topics".
 /// @return why `count` readings tell no sample period.
 std::string describeNoPeriod(const std::string& where, std::size_t count);

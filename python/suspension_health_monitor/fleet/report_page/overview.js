@@ -7,8 +7,9 @@ const LETTER = 7;  // [px] wide at most, in the mean of a name
 
 function summarise() {
   const due = data.struts.filter(strut => strut.due).length;
-  const those = due === 1 ? 'One strut is' : `${due || 'No'} struts are`;
-  document.querySelector('#fleet h1').textContent = `${those} due at the workshop, now or by a date`;
+  const those = due === 1 ? 'One strut is' : `${due} struts are`;
+  document.querySelector('#fleet h1').textContent =
+      due === 0 ? 'No strut is known to be due at the workshop' : `${those} due at the workshop, now or by a date`;
   document.querySelector('#fleet .lede').textContent =
       `${vehicles.length} vehicles, ${data.struts.length} struts, the most urgent vehicle first`;
 }

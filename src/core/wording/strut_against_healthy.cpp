@@ -1,7 +1,6 @@
-#include "strut_change.h"
+#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
@@ -25,24 +24,37 @@ std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
   return std::nullopt;
 }
 
-std::string describeChange(const StrutOfDrive& found, const Baseline& healthy, const PipelineOptions& options) {
+Baseline nominalOf(const MonitorOptions& options) {
+  Baseline nominal;
+  nominal.damping_to_mass = options.nominal_damping_to_mass;
+  nominal.stiffness_to_mass = options.nominal_stiffness_to_mass;
+  return nominal;
+}
+
+std::string describeChange(const StrutOfDrive& found, const Baseline& healthy, const MonitorOptions& options) {
   const IdentifiedStrut& strut = found.strut;
   const StrutChange change = splitChange(changeOf(strut.damping_to_mass, strut.damping_to_mass_stddev,
                                                   healthy.damping_to_mass, healthy.damping_to_mass_stddev),
                                          changeOf(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev,
                                                   healthy.stiffness_to_mass, healthy.stiffness_to_mass_stddev),
-                                         options.monitor.payload_range, 0.0);
+                                         options.payload_range, 0.0);
   const std::string text = describe(change, healthy);
   return text.empty() ? "" : "the strut, " + found.by + ": " + text;
 }
 
-std::string describeChange(const IdentifyResult& found, const Baseline& healthy, const PipelineOptions& options) {
+std::string describeChange(const IdentifyResult& found, const Baseline& healthy, const MonitorOptions& options) {
   const std::optional<StrutOfDrive> strut = strutOf(found);
   return strut ? describeChange(*strut, healthy, options) : "";
 }
 
-void printChange(const std::string& change) {
-  if (!change.empty()) std::printf("%s\n", change.c_str());
+std::string describeChange(const std::vector<Drive>& drives, const DiagnoseOptions& searched, const Baseline& healthy,
+                           const MonitorOptions& options) {
+  if (healthy.isEmpty()) return "";
+  IdentifyOptions identifying;
+  identifying.sample_period = searched.sample_period;
+  identifying.horizon_samples = searched.horizon_samples;
+  identifying.memory = options.memory;
+  return describeChange(identify(drives, identifying), healthy, options);
 }
 
 }  // namespace suspension_health_monitor
