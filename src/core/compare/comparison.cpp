@@ -11,6 +11,7 @@
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/fit/rough_model.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/search/screening.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -33,12 +34,11 @@ Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
   return residuals;
 }
 
-std::optional<double> heldOutRmse(const Records& records, const HoldOut& held_out, bool fit,
-                                  const Comparison& comparison) {
-  if (!fit) return held_out.rmse(held_out.stretchErrors(residualsOf(comparison.segments)));
-  const FitOutcome training = fitOutputError(records, held_out.training, comparison.model);
-  if (!training) return std::nullopt;
-  return held_out.rmse(held_out.stretchErrors(training->residuals));
+/// The model as it does on what was held out: fitted on the rest, or as it is.
+std::optional<ModelFit> judgedFit(const Records& records, const HoldOut& held_out, const CompareOptions& options,
+                                  const std::vector<StrutState>& initial, const Comparison& comparison) {
+  if (!options.fit) return ModelFit{comparison.model, initial, residualsOf(comparison.segments), {}, {}};
+  return fitOutputError(records, held_out.training, comparison.model);
 }
 
 /// [from, to] of what is held out, per drive.
@@ -82,8 +82,12 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   if (!free_run) return Shortcoming::kTooShort;
   comparison.free_run = *free_run;
   report(0.4);
+  double taken_by_law = 0.0;
   if (const auto held_out = splitHoldOut(records, comparison.model.stiffness_to_mass)) {
-    comparison.held_out_rmse = heldOutRmse(records, *held_out, options.fit, comparison);
+    if (const auto fit = judgedFit(records, *held_out, options, *initial, comparison)) {
+      comparison.held_out_rmse = held_out->rmse(held_out->stretchErrors(fit->residuals));
+      taken_by_law = Screening(records, *held_out, *fit).surfaceGain();
+    }
     comparison.held_out = heldOutSpans(records, *held_out);
   }
   report(0.7);
@@ -94,8 +98,10 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   comparison.one_step = oneStepError(comparison.segments, comparison.model, filter);
   comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
-  comparison.noise_floor = floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
-                                           residualsOf(comparison.segments), filter.period, comparison.model);
+  // What a law of travel and travel rate takes is no noise that a sensor has filtered, whatever its spectrum.
+  if (taken_by_law < kStructured)
+    comparison.noise_floor = floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
+                                             residualsOf(comparison.segments), filter.period, comparison.model);
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
   const ExpectedNoise noise{comparison.noise_floor, comparison.model.damping_to_mass,
