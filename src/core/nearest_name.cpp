@@ -23,9 +23,10 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string suggestNearest(const std::string& name, const std::vector<std::string>& known) {
-  constexpr std::size_t kBeginning = 3;                    // letters that are a name cut short rather than another one
+  const auto begins = [&](const std::string& other) { return other.compare(0, name.size(), name) == 0; };
+  const bool is_cut_short = std::count_if(known.begin(), known.end(), begins) == 1;
   const auto difference = [&](const std::string& other) {  // share of the letters
-    if (name.size() >= kBeginning && other.compare(0, name.size(), name) == 0) return 0.0;
+    if (is_cut_short && begins(other)) return 0.0;
     return static_cast<double>(editDistance(name, other)) / static_cast<double>(std::max(name.size(), other.size()));
   };
   const auto nearest = std::min_element(known.begin(), known.end(),
