@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "suspension_health_monitor/internal/compare/residual_analysis.h"
 #include "suspension_health_monitor/internal/fit/band_noise.h"
@@ -33,6 +34,12 @@ Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
   for (const ComparedSegment& segment : segments) residuals.push_back(segment.residuals());
   return residuals;
 }
+
+/// What a free-form law of travel and travel rate, fitted to the rest, would take of what was held out.
+struct TakenByLaw {
+  double share = 0.0;                                       ///< of the mean square
+  double leaves = std::numeric_limits<double>::infinity();  ///< rms, which is above the noise floor [m/s^2]
+};
 
 /// The model as it does on what was held out: fitted on the rest, or as it is.
 std::optional<ModelFit> judgedFit(const Records& records, const HoldOut& held_out, const CompareOptions& options,
@@ -82,11 +89,12 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   if (!free_run) return Shortcoming::kTooShort;
   comparison.free_run = *free_run;
   report(0.4);
-  double taken_by_law = 0.0;
+  TakenByLaw law;
   if (const auto held_out = splitHoldOut(records, comparison.model.stiffness_to_mass)) {
     if (const auto fit = judgedFit(records, *held_out, options, *initial, comparison)) {
       comparison.held_out_rmse = held_out->rmse(held_out->stretchErrors(fit->residuals));
-      taken_by_law = Screening(records, *held_out, *fit).surfaceGain();
+      law.share = Screening(records, *held_out, *fit).surfaceGain();
+      law.leaves = *comparison.held_out_rmse * std::sqrt(1.0 - law.share);
     }
     comparison.held_out = heldOutSpans(records, *held_out);
   }
@@ -99,9 +107,10 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
   // What a law of travel and travel rate takes is no noise that a sensor has filtered, whatever its spectrum.
-  if (taken_by_law < kStructured)
+  if (law.share < kStructured)
     comparison.noise_floor = floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
                                              residualsOf(comparison.segments), filter.period, comparison.model);
+  comparison.noise_floor = std::min(comparison.noise_floor, law.leaves);
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
   const ExpectedNoise noise{comparison.noise_floor, comparison.model.damping_to_mass,
