@@ -189,7 +189,9 @@ void Search::conclude(const EvaluatedModel& last) {
   result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
   if (result_.structured_share > 0.0)
     result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
-  if (!namesBeyond(base_, last).empty() && explanation_->isExplained(last, result_.noise_floor))
+  const std::size_t names = namesBeyond(base_, last).size();
+  const EvaluatedModel& before = names > 1 ? suspect_->chosen : base_;
+  if (names > 0 && explanation_->isExplained(last, before, result_.noise_floor))
     return name(Verdict::kEffectFound, last);
   result_.indistinguishable.clear();
   result_.separating.clear();

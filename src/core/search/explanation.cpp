@@ -11,6 +11,14 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr double kAll = 1.0 - kStructured;
+
+/// The share of what a model leaves above the floor that another one takes.
+double shareOf(const EvaluatedModel& before, const EvaluatedModel& after, double floor) {
+  const double structure = square(before.ranked.held_out_rmse) - square(floor);
+  return structure > 0.0 ? (square(before.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
+}
+
 /// A force that goes with the body's own motion, not with the strut's.
 bool actsOnBody(const ActiveEffect& active) {
   const auto rate = [&](double acceleration) {
@@ -26,29 +34,24 @@ Explanation::Explanation(const Records& records, const ModelEvaluator& evaluator
       base_(base),
       turning_share_(shareOfTurning(records, evaluator.heldOut(), evaluator.motionOf(base))) {}
 
-double Explanation::share(const EvaluatedModel& after, double floor) const {
-  const double structure = square(base_.ranked.held_out_rmse) - square(floor);
-  return structure > 0.0 ? (square(base_.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
-}
+double Explanation::share(const EvaluatedModel& after, double floor) const { return shareOf(base_, after, floor); }
 
 double Explanation::floorOf(const EvaluatedModel& after, double floor) const {
   return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals, records_.front()->period(),
                          after.ranked.model);
 }
 
-bool Explanation::isExplained(const EvaluatedModel& after, double floor) const {
+bool Explanation::isExplained(const EvaluatedModel& after, const EvaluatedModel& before, double floor) const {
   if (mayBeOtherStruts(after)) return false;
+  const auto takesAll = [&](double lowest) {
+    return shareOf(base_, after, lowest) > kAll && shareOf(before, after, lowest) > kAll;
+  };
   const double lowest = std::hypot(floor, lostInSampling(records_, after.fit));
-  if (takesAllBut(after, lowest)) return true;
+  if (takesAll(lowest)) return true;
   // The rest may be noise that a sensor has filtered. Where only the reading is to be at fault, that has been there
   // before: no law hid it.
   const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
-  return !only_reading && takesAllBut(after, floorOf(after, lowest));
-}
-
-bool Explanation::takesAllBut(const EvaluatedModel& after, double floor) const {
-  const double taken = share(after, floor);
-  return taken > 1.0 - kWorthHaving || (taken > 1.0 - kStructured && !isStructured(after.ranked.held_out_rmse, floor));
+  return !only_reading && takesAll(floorOf(after, lowest));
 }
 
 bool Explanation::isSuspect(const EvaluatedModel& after) const {

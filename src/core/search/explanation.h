@@ -16,9 +16,11 @@ class Explanation {
   /// @return the noise floor of what a model leaves, see floorOfResidual().
   double floorOf(const EvaluatedModel& after, double floor) const;
 
-  /// Names are given if the model with them leaves noise only, or next to nothing of what there was to explain. What
-  /// sampling loses of the model's own forces, and what a sensor has filtered, counts as noise.
-  bool isExplained(const EvaluatedModel& after, double floor) const;
+  /// Names are given if the model with them takes all of the structure but what counts as noise (kStructured), and as
+  /// much of what the best of them alone leaves. What sampling loses of the model's own forces, and what a sensor has
+  /// filtered, is noise.
+  /// @param before  the model with the best name alone; the base, if `after` has only one.
+  bool isExplained(const EvaluatedModel& after, const EvaluatedModel& before, double floor) const;
 
   /// A suspect makes the error smaller by more than half (kMostOfIt of its mean square).
   bool isSuspect(const EvaluatedModel& after) const;
@@ -31,8 +33,6 @@ class Explanation {
   double turningShare() const { return turning_share_; }
 
  private:
-  bool takesAllBut(const EvaluatedModel& after, double floor) const;
-
   const Records& records_;
   const EvaluatedModel& base_;
   double turning_share_;
