@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "suspension_health_monitor/internal/compare/residual_analysis.h"
 #include "suspension_health_monitor/internal/fit/band_noise.h"
@@ -37,8 +36,8 @@ Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
 
 /// What a free-form law of travel and travel rate, fitted to the rest, would take of what was held out.
 struct TakenByLaw {
-  double share = 0.0;                                       ///< of the mean square
-  double leaves = std::numeric_limits<double>::infinity();  ///< rms, which is above the noise floor [m/s^2]
+  double share = 0.0;   ///< of the mean square
+  double leaves = 0.0;  ///< rms, which is above the noise floor [m/s^2]
 };
 
 /// The model as it does on what was held out: fitted on the rest, or as it is.
@@ -106,11 +105,11 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   comparison.one_step = oneStepError(comparison.segments, comparison.model, filter);
   comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
-  // What a law of travel and travel rate takes is no noise that a sensor has filtered, whatever its spectrum.
-  if (law.share < kStructured)
-    comparison.noise_floor = floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
-                                             residualsOf(comparison.segments), filter.period, comparison.model);
-  comparison.noise_floor = std::min(comparison.noise_floor, law.leaves);
+  // What a law of travel and travel rate takes is no noise, whatever its spectrum.
+  comparison.noise_floor = law.share < kStructured
+                               ? floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
+                                                 residualsOf(comparison.segments), filter.period, comparison.model)
+                               : std::min(comparison.noise_floor, law.leaves);
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
   const ExpectedNoise noise{comparison.noise_floor, comparison.model.damping_to_mass,

@@ -92,18 +92,6 @@ struct Regression {
   }
 
   double deviation() const { return robustDeviation({error.data(), error.data() + error.size()}); }
-
-  /// rms of what is no outlier: a standard deviation whatever the noise's distribution.
-  double spread() const {
-    const double outlier = kOutlierScale * deviation();
-    double squares = 0.0, count = 0.0;
-    for (const double e : error) {
-      if (std::abs(e) > outlier) continue;
-      squares += square(e);
-      count += 1.0;
-    }
-    return count > 0.0 ? std::sqrt(squares / count) : 0.0;
-  }
 };
 
 Series sprungOf(const Segments& segments) {
@@ -196,13 +184,13 @@ double untold(const Segments& segments, const StrutModel& model) {
   if (count <= 2.0 * kTerms) return 0.0;
   Series series = sprungOf(segments);
   Regression interpolation(interpolationRows(segments, places, series));
-  const double plain = interpolation.spread() * std::sqrt(count / (count - kTerms));
+  const double plain = interpolation.deviation() * std::sqrt(count / (count - kTerms));
   FreeFormLaws laws(segments);
   if (count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return plain;
   double deviation = 0.0;
   for (int round = 1;; ++round) {
     const Regression fit(laws.interpolated(places, interpolation.solution), interpolation.error);
-    deviation = fit.spread() * std::sqrt(count / (count - kTerms - kLawTerms));
+    deviation = fit.deviation() * std::sqrt(count / (count - kTerms - kLawTerms));
     if (round == kRounds) break;
     laws.takeOff(fit.solution, series);
     interpolation = Regression(interpolationRows(segments, places, series));

@@ -12,9 +12,10 @@ namespace suspension_health_monitor {
 /// The noise of the body's sensor is what a long linear interpolation of z'' from its own neighbours before and after,
 /// and from w'' around it, cannot tell: forces that are missing from the model change slowly against the sampling and
 /// are interpolated, white noise is not. Those that change quickly (friction turns within a sample) are taken out: a
-/// free-form force over the travel and rate of the model's free run is fitted to what the interpolation leaves. A blow
-/// into an end stop is no noise and counts neither there nor in the fits. The wheel's sensor is taken to be as noisy;
-/// its noise comes through the model. Where the records have what the noise looks like, that tells it (known_noise.h).
+/// free-form force over the travel and rate of the model's free run is fitted to what the interpolation leaves. From
+/// the median, so that a blow into an end stop is no noise, and with such blows kept out of the fits. The wheel's
+/// sensor is taken to be as noisy; its noise comes through the model. Where the records have what the noise looks like,
+/// that tells it (known_noise.h).
 /// @return 0 if there are too few samples to tell; not below accuracyOfFreeRuns().
 double estimateNoiseFloor(const Records& records, const StrutModel& model);
 
