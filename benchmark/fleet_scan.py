@@ -61,6 +61,8 @@ def main():
     options = parser.parse_args()
     program = find_program()
     fleet = [sys.executable, REPOSITORY / "python/suspension_fleet", "scan"]
+    if options.work:
+        options.work.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=options.work) as folder:
         folder = pathlib.Path(folder)
         bases = [folder / f"base_{seed}.bag" for seed in range(DRIVES)]

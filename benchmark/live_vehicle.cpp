@@ -226,7 +226,7 @@ void driveOutside(char** argv, int seconds, const char* mode) {
   }
   if (status != 0 || processor_times.size() < 4) throw std::runtime_error("the driver failed");
   const std::size_t last = processor_times.size() - 2, first = last - std::min<std::size_t>(last, seconds - 1);
-  std::printf(" %.2f", 100.0 * (processor_times[last] - processor_times[first]) / static_cast<double>(last - first));
+  std::printf(" %.2f ", 100.0 * (processor_times[last] - processor_times[first]) / static_cast<double>(last - first));
 }
 
 void run(const std::string& mode, char** argv, int seconds, bool one_body_imu) {

@@ -2,10 +2,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "../ros/model_file.h"
@@ -38,10 +40,20 @@ void addBagOptions(po::options_description& description) {
   add("start", po::value<double>()->default_value(0.0), "[s] after the beginning of each bag");
   add("end", po::value<double>(), "[s] after the beginning of each bag (its end)");
   add("json", po::value<std::string>(), "write the result as JSON");
+  add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
+      "processor cores to use");
+}
+
+int threadsOf(const po::variables_map& values) {
+  const int threads = values["threads"].as<int>();
+  if (threads < 1 || threads > 1024)
+    throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
+  return threads;
 }
 
 ImuBags readBags(const po::variables_map& values) {
   ImuBags bags;
+  bags.reads_ahead = threadsOf(values) > 1;
   bags.paths = values["bag"].as<std::vector<std::string>>();
   bags.start = values["start"].as<double>();
   if (values.count("end") != 0) bags.end = values["end"].as<double>();

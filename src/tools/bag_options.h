@@ -27,6 +27,10 @@ struct BagOptions {
 /// Adds the common options to a subcommand's own.
 void addBagOptions(boost::program_options::options_description& description);
 
+/// @return how many processor cores may be used.
+/// @throws std::invalid_argument  as command.h.
+int threadsOf(const boost::program_options::variables_map& values);
+
 /// @return the bags and the part of each that is to be read; no topics.
 /// @throws std::invalid_argument  as command.h.
 ImuBags readBags(const boost::program_options::variables_map& values);

@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <thread>
 
 #include "../ros/whole_file.h"
 #include "bag_options.h"
@@ -25,15 +24,11 @@ void diagnose(const Arguments& arguments) {
   add(kReport, po::value<std::string>(),
       "write DIR/report.html: the search as a page with figures; of a vehicle also DIR/NAME/report.html of every "
       "strut");
-  add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
-      "processor cores to use");
   const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
   if (!values) return;
   const std::vector<std::string> outputs{"json", "output", kReport};
   requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, outputs);
-  const int threads = (*values)["threads"].as<int>();
-  if (threads < 1 || threads > 1024)
-    throw std::invalid_argument("--threads " + std::to_string(threads) + ", must be in [1, 1024]");
+  const int threads = threadsOf(*values);
   if (isOfVehicle(*values)) {
     diagnoseStruts(*values);
     return printWritten(*values, outputs);

@@ -74,7 +74,7 @@ void diagnoseStruts(const boost::program_options::variables_map& values) {
   AskedVehicle vehicle = readVehicle(values);
   DiagnoseOptions options;
   options.candidates = readEffects(values);
-  options.threads = values["threads"].as<int>();
+  options.threads = threadsOf(values);
   const KnownModels models = readModels(values, vehicle, options.candidates);
   std::optional<TextFile> file = outputFile(values, "json"), model = outputFile(values, "output");
   std::optional<VehiclePage> page;

@@ -186,7 +186,7 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
                chunks.end());
   Delivery delivery(file, bags, range, take);
   Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
-  ChunksAhead ahead(file, std::move(chunks));
+  ChunksAhead ahead(file, std::move(chunks), bags.reads_ahead);
   for (double done = 0.0; const BagChunk* chunk = ahead.coming();) {
     progress.update(++done);
     if (!delivery.deliverBefore(chunk->start)) return false;

@@ -38,6 +38,7 @@ struct ImuBags {
   std::optional<Stretches> stretches;
 
   TopicGaps* gaps = nullptr;   ///< told of all that is read, if it is given; outlives the reading
+  bool reads_ahead = true;     ///< in a second thread
   std::size_t not_needed = 0;  ///< of `topics` so many, the last: their silence is none
 };
 

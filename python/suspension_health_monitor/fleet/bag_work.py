@@ -70,9 +70,9 @@ def read_bag(path, key, work):
 def _run(command, path, folder, work, page=None):
     """:returns: the JSON that a command of suspension_bag has written, {} where the drive is too poor for any."""
     output = os.path.join(folder, command + ".json")
-    arguments = [work.program, command, path, *work.options, "--json", output]
+    arguments = [work.program, command, path, *work.options, "--json", output, "--threads", "1"]  # a core for each worker
     if command == "diagnose":
-        arguments += ["--threads", "1", *(["--report", page] if page else [])]
+        arguments += ["--report", page] if page else []
     elif work.baseline:
         arguments += ["--baseline", work.baseline]
     status, message = _run_process(arguments, work.time_limit)
