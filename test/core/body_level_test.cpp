@@ -126,8 +126,8 @@ TEST(VehicleGrid, TellsByHowMuchTheStampsOfTopAndWheelMayBeWrong) {
               {0.0, 0.0, 9.81 + std::sin(7.0 * t), 0.0, 0.05 * std::cos(7.0 * t), 0.0});
     grid.push(1, fromSeconds(t), {std::sin(20.0 * t)});
   }
-  EXPECT_NEAR(grid.stampErrors(0)[0], kLatest / std::sqrt(12.0), 0.1 * kLatest / std::sqrt(12.0));
-  EXPECT_LT(grid.stampErrors(0)[1], 1e-6);
+  EXPECT_NEAR(grid.resamplingErrors(0).times[0], kLatest / std::sqrt(12.0), 0.1 * kLatest / std::sqrt(12.0));
+  EXPECT_LT(grid.resamplingErrors(0).times[1], 1e-6);
 }
 
 // A drive that ends before gravity is known well is not lost.

@@ -46,7 +46,7 @@ TEST(ErrorBudget, StampsAndWhatTheInputIsOffByAddAsSquares) {
   budget.setInputStddevs(input);
   const Eigen::Array2d with_input = stddevs();
   constexpr double kStampError = 1e-3;
-  budget.setStampErrors({kStampError, 0.0});
+  budget.setResamplingErrors({{kStampError, 0.0}, {0.0, 0.0}});
   const Eigen::Array2d with_stamps = stddevs();
   const double of_body = std::pow(kStampError * 2.0 / kPeriod, 2);
   const Eigen::Vector2d shift = weight * sum.inverse() * noise.momentOf(strut, {of_body, 0.0});

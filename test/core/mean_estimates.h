@@ -33,7 +33,7 @@ inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignmen
     if (!reading) return;
     const double measured = reading->acceleration + kGravity;
     for (auto sample = grid.push(side, reading->stamp, measured); sample; sample = grid.next()) {
-      monitor.setStampErrors(grid.stampErrors());
+      monitor.setResamplingErrors(grid.resamplingErrors());
       const MonitorReport* report = monitor.addSample(*sample);
       if (report == nullptr || toSeconds(sample->stamp) < kSettled) continue;
       mean.la_damping += report->la.damping_to_mass;

@@ -183,8 +183,8 @@ TEST_F(StreamGridTest, TellsByHowMuchTheStampsOfAStreamMayBeWrong) {
   feed(grid, messages);
   feed(pairs, messages);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(grid.stampError(i), kJitters[i] / std::sqrt(12.0), 0.1 * kJitters[i] / std::sqrt(12.0)) << i;
-    EXPECT_EQ(pairs.stampError(i), 0.0) << i;
+    EXPECT_NEAR(grid.timeError(i), kJitters[i] / std::sqrt(12.0), 0.1 * kJitters[i] / std::sqrt(12.0)) << i;
+    EXPECT_EQ(pairs.timeError(i), 0.0) << i;
   }
 }
 

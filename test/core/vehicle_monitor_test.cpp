@@ -74,7 +74,7 @@ TEST(VehicleMonitor, HasTheErrorsOfAStrutsStampsInItsStandardDeviations) {
   const auto stddevs = [&](double error_of_front) {
     VehicleMonitor monitor(std::vector<MonitorSettings>(2, settingsAt(0.01)), {});
     for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
-      monitor.setStampErrors(0, {error_of_front, error_of_front});
+      monitor.setResamplingErrors(0, {Eigen::Vector2d::Constant(error_of_front)});
       monitor.addSample(sampleOf(drive, k));
     }
     return std::array{monitor.strut(0)->report().la.stiffness_to_mass_stddev,

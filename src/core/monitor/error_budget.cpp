@@ -1,7 +1,9 @@
 #include "suspension_health_monitor/internal/monitor/error_budget.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "suspension_health_monitor/internal/identification/excitation.h"
 #include "suspension_health_monitor/internal/pi.h"
@@ -10,7 +12,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kStddevsEvery = 8;    // rows
-constexpr double kMostNoise = 0.8;  // of a residual: no level of noise is known better than within a tenth
+constexpr double kMostNoise = 0.8;  // of a residual or moment: no level of noise is known better than within a tenth
 
 double& stddevOf(StrutEstimate& estimate, int i) {
   return i == kDampingToMass     ? estimate.damping_to_mass_stddev
@@ -30,7 +32,7 @@ ErrorBudget::ErrorBudget(const IntegralFilterOptions& filter, const RegressorNoi
                          double forgetting_factor, bool removes_noise_shift)
     : noise_(noise),
       noise_shift_(Eigen::VectorXd::Zero(num_columns)),
-      stamp_noise_(filter.period, forgetting_factor),
+      resampling_noise_(filter.period, forgetting_factor),
       skew_effect_(forgetting_factor),
       stddevs_due_(kStddevsEvery) {
   if (removes_noise_shift) noise_level_.emplace(filter);
@@ -51,7 +53,7 @@ void ErrorBudget::addSkew(const RegressionRow& row, const WheelRow& wheel, doubl
 
 void ErrorBudget::interrupt() {
   if (noise_level_) noise_level_->interrupt();
-  stamp_noise_.interrupt();
+  resampling_noise_.interrupt();
 }
 
 void ErrorBudget::noteValidity(const StrutEstimate& la) {
@@ -61,7 +63,7 @@ void ErrorBudget::noteValidity(const StrutEstimate& la) {
 
 void ErrorBudget::setForgettingFactor(double forgetting_factor) {
   skew_effect_.setForgettingFactor(forgetting_factor);
-  stamp_noise_.setForgettingFactor(forgetting_factor);
+  resampling_noise_.setForgettingFactor(forgetting_factor);
 }
 
 void ErrorBudget::describe(const PairedEstimators& estimators, const SkewProfile* skew, StrutEstimate& ls,
@@ -75,7 +77,7 @@ void ErrorBudget::describe(const PairedEstimators& estimators, const SkewProfile
   for (int i = 0; i < kNumStrutParameters + static_cast<int>(la.num_effects); ++i) {
     const double by_noise =
         std::hypot(least_squares.parameterShift(i, moments.mean) - noise_shift_[i],
-                   least_squares.parameterShift(i, moments.spread), least_squares.parameterShift(i, moments.of_stamps));
+                   least_squares.parameterShift(i, moments.spread), least_squares.parameterShift(i, moments.of_resampling));
     const double by_skew = skewShift(least_squares, skew, i);
     const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
     const auto with_all = [&](double random) {
@@ -107,7 +109,25 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
   if (removes) removeShift(estimators, moment);
   const Eigen::Vector2d spread = removes ? noise_.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
   // All of it or none, or a part: a uniform distribution from its end, which the estimate is at.
-  return {moment, spread, noise_.momentOf(strut, stamp_noise_.variances()) / std::sqrt(3.0)};
+  return {moment, spread, resamplingMoment(estimators.leastSquares(), strut) / std::sqrt(3.0)};
+}
+
+// The moment is made by the true strut t, which readings as wrong as they may be have moved to the estimate,
+// t + R^-1 m(t): with m(t) = m(0) + M t that is (1 + R^-1 M) t = estimate - R^-1 m(0). Where such readings would make
+// nearly all of the rows' moments there is no telling.
+Eigen::Vector2d ErrorBudget::resamplingMoment(const RecursiveLeastSquares& least_squares,
+                                         const Eigen::Vector2d& estimate) const {
+  const Eigen::Vector2d variances = resampling_noise_.variances();
+  const auto shiftBy = [&](const Eigen::Vector2d& moment) {
+    return Eigen::Vector2d(least_squares.parameterShift(kDampingToMass, moment),
+                           least_squares.parameterShift(kStiffnessToMass, moment));
+  };
+  const Eigen::Vector2d of_none = noise_.momentOf(Eigen::Vector2d::Zero(), variances);
+  Eigen::Matrix2d kept = Eigen::Matrix2d::Identity();
+  for (int j = 0; j < kNumStrutParameters; ++j)
+    kept.col(j) += shiftBy(noise_.momentOf(Eigen::Vector2d::Unit(j), variances) - of_none);
+  if (!(kept.determinant() > 1.0 - kMostNoise)) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  return noise_.momentOf(kept.inverse() * (estimate - shiftBy(of_none)), variances);
 }
 
 // Least squares fits the noise, too, which is missing from what it leaves: where g is the residual's variance by that

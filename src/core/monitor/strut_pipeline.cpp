@@ -94,7 +94,7 @@ void StrutPipeline::take(Side side, Stamp stamp, double acceleration) {
       tyre_->setPeriodFits(monitor_->input().period_fits);
       tyre_->add(*sample, grid_->roadAcceleration());
     }
-    monitor_->setStampErrors(grid_->stampErrors());
+    monitor_->setResamplingErrors(grid_->resamplingErrors());
     const MonitorReport* report = monitor_->addSample(*sample);
     if (sinks_.sample) sinks_.sample(*sample);
     if (report != nullptr && sinks_.report) sinks_.report(*report);

@@ -66,8 +66,8 @@ void SuspensionMonitor::setInputStddevs(const Eigen::Vector2d& stddevs) {
   changeModels([&](ModelTracker& model, ModelReport&) { model.setInputStddevs(stddevs); });
 }
 
-void SuspensionMonitor::setStampErrors(const Eigen::Vector2d& stddevs) {
-  changeModels([&](ModelTracker& model, ModelReport&) { model.setStampErrors(stddevs); });
+void SuspensionMonitor::setResamplingErrors(const ResamplingErrors& errors) {
+  changeModels([&](ModelTracker& model, ModelReport&) { model.setResamplingErrors(errors); });
 }
 
 const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {

@@ -38,11 +38,15 @@ StreamGrid::StreamGrid(double period, const std::vector<StreamOptions>& streams,
 const GridInstant* StreamGrid::push(std::size_t stream, Stamp stamp, double value) {
   GridStream& its = streams_[stream];
   const StreamGate::Verdict verdict = its.gate.judge(stamp, value);
-  if (verdict == StreamGate::Verdict::kRejected) return nullptr;
+  if (verdict == StreamGate::Verdict::kRejected) {
+    its.clock.passOver(stamp);
+    return nullptr;
+  }
   if (verdict == StreamGate::Verdict::kBeginsAnew) startNewSeries(stream);
   if (its.waiting.full()) dropOldest(its);
   its.is_silent = false;
-  its.waiting.push_back({stamp, value, its.gate.isStill(), its.gate.timing().period()});
+  const double spacing = its.gate.timing().period();
+  its.waiting.push_back({stamp, its.clock.take(stamp, value, spacing), value, its.gate.isStill(), spacing});
   return next();
 }
 
@@ -66,8 +70,10 @@ void StreamGrid::dropOldest(GridStream& full) {
 void StreamGrid::startNewSeries(std::size_t first) {
   paired_.startNewSeries(streams_);
   resampled_.startNewSeries();
-  for (std::size_t i = 0; i < streams_.size(); ++i)
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
     if (i != first) streams_[i].gate.startNewSeries();
+    streams_[i].clock.interrupt();
+  }
 }
 
 std::string StreamGrid::whatIsTooSlow() const {
@@ -92,9 +98,12 @@ std::string StreamGrid::describeAlignment() const {
   return why().empty() ? "resampled" : "resampled because " + why();
 }
 
-// A spacing has the errors of two stamps.
-double StreamGrid::stampError(std::size_t stream) const {
-  return resamples_ ? gate(stream).timing().jitter() / std::sqrt(2.0) : 0.0;
+double StreamGrid::timeError(std::size_t stream) const {
+  return resamples_ ? std::sqrt(streams_[stream].clock.variance()) : 0.0;
+}
+
+double StreamGrid::lostShare(std::size_t stream) const {
+  return resamples_ ? streams_[stream].clock.missing() : 0.0;
 }
 
 RejectCounts StreamGrid::rejected(std::size_t stream) const {

@@ -42,12 +42,12 @@ void StreamResampler::clear() {
 std::optional<Stamp> StreamResampler::earliest(const ReadingQueue& waiting) const {
   if (first_) return *first_ + reach_;
   if (waiting.empty()) return std::nullopt;
-  return waiting.front().stamp + reach_;
+  return waiting.front().taken + reach_;
 }
 
 StreamResampler::Coverage StreamResampler::advance(Stamp t, ReadingQueue& waiting) {
   if (!origin_) origin_ = t;
-  while (!first_ || last_.stamp < t + reach_) {
+  while (!first_ || last_.taken < t + reach_) {
     if (waiting.empty()) return Coverage::kComes;
     const SensorReading reading = waiting.front();
     waiting.pop_front();
@@ -62,23 +62,23 @@ StreamResampler::Coverage StreamResampler::advance(Stamp t, ReadingQueue& waitin
 bool StreamResampler::followsAfterGap(const SensorReading& reading) const {
   const double period = toSeconds(period_);
   const double usual = std::clamp(reading.usual_spacing, period, kSlowest * period);
-  return toSeconds(reading.stamp - last_.stamp) > kLongestBridge * usual;
+  return toSeconds(reading.taken - last_.taken) > kLongestBridge * usual;
 }
 
 void StreamResampler::begin(const SensorReading& reading) {
-  first_ = reading.stamp;
+  first_ = reading.taken;
   last_ = reading;
   reference_ = reading.value;
   spline_.clear();
-  next_knot_ = static_cast<std::int64_t>(std::ceil(2.0 * toSeconds(reading.stamp - *origin_) / toSeconds(period_)));
+  next_knot_ = static_cast<std::int64_t>(std::ceil(2.0 * toSeconds(reading.taken - *origin_) / toSeconds(period_)));
 }
 
 void StreamResampler::take(const SensorReading& reading) {
-  const double spacing = toSeconds(reading.stamp - last_.stamp);
+  const double spacing = toSeconds(reading.taken - last_.taken);
   if (reading.usual_spacing > 0.0 && spacing >= 1.5 * reading.usual_spacing)
     bridged_ += static_cast<std::uint64_t>(std::round(spacing / reading.usual_spacing)) - 1;
   const double position =
-      2.0 * static_cast<double>((reading.stamp - *origin_).count()) / static_cast<double>(period_.count());
+      2.0 * static_cast<double>((reading.taken - *origin_).count()) / static_cast<double>(period_.count());
   for (; static_cast<double>(next_knot_) < position; ++next_knot_) stillAt(next_knot_) = last_.still;
   spline_.add(position, reading.value - reference_);
   last_ = reading;

@@ -30,8 +30,10 @@ std::optional<CornerSample> UniformGrid::take(const GridInstant* instant) {
   return CornerSample{instant->stamp, values[indexOf(Side::kSprung)], values[indexOf(Side::kUnsprung)]};
 }
 
-Eigen::Vector2d UniformGrid::stampErrors() const {
-  return {streams_.stampError(indexOf(Side::kSprung)), streams_.stampError(indexOf(Side::kUnsprung))};
+ResamplingErrors UniformGrid::resamplingErrors() const {
+  const std::size_t sprung = indexOf(Side::kSprung), unsprung = indexOf(Side::kUnsprung);
+  return {{streams_.timeError(sprung), streams_.timeError(unsprung)},
+          {streams_.lostShare(sprung), streams_.lostShare(unsprung)}};
 }
 
 }  // namespace suspension_health_monitor

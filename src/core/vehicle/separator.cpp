@@ -106,7 +106,7 @@ bool Separator::isUndersampled() const {
   return std::any_of(drives_.begin(), drives_.end(), [&](const VehicleDrive& drive) {
     return std::any_of(drive.struts.begin(), drive.struts.end(), [&](const Drive& strut) {
       const DriveRecord record(strut, period_);
-      return shareAtSamplingLimit({&record}) > kUndersampled;
+      return shareAtSamplingLimit({&record}) > kMostFolded;
     });
   });
 }

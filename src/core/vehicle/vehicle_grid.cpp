@@ -94,10 +94,11 @@ void VehicleGrid::describe(VehicleDrive& drive) const {
   for (Drive& strut : drive.struts) strut.low_pass.taps = tops_.lowPass();
 }
 
-Eigen::Vector2d VehicleGrid::stampErrors(std::size_t strut) const {
+ResamplingErrors VehicleGrid::resamplingErrors(std::size_t strut) const {
   const VehicleChannels::Strut& streams = vehicle_.struts[strut];
   const std::size_t top = streams.sprung ? *streams.sprung : *vehicle_.body_imu;
-  return {grid_.stampError(top), grid_.stampError(streams.unsprung)};
+  return {{grid_.timeError(top), grid_.timeError(streams.unsprung)},
+          {grid_.lostShare(top), grid_.lostShare(streams.unsprung)}};
 }
 
 RejectCounts VehicleGrid::rejected(std::size_t sensor) const {

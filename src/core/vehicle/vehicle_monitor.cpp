@@ -100,7 +100,7 @@ void VehicleMonitor::addSample(const VehicleSample& sample) {
 // The grid has heard the body's IMU for seconds when it gives the first sample.
 void VehicleMonitor::addSample(const VehicleGrid& grid, const VehicleSample& sample) {
   if (!last_ && grid.needsBodyImu()) setNoise(grid.noise());
-  for (std::size_t i = 0; i < struts_.size(); ++i) setStampErrors(i, grid.stampErrors(i));
+  for (std::size_t i = 0; i < struts_.size(); ++i) setResamplingErrors(i, grid.resamplingErrors(i));
   addSample(sample);
 }
 

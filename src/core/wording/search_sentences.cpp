@@ -51,7 +51,7 @@ std::string suggestForUnexplained(const SearchResult& result) {
   if (wanders(result))
     return "The reading's offset wanders more slowly than the strut moves, and a constant one would not be larger than "
            "that: a body that leans by more than two degrees turns gravity away from its IMUs, or a sensor drifts.";
-  if (result.folded_share > kUndersampled)
+  if (result.folded_share > kMostFolded)
     return "The wheel still shakes at half the sampling rate, so that a part of its motion is lost to any model, which "
            "is the likely cause: record at twice the rate, or with the filter of the IMU set below half of it.";
   if (result.turns_body)

@@ -12,7 +12,7 @@ namespace suspension_health_monitor {
 double foldedMotion(const Records& records, const StrutModel& model);
 
 /// Above this share of its motion that is folded back a wheel is sampled too slowly for anything to be told.
-inline constexpr double kUndersampled = 0.25;
+inline constexpr double kMostFolded = 0.25;
 
 /// @return rms of white motion as dense as that of w'' just below half the rate, over that of w''.
 double shareAtSamplingLimit(const Records& records);

@@ -11,15 +11,15 @@
 #include "suspension_health_monitor/internal/identification/regressor_noise.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/identification/skew_profile.h"
-#include "suspension_health_monitor/internal/identification/stamp_noise.h"
+#include "suspension_health_monitor/internal/identification/resampling_noise.h"
 #include "suspension_health_monitor/internal/identification/wheel_history.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
 /// What the estimates of a strut are off by beyond the scatter of rows, and their standard deviations with it: by noise
-/// of the sensors in the regressors (RegressorNoise), whose shift is taken off once it is known; by stamps that may be
-/// off (StampNoise); by the skew of the clocks (SkewProfile); by what the samples went through before. These add up as
+/// of the sensors in the regressors (RegressorNoise), whose shift is taken off once it is known; by what
+/// resampled readings are wrong by (ResamplingNoise); by the skew of the clocks (SkewProfile); by what the samples went through before. These add up as
 /// squares (doc/uncertainty.md).
 ///
 /// The first three put a moment E[phi e] into the rows, which R^-1 turns into a shift of the estimates. It is that of
@@ -37,7 +37,7 @@ class ErrorBudget {
   void changeColumns(const std::vector<ColumnOrigin>& columns);
 
   /// Takes in the next sample of an uninterrupted series.
-  void addSample(const CornerSample& sample) { stamp_noise_.add(sample); }
+  void addSample(const CornerSample& sample) { resampling_noise_.add(sample); }
 
   /// Takes in what a skew of the clocks does to a row that the estimators are about to take in.
   /// @param skew  by which the wheel's readings were moved [s].
@@ -60,8 +60,8 @@ class ErrorBudget {
   /// As StrutIdentifier::setInputStddevs().
   void setInputStddevs(const Eigen::Vector2d& stddevs) { input_stddevs_ = stddevs; }
 
-  /// As StrutIdentifier::setStampErrors().
-  void setStampErrors(const Eigen::Vector2d& stddevs) { stamp_noise_.setStamps(stddevs); }
+  /// As StrutIdentifier::setResamplingErrors().
+  void setResamplingErrors(const ResamplingErrors& errors) { resampling_noise_.setErrors(errors); }
 
   /// @return what is to be taken off the parameters of LS and LA, one per column; 0 if it is left in them.
   const Eigen::VectorXd& noiseShift() const { return noise_shift_; }
@@ -81,12 +81,13 @@ class ErrorBudget {
   /// Means of x phi_1, x phi_0, and of the skew taken off.
   enum SkewEffect : std::size_t { kOnDamping, kOnStiffness, kTakenOff, kNumSkewEffects };
 
-  /// E[phi e] of a row by the sensors' noise, its standard deviation, and that by stamps that may be off.
+  /// E[phi e] of a row by the sensors' noise, its standard deviation, and that by what resampled readings are wrong by.
   struct NoiseMoments {
-    Eigen::Vector2d mean, spread, of_stamps;
+    Eigen::Vector2d mean, spread, of_resampling;
   };
 
   NoiseMoments takeNoise(const PairedEstimators& estimators, const Eigen::Vector2d& strut);
+  Eigen::Vector2d resamplingMoment(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& estimate) const;
   double fittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut, double left) const;
   void removeShift(const PairedEstimators& estimators, const Eigen::Vector2d& moment);
   double skewShift(const RecursiveLeastSquares& least_squares, const SkewProfile* skew, int i) const;
@@ -96,7 +97,7 @@ class ErrorBudget {
   bool hears_noise_ = false;               // in what LA leaves
   double noise_share_ = 0.0;               // of the residuals' variance
   Eigen::VectorXd noise_shift_;            // of the parameters
-  StampNoise stamp_noise_;
+  ResamplingNoise resampling_noise_;
   RunningMeans<kNumSkewEffects> skew_effect_;
   Eigen::Vector2d input_stddevs_ = Eigen::Vector2d::Zero();
   EveryN stddevs_due_;

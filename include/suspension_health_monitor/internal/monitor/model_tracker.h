@@ -60,8 +60,8 @@ class ModelTracker {
   /// As StrutIdentifier::setInputStddevs().
   void setInputStddevs(const Eigen::Vector2d& stddevs) { identifier_.setInputStddevs(stddevs); }
 
-  /// As StrutIdentifier::setStampErrors().
-  void setStampErrors(const Eigen::Vector2d& stddevs) { identifier_.setStampErrors(stddevs); }
+  /// As StrutIdentifier::setResamplingErrors().
+  void setResamplingErrors(const ResamplingErrors& errors) { identifier_.setResamplingErrors(errors); }
 
   /// @return true while what is measured tells nothing of the strut, and the estimates stay as they are.
   bool holds() const { return identifier_.holdsAll(); }

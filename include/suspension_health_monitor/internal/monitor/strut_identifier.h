@@ -66,9 +66,8 @@ class StrutIdentifier {
   /// @param stddevs  of (b1 [1/s], b0 [1/s^2]) by what the samples went through before: no row shows that.
   void setInputStddevs(const Eigen::Vector2d& stddevs) { errors_.setInputStddevs(stddevs); }
 
-  /// @param stddevs  of the errors of the stamps by which samples were brought onto the grid, of the sprung and the
-  /// unsprung sensor [s].
-  void setStampErrors(const Eigen::Vector2d& stddevs) { errors_.setStampErrors(stddevs); }
+  /// What the samples are wrong by because they were resampled.
+  void setResamplingErrors(const ResamplingErrors& errors) { errors_.setResamplingErrors(errors); }
 
   /// @return the factor that rows are forgotten by now.
   double forgettingFactor() const { return estimators_.forgettingFactor(); }

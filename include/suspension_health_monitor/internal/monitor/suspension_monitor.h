@@ -43,8 +43,8 @@ class SuspensionMonitor {
   /// As StrutIdentifier::setInputStddevs(), from the next sample on.
   void setInputStddevs(const Eigen::Vector2d& stddevs);
 
-  /// As StrutIdentifier::setStampErrors(), from the next sample on.
-  void setStampErrors(const Eigen::Vector2d& stddevs);
+  /// As StrutIdentifier::setResamplingErrors(), from the next sample on.
+  void setResamplingErrors(const ResamplingErrors& errors);
 
   /// Takes in the next sample. A gap or a clock that goes back empties the filter (no rows follow until it is full);
   /// estimates hold meanwhile, marked as not valid.

@@ -10,6 +10,7 @@ namespace suspension_health_monitor {
 /// One reading of one stream that has passed its StreamGate.
 struct SensorReading {
   Stamp stamp{};
+  Stamp taken{};               ///< when it was taken, by ReadingClock
   double value = 0.0;          ///< in the stream's unit
   bool still = false;          ///< StreamGate::isStill()
   double usual_spacing = 0.0;  ///< StreamTiming::period() of its stream by then [s]; 0: not known yet

@@ -59,9 +59,12 @@ class StreamGrid {
   /// @return readings of other streams and instants that were lost for want of a reading of this stream.
   std::uint64_t missed(std::size_t stream) const { return streams_[stream].missed; }
 
-  /// @return standard deviation of the errors of a stream's stamps, if its readings were taken regularly [s]; 0 while
-  /// readings are paired, which needs no stamps.
-  double stampError(std::size_t stream) const;
+  /// @return standard deviation of what the times are off by at which a stream's readings are taken to be [s]
+  /// (ReadingClock); 0 while readings are paired, which needs no times.
+  double timeError(std::size_t stream) const;
+
+  /// @return the share of a stream's readings that were lost of late, and interpolated [-]; 0 while readings are paired.
+  double lostShare(std::size_t stream) const;
 
   /// @return lost readings that were interpolated over, of one stream, and of all.
   std::uint64_t bridged(std::size_t stream) const { return resampled_.bridged(stream); }

@@ -7,6 +7,7 @@
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
+#include "suspension_health_monitor/internal/signal/resampling_errors.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 namespace suspension_health_monitor {
@@ -38,8 +39,8 @@ class UniformGrid {
   std::string describeAlignment() const { return streams_.describeAlignment(); }
   std::uint64_t bridged() const { return streams_.bridged(); }
   RejectCounts rejected() const { return streams_.rejected(); }
-  /// @return StreamGrid::stampError() of the sprung and the unsprung sensor.
-  Eigen::Vector2d stampErrors() const;
+  /// @return StreamGrid::timeError() of the sprung and the unsprung sensor.
+  ResamplingErrors resamplingErrors() const;
   const StreamGate& gate(Side side) const { return streams_.gate(indexOf(side)); }
 
  private:

@@ -37,9 +37,9 @@ class VehicleMonitor {
   /// As more is known of the noise. Allocates.
   void setNoise(const SensorNoise& noise);
 
-  /// As SuspensionMonitor::setStampErrors(); lost while there is no monitor.
-  void setStampErrors(std::size_t strut, const Eigen::Vector2d& stddevs) {
-    if (isCoupled()) struts_[strut].setStampErrors(stddevs);
+  /// As SuspensionMonitor::setResamplingErrors(); lost while there is no monitor.
+  void setResamplingErrors(std::size_t strut, const ResamplingErrors& errors) {
+    if (isCoupled()) struts_[strut].setResamplingErrors(errors);
   }
 
   /// Takes in the next sample; gaps and clocks that go back begin a new series.
