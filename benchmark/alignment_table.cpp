@@ -31,8 +31,10 @@ void print(const char* name, int seeds, const SimulationOptions& sensors, Alignm
   }
   off *= 100.0;
   const Eigen::Array2d mean = off.colwise().mean();
-  const Eigen::Array2d error = ((off.rowwise() - mean.transpose()).square().colwise().sum() / seeds / (seeds - 1)).sqrt();
-  std::printf("| %s | %+.2f +- %.2f | %+.2f +- %.2f | %.0f |\n", name, mean[0], error[0], mean[1], error[1], 100.0 * valid);
+  const Eigen::Array2d error =
+      ((off.rowwise() - mean.transpose()).square().colwise().sum() / seeds / (seeds - 1)).sqrt();
+  std::printf("| %s | %+.2f +- %.2f | %+.2f +- %.2f | %.0f |\n", name, mean[0], error[0], mean[1], error[1],
+              100.0 * valid);
 }
 
 void printTable(int seeds) {

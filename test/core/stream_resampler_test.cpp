@@ -45,7 +45,7 @@ std::vector<double> resampled(const std::vector<double>& times, const std::funct
   const double usual_spacing = (times.back() - times.front()) / static_cast<double>(times.size());
   for (const double t : times) {
     const Stamp stamp = fromSeconds(t);  // whole nanoseconds
-    readings.push_back({start + stamp, signal(toSeconds(stamp)), false, usual_spacing});
+    readings.push_back({start + stamp, start + stamp, signal(toSeconds(stamp)), false, usual_spacing});
   }
   std::vector<double> values;
   for (int k = 10; k < kCount + 10; ++k) {
@@ -203,7 +203,7 @@ TEST(StreamResampler, TellsWhatItCovers) {
   const auto at = [](int k) { return k * fromSeconds(kPeriod); };
   StreamResampler stream(at(1));
   ReadingQueue readings;
-  const auto push = [&](int k, bool still = false) { readings.push_back({at(k), 1.0, still, kPeriod}); };
+  const auto push = [&](int k, bool still = false) { readings.push_back({at(k), at(k), 1.0, still, kPeriod}); };
   EXPECT_EQ(stream.advance(at(0), readings), Coverage::kComes);
   EXPECT_FALSE(stream.earliest(readings));
   for (int k = 0; k <= 20; ++k) push(k);

@@ -75,9 +75,9 @@ void ErrorBudget::describe(const PairedEstimators& estimators, const SkewProfile
   const RecursiveLeastAbsolute& least_absolute = estimators.leastAbsolute();
   const NoiseMoments moments = takeNoise(estimators, {la.damping_to_mass, la.stiffness_to_mass});
   for (int i = 0; i < kNumStrutParameters + static_cast<int>(la.num_effects); ++i) {
-    const double by_noise =
-        std::hypot(least_squares.parameterShift(i, moments.mean) - noise_shift_[i],
-                   least_squares.parameterShift(i, moments.spread), least_squares.parameterShift(i, moments.of_resampling));
+    const double by_noise = std::hypot(least_squares.parameterShift(i, moments.mean) - noise_shift_[i],
+                                       least_squares.parameterShift(i, moments.spread),
+                                       least_squares.parameterShift(i, moments.of_resampling));
     const double by_skew = skewShift(least_squares, skew, i);
     const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
     const auto with_all = [&](double random) {
@@ -116,7 +116,7 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
 // t + R^-1 m(t): with m(t) = m(0) + M t that is (1 + R^-1 M) t = estimate - R^-1 m(0). Where such readings would make
 // nearly all of the rows' moments there is no telling.
 Eigen::Vector2d ErrorBudget::resamplingMoment(const RecursiveLeastSquares& least_squares,
-                                         const Eigen::Vector2d& estimate) const {
+                                              const Eigen::Vector2d& estimate) const {
   const Eigen::Vector2d variances = resampling_noise_.variances();
   const auto shiftBy = [&](const Eigen::Vector2d& moment) {
     return Eigen::Vector2d(least_squares.parameterShift(kDampingToMass, moment),
@@ -126,7 +126,8 @@ Eigen::Vector2d ErrorBudget::resamplingMoment(const RecursiveLeastSquares& least
   Eigen::Matrix2d kept = Eigen::Matrix2d::Identity();
   for (int j = 0; j < kNumStrutParameters; ++j)
     kept.col(j) += shiftBy(noise_.momentOf(Eigen::Vector2d::Unit(j), variances) - of_none);
-  if (!(kept.determinant() > 1.0 - kMostNoise)) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  if (!(kept.determinant() > 1.0 - kMostNoise))
+    return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   return noise_.momentOf(kept.inverse() * (estimate - shiftBy(of_none)), variances);
 }
 

@@ -26,7 +26,8 @@ bool GridStreams::areWaiting() const {
 
 bool GridStreams::mayStillCome(GridStream& optional) const {
   const ReadingQueue& waiting = streams_[reference_].waiting;
-  if (waiting.full() || waiting.back().stamp - waiting.front().stamp > kMostOptionalLag) optional.is_silent = true;
+  const Stamp lag = waiting.empty() ? Stamp::zero() : waiting.back().stamp - waiting.front().stamp;
+  if (waiting.full() || lag > kMostOptionalLag) optional.is_silent = true;
   return !optional.is_silent;
 }
 

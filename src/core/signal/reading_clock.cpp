@@ -9,19 +9,17 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};         // D
-constexpr std::array kRate{3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};      // of the readings 1, 2, 3 to either side
-constexpr double kFar = 5.0;              // mean sizes of e: beyond, a reading is wrong
-constexpr int kBlockReadings = 32;        // of which neighbouring blocks share a few only
-constexpr double kMostBlocks = 300.0;     // that count: 5 minutes of readings at 30 Hz, one at 200 Hz
-constexpr double kPriorBlocks = 6.0;      // fewer do not know how they scatter
-// Beforehand b is anything from 0 to 1, and 1 its end: what the noise of wrong stamps does is then known to 1 / sqrt(3).
-const double kPriorVariance = std::sqrt(1.0 / 3.0);
+constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};     // D
+constexpr std::array kRate{3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};  // of the readings 1, 2, 3 to either side
+constexpr double kFar = 5.0;                                     // mean sizes of e: beyond, a reading is wrong
+constexpr int kBlockReadings = 32;                               // of which neighbouring blocks share a few only
+constexpr double kMostBlocks = 300.0;   // that count: 5 minutes of readings at 30 Hz, one at 200 Hz
+constexpr double kPriorBlocks = 6.0;    // fewer do not know how they scatter
+constexpr double kPriorVariance = 1.0;  // of b: anything from 0 to 1, and taken for the end
 
 }  // namespace
 
-ReadingClock::ReadingClock()
-    : size_(StreamTiming::kMemory), share_variance_(kPriorVariance) {}
+ReadingClock::ReadingClock() : size_(StreamTiming::kMemory), share_variance_(kPriorVariance) {}
 
 void ReadingClock::passOver(Stamp stamp) {
   if (stamp != last_stamp_) regular_.passOver();
@@ -32,15 +30,15 @@ void ReadingClock::interrupt() {
   last_.reset();
 }
 
-Stamp ReadingClock::take(Stamp stamp, double value, double usual_spacing) {
+Stamp ReadingClock::take(Stamp stamp, double value) {
   if (!last_) origin_ = stamp;
-  const double stamped = toSeconds(stamp - *origin_), regular = regular_.next(stamped, usual_spacing);
+  const double stamped = toSeconds(stamp - *origin_), regular = regular_.next(stamped);
   const double off = stamped - regular;
   last_stamp_ = stamp;
   values_.push(value);
   off_.push(off);
   if (regular_.inRow() >= kWindow) compare();
-  const Stamp taken = *origin_ + fromSeconds(regular + share_ * off);
+  const Stamp taken = followsStamps() ? stamp : *origin_ + fromSeconds(regular);
   last_ = last_ ? std::max(taken, *last_ + Stamp(1)) : taken;
   return *last_;
 }

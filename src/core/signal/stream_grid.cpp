@@ -45,8 +45,7 @@ const GridInstant* StreamGrid::push(std::size_t stream, Stamp stamp, double valu
   if (verdict == StreamGate::Verdict::kBeginsAnew) startNewSeries(stream);
   if (its.waiting.full()) dropOldest(its);
   its.is_silent = false;
-  const double spacing = its.gate.timing().period();
-  its.waiting.push_back({stamp, its.clock.take(stamp, value, spacing), value, its.gate.isStill(), spacing});
+  its.waiting.push_back({stamp, its.clock.take(stamp, value), value, its.gate.isStill(), its.gate.timing().period()});
   return next();
 }
 
@@ -102,9 +101,7 @@ double StreamGrid::timeError(std::size_t stream) const {
   return resamples_ ? std::sqrt(streams_[stream].clock.variance()) : 0.0;
 }
 
-double StreamGrid::lostShare(std::size_t stream) const {
-  return resamples_ ? streams_[stream].clock.missing() : 0.0;
-}
+double StreamGrid::lostShare(std::size_t stream) const { return resamples_ ? streams_[stream].clock.missing() : 0.0; }
 
 RejectCounts StreamGrid::rejected(std::size_t stream) const {
   RejectCounts counts = streams_[stream].gate.rejected();

@@ -47,7 +47,9 @@ class ResamplingNoise {
 
   /// @return its variances, of both sensors [(m/s^2)^2].
   Eigen::Vector2d variances() const {
-    const auto square = [&](std::size_t which) { return Eigen::Array2d(squares_.mean(which), squares_.mean(which + 1)); };
+    const auto square = [&](std::size_t which) {
+      return Eigen::Array2d(squares_.mean(which), squares_.mean(which + 1));
+    };
     return errors_.times.array().square() * square(kRate) + errors_.lost.array() * square(kUntold);
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
@@ -10,22 +11,22 @@
 namespace suspension_health_monitor {
 
 /// When the readings of one stream were taken. Where stamps are irregular, either the readings were taken so, or they
-/// were taken regularly and stamped when they happened to arrive, or something of both: of the distance d_k of a stamp
-/// from the regular time (RegularTimes) a share b is true, and t_k = regular + b d_k is the best guess of the time.
+/// were taken regularly and stamped when they happened to arrive, or something of both: of the variance of the distance
+/// d_k of a stamp from the regular time (RegularTimes) a share b is true. More than half: they were taken as stamped.
 ///
 /// The readings tell b. With x(t) the signal, a reading is x_k = x(regular) + b x' d_k. Fourth differences D take the
 /// signal out of that as far as it is slow, so that b is the slope of e = D x_k over r = D (x'_k d_k), by least squares
-/// of all readings, of which rough driving counts most: there it matters. Its variance is the sandwich over blocks of
-/// readings, since neighbouring differences share readings. Beforehand stamps are taken at their word, b = 1.
+/// of all readings, of which rough driving counts most: there it matters. x' is that of readings taken regularly; where
+/// they are not it is noisy, and b too small by a tenth or two. Its variance is the sandwich over blocks of readings,
+/// since neighbouring differences share readings. Beforehand stamps are taken at their word, b = 1.
 /// Cost per reading: O(1), no allocation.
 class ReadingClock {
  public:
   ReadingClock();
 
   /// Takes in the next reading, whose stamp is later than that of the one before.
-  /// @param usual_spacing  of readings [s]; 0: not known yet.
   /// @return when it was taken, likewise later.
-  Stamp take(Stamp stamp, double value, double usual_spacing);
+  Stamp take(Stamp stamp, double value);
 
   /// A reading is kept out. Unless it repeats the last one's stamp, it was taken, too.
   void passOver(Stamp stamp);
@@ -39,16 +40,16 @@ class ReadingClock {
   /// @return as RegularTimes::missing().
   double missing() const { return regular_.missing(); }
 
-  /// @return variance of what take() is off by, for stamps that are off independently of each other [s^2]: of what is
-  /// true of the distances and what is not, of b, and of the line.
+  /// @return variance of what take() is off by, for stamps that are off independently of each other [s^2]: of the share
+  /// of the distances that is not as it was taken for, and of the line.
   double variance() const {
-    const double of_line = (1.0 - share_) * (1.0 - share_) * regular_.varianceOfLine();
-    return regular_.variance() * (share_ * (1.0 - share_) + share_variance_) + of_line;
+    const double of_line = followsStamps() ? 0.0 : regular_.varianceOfLine();
+    return regular_.variance() * (std::min(share_, 1.0 - share_) + share_variance_) + of_line;
   }
 
  private:
-  static constexpr int kReach = 3;                     // of a derivative, to either side
-  static constexpr int kHalf = 2;                      // of a fourth difference
+  static constexpr int kReach = 3;  // of a derivative, to either side
+  static constexpr int kHalf = 2;   // of a fourth difference
   static constexpr int kWindow = 2 * (kReach + kHalf) + 1;
 
   /// Products of r and e: sums over a block, or over all blocks.
@@ -56,6 +57,7 @@ class ReadingClock {
     double rr = 0.0, re = 0.0;
   };
 
+  bool followsStamps() const { return share_ > 0.5; }
   void compare();
   void closeBlock();
   double rateAt(int i) const;
@@ -65,8 +67,8 @@ class ReadingClock {
   SlidingWindow<kWindow> values_, off_;  // readings, and d [s]
   RunningMean size_;                     // of |e|
   Products block_, all_;
-  int rows_ = 0;                           // of the block
-  double scores_ = 0.0, blocks_ = 0.0;     // sum of squares of blocks' scores; blocks
+  int rows_ = 0;                        // of the block
+  double scores_ = 0.0, blocks_ = 0.0;  // sum of squares of blocks' scores; blocks
   double share_ = 1.0, share_variance_;
 };
 

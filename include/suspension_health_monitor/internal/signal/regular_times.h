@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "suspension_health_monitor/internal/identification/running_mean.h"
@@ -10,29 +11,29 @@ namespace suspension_health_monitor {
 
 /// When the readings of a stream were taken if they were taken regularly: the straight line through their stamps, least
 /// squares of the newest kMemory readings, by the alpha-beta filter whose gains are theirs. A line through N stamps is
-/// off by 2 / sqrt(N) of what a stamp is.
+/// off by 2 / sqrt(N) of what a stamp is. It begins with kFewest readings, whose times are their stamps, and whose
+/// median spacing tells how many periods they are apart.
 ///
 /// Which period a reading belongs to is the likelier of a stamp that is off and of a reading that is lost, or was
 /// counted as lost before: n periods more if it is off by more than n - 1/2 and ln(1 / p) times its variance, in
-/// periods, where p is the share of readings that got lost of late.
+/// periods, where p is the share of readings that have got lost on this line.
 /// Cost per reading: O(1), no allocation.
 class RegularTimes {
  public:
-  RegularTimes();
+  RegularTimes() : means_(StreamTiming::kMemory) {}
 
-  /// Takes in the stamp of the next reading, later than the one before.
-  /// @param stamp  [s].  @param usual_spacing  of readings [s]; 0: not known yet.
+  /// Takes in the stamp of the next reading [s], later than the one before.
   /// @return the time by the line [s].
-  double next(double stamp, double usual_spacing);
+  double next(double stamp);
 
   /// A reading is left out.
   void passOver() { expected_ += 1.0; }
 
   /// The next reading belongs to another series.
-  void interrupt() { readings_ = 0.0; }
+  void interrupt() { readings_ = 0; }
 
-  int inRow() const { return in_row_; }                      ///< readings, the newest included, of which none is missing
-  double spacing() const { return spacing_; }                ///< by the line [s]
+  int inRow() const { return in_row_; }                     ///< readings, the newest included, of which none is missing
+  double spacing() const { return spacing_; }               ///< by the line [s]
   double variance() const { return means_.mean(kSquare); }  ///< of stamps about the line [s^2]
 
   /// @return the share of readings that are not there, pauses left out [-].
@@ -44,18 +45,21 @@ class RegularTimes {
 
  private:
   static constexpr double kMemory = 1.0 / (1.0 - StreamTiming::kMemory);  // readings
-  static constexpr double kFewestLosses = 1e-5;
+  static constexpr int kFewest = 20;
 
-  enum Mean : std::size_t { kSquare, kLost, kTakenBack, kMissing, kNumMeans };
+  enum Mean : std::size_t { kSquare, kTakenBack, kMissing, kNumMeans };
 
-  double lossShare() const;
-  double step(double periods) const;
+  double begin(double stamp);
+  void drawLine();
+  double periodsTo(double stamp);
 
   double time_ = 0.0, spacing_ = 0.0;
-  double readings_ = 0.0;  // that the line rests on
-  double expected_ = 1.0;  // periods to the next reading, if none gets lost
+  int readings_ = 0;                     // that the line rests on
+  std::array<double, kFewest> first_{};  // their stamps
+  double expected_ = 1.0;                // periods to the next reading, if none gets lost
   int in_row_ = 0, out_of_step_ = 0;
   RunningMeans<kNumMeans> means_;
+  double losses_ = 0.0, followed_ = 0.0;  // times that readings got lost, less those taken back; readings
 };
 
 }  // namespace suspension_health_monitor

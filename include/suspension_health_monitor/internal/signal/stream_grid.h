@@ -63,7 +63,8 @@ class StreamGrid {
   /// (ReadingClock); 0 while readings are paired, which needs no times.
   double timeError(std::size_t stream) const;
 
-  /// @return the share of a stream's readings that were lost of late, and interpolated [-]; 0 while readings are paired.
+  /// @return the share of a stream's readings that were lost of late, and interpolated [-]; 0 while readings are
+  /// paired.
   double lostShare(std::size_t stream) const;
 
   /// @return lost readings that were interpolated over, of one stream, and of all.

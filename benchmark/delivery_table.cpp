@@ -1,0 +1,113 @@
+// Prints a table of doc/alignment.md: what is said of healthy struts whose IMUs read regularly, but whose messages get
+// lost or are stamped when they happen to arrive. Drives of benchmark/field_drive.h, default settings with nominal
+// values.
+//   delivery_table [SECONDS]      of each drive, default 600
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "field_drive.h"
+#include "suspension_health_monitor/strut_monitor.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kSettled = 30.0, kEvery = 2.0, kGravity = 9.81;  // [s], [s], [m/s^2]
+
+struct Way {
+  const char* name;
+  double road, speed;
+  int rate;
+};
+
+/// Chance of a stamp (standard deviation, in periods) and of a message.
+struct Delivery {
+  const char* name;
+  double stamped, lost;
+};
+
+/// Of all vehicles.
+struct Found {
+  std::vector<double> off;  // of LA's b0
+  double inside = 0.0, valid = 0.0, ok = 0.0, reports = 0.0;
+  int warn = 0, error = 0;
+};
+
+void drive(const FieldDrive& road, const Delivery& delivery, double seconds, Found& found) {
+  MonitorOptions options;
+  options.nominal_damping_to_mass = road.vehicle.b1;
+  options.nominal_stiffness_to_mass = road.vehicle.b0;
+  HealthLevel before = HealthLevel::kStale;
+  double next = kSettled;
+  StrutMonitor monitor(options, [&](const MonitorReport& report) {
+    const HealthLevel level = report.health.level;
+    found.warn += int{level == HealthLevel::kWarn && before != level};
+    found.error += int{level == HealthLevel::kError && before != level};
+    before = level;
+    if (toSeconds(report.stamp) < next) return;
+    next += kEvery;
+    found.reports += 1.0;
+    found.ok += level == HealthLevel::kOk ? 1.0 : 0.0;
+    if (!report.la.valid()) return;
+    found.valid += 1.0;
+    found.off.push_back(report.la.stiffness_to_mass / road.vehicle.b0 - 1.0);
+    found.inside += std::abs(report.la.stiffness_to_mass - road.vehicle.b0) < 1.96 * report.la.stiffness_to_mass_stddev;
+  });
+  FieldSimulator simulator(road);
+  std::mt19937_64 random(road.seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const auto deliver = [&](Side side, const CornerSample& sample, double acceleration) {
+    const double late = delivery.stamped / road.rate * normal(random);
+    if (uniform(random) >= delivery.lost) monitor.push(side, sample.stamp + fromSeconds(late), kGravity + acceleration);
+  };
+  while (simulator.time() < seconds) {
+    const CornerSample sample = simulator.next();
+    deliver(Side::kSprung, sample, sample.sprung_acceleration);
+    deliver(Side::kUnsprung, sample, sample.unsprung_acceleration);
+  }
+}
+
+void printTable(double seconds) {
+  std::printf(
+      "| road, rate | messages | b0 of LA: median error | inside 95 %% | valid | OK | WARN | ERROR |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  unsigned seed = 1;
+  for (const Way& way : {Way{"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, Way{"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200},
+                         Way{"A, 10 m/s, 500 Hz", 16e-6, 10.0, 500}})
+    for (const Delivery& delivery :
+         {Delivery{"as they should", 0.0, 0.0}, Delivery{"stamps off by 0.05 T", 0.05, 0.0},
+          Delivery{"stamps off by 0.1 T", 0.1, 0.0}, Delivery{"stamps off by 0.2 T", 0.2, 0.0},
+          Delivery{"stamps off by 0.3 T", 0.3, 0.0}, Delivery{"0.2 % lost", 0.0, 0.002},
+          Delivery{"1 % lost", 0.0, 0.01}, Delivery{"1 % lost, stamps off by 0.1 T", 0.1, 0.01}}) {
+      Found found;
+      for (const FieldVehicle& vehicle : kFieldVehicles) {
+        FieldDrive road;
+        road.vehicle = vehicle;
+        road.road = way.road;
+        road.speed = way.speed;
+        road.rate = way.rate;
+        road.seed = seed++;
+        drive(road, delivery, seconds, found);
+      }
+      double median = std::nan("");
+      if (!found.off.empty()) {
+        const auto middle = found.off.begin() + static_cast<std::ptrdiff_t>(found.off.size() / 2);
+        std::nth_element(found.off.begin(), middle, found.off.end());
+        median = *middle;
+      }
+      std::printf("| %s | %s | %+.1f %% | %.0f %% | %.0f %% | %.0f %% | %d | %d |\n", way.name, delivery.name,
+                  100.0 * median, 100.0 * found.inside / found.valid, 100.0 * found.valid / found.reports,
+                  100.0 * found.ok / found.reports, found.warn, found.error);
+      std::fflush(stdout);
+    }
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
+
+int main(int argc, char** argv) { suspension_health_monitor::printTable(argc > 1 ? std::atof(argv[1]) : 600.0); }
