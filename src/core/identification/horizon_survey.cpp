@@ -16,7 +16,7 @@ const double kStep = std::sqrt(2.0);
 
 }  // namespace
 
-HorizonSurvey::HorizonSurvey(double period, IntegrationRule rule, int longest) : period_(period), rule_(rule) {
+HorizonSurvey::HorizonSurvey(double period, IntegrationRule rule, int longest) : period_(period) {
   for (double exact = kShortest; exact < longest + 0.5; exact *= kStep) {
     const int even = 2 * static_cast<int>(std::lround(exact / 2));
     if (!candidates_.empty() && candidates_.back().horizon_samples == even) continue;

@@ -76,12 +76,13 @@ void ErrorBudget::describe(const PairedEstimators& estimators, const SkewProfile
   const NoiseMoments moments = takeNoise(estimators, {la.damping_to_mass, la.stiffness_to_mass});
   for (int i = 0; i < kNumStrutParameters + static_cast<int>(la.num_effects); ++i) {
     const double by_noise = std::hypot(least_squares.parameterShift(i, moments.mean) - noise_shift_[i],
-                                       least_squares.parameterShift(i, moments.spread),
-                                       least_squares.parameterShift(i, moments.of_resampling));
+                                       least_squares.parameterShift(i, moments.spread));
+    const double by_resampling = moments.of_resampling ? least_squares.parameterShift(i, *moments.of_resampling)
+                                                       : std::numeric_limits<double>::infinity();
     const double by_skew = skewShift(least_squares, skew, i);
     const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
     const auto with_all = [&](double random) {
-      return std::hypot(std::hypot(std::sqrt(random), by_noise), by_skew, by_input);
+      return std::hypot(std::hypot(std::sqrt(random), by_noise, by_resampling), by_skew, by_input);
     };
     stddevOf(ls, i) = withDifference(with_all(least_squares.parameterVariance(i)), least_squares.parameters()[i],
                                      least_absolute.parameters()[i]);
@@ -108,15 +109,14 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
   const bool removes = lasting && knows_rows;
   if (removes) removeShift(estimators, moment);
   const Eigen::Vector2d spread = removes ? noise_.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
-  // All of it or none, or a part: a uniform distribution from its end, which the estimate is at.
-  return {moment, spread, resamplingMoment(estimators.leastSquares(), strut) / std::sqrt(3.0)};
+  return {moment, spread, resamplingMoment(estimators.leastSquares(), strut)};
 }
 
 // The moment is made by the true strut t, which readings as wrong as they may be have moved to the estimate,
 // t + R^-1 m(t): with m(t) = m(0) + M t that is (1 + R^-1 M) t = estimate - R^-1 m(0). Where such readings would make
 // nearly all of the rows' moments there is no telling.
-Eigen::Vector2d ErrorBudget::resamplingMoment(const RecursiveLeastSquares& least_squares,
-                                              const Eigen::Vector2d& estimate) const {
+std::optional<Eigen::Vector2d> ErrorBudget::resamplingMoment(const RecursiveLeastSquares& least_squares,
+                                                             const Eigen::Vector2d& estimate) const {
   const Eigen::Vector2d variances = resampling_noise_.variances();
   const auto shiftBy = [&](const Eigen::Vector2d& moment) {
     return Eigen::Vector2d(least_squares.parameterShift(kDampingToMass, moment),
@@ -126,9 +126,10 @@ Eigen::Vector2d ErrorBudget::resamplingMoment(const RecursiveLeastSquares& least
   Eigen::Matrix2d kept = Eigen::Matrix2d::Identity();
   for (int j = 0; j < kNumStrutParameters; ++j)
     kept.col(j) += shiftBy(noise_.momentOf(Eigen::Vector2d::Unit(j), variances) - of_none);
-  if (!(kept.determinant() > 1.0 - kMostNoise))
-    return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
-  return noise_.momentOf(kept.inverse() * (estimate - shiftBy(of_none)), variances);
+  if (!(kept.determinant() > 1.0 - kMostNoise)) return std::nullopt;
+  const Eigen::Vector2d strut = kept.inverse() * (estimate - shiftBy(of_none));
+  // All of it or none, or a part: a uniform distribution from its end, which the estimate is at.
+  return noise_.momentOf(strut, variances) / std::sqrt(3.0);
 }
 
 // Least squares fits the noise, too, which is missing from what it leaves: where g is the residual's variance by that

@@ -41,8 +41,8 @@ void RegularTimes::drawLine() {
   for (std::size_t i = 0; i < spacings.size(); ++i) spacings[i] = first_[i + 1] - first_[i];
   std::array<double, kFewest - 1> sorted = spacings;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  Eigen::Matrix<double, kFewest, 2> periods =
-      Eigen::Matrix<double, kFewest, 2>::Ones();  // to the newest reading, and 1
+  Eigen::Matrix<double, kFewest, 2> periods;  // to the newest reading, negative; 1
+  periods.col(1).setOnes();
   periods(kFewest - 1, 0) = 0.0;
   for (int i = kFewest - 2; i >= 0; --i) {
     const auto k = static_cast<std::size_t>(i);

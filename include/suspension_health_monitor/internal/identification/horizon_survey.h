@@ -72,7 +72,6 @@ class HorizonSurvey {
   std::optional<Choice> choose() const;
 
   double period_;
-  IntegrationRule rule_;
   std::vector<Candidate> candidates_;
 };
 

@@ -9,9 +9,9 @@
 #include "suspension_health_monitor/internal/identification/noise_level.h"
 #include "suspension_health_monitor/internal/identification/paired_estimators.h"
 #include "suspension_health_monitor/internal/identification/regressor_noise.h"
+#include "suspension_health_monitor/internal/identification/resampling_noise.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/identification/skew_profile.h"
-#include "suspension_health_monitor/internal/identification/resampling_noise.h"
 #include "suspension_health_monitor/internal/identification/wheel_history.h"
 #include "suspension_health_monitor/monitor_report.h"
 
@@ -19,8 +19,8 @@ namespace suspension_health_monitor {
 
 /// What the estimates of a strut are off by beyond the scatter of rows, and their standard deviations with it: by noise
 /// of the sensors in the regressors (RegressorNoise), whose shift is taken off once it is known; by what
-/// resampled readings are wrong by (ResamplingNoise); by the skew of the clocks (SkewProfile); by what the samples went through before. These add up as
-/// squares (doc/uncertainty.md).
+/// resampled readings are wrong by (ResamplingNoise); by the skew of the clocks (SkewProfile); by what the samples went
+/// through before. These add up as squares (doc/uncertainty.md).
 ///
 /// The first three put a moment E[phi e] into the rows, which R^-1 turns into a shift of the estimates. It is that of
 /// LS for both: of normal residuals LA has the same. Cost per row: O(1), and O(p^2) every few rows for p columns; no
@@ -81,13 +81,16 @@ class ErrorBudget {
   /// Means of x phi_1, x phi_0, and of the skew taken off.
   enum SkewEffect : std::size_t { kOnDamping, kOnStiffness, kTakenOff, kNumSkewEffects };
 
-  /// E[phi e] of a row by the sensors' noise, its standard deviation, and that by what resampled readings are wrong by.
+  /// E[phi e] of a row by the sensors' noise, its standard deviation, and that of what resampled readings are wrong by:
+  /// none is as large as it may be.
   struct NoiseMoments {
-    Eigen::Vector2d mean, spread, of_resampling;
+    Eigen::Vector2d mean, spread;
+    std::optional<Eigen::Vector2d> of_resampling;
   };
 
   NoiseMoments takeNoise(const PairedEstimators& estimators, const Eigen::Vector2d& strut);
-  Eigen::Vector2d resamplingMoment(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& estimate) const;
+  std::optional<Eigen::Vector2d> resamplingMoment(const RecursiveLeastSquares& least_squares,
+                                                  const Eigen::Vector2d& estimate) const;
   double fittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut, double left) const;
   void removeShift(const PairedEstimators& estimators, const Eigen::Vector2d& moment);
   double skewShift(const RecursiveLeastSquares& least_squares, const SkewProfile* skew, int i) const;

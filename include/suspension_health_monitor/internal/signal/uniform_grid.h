@@ -39,7 +39,7 @@ class UniformGrid {
   std::string describeAlignment() const { return streams_.describeAlignment(); }
   std::uint64_t bridged() const { return streams_.bridged(); }
   RejectCounts rejected() const { return streams_.rejected(); }
-  /// @return StreamGrid::timeError() of the sprung and the unsprung sensor.
+  /// @return StreamGrid::timeError() and StreamGrid::lostShare().
   ResamplingErrors resamplingErrors() const;
   const StreamGate& gate(Side side) const { return streams_.gate(indexOf(side)); }
 

@@ -47,7 +47,8 @@ class VehicleGrid {
   /// @return what timing and losses of a sensor are judged by: all of its streams share their stamps.
   const StreamGate& gate(std::size_t sensor) const { return grid_.gate(channels_[sensor].first); }
 
-  /// @return StreamGrid::timeError() of what measures a strut's top, and of its unsprung IMU.
+  /// @return StreamGrid::timeError() and StreamGrid::lostShare() of what measures a strut's top, and of its unsprung
+  /// IMU.
   ResamplingErrors resamplingErrors(std::size_t strut) const;
 
   /// @return readings of a sensor that were kept out, and what was lost for want of its readings.
