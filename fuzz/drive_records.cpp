@@ -27,7 +27,9 @@ class DriveMaker {
     period_ = chosen < kPeriods.size() ? kPeriods[chosen] : std::ldexp(1.0, bytes.take<std::int8_t>() / 4);
     damping_ = std::ldexp(1.0, bytes.take<std::int8_t>() / 16);
     stiffness_ = std::ldexp(1.0, bytes.take<std::int8_t>() / 8);
-    friction_ = std::ldexp(bytes.take<std::int8_t>() / 128.0, bytes.take<std::int8_t>() / 8);
+    // One after the other: in which order arguments are evaluated is for the compiler to say.
+    const double part = bytes.take<std::int8_t>() / 128.0;
+    friction_ = std::ldexp(part, bytes.take<std::int8_t>() / 8);
     // The strut of a drive is told in time constants where the period is far from any.
     step_ = std::min(period_, 0.1 / (damping_ + std::sqrt(stiffness_)));
   }
@@ -52,7 +54,10 @@ class DriveMaker {
     const double size = std::ldexp(1.0, bytes_.take<std::int8_t>() / (kind == 5 ? 1 : 8));
     const double offset = size * bytes_.take<std::int8_t>() / 128.0;
     for (std::size_t i = 0; i < samples; ++i) {
-      if (kind == 0) push(drive, takeReading(), takeReading());
+      if (kind == 0) {
+        const double sprung = takeReading();
+        push(drive, sprung, takeReading());
+      }
       if (kind == 1) push(drive, offset, offset);
       if (kind == 2) push(drive, size * random(), size * random());
       if (kind >= 3) drive_on(drive, size, offset);
@@ -98,7 +103,10 @@ class DriveMaker {
   std::uint64_t random_ = 1;
 };
 
-double takeNumber(FuzzBytes& bytes) { return std::ldexp(bytes.take<std::int8_t>() / 16.0, bytes.take<std::int8_t>()); }
+double takeNumber(FuzzBytes& bytes) {
+  const double part = bytes.take<std::int8_t>() / 16.0;
+  return std::ldexp(part, bytes.take<std::int8_t>());
+}
 
 std::optional<StrutModel> takeModel(FuzzBytes& bytes) {
   if (bytes.choose(3) != 0) return std::nullopt;

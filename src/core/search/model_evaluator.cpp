@@ -26,6 +26,11 @@ std::vector<std::string> namesOf(const StrutModel& model) {
   return names;
 }
 
+// It may do so in the stretches that are held out alone.
+FitFailure runningAway(const EvaluatedModel& evaluated) {
+  return std::isfinite(evaluated.ranked.held_out_rmse) ? FitFailure::kNone : FitFailure::kRunsAway;
+}
+
 }  // namespace
 
 std::size_t complexity(const StrutModel& model) { return numbersOf(model).size() - 2; }
@@ -92,8 +97,10 @@ EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vect
   options.initial = initial;
   const FitOutcome fit = fitOutputError(records_, held_out_.training, start, options);
   const FitFailure failure = fit ? againstPhysics(*fit) : fit.failure;
-  if (failure != FitFailure::kNone) return failed(before != nullptr ? *before : EvaluatedModel(), failure);
+  const auto without = [&](FitFailure why) { return failed(before != nullptr ? *before : EvaluatedModel(), why); };
+  if (failure != FitFailure::kNone) return without(failure);
   EvaluatedModel evaluated = weighed(fit->model, fit->residuals);
+  if (const FitFailure held_out = runningAway(evaluated); held_out != FitFailure::kNone) return without(held_out);
   evaluated.fit = *fit;
   evaluated.ranked.fitted = true;
   evaluated.to_explain = before != nullptr ? before->to_explain : evaluated.loss;
@@ -104,7 +111,8 @@ EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vect
 EvaluatedModel ModelEvaluator::asItIs(const ModelFit& fit) const {
   EvaluatedModel evaluated = weighed(fit.model, fit.residuals);
   evaluated.fit = fit;
-  evaluated.ranked.fitted = true;
+  evaluated.ranked.failure = runningAway(evaluated);
+  evaluated.ranked.fitted = evaluated.ranked.failure == FitFailure::kNone;
   evaluated.to_explain = evaluated.loss;
   return evaluated;
 }
@@ -133,13 +141,17 @@ std::vector<EvaluatedModel> ModelEvaluator::screenAll(const EvaluatedModel& curr
   const std::vector<std::string>& present = current.ranked.effects;
   const auto note = [&](std::size_t i, const std::string& name, const ScreenedModel& screened) {
     EvaluatedModel& result = results[i].emplace();
-    if (screened.failure == FitFailure::kNone) {
+    FitFailure failure = screened.failure;
+    if (failure == FitFailure::kNone) {
       result = weighed(screened.model, screened.residuals);
+      failure = runningAway(result);
+    }
+    if (failure == FitFailure::kNone) {
       result.training_gain = screened.training_gain;
       result.to_explain = current.to_explain;
       rank(current, result);
     } else {
-      result = failed(current, screened.failure);
+      result = failed(current, failure);
       result.ranked.effects.push_back(name);
     }
     result.added = name;
