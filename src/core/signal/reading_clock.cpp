@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};     // D
 constexpr std::array kRate{3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};  // of the readings 1, 2, 3 to either side
+constexpr double kEven = 1e-3;                                   // of a period: no stamps that matter
 constexpr double kFar = 5.0;                                     // mean sizes of e: beyond, a reading is wrong
 constexpr int kBlockReadings = 32;                               // of which neighbouring blocks share a few only
 constexpr double kMostBlocks = 300.0;   // that count: 5 minutes of readings at 30 Hz, one at 200 Hz
@@ -37,7 +38,8 @@ Stamp ReadingClock::take(Stamp stamp, double value) {
   last_stamp_ = stamp;
   values_.push(value);
   off_.push(off);
-  if (regular_.inRow() >= kWindow) compare();
+  if (regular_.inRow() >= kWindow && regular_.variance() > kEven * kEven * regular_.spacing() * regular_.spacing())
+    compare();
   const Stamp taken = followsStamps() ? stamp : *origin_ + fromSeconds(regular);
   last_ = last_ ? std::max(taken, *last_ + Stamp(1)) : taken;
   return *last_;
