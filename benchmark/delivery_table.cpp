@@ -18,12 +18,6 @@ namespace {
 
 constexpr double kSettled = 30.0, kEvery = 2.0, kGravity = 9.81;  // [s], [s], [m/s^2]
 
-struct Way {
-  const char* name;
-  double road, speed;
-  int rate;
-};
-
 /// Chance of a stamp (standard deviation, in periods) and of a message.
 struct Delivery {
   const char* name;
@@ -77,8 +71,9 @@ void printTable(double seconds) {
       "| road, rate | messages | b0 of LA: median error | inside 95 %% | valid | OK | WARN | ERROR |\n"
       "|---|---|---|---|---|---|---|---|\n");
   unsigned seed = 1;
-  for (const Way& way : {Way{"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, Way{"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200},
-                         Way{"A, 10 m/s, 500 Hz", 16e-6, 10.0, 500}})
+  for (const FieldWay& way :
+       {FieldWay{"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, FieldWay{"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200},
+        FieldWay{"A, 10 m/s, 500 Hz", 16e-6, 10.0, 500}})
     for (const Delivery& delivery :
          {Delivery{"as they should", 0.0, 0.0}, Delivery{"stamps off by 0.05 T", 0.05, 0.0},
           Delivery{"stamps off by 0.1 T", 0.1, 0.0}, Delivery{"stamps off by 0.2 T", 0.2, 0.0},

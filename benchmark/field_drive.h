@@ -25,6 +25,13 @@ inline constexpr std::array kFieldVehicles{
     FieldVehicle{"golden car", 6.0, 63.3, 0.15, 653.0}, FieldVehicle{"sedan", 4.2, 52.0, 0.12, 600.0},
     FieldVehicle{"truck", 5.5, 90.0, 0.18, 420.0}, FieldVehicle{"robot", 9.0, 190.0, 0.25, 2300.0}};
 
+/// A road, and how it is driven and measured on: as in FieldDrive.
+struct FieldWay {
+  const char* name;
+  double road, speed;
+  int rate;
+};
+
 /// What happens on a drive. Times in [s].
 struct FieldDrive {
   FieldVehicle vehicle = kFieldVehicles[0];

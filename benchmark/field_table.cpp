@@ -70,11 +70,6 @@ struct Healthy {
 };
 
 std::vector<Healthy> healthyDrives() {
-  struct Way {
-    const char* name;
-    double road, speed;
-    int rate;
-  };
   struct Condition {
     const char* name;
     std::function<void(FieldDrive&)> set;
@@ -93,9 +88,10 @@ std::vector<Healthy> healthyDrives() {
       {"offset +- 0.3 m/s^2", [](FieldDrive& drive) { drive.offset_swing = 0.3; }},
   };
   std::vector<Healthy> drives;
-  for (const Way& way : {Way{"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, Way{"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200},
-                         Way{"E, 3 m/s, 100 Hz", 4096e-6, 3.0, 100}, Way{"B, 20 m/s, 500 Hz", 64e-6, 20.0, 500},
-                         Way{"A, 3 m/s, 200 Hz", 16e-6, 3.0, 200}})
+  for (const FieldWay& way :
+       {FieldWay{"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, FieldWay{"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200},
+        FieldWay{"E, 3 m/s, 100 Hz", 4096e-6, 3.0, 100}, FieldWay{"B, 20 m/s, 500 Hz", 64e-6, 20.0, 500},
+        FieldWay{"A, 3 m/s, 200 Hz", 16e-6, 3.0, 200}})
     for (const Condition& condition : conditions) {
       FieldDrive drive;
       drive.vehicle = kFieldVehicles[drives.size() % kFieldVehicles.size()];

@@ -26,6 +26,10 @@ double withDifference(double stddev, double ls, double la) {
   return std::hypot(stddev, std::max(0.0, std::abs(ls - la) - stddev));
 }
 
+Eigen::Vector2d strutShift(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& moment) {
+  return {least_squares.parameterShift(kDampingToMass, moment), least_squares.parameterShift(kStiffnessToMass, moment)};
+}
+
 }  // namespace
 
 ErrorBudget::ErrorBudget(const IntegralFilterOptions& filter, const RegressorNoise& noise, int num_columns,
@@ -118,10 +122,7 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
 std::optional<Eigen::Vector2d> ErrorBudget::resamplingMoment(const RecursiveLeastSquares& least_squares,
                                                              const Eigen::Vector2d& estimate) const {
   const Eigen::Vector2d variances = resampling_noise_.variances();
-  const auto shiftBy = [&](const Eigen::Vector2d& moment) {
-    return Eigen::Vector2d(least_squares.parameterShift(kDampingToMass, moment),
-                           least_squares.parameterShift(kStiffnessToMass, moment));
-  };
+  const auto shiftBy = [&](const Eigen::Vector2d& moment) { return strutShift(least_squares, moment); };
   const Eigen::Vector2d of_none = noise_.momentOf(Eigen::Vector2d::Zero(), variances);
   Eigen::Matrix2d kept = Eigen::Matrix2d::Identity();
   for (int j = 0; j < kNumStrutParameters; ++j)
@@ -138,9 +139,7 @@ std::optional<Eigen::Vector2d> ErrorBudget::resamplingMoment(const RecursiveLeas
 double ErrorBudget::fittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut,
                                 double left) const {
   const Eigen::Vector2d moment = noise_.moment(strut, 1.0);
-  const Eigen::Vector2d shift(least_squares.parameterShift(kDampingToMass, moment),
-                              least_squares.parameterShift(kStiffnessToMass, moment));
-  const double share = 4.0 * left * moment.dot(shift) / noise_.residualGain(strut);
+  const double share = 4.0 * left * moment.dot(strutShift(least_squares, moment)) / noise_.residualGain(strut);
   return 2.0 / (1.0 + std::sqrt(std::clamp(1.0 - share, 0.0, 1.0)));
 }
 
