@@ -15,7 +15,7 @@ ResamplingNoise noiseOfSine(double ratio_of_body) {
   ResamplingNoise noise(kPeriod, 1.0);
   for (int k = 0; k < 2004; ++k) {  // 100 oscillations
     const double t = kPeriod * k, x = kSize * std::sin(kFrequency * t);
-    noise.add({fromSeconds(t), ratio_of_body * x, x});
+    noise.add({fromSeconds(t), ratio_of_body * x, x}, true);
   }
   return noise;
 }
@@ -42,10 +42,18 @@ TEST(ResamplingNoise, IsWhatACubicMissesOfTheReadingsThatAreLost) {
 TEST(ResamplingNoise, TakesNoStepOverAGap) {
   ResamplingNoise noise(0.01, 0.99);
   noise.setErrors({{1.0, 1.0}, {1.0, 1.0}});
-  for (int k = 0; k < 4; ++k) noise.add({fromSeconds(0.01 * k), 5.0, 5.0});
+  for (int k = 0; k < 4; ++k) noise.add({fromSeconds(0.01 * k), 5.0, 5.0}, true);
   noise.interrupt();
-  for (int k = 0; k < 5; ++k) noise.add({fromSeconds(10.0 + 0.01 * k), -5.0, 50.0});
+  for (int k = 0; k < 5; ++k) noise.add({fromSeconds(10.0 + 0.01 * k), -5.0, 50.0}, true);
   EXPECT_EQ(noise.variances(), Eigen::Vector2d::Zero());
+}
+
+TEST(ResamplingNoise, RemembersNothingOfAVehicleThatIsParked) {
+  ResamplingNoise noise = noiseOfSine(0.1);
+  noise.setErrors({{0.002, 0.001}, {0.04, 0.01}});
+  const Eigen::Vector2d driven = noise.variances();
+  for (int k = 0; k < 1000; ++k) noise.add({fromSeconds(10.02 + kPeriod * k), 0.0, 0.0}, false);
+  EXPECT_EQ(noise.variances(), driven);
 }
 
 }  // namespace

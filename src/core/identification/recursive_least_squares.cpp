@@ -86,7 +86,7 @@ bool RecursiveEstimator::learn(const RegressionRow& row, double innovation, cons
 
 // @return the gain for a row of which only the part that is not held counts.
 const Eigen::VectorXd& RecursiveEstimator::correctPartly(const RegressionRow& row, double weight) {
-  for (int i = 0; i < numParameters(); ++i) excited_[i] = held_[static_cast<std::size_t>(i)] ? 0.0 : row.regressor[i];
+  for (int i = 0; i < numParameters(); ++i) excited_[i] = holds(i) ? 0.0 : row.regressor[i];
   covariance_.forgetAlong(excited_, options_.forgetting_factor);
   return covariance_.update(excited_, 1.0 / weight, 1.0);
 }

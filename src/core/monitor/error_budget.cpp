@@ -37,7 +37,7 @@ ErrorBudget::ErrorBudget(const IntegralFilterOptions& filter, const RegressorNoi
     : noise_(noise),
       noise_shift_(Eigen::VectorXd::Zero(num_columns)),
       resampling_noise_(filter.period, forgetting_factor),
-      skew_effect_(forgetting_factor),
+      skew_effects_{RunningMeans<kNumSkewEffects>(forgetting_factor), RunningMeans<kNumSkewEffects>(forgetting_factor)},
       stddevs_due_(kStddevsEvery) {
   if (removes_noise_shift) noise_level_.emplace(filter);
 }
@@ -50,9 +50,14 @@ void ErrorBudget::changeColumns(const std::vector<ColumnOrigin>& columns) {
   stddevs_due_.restart();
 }
 
-void ErrorBudget::addSkew(const RegressionRow& row, const WheelRow& wheel, double skew, const Eigen::VectorXd& strut) {
+void ErrorBudget::addSkew(const RegressionRow& row, const WheelRow& wheel, double skew,
+                          const RecursiveEstimator& estimator) {
+  const Eigen::VectorXd& strut = estimator.parameters();
   const double x = strut[kDampingToMass] * wheel.output + strut[kStiffnessToMass] * wheel.damping;
-  skew_effect_.add({x * row.regressor[kDampingToMass], x * row.regressor[kStiffnessToMass], skew});
+  for (int i = 0; i < kNumStrutParameters; ++i) {
+    const double moment = x * row.regressor[i];
+    if (!estimator.holds(i)) skew_effects_[static_cast<std::size_t>(i)].add({moment, moment * skew});
+  }
 }
 
 void ErrorBudget::interrupt() {
@@ -66,7 +71,7 @@ void ErrorBudget::noteValidity(const StrutEstimate& la) {
 }
 
 void ErrorBudget::setForgettingFactor(double forgetting_factor) {
-  skew_effect_.setForgettingFactor(forgetting_factor);
+  for (auto& effect : skew_effects_) effect.setForgettingFactor(forgetting_factor);
   resampling_noise_.setForgettingFactor(forgetting_factor);
 }
 
@@ -79,6 +84,7 @@ void ErrorBudget::describe(const PairedEstimators& estimators, const SkewProfile
   const RecursiveLeastAbsolute& least_absolute = estimators.leastAbsolute();
   const NoiseMoments moments = takeNoise(estimators, {la.damping_to_mass, la.stiffness_to_mass});
   for (int i = 0; i < kNumStrutParameters + static_cast<int>(la.num_effects); ++i) {
+    if (least_squares.holds(i)) continue;
     const double by_noise = std::hypot(least_squares.parameterShift(i, moments.mean) - noise_shift_[i],
                                        least_squares.parameterShift(i, moments.spread));
     const double by_resampling = moments.of_resampling ? least_squares.parameterShift(i, *moments.of_resampling)
@@ -112,7 +118,7 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
   const Eigen::Vector2d moment = noise_.moment(strut, variance);
   const bool removes = lasting && knows_rows;
   if (removes) removeShift(estimators, moment);
-  const Eigen::Vector2d spread = removes ? noise_.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
+  const Eigen::Vector2d spread = lasting ? noise_.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
   return {moment, spread, resamplingMoment(estimators.leastSquares(), strut)};
 }
 
@@ -153,12 +159,15 @@ void ErrorBudget::removeShift(const PairedEstimators& estimators, const Eigen::V
 }
 
 // What parameter i is off by if the skew is off by its standard deviation, and by what the rows of the memory, which
-// were made with the skew as it was known then, differ by from it.
+// were made with the skew as it was known then, differ by from those with the skew as it is known now.
 double ErrorBudget::skewShift(const RecursiveLeastSquares& least_squares, const SkewProfile* skew, int i) const {
   if (skew == nullptr) return 0.0;
-  const Eigen::Vector2d moment(skew_effect_.mean(kOnDamping), skew_effect_.mean(kOnStiffness));
-  const double off = std::hypot(std::sqrt(skew->variance()), skew->skew() - skew_effect_.mean(kTakenOff));
-  return off * least_squares.parameterShift(i, moment);
+  const auto shiftBy = [&](SkewEffect which) {
+    return least_squares.parameterShift(i, {skew_effects_[kDampingToMass].mean(which),
+                                            skew_effects_[kStiffnessToMass].mean(which)});
+  };
+  const double of_skew = shiftBy(kOfSkew);
+  return std::hypot(std::sqrt(skew->variance()) * of_skew, skew->skew() * of_skew - shiftBy(kTakenOff));
 }
 
 double ErrorBudget::explainedBesideNoise(const StrutEstimate& estimate) const {

@@ -63,7 +63,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
 }
 
 void StrutIdentifier::add(const CornerSample& sample, const double* effect_forces) {
-  errors_.addSample(sample);
+  errors_.addSample(sample, !estimators_.leastSquares().holdsAny());
   const RegressionRow* row = regression_.push(sample, effect_forces);
   has_row_ = row != nullptr;
   if (!has_row_) return;
@@ -87,7 +87,7 @@ void StrutIdentifier::update(const RegressionRow& row) {
   if (holdsAll()) return estimators_.observe(row);
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
   if (const SkewProfile* skew = regression_.skew())
-    errors_.addSkew(row, regression_.wheel(), skew->skew(), estimators_.leastAbsolute().parameters());
+    errors_.addSkew(row, regression_.wheel(), skew->skew(), estimators_.leastAbsolute());
   errors_.addInnovation(estimators_.update(row));
 }
 

@@ -78,6 +78,8 @@ class RecursiveEstimator {
   /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
   void hold(int i, bool held);
 
+  bool holds(int i) const { return held_[static_cast<std::size_t>(i)]; }  ///< parameter i
+
   /// @return true if some parameter is held: P is not that of the rows beside it.
   bool holdsAny() const { return std::find(held_.begin(), held_.end(), true) != held_.end(); }
 
@@ -106,7 +108,7 @@ class RecursiveEstimator {
   /// held nobody knows.
   void drift() {
     const int rate = numParameters() - 1;
-    if (!options_.drifting || held_[static_cast<std::size_t>(rate)]) return;
+    if (!options_.drifting || holds(rate)) return;
     theta_[rate - 1] += theta_[rate];
     covariance_.addTo(rate - 1, rate);
   }

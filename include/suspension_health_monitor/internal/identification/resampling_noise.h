@@ -22,10 +22,11 @@ class ResamplingNoise {
   ResamplingNoise(double period, double forgetting_factor) : period_(period), squares_(forgetting_factor) {}
 
   /// Takes in the next sample of an uninterrupted series.
-  void add(const CornerSample& sample) {
+  /// @param is_row  the estimates rest on it, too: they remember nothing of a vehicle that is parked.
+  void add(const CornerSample& sample, bool is_row) {
     newest_[0].push(sample.sprung_acceleration);
     newest_[1].push(sample.unsprung_acceleration);
-    if (!newest_[0].full()) return;
+    if (!is_row || !newest_[0].full()) return;
     std::array<double, kNumSquares> squares;
     for (std::size_t i = 0; i < 2; ++i) {
       const double* x = newest_[i].data();

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -37,12 +39,12 @@ class ErrorBudget {
   void changeColumns(const std::vector<ColumnOrigin>& columns);
 
   /// Takes in the next sample of an uninterrupted series.
-  void addSample(const CornerSample& sample) { resampling_noise_.add(sample); }
+  /// @param is_row  the estimators take in the rows about it, too; else only what is needed to go on.
+  void addSample(const CornerSample& sample, bool is_row) { resampling_noise_.add(sample, is_row); }
 
   /// Takes in what a skew of the clocks does to a row that the estimators are about to take in.
   /// @param skew  by which the wheel's readings were moved [s].
-  /// @param strut  parameters, of which b1 and b0 count.
-  void addSkew(const RegressionRow& row, const WheelRow& wheel, double skew, const Eigen::VectorXd& strut);
+  void addSkew(const RegressionRow& row, const WheelRow& wheel, double skew, const RecursiveEstimator& estimator);
 
   /// @param innovation  of LA by such a row, in the unit of psi.
   void addInnovation(double innovation) {
@@ -66,7 +68,8 @@ class ErrorBudget {
   /// @return what is to be taken off the parameters of LS and LA, one per column; 0 if it is left in them.
   const Eigen::VectorXd& noiseShift() const { return noise_shift_; }
 
-  /// Writes the standard deviations, every few rows, and says what noiseShift() is from then on.
+  /// Writes the standard deviations, every few rows, and says what noiseShift() is from then on. What is known of a
+  /// parameter that is held does not change.
   /// @param skew  none: clocks are taken at their word.
   /// @param ls, la  as the estimators have them, with the noise's shift taken off.
   void describe(const PairedEstimators& estimators, const SkewProfile* skew, StrutEstimate& ls, StrutEstimate& la);
@@ -77,9 +80,9 @@ class ErrorBudget {
   double explainedBesideNoise(const StrutEstimate& estimate) const;
 
  private:
-  /// What a skew of the clocks does to the rows of the memory: tau x is in psi, x = b1 I_2^2 w'' + b0 I_1^2 w''.
-  /// Means of x phi_1, x phi_0, and of the skew taken off.
-  enum SkewEffect : std::size_t { kOnDamping, kOnStiffness, kTakenOff, kNumSkewEffects };
+  /// What a skew tau of the clocks does to the rows that a parameter's information is from: tau x is in psi,
+  /// x = b1 I_2^2 w'' + b0 I_1^2 w''. Means of x phi_i, and of that times the skew that was taken off.
+  enum SkewEffect : std::size_t { kOfSkew, kTakenOff, kNumSkewEffects };
 
   /// E[phi e] of a row by the sensors' noise, its standard deviation, and that of what resampled readings are wrong by:
   /// none is as large as it may be.
@@ -101,7 +104,7 @@ class ErrorBudget {
   double noise_share_ = 0.0;               // of the residuals' variance
   Eigen::VectorXd noise_shift_;            // of the parameters
   ResamplingNoise resampling_noise_;
-  RunningMeans<kNumSkewEffects> skew_effect_;
+  std::array<RunningMeans<kNumSkewEffects>, kNumStrutParameters> skew_effects_;
   Eigen::Vector2d input_stddevs_ = Eigen::Vector2d::Zero();
   EveryN stddevs_due_;
 };
