@@ -110,7 +110,9 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
     estimate->stiffness_excitation = excitation_.excitation(kStiffnessToMass);
     if (regression_.skew() != nullptr) estimate->clock_skew = regression_.skew()->skew();
   }
-  if (!holdsAll()) errors_.describe(estimators_, regression_.skew(), ls, la);
+  if (holdsAll()) return;
+  errors_.describe(estimators_, regression_.skew(), ls, la);
+  regression_.setNoiseShare(errors_.noiseShare());
 }
 
 EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {

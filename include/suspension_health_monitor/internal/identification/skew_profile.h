@@ -22,10 +22,10 @@ namespace suspension_health_monitor {
 /// block is worse at the estimate than at its own best by 4^2, what is older is forgotten.
 ///
 /// Noise of the sensors is in the regressors, too, and moves the best tau; an engine on the body, or what a strut does
-/// that no model has, is not. How much of J is such noise nobody knows: none of it is for least squares, whose tau is
-/// the estimate; all of it is for total least squares, whose J is the least that noise of both sensors has to be. The
-/// truth lies between them: a third of their difference squared is added to the variance, the mean square distance of
-/// a uniform distribution from its end.
+/// that no model has, is not. None of J is such noise for least squares; all of it is for total least squares, whose J
+/// is the least that noise of both sensors has to be. The estimate is as far between their best tau as the share of J
+/// that is known to be noise, none before that is known. The truth may be anywhere between them: the variance has the
+/// mean square distance from the estimate of a uniform distribution.
 ///
 /// Beforehand half of all skews are within a 200th of the horizon, 3 ms of 0.6 s, and none is out of the question
 /// (Cauchy's distribution). Looked for are five of that either way, in steps by which a wheel that hops turns by a
@@ -55,6 +55,9 @@ class SkewProfile {
   bool isWithin() const { return !found_ || found_->is_within; }
 
   void setForgettingFactor(double forgetting_factor);
+
+  /// @param share  of the variance of what the best strut leaves, in [0, 1]: noise of the sensors, from now on.
+  void setNoiseShare(double share) { noise_share_ = share; }
 
   void interrupt();  ///< the next row does not follow the one before
 
@@ -107,6 +110,7 @@ class SkewProfile {
   Profile prior_;  // -2 log of what is known beforehand
   Sums sums_;
   Evidence plain_, of_noise_;  // by least squares and by total least squares
+  double noise_share_ = 0.0;
   std::optional<Optimum> found_;
 };
 

@@ -39,6 +39,11 @@ class SynchronousRegression {
 
   void setForgettingFactor(double forgetting_factor);
 
+  /// As SkewProfile::setNoiseShare().
+  void setNoiseShare(double share) {
+    if (late_) late_->skew.setNoiseShare(share);
+  }
+
   void reset();    ///< after a gap
   void restart();  ///< another drive: the clocks may be others
 

@@ -68,6 +68,9 @@ class ErrorBudget {
   /// @return what is to be taken off the parameters of LS and LA, one per column; 0 if it is left in them.
   const Eigen::VectorXd& noiseShift() const { return noise_shift_; }
 
+  /// @return the share of the residuals' variance that is noise of the sensors [-]; 0 before that is known.
+  double noiseShare() const { return noise_share_; }
+
   /// Writes the standard deviations, every few rows, and says what noiseShift() is from then on. What is known of a
   /// parameter that is held does not change.
   /// @param skew  none: clocks are taken at their word.
