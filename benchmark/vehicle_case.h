@@ -17,6 +17,7 @@ namespace suspension_health_monitor {
 /// How a vehicle of the battery is measured.
 struct Measured {
   double rate = 100.0;        // [Hz]
+  double seconds = 120.0;     // [s]; the table of health takes its own
   bool has_body_imu = false;  // one six-axis IMU instead of one at the top of every strut
 };
 
@@ -82,6 +83,7 @@ inline Driven prepared(const char* kind, unsigned seed, const Measured& how) {
   Driven driven{vehicle_drive::made(kind, seed), {}, {}, {}};
   driven.options.seed = seed;
   driven.options.rate = how.rate;
+  driven.options.seconds = how.seconds;
   driven.options.tracks = seed % 2 == 1 ? vehicle_drive::Tracks::kCoherent : vehicle_drive::Tracks::kIndependent;
   for (std::size_t i = 0; i < driven.size(); ++i) driven.names.push_back("strut" + std::to_string(i));
   const vehicle_drive::Strut& front = driven.vehicle.struts.front();

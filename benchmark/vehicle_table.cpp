@@ -1,5 +1,4 @@
 // Whole vehicles, simulated by vehicle_drive.h, which shares nothing with the package: the tables of doc/vehicle.md.
-//   vehicle_table linear|coupling|effect|two|bar|force|alone|health [SEEDS [FIRST [own|body [RATE]]]]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +17,10 @@
 namespace {
 
 using namespace suspension_health_monitor;
+
+constexpr char kUsage[] =
+    "vehicle_table linear|coupling|effect|two|bar|force|alone|health "
+    "[SEEDS [FIRST [own|body [RATE [SECONDS]]]]]\n";
 
 constexpr std::array kKinds{"half", "sedan", "robot", "truck"};
 
@@ -266,8 +269,7 @@ int main(int argc, char** argv) {
   const auto table = std::find_if(kTables.begin(), kTables.end(),
                                   [&](const Table& each) { return argc > 1 && std::string(argv[1]) == each.name; });
   if (table == kTables.end()) {
-    std::fprintf(stderr,
-                 "vehicle_table linear|coupling|effect|two|bar|force|alone|health [SEEDS [FIRST [own|body [RATE]]]]\n");
+    std::fputs(kUsage, stderr);
     return 2;
   }
   const auto seeds = static_cast<unsigned>(argc > 2 ? std::atoi(argv[2]) : 2);
@@ -275,6 +277,7 @@ int main(int argc, char** argv) {
   Measured how;
   how.has_body_imu = argc > 4 && std::string(argv[4]) == "body";
   if (argc > 5) how.rate = std::atof(argv[5]);
+  if (argc > 6) how.seconds = std::atof(argv[6]);
   std::printf("%s\n", table->heading);
   for (const char* kind : kKinds)
     for (unsigned seed = first; seed < first + seeds; ++seed) {

@@ -98,16 +98,16 @@ TEST(SynchronousRegression, WhatNoiseMovesIsInTheStandardDeviation) {
 TEST(SynchronousRegression, WhatKnownNoiseMovesIsTakenBack) {
   double unknown = 0.0, known = 0.0, expected = 0.0;  // mean squares of errors, and mean variance
   for (unsigned seed = 1; seed <= 8; ++seed) {
-    const auto error = [&](double share) {
+    const auto error = [&](double noise) {
       Sines sines = lateWithNoise(0.5, seed);
       SynchronousRegression rows = regression();
-      rows.setNoiseShare(share);
+      rows.setNoise(noise * noise);
       drive(rows, sines, 0.0, 40.0);
-      expected += share * rows.skew()->variance() / 8.0;
+      if (noise > 0.0) expected += rows.skew()->variance() / 8.0;
       return rows.skew()->skew() - sines.late;
     };
     unknown += std::pow(error(0.0), 2) / 8.0;
-    known += std::pow(error(1.0), 2) / 8.0;
+    known += std::pow(error(0.5), 2) / 8.0;
   }
   EXPECT_LT(known, 0.5 * unknown);
   EXPECT_LT(known, 2.2 * expected);  // chi^2 of 8 exceeds 2.2 times its mean in 2 % of cases

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "suspension_health_monitor/internal/identification/horizon_mean.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -11,8 +13,7 @@ class NoiseRows {
   explicit NoiseRows(const IntegralFilterOptions& options)
       : body_(2, options),
         relative_(2, options),
-        means_(3, RegressorNoise::meanOf(options)),
-        lines_(3, DelayLine(means_.front().requiredHistory())) {}
+        means_(3, HorizonMean(options.horizon_samples)) {}
 
   void push(double sprung, double unsprung) {
     body_.push(sprung);
@@ -21,8 +22,8 @@ class NoiseRows {
     change = now - row;
     row = now;
     for (std::size_t i = 0; i < 3; ++i) {
-      lines_[i].push(row[static_cast<Eigen::Index>(i)]);
-      mean[static_cast<Eigen::Index>(i)] = means_[i].update(lines_[i]);
+      const auto column = static_cast<Eigen::Index>(i);
+      mean[column] = means_[i].push(row[column]);
     }
   }
 
@@ -30,8 +31,7 @@ class NoiseRows {
 
  private:
   LinearIntegralFilter body_, relative_;
-  std::vector<HorizonIntegral> means_;
-  std::vector<DelayLine> lines_;
+  std::vector<HorizonMean> means_;
 };
 
 }  // namespace

@@ -48,7 +48,8 @@ SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions&
       every_(std::max(1, filter.horizon_samples / kRowsOfHorizon)),
       horizon_rows_(std::max(kFewestHorizonRows, filter.horizon_samples)),
       noise_of_psi_(noise.covariance()(0, 0)),
-      residuals_(noise.covariance()) {
+      residuals_(noise.covariance()),
+      noise_share_(1.0) {
   for (std::size_t j = 0; j < kNumSkews; ++j) {
     places_.push_back(wheel.place(skewAt(j)));
     prior_[j] = 2.0 * std::log1p(std::pow(skewAt(j) / (kUsualSteps * step_), 2));
@@ -58,6 +59,7 @@ SkewProfile::SkewProfile(const WheelHistory& wheel, const IntegralFilterOptions&
 
 void SkewProfile::setForgettingFactor(double forgetting_factor) {
   share_ = std::pow(forgetting_factor, kHorizonsOfBlock * horizon_rows_ / kSkewMemories);
+  noise_share_.setForgettingFactor(std::pow(share_, 1.0 / kHorizonsOfBlock));
 }
 
 bool SkewProfile::add(const WheelHistory& wheel, const Eigen::Vector2d& body, double output) {
@@ -106,7 +108,8 @@ void SkewProfile::closeHorizon() {
   }
   const double weight = (sums_.num - kFitted) / kAlike;
   if (!plain_.take(plain, weight)) return;
-  of_noise_.take(of_noise, weight);
+  if (of_noise_.take(of_noise, weight))
+    noise_share_.add({std::min(1.0, noise_variance_ * (sums_.num - kFitted) / of_noise.minCoeff())});
   if (found_ && !newestAgrees()) forgetOlder();
   locate();
 }
@@ -146,7 +149,7 @@ void SkewProfile::locate() {
   if (!found_) found_ = Optimum{0.0, 0.0, true};
   found_->is_within = plain.is_within;
   if (!plain.is_within) return;
-  const double apart = optimumOf(of_noise_).skew - plain.skew, s = noise_share_;
+  const double apart = optimumOf(of_noise_).skew - plain.skew, s = noise_share_.mean(0);
   found_->skew = plain.skew + s * apart;
   found_->variance = plain.variance + (s * s * s + (1.0 - s) * (1.0 - s) * (1.0 - s)) / 3.0 * apart * apart;
 }
@@ -160,6 +163,7 @@ void SkewProfile::interrupt() {
 void SkewProfile::restart() {
   interrupt();
   forgetOlder();
+  noise_share_ = RunningMeans<1>(std::pow(share_, 1.0 / kHorizonsOfBlock));
   found_.reset();
 }
 

@@ -109,11 +109,15 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
   const double left = 0.5 * kPi * size * size / noise_.residualGain(strut);
   // Beside a parameter that is held P is not that of the rows.
   const bool knows_rows = !estimators.leastSquares().holdsAny();
-  const double fitted = noise_level_ && knows_rows ? fittedNoise(estimators.leastSquares(), strut, left) : 1.0;
-  const double present = fitted * left;
-  const std::optional<double> lasting =
-      noise_level_ ? noise_level_->sensorVariance(noise_, strut, fitted) : std::nullopt;
+  const auto unfitted = [&](double variance) {
+    return noise_level_ && knows_rows ? unfittedNoise(estimators.leastSquares(), strut, variance) : variance;
+  };
+  const double present = unfitted(left);
+  std::optional<double> lasting;
+  if (const auto heard = noise_level_ ? noise_level_->sensorVariances(noise_, strut) : std::nullopt)
+    lasting = std::min(heard->of_changes, unfitted(heard->of_means));
   const double variance = std::min(lasting.value_or(present), present);
+  noise_variance_ = lasting.value_or(0.0);
   noise_share_ = lasting ? variance / present : 0.0;
   const Eigen::Vector2d moment = noise_.moment(strut, variance);
   const bool removes = lasting && knows_rows;
@@ -140,13 +144,13 @@ std::optional<Eigen::Vector2d> ErrorBudget::resamplingMoment(const RecursiveLeas
 }
 
 // Least squares fits the noise, too, which is missing from what it leaves: where g is the residual's variance by that
-// of a sensor, v, and v m the noise's moment, it leaves g v - v^2 m'R^-1 m. @return v by what g alone would make of
-// that.
-double ErrorBudget::fittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut,
-                                double left) const {
+// of a sensor, v, and v m the noise's moment, it leaves g v - v^2 m'R^-1 m. @return v, at most twice the left of which
+// g would make that.
+double ErrorBudget::unfittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut,
+                                  double left) const {
   const Eigen::Vector2d moment = noise_.moment(strut, 1.0);
   const double share = 4.0 * left * moment.dot(strutShift(least_squares, moment)) / noise_.residualGain(strut);
-  return 2.0 / (1.0 + std::sqrt(std::clamp(1.0 - share, 0.0, 1.0)));
+  return left * 2.0 / (1.0 + std::sqrt(std::clamp(1.0 - share, 0.0, 1.0)));
 }
 
 // Noise does no more to a parameter that is excited than kLeastExcitation says.

@@ -112,7 +112,7 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
   }
   if (holdsAll()) return;
   errors_.describe(estimators_, regression_.skew(), ls, la);
-  regression_.setNoiseShare(errors_.noiseShare());
+  regression_.setNoise(errors_.noiseVariance());
 }
 
 EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {

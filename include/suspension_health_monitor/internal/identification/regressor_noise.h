@@ -59,13 +59,8 @@ class RegressorNoise {
   /// @return that of the residual's change from row to row [-].
   double changeGain(const Eigen::Vector2d& theta) const { return changes_.gain(theta); }
 
-  /// @return that of meanOf() the residual [-].
+  /// @return that of the residual's mean (HorizonMean) [-].
   double meanGain(const Eigen::Vector2d& theta) const { return means_.gain(theta); }
-
-  /// @return a horizon's mean of rows.
-  static HorizonIntegral meanOf(const IntegralFilterOptions& options) {
-    return {options.horizon_samples, 1.0 / options.horizon_samples, IntegrationRule::kTrapezoid};
-  }
 
   /// @return variance of psi of it, over that of a sensor [-].
   double outputGain() const { return rows_.outputs; }

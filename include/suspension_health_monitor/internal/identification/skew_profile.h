@@ -7,6 +7,7 @@
 
 #include "suspension_health_monitor/internal/identification/regressor_noise.h"
 #include "suspension_health_monitor/internal/identification/residual_squares.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/identification/wheel_history.h"
 
 namespace suspension_health_monitor {
@@ -23,9 +24,9 @@ namespace suspension_health_monitor {
 ///
 /// Noise of the sensors is in the regressors, too, and moves the best tau; an engine on the body, or what a strut does
 /// that no model has, is not. None of J is such noise for least squares; all of it is for total least squares, whose J
-/// is the least that noise of both sensors has to be. The estimate is as far between their best tau as the share of J
-/// that is known to be noise, none before that is known. The truth may be anywhere between them: the variance has the
-/// mean square distance from the estimate of a uniform distribution.
+/// is the least that noise of both sensors has to be. The estimate is as far between their best tau as the share of
+/// that noise which the sensors are known to have, none before that is known. The truth may be anywhere between them:
+/// the variance has the mean square distance from the estimate of a uniform distribution.
 ///
 /// Beforehand half of all skews are within a 200th of the horizon, 3 ms of 0.6 s, and none is out of the question
 /// (Cauchy's distribution). Looked for are five of that either way, in steps by which a wheel that hops turns by a
@@ -56,8 +57,8 @@ class SkewProfile {
 
   void setForgettingFactor(double forgetting_factor);
 
-  /// @param share  of the variance of what the best strut leaves, in [0, 1]: noise of the sensors, from now on.
-  void setNoiseShare(double share) { noise_share_ = share; }
+  /// @param variance  of the noise of either sensor, as far as it is known, from now on [(m/s^2)^2].
+  void setNoise(double variance) { noise_variance_ = variance; }
 
   void interrupt();  ///< the next row does not follow the one before
 
@@ -110,7 +111,8 @@ class SkewProfile {
   Profile prior_;  // -2 log of what is known beforehand
   Sums sums_;
   Evidence plain_, of_noise_;  // by least squares and by total least squares
-  double noise_share_ = 0.0;
+  double noise_variance_ = 0.0;
+  RunningMeans<1> noise_share_;  // of the noise that total least squares takes the sensors to have
   std::optional<Optimum> found_;
 };
 

@@ -39,9 +39,9 @@ class SynchronousRegression {
 
   void setForgettingFactor(double forgetting_factor);
 
-  /// As SkewProfile::setNoiseShare().
-  void setNoiseShare(double share) {
-    if (late_) late_->skew.setNoiseShare(share);
+  /// As SkewProfile::setNoise().
+  void setNoise(double variance) {
+    if (late_) late_->skew.setNoise(variance);
   }
 
   void reset();    ///< after a gap

@@ -68,8 +68,8 @@ class ErrorBudget {
   /// @return what is to be taken off the parameters of LS and LA, one per column; 0 if it is left in them.
   const Eigen::VectorXd& noiseShift() const { return noise_shift_; }
 
-  /// @return the share of the residuals' variance that is noise of the sensors [-]; 0 before that is known.
-  double noiseShare() const { return noise_share_; }
+  /// @return variance of the noise of a sensor [(m/s^2)^2]; 0 before that is known.
+  double noiseVariance() const { return noise_variance_; }
 
   /// Writes the standard deviations, every few rows, and says what noiseShift() is from then on. What is known of a
   /// parameter that is held does not change.
@@ -97,13 +97,14 @@ class ErrorBudget {
   NoiseMoments takeNoise(const PairedEstimators& estimators, const Eigen::Vector2d& strut);
   std::optional<Eigen::Vector2d> resamplingMoment(const RecursiveLeastSquares& least_squares,
                                                   const Eigen::Vector2d& estimate) const;
-  double fittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut, double left) const;
+  double unfittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut, double left) const;
   void removeShift(const PairedEstimators& estimators, const Eigen::Vector2d& moment);
   double skewShift(const RecursiveLeastSquares& least_squares, const SkewProfile* skew, int i) const;
 
   RegressorNoise noise_;
   std::optional<NoiseLevel> noise_level_;  // none: what the noise shifts is left in the estimates
   bool hears_noise_ = false;               // in what LA leaves
+  double noise_variance_ = 0.0;            // of a sensor, over the time that it has been heard for
   double noise_share_ = 0.0;               // of the residuals' variance
   Eigen::VectorXd noise_shift_;            // of the parameters
   ResamplingNoise resampling_noise_;
