@@ -70,13 +70,14 @@ void printTable(int seeds, double seconds) {
         never_forgets.forgetting_factor = 1.0;
         SuspensionRegression regression(filter);
         RecursiveLeastSquares ls(kNumStrutParameters, never_forgets);
-        InstrumentalVariables iv(filter);
+        InstrumentalVariables iv(filter, 0);
         measure(clean, kNoise, static_cast<unsigned>(7000 + seed), [&](const CornerSample& sample) {
-          if (const RegressionRow* row = regression.push(sample)) ls.update(*row);
-          iv.push(sample);
+          const RegressionRow* row = regression.push(sample);
+          if (row != nullptr) ls.update(*row);
+          iv.push(sample, row, {});
         });
         const double truth[] = {clean.damping_to_mass, clean.stiffness_to_mass};
-        const std::optional<BlockSolution> solution = iv.solution();
+        const std::optional<BlockSolution> solution = iv.solution({});
         for (std::size_t i = 0; i < 2 && solution; ++i) {
           const auto k = static_cast<Eigen::Index>(i);
           least_squares[i] += ls.parameters()[k] / truth[i] - 1.0;

@@ -105,8 +105,9 @@ TEST(Identify, SaysOfTooFewRowsThatThereAreTooFew) {
   options.horizon_samples = 30;
   const IdentifyResult result = identify({drive}, options);
   EXPECT_FALSE(result.iv.valid);
-  // 85 samples at 50 Hz fill the filter; as many rows eight times for a model, and eight times for the blocks.
-  EXPECT_EQ(result.iv.reason, "too few samples yet (28.9 s in one piece are enough)");
+  // 85 samples at 50 Hz fill the filter, and a row waits for four more of the wheel; as many rows eight times for a
+  // model, and eight times for the blocks.
+  EXPECT_EQ(result.iv.reason, "too few samples yet (29 s in one piece are enough)");
 }
 
 }  // namespace

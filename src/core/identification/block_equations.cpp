@@ -76,38 +76,43 @@ void BlockEquations::halve() {
   rows_per_block_ *= 2;
 }
 
-std::optional<BlockSolution> BlockEquations::solution() const {
+std::optional<BlockSolution> BlockEquations::solution(const EquationBlock& noise) const {
   if (blocks_.size() < kFewestBlocks) return std::nullopt;
-  std::vector<double> weights(blocks_.size(), 1.0), sizes(blocks_.size());
+  std::vector<EquationBlock> blocks = blocks_;
+  for (EquationBlock& block : blocks) {
+    block.information -= block.rows() * noise.information;
+    block.outputs -= block.rows() * noise.outputs;
+  }
+  std::vector<double> weights(blocks.size(), 1.0), sizes(blocks.size());
   Eigen::Vector3d theta;
   Eigen::FullPivLU<Eigen::Matrix3d> factors;
   for (int i = 0; i < kIterations; ++i) {
-    const EquationBlock sum = weightedSum(blocks_, weights);
+    const EquationBlock sum = weightedSum(blocks, weights);
     factors.compute(sum.information);
     if (!factors.isInvertible()) return std::nullopt;
     theta = factors.solve(sum.outputs);
-    for (std::size_t b = 0; b < blocks_.size(); ++b) sizes[b] = size(blocks_[b], theta);
+    for (std::size_t b = 0; b < blocks.size(); ++b) sizes[b] = size(blocks[b], theta);
     const double limit = kStandsOut * median(sizes);
     // The first half of the way the criterion is convex, so that it ends at one place wherever it begins.
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
       const double excess = sizes[b] > limit ? limit / sizes[b] : 1.0;
       weights[b] = 2 * i < kIterations ? std::sqrt(excess) : excess;
     }
   }
-  const std::size_t run = std::max<std::size_t>(2, blocks_.size() / kRuns);
+  const std::size_t run = std::max<std::size_t>(2, blocks.size() / kRuns);
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   // Overlapping runs, with ends that stand half outside, so that every block is in as many.
   Eigen::Vector3d in_run = Eigen::Vector3d::Zero();
-  for (std::size_t b = 0; b < blocks_.size() + run - 1; ++b) {
-    if (b < blocks_.size()) in_run += weights[b] * score(blocks_[b], theta);
-    if (b >= run) in_run -= weights[b - run] * score(blocks_[b - run], theta);
+  for (std::size_t b = 0; b < blocks.size() + run - 1; ++b) {
+    if (b < blocks.size()) in_run += weights[b] * score(blocks[b], theta);
+    if (b >= run) in_run -= weights[b - run] * score(blocks[b - run], theta);
     scatter += in_run * in_run.transpose() / static_cast<double>(run);
   }
-  const auto n = static_cast<double>(blocks_.size()) / static_cast<double>(run);
+  const auto n = static_cast<double>(blocks.size()) / static_cast<double>(run);
   const Eigen::Matrix3d inverse = factors.inverse();
   const Eigen::Matrix3d variance = n / (n - 1.0) * inverse * scatter * inverse.transpose();
-  return BlockSolution{theta.head<2>(), variance.diagonal().head<2>().cwiseSqrt(),
-                       weightedSum(blocks_, weights).rows()};
+  return BlockSolution{theta.head<2>(), variance.diagonal().head<2>().cwiseSqrt(), weightedSum(blocks, weights).rows(),
+                       inverse};
 }
 
 }  // namespace suspension_health_monitor

@@ -1,50 +1,106 @@
 #include "suspension_health_monitor/internal/identification/instrumental_variables.h"
 
 #include <cmath>
+#include <utility>
+
+#include "suspension_health_monitor/internal/identification/suspension_regression.h"
 
 namespace suspension_health_monitor {
 
-InstrumentalVariables::InstrumentalVariables(const IntegralFilterOptions& options)
-    : window_(LinearIntegralFilter::window(2, options)),
+InstrumentalVariables::Rows::Rows(double period, int window, int rows_late)
+    : age(window / 2 + rows_late),
+      wheel(kFirstWindows * window),
+      columns(kFirstWindows * window),
+      on_wheel(period),
+      on_strut(period),
+      forces{DelayLine(age + 1), DelayLine(age + 1)} {}
+
+void InstrumentalVariables::Rows::setModel(double stiffness_to_mass) {
+  on_wheel.setModel(stiffness_to_mass);
+  on_strut.setModel(stiffness_to_mass);
+}
+
+void InstrumentalVariables::Rows::push(double reading) {
+  const auto [input] = wheel.push({reading});
+  if (!on_wheel.hasModel()) return;
+  on_wheel.push(input);
+  on_strut.push(on_wheel.forces().sum());
+  for (const int i : {0, 1}) forces[static_cast<std::size_t>(i)].push(on_strut.forces()[i]);
+}
+
+void InstrumentalVariables::Rows::add(const RegressionRow& row) {
+  const auto [damping, stiffness, psi] =
+      columns.push({row.regressor[kDampingToMass], row.regressor[kStiffnessToMass], row.output});
+  instrument = {forces[0].at(age), forces[1].at(age)};
+  regressor = {damping, stiffness};
+  output = psi;
+}
+
+InstrumentalVariables::InstrumentalVariables(const IntegralFilterOptions& options, int rows_late, Noise noise)
+    : options_(options),
+      noise_(std::move(noise)),
+      window_(LinearIntegralFilter::window(2, options)),
+      rows_late_(rows_late),
       rows_to_model_(kFirstWindows * window_),
-      regression_(options),
-      on_wheel_(options.period),
-      on_strut_(options.period),
-      instruments_{DelayLine(window_ / 2 + 1), DelayLine(window_ / 2 + 1)},
+      rows_(options.period, window_, rows_late),
       equations_(window_) {}
 
-void InstrumentalVariables::push(const CornerSample& sample) {
-  gravity_.add(sample.unsprung_acceleration);
-  if (on_wheel_.hasModel()) {
-    on_wheel_.push(sample.unsprung_acceleration - gravity_.mean());
-    on_strut_.push(on_wheel_.forces().sum());
-    instruments_[0].push(on_strut_.forces()[0]);
-    instruments_[1].push(on_strut_.forces()[1]);
-  }
-  const RegressionRow* row = regression_.push(sample);
+void InstrumentalVariables::push(const CornerSample& sample, const RegressionRow* row, const WheelRow& wheel) {
+  rows_.push(sample.unsprung_acceleration);
   if (row == nullptr) return;
-  const Eigen::Vector2d regressor = row->regressor.head<2>();
-  if (on_wheel_.hasModel()) {
-    equations_.add({instruments_[0].at(window_ / 2), instruments_[1].at(window_ / 2)}, regressor, row->output);
-    motion_.add(on_wheel_.forces(), on_wheel_.forces(), sample.sprung_acceleration);
+  rows_.add(*row);
+  if (rows_.on_wheel.hasModel()) {
+    const Eigen::Vector2d &z = rows_.instrument, &forces = rows_.on_wheel.forces();
+    equations_.add(z, rows_.regressor, rows_.output);
+    late_ += Eigen::Vector3d(z[0], z[1], 1.0) * Eigen::RowVector2d(wheel.output, wheel.damping);
+    motion_.add(forces, forces, sample.sprung_acceleration);
     motion_squares_ += sample.sprung_acceleration * sample.sprung_acceleration;
   }
-  least_squares_.add(regressor, regressor, row->output);
+  least_squares_.add(rows_.regressor, rows_.regressor, rows_.output);
   if (--rows_to_model_ == 0) chooseModel();
 }
 
 void InstrumentalVariables::chooseModel() {
   rows_to_model_ = window_;
   const std::optional<Eigen::Vector3d> theta = least_squares_.solution();
-  if (!theta || !((*theta)[kStiffnessToMass] > 0.0)) return;
-  on_wheel_.setModel((*theta)[kStiffnessToMass]);
-  on_strut_.setModel((*theta)[kStiffnessToMass]);
+  if (theta && (*theta)[kStiffnessToMass] > 0.0) rows_.setModel((*theta)[kStiffnessToMass]);
 }
 
 void InstrumentalVariables::interrupt() {
-  regression_.reset();
-  on_wheel_.reset();
-  on_strut_.reset();
+  rows_.on_wheel.reset();
+  rows_.on_strut.reset();
+}
+
+// The moments of a row's noise, of sensors whose standard deviation is 1.
+EquationBlock InstrumentalVariables::ofNoise() const {
+  EquationBlock moments;
+  if (!noise_ || !rows_.on_wheel.hasModel()) return moments;
+  SuspensionRegression regression(options_);
+  Rows rows(options_.period, window_, 0);
+  rows.setModel((*least_squares_.solution())[kStiffnessToMass]);
+  for (const CornerSample& sample : *noise_) {
+    rows.push(sample.unsprung_acceleration);
+    const RegressionRow* row = regression.push(sample);
+    if (row == nullptr) continue;
+    rows.add(*row);
+    moments.add(rows.instrument, rows.regressor, rows.output);
+  }
+  return moments;
+}
+
+std::optional<BlockSolution> InstrumentalVariables::solution(const RowErrors& errors) const {
+  std::optional<BlockSolution> solution = equations_.solution({});
+  if (!solution) return std::nullopt;
+  const EquationBlock noise = ofNoise();
+  if (noise.rows() > 0.0) {
+    const Eigen::Vector2d with_noise = solution->theta;
+    solution = equations_.solution(noise.scaled(errors.noise_variance / noise.rows()));
+    if (!solution) return std::nullopt;
+    solution->addError(0.5 * (with_noise - solution->theta));
+  }
+  const Eigen::Vector3d moment = solution->rows / motion_.rows() * (late_ * solution->theta);
+  solution->addError(std::sqrt(errors.skew_variance) * (solution->inverse * moment).head<2>());
+  return solution;
 }
 
 double InstrumentalVariables::explained() const {

@@ -38,7 +38,8 @@ const RegressionRow* SynchronousRegression::push(const CornerSample& sample, con
   if (newest == nullptr) return nullptr;
   if (late_) return synchronised(*newest);
   wheel_.output = rows_.wheelOutput();
-  return newest;
+  row_ = *newest;
+  return &row_;
 }
 
 const RegressionRow* SynchronousRegression::synchronised(const RegressionRow& newest) {

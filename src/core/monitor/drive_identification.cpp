@@ -44,7 +44,8 @@ IdentifiedStrut atTheEnd(const StrutEstimate& estimate) {
 
 DriveIdentification::DriveIdentification(const MonitorSettings& settings, Sink sink)
     : strut_(settings, {std::move(sink), [this](const CornerSample& sample) { take(sample); }}),
-      whole_drive_(std::in_place, settings.filter(*settings.sample_period)) {}
+      whole_drive_(std::in_place, settings.filter(*settings.sample_period),
+                   monitor().identifier().regression().delay(), settings.estimators.noise) {}
 
 void DriveIdentification::setEffects(const std::vector<ActiveEffect>& effects) {
   strut_.setEffects(effects);
@@ -55,7 +56,8 @@ void DriveIdentification::take(const CornerSample& sample) {
   const InputStatus before = std::exchange(seen_, monitor().input());
   if (!whole_drive_ || seen_.samples == before.samples) return;  // the monitor has rejected it
   if (seen_.gaps + seen_.restarts > before.gaps + before.restarts) whole_drive_->interrupt();
-  whole_drive_->push(sample);
+  const StrutIdentifier& live = monitor().identifier();
+  whole_drive_->push(sample, live.hasRow() ? &live.regression().row() : nullptr, live.regression().wheel());
 }
 
 IdentifiedStrut DriveIdentification::overTheDrive() const {
@@ -65,7 +67,10 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
     return strut;
   }
   strut.explained = whole_drive_->explained();
-  const std::optional<BlockSolution> solution = whole_drive_->solution();
+  const StrutIdentifier& live = monitor().identifier();
+  const SkewProfile* skew = live.regression().skew();
+  const std::optional<BlockSolution> solution =
+      whole_drive_->solution({live.errors().noiseVariance(), skew != nullptr ? skew->variance() : 0.0});
   if (solution) {
     strut.damping_to_mass = solution->theta[kDampingToMass];
     strut.stiffness_to_mass = solution->theta[kStiffnessToMass];
@@ -81,6 +86,7 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   facts.explained = strut.explained;
   facts.is_physical = isAboveZero(strut.damping_to_mass, strut.damping_to_mass_stddev) &&
                       isAboveZero(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev);
+  facts.skew_is_known = skew == nullptr || skew->isWithin();
   facts.has_stddev = std::isfinite(strut.damping_to_mass_stddev + strut.stiffness_to_mass_stddev);
   const EstimateDoubt doubt = doubtOf(facts);
   strut.valid = doubt == EstimateDoubt::kNone;

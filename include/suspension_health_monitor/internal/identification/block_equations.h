@@ -16,6 +16,7 @@ struct EquationBlock {
 
   void add(const Eigen::Vector2d& instrument, const Eigen::Vector2d& regressor, double output);
   EquationBlock& operator+=(const EquationBlock& other);
+  EquationBlock scaled(double factor) const { return {factor * information, factor * outputs, factor * squares}; }
   /// @return (theta, c); none if the rows do not determine it.
   std::optional<Eigen::Vector3d> solution() const;
   double rows() const { return squares[2]; }
@@ -23,9 +24,13 @@ struct EquationBlock {
 
 /// The solution of a series of blocks.
 struct BlockSolution {
-  Eigen::Vector2d theta;   ///< (b1 [1/s], b0 [1/s^2])
-  Eigen::Vector2d stddev;  ///< likewise
-  double rows;             ///< that count: of blocks that stand out only a part
+  Eigen::Vector2d theta;    ///< (b1 [1/s], b0 [1/s^2])
+  Eigen::Vector2d stddev;   ///< likewise
+  double rows;              ///< that count: of blocks that stand out only a part
+  Eigen::Matrix3d inverse;  ///< of sum (z, 1) (phi, 1)' over these rows
+
+  /// @param error  of theta, either way, that the scatter of the rows does not show.
+  void addError(const Eigen::Vector2d& error) { stddev = (stddev.cwiseAbs2() + error.cwiseAbs2()).cwiseSqrt(); }
 };
 
 /// Equations of the instrumental-variable method over a whole drive, in blocks of equal length, so that at its end it
@@ -42,8 +47,9 @@ class BlockEquations {
 
   void add(const Eigen::Vector2d& instrument, const Eigen::Vector2d& regressor, double output);
 
+  /// @param noise  what of the moments of a row is noise's, and is taken off.
   /// @return none with fewer than kFewestBlocks complete blocks, or if they do not determine theta.
-  std::optional<BlockSolution> solution() const;
+  std::optional<BlockSolution> solution(const EquationBlock& noise) const;
 
   static constexpr std::size_t kFewestBlocks = 8;
 

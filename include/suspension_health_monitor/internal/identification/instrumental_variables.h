@@ -2,13 +2,16 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/auxiliary_strut.h"
 #include "suspension_health_monitor/internal/identification/block_equations.h"
-#include "suspension_health_monitor/internal/identification/running_mean.h"
-#include "suspension_health_monitor/internal/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/identification/regression_row.h"
+#include "suspension_health_monitor/internal/identification/wheel_history.h"
+#include "suspension_health_monitor/internal/identification/without_level.h"
 #include "suspension_health_monitor/internal/signal/delay_line.h"
 
 namespace suspension_health_monitor {
@@ -20,24 +23,42 @@ namespace suspension_health_monitor {
 ///
 /// Instruments are the forces in an auxiliary strut, in the middle of the filter's window. It is driven by the
 /// acceleration that another one like it has on the measured wheel: passed twice, the wheel's hop is as good as gone,
-/// to which no integration rule on samples is fair. Its stiffness is that of least squares on all rows so far. Source:
+/// to which no integration rule on samples is fair. Its stiffness is that of least squares on all rows so far. Offsets
+/// drift: what the wheel reads and the rows are on average over some windows is taken out of both. Source:
 /// Soederstroem and Stoica (1981); paper, end of sec. 3.1. Assumes: b1 and b0 stay as they are; of a drive where they
 /// change this is a mean. Cost per sample: O(1), no allocation but for a few hundred blocks.
 class InstrumentalVariables {
  public:
-  explicit InstrumentalVariables(const IntegralFilterOptions& options);
+  using Noise = std::shared_ptr<const std::vector<CornerSample>>;
+
+  /// @param rows_late  by how much a row comes behind the sample that completes it [samples].
+  /// @param noise  as of RegressorNoise, where the wheel's part has noise in common with the body's, as in a vehicle
+  /// whose struts are taken apart; none: the instruments have none.
+  InstrumentalVariables(const IntegralFilterOptions& options, int rows_late, Noise noise = {});
 
   /// Takes in the next sample of an uninterrupted uniform series.
-  void push(const CornerSample& sample);
+  /// @param row  that it completes, of which the strut's own columns count; nullptr: none.
+  /// @param wheel  the wheel's part of that row.
+  void push(const CornerSample& sample, const RegressionRow* row, const WheelRow& wheel);
 
   /// Starts anew after a gap; what was learnt stays.
   void interrupt();
 
-  /// @return none while there are too few rows.
-  std::optional<BlockSolution> solution() const { return equations_.solution(); }
+  /// What rows are wrong by beyond what their scatter shows.
+  struct RowErrors {
+    double noise_variance = 0.0;  ///< of a sensor [(m/s^2)^2]
+    double skew_variance = 0.0;   ///< of that by which the wheel's readings are late [s^2]
+  };
 
-  /// @return samples without a gap that give enough rows: those that fill the filter, for a model, and for the blocks.
-  int enoughSamples() const { return (1 + kFirstWindows + static_cast<int>(BlockEquations::kFewestBlocks)) * window_; }
+  /// @return what the noise in the instruments shifts is taken off, with half of it in the standard deviation as in
+  /// RegressorNoise::momentSpread(); none while there are too few rows.
+  std::optional<BlockSolution> solution(const RowErrors& errors) const;
+
+  /// @return samples without a gap that give enough rows: those that fill the filter, before and after a row, for a
+  /// model, and for the blocks.
+  int enoughSamples() const {
+    return 2 * rows_late_ + (1 + kFirstWindows + static_cast<int>(BlockEquations::kFewestBlocks)) * window_;
+  }
 
   /// @return 1 - rms(rest) / rms(z''), means taken out, where rest is what no sum of the forces in the strut on the
   /// wheel explains of the body's motion [-]. Noise in the rows of a short horizon does not lower it. NaN without rows.
@@ -45,18 +66,39 @@ class InstrumentalVariables {
 
  private:
   static constexpr int kFirstWindows = 8;  // of rows, before least squares is believed
-  void chooseModel();
 
+  static constexpr std::size_t kColumns = 3;
+
+  /// Instruments and rows, without what drifts.
+  struct Rows {
+    int age;                          // of the middle of a row's window [samples]
+    WithoutLevel<1> wheel;            // readings
+    WithoutLevel<kColumns> columns;  // phi_1, phi_0, psi
+    AuxiliaryStrut on_wheel, on_strut;
+    std::array<DelayLine, 2> forces;
+    Eigen::Vector2d instrument, regressor;
+    double output;
+
+    Rows(double period, int window, int rows_late);
+    void setModel(double stiffness_to_mass);
+    void push(double reading);
+    void add(const RegressionRow& row);
+  };
+
+  void chooseModel();
+  EquationBlock ofNoise() const;
+
+  IntegralFilterOptions options_;
+  Noise noise_;
   int window_;         // samples that make a row
+  int rows_late_;      // [samples]
   int rows_to_model_;  // until the auxiliary struts are judged anew
-  SuspensionRegression regression_;
   EquationBlock least_squares_;
-  AuxiliaryStrut on_wheel_, on_strut_;
-  std::array<DelayLine, 2> instruments_;
+  Rows rows_;
   BlockEquations equations_;
-  EquationBlock motion_;  // z'' by the forces in on_wheel_
+  Eigen::Matrix<double, 3, 2> late_ = Eigen::Matrix<double, 3, 2>::Zero();  // (z, 1) by what b1 and b0 make of a skew
+  EquationBlock motion_;  // z'' by the forces in on_wheel
   double motion_squares_ = 0.0;
-  RunningMean gravity_{1.0};  // in the wheel's readings: the auxiliary struts start without it
 };
 
 }  // namespace suspension_health_monitor

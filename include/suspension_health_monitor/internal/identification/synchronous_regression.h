@@ -31,6 +31,12 @@ class SynchronousRegression {
   /// @param output  psi without what effects make of it.
   void learnSkew(double output);
 
+  /// @return the row that push() has returned last.
+  const RegressionRow& row() const { return row_; }
+
+  /// @return by how much a row comes behind the sample that completes it [samples].
+  int delay() const { return late_ ? late_->wheel.delay() : 0; }
+
   /// @return the newest row's part of the wheel, by its own clock if no skew is learned.
   const WheelRow& wheel() const { return wheel_; }
 

@@ -66,6 +66,8 @@ class ModelTracker {
   /// @return true while what is measured tells nothing of the strut, and the estimates stay as they are.
   bool holds() const { return identifier_.holdsAll(); }
 
+  const StrutIdentifier& identifier() const { return identifier_; }
+
   /// @return the factor that rows are forgotten by now.
   double forgettingFactor() const { return identifier_.forgettingFactor(); }
 

@@ -47,6 +47,9 @@ class StrutIdentifier {
 
   bool hasRow() const { return has_row_; }  ///< of the newest sample
 
+  const SynchronousRegression& regression() const { return regression_; }
+  const ErrorBudget& errors() const { return errors_; }
+
   /// @return true while rows tell nothing of the strut, and are only observed.
   bool holdsAll() const;
 

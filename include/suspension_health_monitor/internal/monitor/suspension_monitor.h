@@ -57,6 +57,9 @@ class SuspensionMonitor {
   void setBaseline(const Baseline& baseline) { health_.setBaseline(baseline); }
   const Baseline& baseline() const { return health_.baseline(); }
 
+  /// @return the plain model's estimation, as the newest sample has left it.
+  const StrutIdentifier& identifier() const { return plain_.identifier(); }
+
   const MonitorReport& report() const { return report_; }
   const InputStatus& input() const { return series_.status(); }
   const RejectCounts& rejected() const { return series_.rejected(); }
