@@ -24,6 +24,8 @@ constexpr char kUsage[] =
 
 constexpr std::array kKinds{"half", "sedan", "robot", "truck"};
 
+constexpr double kInterval = 1.96;  // standard deviations either way: 95 %
+
 double percent(double value, double truth) { return 100.0 * (value / truth - 1.0); }
 
 /// What LA has said of one parameter in the second half of a drive.
@@ -33,7 +35,7 @@ struct Course {
 
   void add(double value, double stddev, double truth) {
     off.push_back(percent(value, truth));
-    inside += std::abs(value - truth) < 1.96 * stddev ? 1.0 : 0.0;
+    inside += std::abs(value - truth) < kInterval * stddev ? 1.0 : 0.0;
   }
   double medianOff() const { return off.empty() ? std::nan("") : std::abs(median(off)); }
 };
@@ -56,16 +58,20 @@ void printLinear(const char* kind, unsigned seed, const Measured& how) {
   }
   const VehicleDiagnosis diagnosis = diagnoseVehicle(drives, driven.names);
   double most[2] = {0.0, 0.0}, inside = 0.0, count = 0.0, floor = 0.0;
+  int whole = 0;  // parameters that the interval of iv holds
   for (std::size_t i = 0; i < driven.size(); ++i) {
     for (std::size_t j = 0; j < 2; ++j) {
       most[j] = std::max(most[j], courses[i][j].medianOff());
       inside += courses[i][j].inside;
       count += static_cast<double>(courses[i][j].off.size());
     }
+    const IdentifiedStrut& iv = found.struts[i].iv;
+    whole += std::abs(iv.damping_to_mass - driven.vehicle.b1(i)) < kInterval * iv.damping_to_mass_stddev ? 1 : 0;
+    whole += std::abs(iv.stiffness_to_mass - driven.vehicle.b0(i)) < kInterval * iv.stiffness_to_mass_stddev ? 1 : 0;
     floor = std::max(floor, diagnosis.struts[i].base.held_out_rmse / diagnosis.struts[i].noise_floor);
   }
-  std::printf("%-6s %3u  %8.2f  %8.2f  %6.0f  %8.3f   %s\n", kind, seed, most[0], most[1], 100.0 * inside / count,
-              floor, diagnosis.summary.c_str());
+  std::printf("%-6s %3u  %8.2f  %8.2f  %6.0f   %d of %zu  %8.3f   %s\n", kind, seed, most[0], most[1],
+              100.0 * inside / count, whole, 2 * driven.size(), floor, diagnosis.summary.c_str());
 }
 
 void printTwo(const char* kind, unsigned seed, const Measured& how) {
@@ -224,7 +230,7 @@ void printHealth(const char* kind, unsigned seed, const Measured& how) {
     if (!report.la.valid() || (i == at && now > kLoss)) return;
     its.valid += 1.0;
     const double off = report.la.damping_to_mass - driven.vehicle.b1(i);
-    its.inside += std::abs(off) < 1.96 * report.la.damping_to_mass_stddev ? 1.0 : 0.0;
+    its.inside += std::abs(off) < kInterval * report.la.damping_to_mass_stddev ? 1.0 : 0.0;
   };
   const VehicleDrive drive = driven.asMeasured();
   VehicleMonitor monitor(std::vector<MonitorSettings>(n, settings), hear, 0, drive.noise);
@@ -254,7 +260,7 @@ struct Table {
 };
 
 constexpr std::array kTables{
-    Table{"linear", "kind  seed  b1 off %  b0 off %  inside  rmse/floor  verdict", printLinear},
+    Table{"linear", "kind  seed  b1 off %  b0 off %  inside  iv inside  rmse/floor  verdict", printLinear},
     Table{"coupling", "kind  seed  ratio off  mean square  condition", printCoupling},
     Table{"effect", "kind  seed  hidden                         error %  verdict", printEffect},
     Table{"two", "kind  seed  hidden                        and                            verdict", printTwo},

@@ -1,11 +1,15 @@
-// Prints the table of doc/uncertainty.md for instrumental variables: error of a whole drive's b1 and b0 by least
-// squares over all rows and by instrumental variables, and how often the latter's 95 % interval holds the truth.
+// Prints the tables of doc/uncertainty.md for instrumental variables: error of a whole drive's b1 and b0 by least
+// squares over all rows and by instrumental variables, and how often the latter's 95 % interval holds the truth; then
+// the latter in the field, as identify() gives it (field_drive.h).
 //   whole_drive_table [SEEDS [SECONDS]]      measurements of each drive, default 20, and its length, default 120
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <set>
 
 #include "../test/core/interval_coverage.h"
+#include "field_drive.h"
+#include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/identification/instrumental_variables.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 
@@ -37,12 +41,16 @@ struct Errors {
   }
 };
 
+void print(const Errors& errors, int num) {
+  if (num == 0) return void(std::printf(" |"));
+  std::printf(" %+.2f, %.0f, %.2f |", 100.0 * errors.sum / num, 100.0 * errors.coverage.share(), errors.coverage.rms());
+}
+
 void printRow(const char* name, const std::string& horizon, const std::array<double, 2>& least_squares,
               const std::array<Errors, 2>& errors, int seeds) {
   std::printf("| %s | %s |", name, horizon.c_str());
   for (const double error : least_squares) std::printf(" %+.2f |", 100.0 * error / seeds);
-  for (const Errors& each : errors)
-    std::printf(" %+.2f, %.0f, %.2f |", 100.0 * each.sum / seeds, 100.0 * each.coverage.share(), each.coverage.rms());
+  for (const Errors& each : errors) print(each, seeds);
   std::printf("\n");
   std::fflush(stdout);
 }
@@ -93,9 +101,57 @@ void printTable(int seeds, double seconds) {
               100.0 * all[1].share(), all[1].rms());
 }
 
+struct Field {
+  const char* name;
+  double FieldDrive::*what;
+  double value;
+};
+constexpr Field kFields[] = {{"as it should be", &FieldDrive::offset, 0.0},
+                             {"offset of 0.8 m/s^2", &FieldDrive::offset, 0.8},
+                             {"offset +- 0.3 m/s^2 in 10 minutes", &FieldDrive::offset_swing, 0.3},
+                             {"wheel 2 ms late", &FieldDrive::skew, 0.002},
+                             {"engine 0.5 m/s^2", &FieldDrive::engine, 0.5}};
+constexpr FieldWay kWays[] = {{"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, {"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200}};
+
+void printField(int seeds, double seconds) {
+  std::printf(
+      "\n| road | sensors | vehicle | valid | b1: mean error [%%], interval holds [%%], rms z | b0 |\n"
+      "|---|---|---|---|---|---|\n");
+  for (const FieldWay& way : kWays)
+    for (const Field& field : kFields)
+      for (const FieldVehicle& vehicle : kFieldVehicles) {
+        std::array<Errors, 2> errors;
+        int valid = 0;
+        for (int seed = 1; seed <= seeds; ++seed) {
+          FieldDrive drive;
+          drive.vehicle = vehicle;
+          drive.road = way.road;
+          drive.speed = way.speed;
+          drive.rate = way.rate;
+          drive.seed = static_cast<unsigned>(seed);
+          drive.*field.what = field.value;
+          FieldSimulator simulator(drive);
+          Drive readings;
+          while (simulator.time() < seconds) readings.samples.push_back(simulator.next());
+          const IdentifiedStrut iv = identify({readings}).iv;
+          if (!iv.valid) continue;
+          ++valid;
+          errors[0].add(iv.damping_to_mass, iv.damping_to_mass_stddev, vehicle.b1);
+          errors[1].add(iv.stiffness_to_mass, iv.stiffness_to_mass_stddev, vehicle.b0);
+        }
+        std::printf("| %s | %s | %s | %d of %d |", way.name, field.name, vehicle.name, valid, seeds);
+        for (const Errors& each : errors) print(each, valid);
+        std::printf("\n");
+        std::fflush(stdout);
+      }
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor
 
 int main(int argc, char** argv) {
-  suspension_health_monitor::printTable(argc > 1 ? std::atoi(argv[1]) : 20, argc > 2 ? std::atof(argv[2]) : 120.0);
+  const int seeds = argc > 1 ? std::atoi(argv[1]) : 20;
+  const double seconds = argc > 2 ? std::atof(argv[2]) : 120.0;
+  suspension_health_monitor::printTable(seeds, seconds);
+  suspension_health_monitor::printField(seeds, seconds);
 }
