@@ -206,11 +206,15 @@ struct InputStatus {
     double density = 0.0;  ///< power density there over the mean one; 1 for white noise
     double level = 0.0;    ///< rms of white noise of that density [m/s^2]
 
-    /// @return true if more than the noise of a sensor lies there.
+    /// @return true if the sensor shakes there beyond its noise, filtered or not.
     bool isReached() const { return density > kMostDensity && level > kMostNoise; }
 
-    static constexpr double kMostDensity = 0.125;  // filtered at 0.7 of the limit: 0.06; not filtered: 0.2 and more
-    static constexpr double kMostNoise = 0.5;      // [m/s^2]
+    /// @return true if more lies there than a filter of fourth order at 0.7 of the limit leaves of a car's wheel at 100
+    /// Hz and more: something may have been folded back. A wheel that hops near the limit looks alike.
+    bool mayFold() const { return density > kMostFiltered && level > kMostNoise; }
+
+    static constexpr double kMostFiltered = 0.07, kMostDensity = 0.125;
+    static constexpr double kMostNoise = 0.5;  // [m/s^2]
   };
   std::array<SamplingLimit, 2> sampling_limit{};  ///< of the sprung and the unsprung sensor, as of the newest judgement
   double beyond_strut = 0.0;        ///< share of the body's power above the strut's band, likewise, in [0, 1]

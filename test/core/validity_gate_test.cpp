@@ -35,7 +35,7 @@ const std::vector<Flaw> kFlaws{
     {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.excites_damping = f.excites_stiffness = false; }},
     {EstimateDoubt::kDampingNotExcited, [](EstimateFacts& f) { f.excites_damping = false; }},
     {EstimateDoubt::kStiffnessNotExcited, [](EstimateFacts& f) { f.excites_stiffness = false; }},
-    {EstimateDoubt::kUndersampled, [](EstimateFacts& f) { f.undersampled = true; }},
+    {EstimateDoubt::kUndersampled, [](EstimateFacts& f) { f.may_fold = true; }},
     {EstimateDoubt::kOutsideForce, [](EstimateFacts& f) { f.outside_force = true; }},
     {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
     {EstimateDoubt::kNotAStrut, [](EstimateFacts& f) { f.is_physical = false; }},
@@ -72,7 +72,7 @@ TEST(ValidityGate, NamesTheFirstOfSeveralFlaws) {
 
 TEST(ValidityGate, AModelThatExplainsWhatAShakingSensorReadsIsTrusted) {
   EstimateFacts facts = nothingAgainstIt();
-  facts.undersampled = true;
+  facts.may_fold = true;
   facts.explained = kLeastExplainedOfShaking;
   EXPECT_EQ(doubtOf(facts), EstimateDoubt::kNone);
   facts.explained = std::nan("");

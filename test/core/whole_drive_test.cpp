@@ -14,14 +14,14 @@ namespace {
 
 constexpr double kB1 = 6.0, kB0 = 63.3;  // [1/s], [1/s^2]
 
-/// A car on a class A road at 100 Hz, in which a horizon of 0.4 s lets skews of 10 ms be found.
+/// A car on a class B road at 100 Hz, in which a horizon of 0.4 s lets skews of 10 ms be found.
 class CarDrive {
  public:
   CarDrive() {
     SimulationOptions options;
     options.scenario = "iso_road";
-    options.iso_class = "A";
-    options.speed = 30.0;
+    options.iso_class = "B";
+    options.speed = 15.0;  // shakes up to 42 Hz
     options.damping_to_mass = kB1;
     options.stiffness_to_mass = kB0;
     options.rate = 1000.0;

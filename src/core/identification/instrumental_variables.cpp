@@ -71,33 +71,39 @@ void InstrumentalVariables::interrupt() {
   rows_.on_strut.reset();
 }
 
-// The moments of a row's noise, of sensors whose standard deviation is 1.
+// The moments that a row has of noise, of sensors whose variance is 1. Of white noise they are sums over what one
+// reading of the wheel makes of all rows; the body's is in no instrument.
 EquationBlock InstrumentalVariables::ofNoise() const {
   EquationBlock moments;
-  if (!noise_ || !rows_.on_wheel.hasModel()) return moments;
-  SuspensionRegression regression(options_);
   Rows rows(options_.period, window_, 0);
+  SuspensionRegression regression(options_);
   rows.setModel((*least_squares_.solution())[kStiffnessToMass]);
-  for (const CornerSample& sample : *noise_) {
+  const auto take = [&](const CornerSample& sample) {
     rows.push(sample.unsprung_acceleration);
     const RegressionRow* row = regression.push(sample);
-    if (row == nullptr) continue;
+    if (row == nullptr) return;
     rows.add(*row);
     moments.add(rows.instrument, rows.regressor, rows.output);
+  };
+  if (noise_ && !noise_->empty()) {
+    for (const CornerSample& sample : *noise_) take(sample);
+    return moments.scaled(1.0 / moments.rows());
   }
+  const int settled = 4 * kFirstWindows * window_;  // of what is taken out as level e^-4 is missing then
+  for (int k = 0; k < 2 * settled; ++k) take({{}, 0.0, k == settled ? 1.0 : 0.0});
   return moments;
 }
 
 std::optional<BlockSolution> InstrumentalVariables::solution(const RowErrors& errors) const {
-  std::optional<BlockSolution> solution = equations_.solution({});
-  if (!solution) return std::nullopt;
+  const std::optional<BlockSolution> with_noise = equations_.solution({});
+  if (!with_noise) return std::nullopt;
   const EquationBlock noise = ofNoise();
-  if (noise.rows() > 0.0) {
-    const Eigen::Vector2d with_noise = solution->theta;
-    solution = equations_.solution(noise.scaled(errors.noise_variance / noise.rows()));
-    if (!solution) return std::nullopt;
-    solution->addError(0.5 * (with_noise - solution->theta));
-  }
+  std::optional<BlockSolution> solution = equations_.solution(noise.scaled(errors.noise_variance));
+  const std::optional<BlockSolution> least =
+      equations_.solution(noise.scaled(errors.noise_variance + errors.resampling_variance));
+  if (!solution || !least) return std::nullopt;
+  solution->addError(0.5 * (with_noise->theta - solution->theta));
+  solution->addError((least->theta - solution->theta) / std::sqrt(3.0));
   const Eigen::Vector3d moment = solution->rows / motion_.rows() * (late_ * solution->theta);
   solution->addError(std::sqrt(errors.skew_variance) * (solution->inverse * moment).head<2>());
   return solution;

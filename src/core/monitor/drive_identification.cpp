@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -14,6 +15,8 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kInterval = 1.96;  // standard deviations either way: 95 %
+
+constexpr double kForgetsNothing = 1.0;
 
 bool isAboveZero(double value, double stddev) { return value > kInterval * stddev; }
 
@@ -42,10 +45,14 @@ IdentifiedStrut atTheEnd(const StrutEstimate& estimate) {
   return strut;
 }
 
+DriveIdentification::WholeDrive::WholeDrive(const MonitorSettings& settings, int rows_late)
+    : strut(settings.filter(*settings.sample_period), rows_late, settings.estimators.noise),
+      resampling_noise(*settings.sample_period, kForgetsNothing),
+      spectra{SensorSpectrum(kForgetsNothing), SensorSpectrum(kForgetsNothing)} {}
+
 DriveIdentification::DriveIdentification(const MonitorSettings& settings, Sink sink)
     : strut_(settings, {std::move(sink), [this](const CornerSample& sample) { take(sample); }}),
-      whole_drive_(std::in_place, settings.filter(*settings.sample_period),
-                   monitor().identifier().regression().delay(), settings.estimators.noise) {}
+      whole_drive_(std::in_place, settings, monitor().identifier().regression().delay()) {}
 
 void DriveIdentification::setEffects(const std::vector<ActiveEffect>& effects) {
   strut_.setEffects(effects);
@@ -55,9 +62,17 @@ void DriveIdentification::setEffects(const std::vector<ActiveEffect>& effects) {
 void DriveIdentification::take(const CornerSample& sample) {
   const InputStatus before = std::exchange(seen_, monitor().input());
   if (!whole_drive_ || seen_.samples == before.samples) return;  // the monitor has rejected it
-  if (seen_.gaps + seen_.restarts > before.gaps + before.restarts) whole_drive_->interrupt();
+  const bool continues = seen_.gaps + seen_.restarts == before.gaps + before.restarts;
+  if (!continues) {
+    whole_drive_->strut.interrupt();
+    whole_drive_->resampling_noise.interrupt();
+  }
   const StrutIdentifier& live = monitor().identifier();
-  whole_drive_->push(sample, live.hasRow() ? &live.regression().row() : nullptr, live.regression().wheel());
+  whole_drive_->strut.push(sample, live.hasRow() ? &live.regression().row() : nullptr, live.regression().wheel());
+  whole_drive_->resampling_noise.setErrors(grid().resamplingErrors());
+  whole_drive_->resampling_noise.add(sample, live.hasRow());
+  whole_drive_->spectra[0].add(sample.sprung_acceleration, continues);
+  whole_drive_->spectra[1].add(sample.unsprung_acceleration, continues);
 }
 
 IdentifiedStrut DriveIdentification::overTheDrive() const {
@@ -66,11 +81,12 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
     strut.reason = "instrumental variables know no effects";
     return strut;
   }
-  strut.explained = whole_drive_->explained();
+  strut.explained = whole_drive_->strut.explained();
   const StrutIdentifier& live = monitor().identifier();
   const SkewProfile* skew = live.regression().skew();
   const std::optional<BlockSolution> solution =
-      whole_drive_->solution({live.errors().noiseVariance(), skew != nullptr ? skew->variance() : 0.0});
+      whole_drive_->strut.solution({live.errors().noiseVariance(), whole_drive_->resampling_noise.variances()[1],
+                                    skew != nullptr ? skew->variance() : 0.0});
   if (solution) {
     strut.damping_to_mass = solution->theta[kDampingToMass];
     strut.stiffness_to_mass = solution->theta[kStiffnessToMass];
@@ -83,6 +99,8 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   facts.has_row = monitor().input().rows > 0;
   facts.rows = strut.rows;
   facts.fewest_rows = kFewestHorizons * monitor().horizonSamples();
+  facts.may_fold = std::any_of(whole_drive_->spectra.begin(), whole_drive_->spectra.end(),
+                                   [](const SensorSpectrum& each) { return each.samplingLimit().mayFold(); });
   facts.explained = strut.explained;
   facts.is_physical = isAboveZero(strut.damping_to_mass, strut.damping_to_mass_stddev) &&
                       isAboveZero(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev);
@@ -92,7 +110,7 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   strut.valid = doubt == EstimateDoubt::kNone;
   if (!strut.valid) strut.reason = describe(doubt);
   if (doubt == EstimateDoubt::kFewRows)
-    strut.reason += describeEnough(whole_drive_->enoughSamples() * monitor().period());
+    strut.reason += describeEnough(whole_drive_->strut.enoughSamples() * monitor().period());
   return strut;
 }
 

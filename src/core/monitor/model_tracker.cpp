@@ -71,7 +71,7 @@ void ModelTracker::judge(ModelReport& report) {
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
     EstimateFacts facts = identifier_.facts(*estimate);
     facts.period_fits = period_fits_;
-    facts.undersampled = undersampled_;
+    facts.may_fold = may_fold_;
     facts.free_run_fails = estimate == &report.la && free_run_fails_;
     estimate->doubt = doubtOf(facts);
   }
@@ -113,7 +113,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
 
 void ModelTracker::setInput(const InputStatus& input, ModelReport& report) {
   period_fits_ = input.period_fits;
-  undersampled_ = input.sampling_limit[0].isReached() || input.sampling_limit[1].isReached();
+  may_fold_ = input.sampling_limit[0].mayFold() || input.sampling_limit[1].mayFold();
   judge(report);
 }
 

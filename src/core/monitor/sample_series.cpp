@@ -40,15 +40,8 @@ void SampleSeries::countSpacings() {
   status_.mean_period = spacing_.mean();
 }
 
-void SampleSeries::Spectrum::add(double value, bool continues) {
-  if (!continues) limit.startNewSeries();
-  mean.add(value);
-  limit.add(value - mean.mean());
-}
-
 void SampleSeries::judge() {
-  for (std::size_t i = 0; i < spectra_.size(); ++i)
-    status_.sampling_limit[i] = {spectra_[i].limit.density(), spectra_[i].limit.level()};
+  for (std::size_t i = 0; i < spectra_.size(); ++i) status_.sampling_limit[i] = spectra_[i].samplingLimit();
   countSpacings();
   if (spacing_.weight() < kSpacings) return;
   status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;

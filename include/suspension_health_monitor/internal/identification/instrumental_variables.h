@@ -32,8 +32,7 @@ class InstrumentalVariables {
   using Noise = std::shared_ptr<const std::vector<CornerSample>>;
 
   /// @param rows_late  by how much a row comes behind the sample that completes it [samples].
-  /// @param noise  as of RegressorNoise, where the wheel's part has noise in common with the body's, as in a vehicle
-  /// whose struts are taken apart; none: the instruments have none.
+  /// @param noise  as of RegressorNoise; none: white noise of either sensor.
   InstrumentalVariables(const IntegralFilterOptions& options, int rows_late, Noise noise = {});
 
   /// Takes in the next sample of an uninterrupted uniform series.
@@ -46,12 +45,14 @@ class InstrumentalVariables {
 
   /// What rows are wrong by beyond what their scatter shows.
   struct RowErrors {
-    double noise_variance = 0.0;  ///< of a sensor [(m/s^2)^2]
-    double skew_variance = 0.0;   ///< of that by which the wheel's readings are late [s^2]
+    double noise_variance = 0.0;       ///< of a sensor [(m/s^2)^2]
+    double resampling_variance = 0.0;  ///< of what the wheel's readings may be wrong by as noise is, at most [(m/s^2)^2]
+    double skew_variance = 0.0;        ///< of that by which the wheel's readings are late [s^2]
   };
 
   /// @return what the noise in the instruments shifts is taken off, with half of it in the standard deviation as in
-  /// RegressorNoise::momentSpread(); none while there are too few rows.
+  /// RegressorNoise::momentSpread(); of what resampling may shift a third of the square is. None while there are too
+  /// few rows, or if resampling may be all of them.
   std::optional<BlockSolution> solution(const RowErrors& errors) const;
 
   /// @return samples without a gap that give enough rows: those that fill the filter, before and after a row, for a

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -7,6 +8,8 @@
 
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/identification/instrumental_variables.h"
+#include "suspension_health_monitor/internal/identification/resampling_noise.h"
+#include "suspension_health_monitor/internal/monitor/sensor_spectrum.h"
 #include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
 
 namespace suspension_health_monitor {
@@ -49,12 +52,20 @@ class DriveIdentification {
   const TyreTracker* tyre() const { return strut_.tyre(); }
 
  private:
+  /// What the estimate over the whole drive is made of, and doubted by.
+  struct WholeDrive {
+    explicit WholeDrive(const MonitorSettings& settings, int rows_late);
+    InstrumentalVariables strut;
+    ResamplingNoise resampling_noise;
+    std::array<SensorSpectrum, 2> spectra;  // sprung, unsprung
+  };
+
   void take(const CornerSample& sample);
   IdentifiedStrut overTheDrive() const;
 
   StrutPipeline strut_;
-  InputStatus seen_;                                  // of the monitor, before the newest sample
-  std::optional<InstrumentalVariables> whole_drive_;  // none: there are effects in the model
+  InputStatus seen_;                       // of the monitor, before the newest sample
+  std::optional<WholeDrive> whole_drive_;  // none: there are effects in the model
 };
 
 }  // namespace suspension_health_monitor

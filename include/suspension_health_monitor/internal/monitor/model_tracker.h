@@ -78,7 +78,7 @@ class ModelTracker {
   void compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report);
 
   StrutIdentifier identifier_;
-  bool period_fits_ = true, undersampled_ = false;
+  bool period_fits_ = true, may_fold_ = false;
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
   bool has_own_model_ = false;  // the free run has had parameters of LA, or those that belong to the start values

@@ -6,12 +6,11 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/limited_mean.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
+#include "suspension_health_monitor/internal/monitor/sensor_spectrum.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/mean_spacing.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/signal/sampling_limit_power.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -21,7 +20,7 @@ namespace suspension_health_monitor {
 class SampleSeries {
  public:
   explicit SampleSeries(Stamp period)
-      : period_(period), spectra_{Spectrum(forgettingOf(period)), Spectrum(forgettingOf(period))} {}
+      : period_(period), spectra_{SensorSpectrum(forgettingOf(period)), SensorSpectrum(forgettingOf(period))} {}
 
   /// Takes in the next sample if it can be.
   /// @return how it follows the one before, kGap and kClockJumped beginning a new series; empty: it was rejected.
@@ -52,14 +51,6 @@ class SampleSeries {
   const RejectCounts& rejected() const { return rejected_; }
 
  private:
-  /// Of one sensor.
-  struct Spectrum {
-    explicit Spectrum(double forgetting_factor) : mean(forgetting_factor), limit(forgetting_factor) {}
-    void add(double value, bool continues);
-    LimitedMean mean;
-    SamplingLimitPower limit;
-  };
-
   static double forgettingOf(Stamp period) { return 1.0 - std::min(1.0, toSeconds(period) / kSpectrumMemory); }
   static constexpr double kSpectrumMemory = 10.0;  // [s]
 
@@ -71,7 +62,7 @@ class SampleSeries {
   std::array<CornerSample, FreeRun::kDelay + 1> recent_{};  // by their number in the series, modulo
   std::size_t size_ = 0;                                    // of the series
   MeanSpacing spacing_;
-  std::array<Spectrum, 2> spectra_;  // sprung, unsprung
+  std::array<SensorSpectrum, 2> spectra_;  // sprung, unsprung
   InputStatus status_;
   RejectCounts rejected_;
 };

@@ -7,9 +7,9 @@ namespace suspension_health_monitor {
 /// Share of the measured signal that a model has to explain to be that of the strut.
 inline constexpr double kLeastExplained = 0.5;
 
-/// The same where a sensor shakes at half the sampling rate, so that what is folded back may be in it: of golden cars
-/// at 100 Hz without a filter the model explains 0.82 to 0.96 up to 33 m/s, where it is right, and up to 0.65 from 36
-/// m/s on, where it is wrong.
+/// The same where a sensor shakes near half the sampling rate, so that what is folded back may be in it: filtered
+/// readings leave 0.87 and more to the model there, those at 100 Hz without a filter, of which b0 is a fifth too small
+/// and worse, up to 0.71 (`folding_table`, doc/robustness.md).
 inline constexpr double kLeastExplainedOfShaking = 0.75;
 
 /// All that decides whether an estimate is valid.
@@ -21,7 +21,7 @@ struct EstimateFacts {
   double fewest_rows = 0.0;       ///< that it needs
   bool excites_damping = true;    ///< the rows tell of it (Excitation)
   bool excites_stiffness = true;  ///< likewise
-  bool undersampled = false;      ///< a sensor shakes at half the sampling rate
+  bool may_fold = false;          ///< a sensor shakes near half the sampling rate
   bool outside_force = false;     ///< something else moves the body, or did within the memory
   double explained = 0.0;         ///< share of the output's size
   bool is_physical = false;       ///< all parameters that have to be above 0 are

@@ -1,0 +1,69 @@
+// What IMUs without an anti-alias filter cost: the table of doc/robustness.md. Healthy quarter cars of field_drive.h.
+//   folding_table [SECONDS]     of a drive, default 200
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "field_drive.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr FieldWay kWays[] = {
+    {"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, {"C, 15 m/s, 100 Hz", 256e-6, 15.0, 100},
+    {"D, 8 m/s, 100 Hz", 1024e-6, 8.0, 100}, {"E, 3 m/s, 100 Hz", 4096e-6, 3.0, 100},
+    {"C, 15 m/s, 50 Hz", 256e-6, 15.0, 50},  {"A, 30 m/s, 200 Hz", 16e-6, 30.0, 200},
+    {"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200}};
+constexpr double kSettled = 30.0;  // [s]
+
+void printRow(const FieldWay& way, const FieldVehicle& vehicle, bool is_filtered, double seconds) {
+  FieldDrive drive;
+  drive.vehicle = vehicle;
+  drive.road = way.road;
+  drive.speed = way.speed;
+  drive.rate = way.rate;
+  drive.anti_aliased = is_filtered;
+  MonitorOptions options;
+  options.sample_period = 1.0 / way.rate;
+  options.nominal_damping_to_mass = vehicle.b1;
+  options.nominal_stiffness_to_mass = vehicle.b0;
+  FieldSimulator simulator(drive);
+  SuspensionMonitor monitor(options);
+  std::vector<double> stiffness, explained, density;
+  double samples = 0.0, valid = 0.0, wrong = 0.0, alarm = 0.0;
+  while (simulator.time() < seconds) {
+    const MonitorReport* report = monitor.addSample(simulator.next());
+    if (report == nullptr || simulator.time() < kSettled) continue;
+    const StrutEstimate& la = report->la;
+    samples += 1.0;
+    stiffness.push_back(la.stiffness_to_mass / vehicle.b0 - 1.0);
+    explained.push_back(la.explained);
+    density.push_back(monitor.input().sampling_limit[1].density);
+    if (report->health.level == HealthLevel::kWarn || report->health.level == HealthLevel::kError) alarm += 1.0;
+    if (!la.valid()) continue;
+    valid += 1.0;
+    wrong += std::abs(la.stiffness_to_mass - vehicle.b0) > 3.0 * la.stiffness_to_mass_stddev ? 1.0 : 0.0;
+  }
+  std::printf("| %s | %s | %s | %.3f | %.2f | %+.0f %% | %.0f %% | %.0f %% | %.0f %% |\n", way.name, vehicle.name,
+              is_filtered ? "yes" : "no", median(density), median(explained), 100.0 * median(stiffness),
+              100.0 * valid / samples, 100.0 * wrong / samples, 100.0 * alarm / samples);
+  std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
+
+int main(int argc, char** argv) {
+  using namespace suspension_health_monitor;
+  const double seconds = argc > 1 ? std::atof(argv[1]) : 200.0;
+  std::printf(
+      "| road, rate | vehicle | filtered | density at the limit | explained | b0 of LA | valid | beyond 3 stddev | WARN, "
+      "ERROR |\n|---|---|---|---|---|---|---|---|---|\n");
+  for (const FieldWay& way : kWays)
+    for (const FieldVehicle& vehicle : kFieldVehicles)
+      for (const bool is_filtered : {true, false}) printRow(way, vehicle, is_filtered, seconds);
+}
