@@ -13,11 +13,10 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr FieldWay kWays[] = {
-    {"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, {"C, 15 m/s, 100 Hz", 256e-6, 15.0, 100},
-    {"D, 8 m/s, 100 Hz", 1024e-6, 8.0, 100}, {"E, 3 m/s, 100 Hz", 4096e-6, 3.0, 100},
-    {"C, 15 m/s, 50 Hz", 256e-6, 15.0, 50},  {"A, 30 m/s, 200 Hz", 16e-6, 30.0, 200},
-    {"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200}};
+constexpr FieldWay kWays[] = {{"A, 30 m/s, 100 Hz", 16e-6, 30.0, 100}, {"C, 15 m/s, 100 Hz", 256e-6, 15.0, 100},
+                              {"D, 8 m/s, 100 Hz", 1024e-6, 8.0, 100}, {"E, 3 m/s, 100 Hz", 4096e-6, 3.0, 100},
+                              {"C, 15 m/s, 50 Hz", 256e-6, 15.0, 50},  {"A, 30 m/s, 200 Hz", 16e-6, 30.0, 200},
+                              {"C, 15 m/s, 200 Hz", 256e-6, 15.0, 200}};
 constexpr double kSettled = 30.0;  // [s]
 
 void printRow(const FieldWay& way, const FieldVehicle& vehicle, bool is_filtered, double seconds) {
@@ -61,7 +60,8 @@ int main(int argc, char** argv) {
   using namespace suspension_health_monitor;
   const double seconds = argc > 1 ? std::atof(argv[1]) : 200.0;
   std::printf(
-      "| road, rate | vehicle | filtered | density at the limit | explained | b0 of LA | valid | beyond 3 stddev | WARN, "
+      "| road, rate | vehicle | filtered | density at the limit | explained | b0 of LA | valid | beyond 3 stddev | "
+      "WARN, "
       "ERROR |\n|---|---|---|---|---|---|---|---|---|\n");
   for (const FieldWay& way : kWays)
     for (const FieldVehicle& vehicle : kFieldVehicles)

@@ -47,8 +47,8 @@ buildPackage() {
   fi
   mkdir -p "$build"
   say "building in $build with $jobs jobs"
-  local options=()
-  [ -z "${SANITIZE:-}" ] || options=(-DSANITIZE="$SANITIZE" -DBUILD_BENCHMARKS=OFF)
+  local options=(-DWARNINGS_AS_ERRORS=ON)
+  [ -z "${SANITIZE:-}" ] || options+=(-DSANITIZE="$SANITIZE" -DBUILD_BENCHMARKS=OFF)
   cmake -S "$repository" -B "$build" "${options[@]}" > "$build/configure.log" 2>&1 ||
     { cat "$build/configure.log"; fail "cmake failed"; }
   cmake --build "$build" --parallel "$jobs" --target "${@:-all}"

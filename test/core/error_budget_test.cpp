@@ -109,12 +109,13 @@ TEST(ErrorBudget, RowsOfAnotherSkewAreOffByWhatItShifts) {
   for (const RegressionRow& row : randomRows(vectorOf({3.0, 13.8}), 3000, 0.1, 1)) rows.take(row, SkewedRows::kTooMuch);
   const Eigen::Vector2d expected = SkewedRows::kTooMuch * rows.information.inverse() * rows.moment;
   const Eigen::Array2d found = rows.shift();
-  for (int i = 0; i < kNumStrutParameters; ++i) EXPECT_NEAR(found[i], std::abs(expected[i]), 1e-6 * std::abs(expected[i]));
+  for (int i = 0; i < kNumStrutParameters; ++i)
+    EXPECT_NEAR(found[i], std::abs(expected[i]), 1e-6 * std::abs(expected[i]));
 }
 
 // Then come rows that tell of the damping only, and are right: what the stiffness is off by is still that of the rows
-// that it is from, also when it is held no longer. By chance the entries of a hundred rows are correlated by a tenth, so
-// that a tenth of the damping's shift, two to three times as large, comes or goes.
+// that it is from, also when it is held no longer. By chance the entries of a hundred rows are correlated by a tenth,
+// so that a tenth of the damping's shift, two to three times as large, comes or goes.
 TEST(ErrorBudget, WhatIsKnownOfAHeldParameterStays) {
   SkewedRows rows;
   for (const RegressionRow& row : randomRows(vectorOf({3.0, 13.8}), 3000, 0.1, 1)) rows.take(row, SkewedRows::kTooMuch);

@@ -17,11 +17,7 @@ constexpr int kIterations = 30;
 /// Sum over blocks, each with its weight.
 EquationBlock weightedSum(const std::vector<EquationBlock>& blocks, const std::vector<double>& weights) {
   EquationBlock sum;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    sum.information += weights[b] * blocks[b].information;
-    sum.outputs += weights[b] * blocks[b].outputs;
-    sum.squares += weights[b] * blocks[b].squares;
-  }
+  for (std::size_t b = 0; b < blocks.size(); ++b) sum += blocks[b].scaled(weights[b]);
   return sum;
 }
 
@@ -39,10 +35,12 @@ double size(const EquationBlock& block, const Eigen::Vector3d& theta) {
 
 }  // namespace
 
-void EquationBlock::add(const Eigen::Vector2d& instrument, const Eigen::Vector2d& regressor, double output) {
+void EquationBlock::add(const Eigen::Vector2d& instrument, const Eigen::Vector2d& regressor, double output,
+                        const Eigen::Vector2d& rate) {
   const Eigen::Vector3d z(instrument[0], instrument[1], 1.0);
   information += z * Eigen::Vector3d(regressor[0], regressor[1], 1.0).transpose();
   outputs += z * output;
+  rates += z * rate.transpose();
   squares += z.cwiseAbs2();
 }
 
@@ -55,12 +53,14 @@ std::optional<Eigen::Vector3d> EquationBlock::solution() const {
 EquationBlock& EquationBlock::operator+=(const EquationBlock& other) {
   information += other.information;
   outputs += other.outputs;
+  rates += other.rates;
   squares += other.squares;
   return *this;
 }
 
-void BlockEquations::add(const Eigen::Vector2d& instrument, const Eigen::Vector2d& regressor, double output) {
-  open_.add(instrument, regressor, output);
+void BlockEquations::add(const Eigen::Vector2d& instrument, const Eigen::Vector2d& regressor, double output,
+                         const Eigen::Vector2d& rate) {
+  open_.add(instrument, regressor, output, rate);
   if (open_.rows() < rows_per_block_) return;
   blocks_.push_back(open_);
   open_ = {};
@@ -111,8 +111,9 @@ std::optional<BlockSolution> BlockEquations::solution(const EquationBlock& noise
   const auto n = static_cast<double>(blocks.size()) / static_cast<double>(run);
   const Eigen::Matrix3d inverse = factors.inverse();
   const Eigen::Matrix3d variance = n / (n - 1.0) * inverse * scatter * inverse.transpose();
-  return BlockSolution{theta.head<2>(), variance.diagonal().head<2>().cwiseSqrt(), weightedSum(blocks, weights).rows(),
-                       inverse};
+  const EquationBlock sum = weightedSum(blocks, weights);
+  return BlockSolution{theta.head<2>(), variance.diagonal().head<2>().cwiseSqrt(), sum.rows(),
+                       (inverse * sum.rates * theta.head<2>()).head<2>()};
 }
 
 }  // namespace suspension_health_monitor

@@ -22,19 +22,22 @@ constexpr int kCorrections = 6;
 std::vector<double> endCorrections() {
   constexpr int kFrequencies = 128;
   constexpr double kBand = 0.75;  // of the Nyquist frequency: what an anti-alias filter lets pass
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(kCorrections + 1, kCorrections + 1);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(kCorrections + 1);
-  const Eigen::ArrayXd k = Eigen::ArrayXd::LinSpaced(kCorrections, 1.0, kCorrections);
+  using Corrections = Eigen::Matrix<double, kCorrections, 1>;
+  using WithCondition = Eigen::Matrix<double, kCorrections + 1, 1>;
+  Eigen::Matrix<double, kCorrections + 1, kCorrections + 1> system;
+  system.setZero();
+  WithCondition right = WithCondition::Zero();
+  const Corrections k = Corrections::LinSpaced(1.0, kCorrections);
   for (int i = 1; i <= kFrequencies; ++i) {
     const double w = kBand * kPi * i / kFrequencies, weight = std::pow(w, -6);
-    const Eigen::VectorXd made = 2.0 * w * (w * k).sin();
-    system.topLeftCorner(kCorrections, kCorrections) += weight * made * made.transpose();
-    right.head(kCorrections) += weight * (1.0 - 0.5 * w / std::tan(0.5 * w)) * made;
+    const Corrections made = 2.0 * w * (w * k).array().sin().matrix();
+    system.topLeftCorner<kCorrections, kCorrections>() += weight * made * made.transpose();
+    right.head<kCorrections>() += weight * (1.0 - 0.5 * w / std::tan(0.5 * w)) * made;
   }
-  system.topRightCorner(kCorrections, 1) = 2.0 * k.matrix();
-  system.bottomLeftCorner(1, kCorrections) = 2.0 * k.matrix().transpose();
+  system.topRightCorner<kCorrections, 1>() = 2.0 * k;
+  system.bottomLeftCorner<1, kCorrections>() = 2.0 * k.transpose();
   right[kCorrections] = 1.0 / 12.0;
-  const Eigen::VectorXd solution = system.fullPivLu().solve(right);
+  const WithCondition solution = system.fullPivLu().solve(right);
   return {solution.data(), solution.data() + kCorrections};
 }
 

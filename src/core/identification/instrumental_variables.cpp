@@ -16,6 +16,7 @@ InstrumentalVariables::Rows::Rows(double period, int window, int rows_late)
       forces{DelayLine(age + 1), DelayLine(age + 1)} {}
 
 void InstrumentalVariables::Rows::setModel(double stiffness_to_mass) {
+  stiffness = stiffness_to_mass;
   on_wheel.setModel(stiffness_to_mass);
   on_strut.setModel(stiffness_to_mass);
 }
@@ -29,10 +30,10 @@ void InstrumentalVariables::Rows::push(double reading) {
 }
 
 void InstrumentalVariables::Rows::add(const RegressionRow& row) {
-  const auto [damping, stiffness, psi] =
+  const auto [phi_1, phi_0, psi] =
       columns.push({row.regressor[kDampingToMass], row.regressor[kStiffnessToMass], row.output});
   instrument = {forces[0].at(age), forces[1].at(age)};
-  regressor = {damping, stiffness};
+  regressor = {phi_1, phi_0};
   output = psi;
 }
 
@@ -50,9 +51,8 @@ void InstrumentalVariables::push(const CornerSample& sample, const RegressionRow
   if (row == nullptr) return;
   rows_.add(*row);
   if (rows_.on_wheel.hasModel()) {
-    const Eigen::Vector2d &z = rows_.instrument, &forces = rows_.on_wheel.forces();
-    equations_.add(z, rows_.regressor, rows_.output);
-    late_ += Eigen::Vector3d(z[0], z[1], 1.0) * Eigen::RowVector2d(wheel.output, wheel.damping);
+    const Eigen::Vector2d& forces = rows_.on_wheel.forces();
+    equations_.add(rows_.instrument, rows_.regressor, rows_.output, {wheel.output, wheel.damping});
     motion_.add(forces, forces, sample.sprung_acceleration);
     motion_squares_ += sample.sprung_acceleration * sample.sprung_acceleration;
   }
@@ -77,7 +77,7 @@ EquationBlock InstrumentalVariables::ofNoise() const {
   EquationBlock moments;
   Rows rows(options_.period, window_, 0);
   SuspensionRegression regression(options_);
-  rows.setModel((*least_squares_.solution())[kStiffnessToMass]);
+  rows.setModel(rows_.stiffness);
   const auto take = [&](const CornerSample& sample) {
     rows.push(sample.unsprung_acceleration);
     const RegressionRow* row = regression.push(sample);
@@ -104,8 +104,7 @@ std::optional<BlockSolution> InstrumentalVariables::solution(const RowErrors& er
   if (!solution || !least) return std::nullopt;
   solution->addError(0.5 * (with_noise->theta - solution->theta));
   solution->addError((least->theta - solution->theta) / std::sqrt(3.0));
-  const Eigen::Vector3d moment = solution->rows / motion_.rows() * (late_ * solution->theta);
-  solution->addError(std::sqrt(errors.skew_variance) * (solution->inverse * moment).head<2>());
+  solution->addError(std::sqrt(errors.skew_variance) * solution->rate);
   return solution;
 }
 

@@ -9,9 +9,7 @@
 namespace suspension_health_monitor {
 
 NoiseLevel::NoiseLevel(const IntegralFilterOptions& filter)
-    : block_(2.0 * filter.horizon_samples),
-      sizes_(1.0 - 1.0 / (kMostBlocks * block_)),
-      mean_(filter.horizon_samples) {}
+    : block_(2.0 * filter.horizon_samples), sizes_(1.0 - 1.0 / (kMostBlocks * block_)), mean_(filter.horizon_samples) {}
 
 void NoiseLevel::add(double residual) {
   if (in_series_ == 0) mean_.reset();

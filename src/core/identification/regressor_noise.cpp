@@ -11,9 +11,7 @@ namespace {
 class NoiseRows {
  public:
   explicit NoiseRows(const IntegralFilterOptions& options)
-      : body_(2, options),
-        relative_(2, options),
-        means_(3, HorizonMean(options.horizon_samples)) {}
+      : body_(2, options), relative_(2, options), means_(3, HorizonMean(options.horizon_samples)) {}
 
   void push(double sprung, double unsprung) {
     body_.push(sprung);

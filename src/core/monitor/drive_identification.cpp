@@ -100,7 +100,7 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   facts.rows = strut.rows;
   facts.fewest_rows = kFewestHorizons * monitor().horizonSamples();
   facts.may_fold = std::any_of(whole_drive_->spectra.begin(), whole_drive_->spectra.end(),
-                                   [](const SensorSpectrum& each) { return each.samplingLimit().mayFold(); });
+                               [](const SensorSpectrum& each) { return each.samplingLimit().mayFold(); });
   facts.explained = strut.explained;
   facts.is_physical = isAboveZero(strut.damping_to_mass, strut.damping_to_mass_stddev) &&
                       isAboveZero(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev);

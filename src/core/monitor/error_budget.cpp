@@ -167,8 +167,8 @@ void ErrorBudget::removeShift(const PairedEstimators& estimators, const Eigen::V
 double ErrorBudget::skewShift(const RecursiveLeastSquares& least_squares, const SkewProfile* skew, int i) const {
   if (skew == nullptr) return 0.0;
   const auto shiftBy = [&](SkewEffect which) {
-    return least_squares.parameterShift(i, {skew_effects_[kDampingToMass].mean(which),
-                                            skew_effects_[kStiffnessToMass].mean(which)});
+    return least_squares.parameterShift(
+        i, {skew_effects_[kDampingToMass].mean(which), skew_effects_[kStiffnessToMass].mean(which)});
   };
   const double of_skew = shiftBy(kOfSkew);
   return std::hypot(std::sqrt(skew->variance()) * of_skew, skew->skew() * of_skew - shiftBy(kTakenOff));

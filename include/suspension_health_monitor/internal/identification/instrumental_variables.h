@@ -45,9 +45,10 @@ class InstrumentalVariables {
 
   /// What rows are wrong by beyond what their scatter shows.
   struct RowErrors {
-    double noise_variance = 0.0;       ///< of a sensor [(m/s^2)^2]
-    double resampling_variance = 0.0;  ///< of what the wheel's readings may be wrong by as noise is, at most [(m/s^2)^2]
-    double skew_variance = 0.0;        ///< of that by which the wheel's readings are late [s^2]
+    double noise_variance = 0.0;  ///< of a sensor [(m/s^2)^2]
+    double resampling_variance =
+        0.0;                     ///< of what the wheel's readings may be wrong by as noise is, at most [(m/s^2)^2]
+    double skew_variance = 0.0;  ///< of that by which the wheel's readings are late [s^2]
   };
 
   /// @return what the noise in the instruments shifts is taken off, with half of it in the standard deviation as in
@@ -68,13 +69,12 @@ class InstrumentalVariables {
  private:
   static constexpr int kFirstWindows = 8;  // of rows, before least squares is believed
 
-  static constexpr std::size_t kColumns = 3;
-
   /// Instruments and rows, without what drifts.
   struct Rows {
-    int age;                          // of the middle of a row's window [samples]
-    WithoutLevel<1> wheel;            // readings
-    WithoutLevel<kColumns> columns;  // phi_1, phi_0, psi
+    int age;                  // of the middle of a row's window [samples]
+    WithoutLevel<1> wheel;    // readings
+    WithoutLevel<3> columns;  // phi_1, phi_0, psi
+    double stiffness = 0.0;   // of the auxiliary struts, b0 [1/s^2]; 0: not known yet
     AuxiliaryStrut on_wheel, on_strut;
     std::array<DelayLine, 2> forces;
     Eigen::Vector2d instrument, regressor;
@@ -97,7 +97,6 @@ class InstrumentalVariables {
   EquationBlock least_squares_;
   Rows rows_;
   BlockEquations equations_;
-  Eigen::Matrix<double, 3, 2> late_ = Eigen::Matrix<double, 3, 2>::Zero();  // (z, 1) by what b1 and b0 make of a skew
   EquationBlock motion_;  // z'' by the forces in on_wheel
   double motion_squares_ = 0.0;
 };
