@@ -73,9 +73,9 @@ TEST(ValidityGate, NamesTheFirstOfSeveralFlaws) {
 TEST(ValidityGate, AModelThatExplainsWhatAShakingSensorReadsIsTrusted) {
   EstimateFacts facts = nothingAgainstIt();
   facts.may_fold = true;
-  facts.explained = kLeastExplainedOfShaking;
+  facts.explained_of_late = kLeastExplainedOfShaking;
   EXPECT_EQ(doubtOf(facts), EstimateDoubt::kNone);
-  facts.explained = std::nan("");
+  facts.explained_of_late = std::nan("");
   EXPECT_EQ(doubtOf(facts), EstimateDoubt::kUndersampled);
 }
 

@@ -101,7 +101,7 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   facts.fewest_rows = kFewestHorizons * monitor().horizonSamples();
   facts.may_fold = std::any_of(whole_drive_->spectra.begin(), whole_drive_->spectra.end(),
                                [](const SensorSpectrum& each) { return each.samplingLimit().mayFold(); });
-  facts.explained = strut.explained;
+  facts.explained = facts.explained_of_late = strut.explained;
   facts.is_physical = isAboveZero(strut.damping_to_mass, strut.damping_to_mass_stddev) &&
                       isAboveZero(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev);
   facts.skew_is_known = skew == nullptr || skew->isWithin();

@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/monitor/model_tracker.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 
@@ -30,6 +31,7 @@ bool isModel(const StrutEstimate& la) { return la.valid() || la.doubt == Estimat
 
 ModelTracker::ModelTracker(const MonitorSettings& options)
     : identifier_(options),
+      explained_(SensorSpectrum::liveForgetting(*options.sample_period)),
       free_run_(*options.sample_period),
       model_due_(kModelEvery),
       figures_due_(kFiguresEvery),
@@ -60,7 +62,11 @@ void ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
   else
     identifier_.skip();
   report.has_row = identifier_.hasRow();
-  if (report.has_row) identifier_.describe(report.ls, report.la);
+  if (report.has_row) {
+    identifier_.describe(report.ls, report.la);
+    const double explained = identifier_.facts(report.la).explained;
+    if (std::isfinite(explained)) explained_.add(explained);
+  }
   report.comparison.has_sample = compared != nullptr;
   if (compared != nullptr) compare(*compared, predicted, report);
   judge(report);
@@ -72,6 +78,7 @@ void ModelTracker::judge(ModelReport& report) {
     EstimateFacts facts = identifier_.facts(*estimate);
     facts.period_fits = period_fits_;
     facts.may_fold = may_fold_;
+    facts.explained_of_late = explained_.mean();
     facts.free_run_fails = estimate == &report.la && free_run_fails_;
     estimate->doubt = doubtOf(facts);
   }

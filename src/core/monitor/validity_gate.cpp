@@ -26,7 +26,7 @@ constexpr std::array kRules{
     Rule{EstimateDoubt::kStiffnessNotExcited, [](const EstimateFacts& f) { return !f.excites_stiffness; }},
     // What is folded back drives no strut, though the wheel seems to move like that.
     Rule{EstimateDoubt::kUndersampled,
-         [](const EstimateFacts& f) { return f.may_fold && !(f.explained >= kLeastExplainedOfShaking); }},
+         [](const EstimateFacts& f) { return f.may_fold && !(f.explained_of_late >= kLeastExplainedOfShaking); }},
     // The regression takes any motion of the body for the wheel's doing.
     Rule{EstimateDoubt::kOutsideForce, [](const EstimateFacts& f) { return f.outside_force; }},
     // No strut between these two signals.

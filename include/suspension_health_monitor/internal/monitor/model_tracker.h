@@ -7,7 +7,9 @@
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/identification/running_comparison.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
+#include "suspension_health_monitor/internal/monitor/sensor_spectrum.h"
 #include "suspension_health_monitor/internal/monitor/strut_identifier.h"
 #include "suspension_health_monitor/internal/monitor_settings.h"
 #include "suspension_health_monitor/monitor_report.h"
@@ -79,6 +81,7 @@ class ModelTracker {
 
   StrutIdentifier identifier_;
   bool period_fits_ = true, may_fold_ = false;
+  RunningMean explained_;  // by LA
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
   bool has_own_model_ = false;  // the free run has had parameters of LA, or those that belong to the start values

@@ -20,7 +20,9 @@ namespace suspension_health_monitor {
 class SampleSeries {
  public:
   explicit SampleSeries(Stamp period)
-      : period_(period), spectra_{SensorSpectrum(forgettingOf(period)), SensorSpectrum(forgettingOf(period))} {}
+      : period_(period),
+        spectra_{SensorSpectrum(SensorSpectrum::liveForgetting(toSeconds(period))),
+                 SensorSpectrum(SensorSpectrum::liveForgetting(toSeconds(period)))} {}
 
   /// Takes in the next sample if it can be.
   /// @return how it follows the one before, kGap and kClockJumped beginning a new series; empty: it was rejected.
@@ -51,9 +53,6 @@ class SampleSeries {
   const RejectCounts& rejected() const { return rejected_; }
 
  private:
-  static double forgettingOf(Stamp period) { return 1.0 - std::min(1.0, toSeconds(period) / kSpectrumMemory); }
-  static constexpr double kSpectrumMemory = 10.0;  // [s]
-
   const CornerSample& at(std::size_t number) const { return recent_[number % recent_.size()]; }
   void countSpacings();
 

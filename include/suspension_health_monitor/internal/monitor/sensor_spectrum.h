@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "suspension_health_monitor/internal/identification/limited_mean.h"
 #include "suspension_health_monitor/internal/signal/sampling_limit_power.h"
 #include "suspension_health_monitor/monitor_report.h"
@@ -10,6 +12,10 @@ namespace suspension_health_monitor {
 /// Cost per value: O(1), no allocation.
 class SensorSpectrum {
  public:
+  /// @param period  of the values [s].
+  /// @return that of a live judgement, which does not come and go with the road: a memory of ten seconds.
+  static double liveForgetting(double period) { return 1.0 - std::min(1.0, period / 10.0); }
+
   /// @param forgetting_factor  lambda in (0, 1].
   explicit SensorSpectrum(double forgetting_factor) : mean_(forgetting_factor), limit_(forgetting_factor) {}
 
