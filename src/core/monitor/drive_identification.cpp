@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -48,7 +47,7 @@ IdentifiedStrut atTheEnd(const StrutEstimate& estimate) {
 DriveIdentification::WholeDrive::WholeDrive(const MonitorSettings& settings, int rows_late)
     : strut(settings.filter(*settings.sample_period), rows_late, settings.estimators.noise),
       resampling_noise(*settings.sample_period, kForgetsNothing),
-      spectra{SensorSpectrum(kForgetsNothing), SensorSpectrum(kForgetsNothing)} {}
+      folds(kForgetsNothing) {}
 
 DriveIdentification::DriveIdentification(const MonitorSettings& settings, Sink sink)
     : strut_(settings, {std::move(sink), [this](const CornerSample& sample) { take(sample); }}),
@@ -62,8 +61,7 @@ void DriveIdentification::setEffects(const std::vector<ActiveEffect>& effects) {
 void DriveIdentification::take(const CornerSample& sample) {
   const InputStatus before = std::exchange(seen_, monitor().input());
   if (!whole_drive_ || seen_.samples == before.samples) return;  // the monitor has rejected it
-  const bool continues = seen_.gaps + seen_.restarts == before.gaps + before.restarts;
-  if (!continues) {
+  if (seen_.gaps + seen_.restarts != before.gaps + before.restarts) {
     whole_drive_->strut.interrupt();
     whole_drive_->resampling_noise.interrupt();
   }
@@ -71,8 +69,9 @@ void DriveIdentification::take(const CornerSample& sample) {
   whole_drive_->strut.push(sample, live.hasRow() ? &live.regression().row() : nullptr, live.regression().wheel());
   whole_drive_->resampling_noise.setErrors(grid().resamplingErrors());
   whole_drive_->resampling_noise.add(sample, live.hasRow());
-  whole_drive_->spectra[0].add(sample.sprung_acceleration, continues);
-  whole_drive_->spectra[1].add(sample.unsprung_acceleration, continues);
+  const EstimateDoubt doubt = monitor().report().la.doubt;
+  if (doubt == EstimateDoubt::kNone || doubt == EstimateDoubt::kUndersampled)
+    whole_drive_->folds.add(doubt == EstimateDoubt::kUndersampled ? 1.0 : 0.0);
 }
 
 IdentifiedStrut DriveIdentification::overTheDrive() const {
@@ -99,9 +98,8 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   facts.has_row = monitor().input().rows > 0;
   facts.rows = strut.rows;
   facts.fewest_rows = kFewestHorizons * monitor().horizonSamples();
-  facts.may_fold = std::any_of(whole_drive_->spectra.begin(), whole_drive_->spectra.end(),
-                               [](const SensorSpectrum& each) { return each.samplingLimit().mayFold(); });
-  facts.explained = facts.explained_of_late = strut.explained;
+  facts.may_fold = whole_drive_->folds.mean() > 0.5;  // most of the time
+  facts.explained = strut.explained;
   facts.is_physical = isAboveZero(strut.damping_to_mass, strut.damping_to_mass_stddev) &&
                       isAboveZero(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev);
   facts.skew_is_known = skew == nullptr || skew->isWithin();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,7 +8,7 @@
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/identification/instrumental_variables.h"
 #include "suspension_health_monitor/internal/identification/resampling_noise.h"
-#include "suspension_health_monitor/internal/monitor/sensor_spectrum.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
 
 namespace suspension_health_monitor {
@@ -57,7 +56,7 @@ class DriveIdentification {
     explicit WholeDrive(const MonitorSettings& settings, int rows_late);
     InstrumentalVariables strut;
     ResamplingNoise resampling_noise;
-    std::array<SensorSpectrum, 2> spectra;  // sprung, unsprung
+    RunningMean folds;  // whether a live estimate that is valid otherwise is doubted for what may be folded back
   };
 
   void take(const CornerSample& sample);
