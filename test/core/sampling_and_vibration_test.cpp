@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulated_drive.h"
+#include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/strut_monitor.h"
 
@@ -119,6 +120,19 @@ TEST(Sampling, WithoutAFilterIsSaidAndDoubtedWhereItDoesHarm) {
     EXPECT_EQ(said.warned, 0);
     EXPECT_EQ(said.valid > 0, speed < 30.0);
     EXPECT_LT(said.worst, 0.6);
+  }
+}
+
+TEST(Sampling, WithoutAFilterDoubtsTheEstimateOverTheWholeDrive) {
+  const Motion motion = goldenCar("C", 45.0, 120.0);
+  for (const bool filtered : {true, false}) {
+    const std::vector<double> body = decimated(motion.body, filtered), wheel = decimated(motion.wheel, filtered);
+    Drive drive;
+    for (std::size_t k = 0; k < body.size(); ++k)
+      drive.samples.push_back({fromSeconds(static_cast<double>(k) / kSampled), body[k], wheel[k]});
+    const IdentifiedStrut whole = identify({drive}).iv;
+    EXPECT_EQ(whole.reason, filtered ? "" : describe(EstimateDoubt::kUndersampled));
+    EXPECT_EQ(whole.valid, filtered);
   }
 }
 

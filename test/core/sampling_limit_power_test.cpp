@@ -10,16 +10,11 @@ namespace {
 
 constexpr double kMemory = 1000.0;  // values
 
-struct Motion {
-  std::mt19937_64 engine{8};
-  std::normal_distribution<double> normal;
-  double white(double rms) { return rms * normal(engine); }
-};
-
 TEST(SamplingLimitPower, IsThatOfWhiteMotion) {
-  Motion motion;
+  std::mt19937_64 engine(8);
+  std::normal_distribution<double> white(0.0, 3.0);
   SamplingLimitPower power(1.0);
-  for (int k = 0; k < 20000; ++k) power.add(motion.white(3.0));
+  for (int k = 0; k < 20000; ++k) power.add(white(engine));
   // A sixteenth of 20 000 independent values, 4 of their standard deviations; what is limited takes a little.
   EXPECT_NEAR(power.density(), 1.0, 4.0 * std::sqrt(2.0 / 1250.0));
   EXPECT_NEAR(power.level(), 3.0, 0.5 * 4.0 * std::sqrt(2.0 / 1250.0) * 3.0);

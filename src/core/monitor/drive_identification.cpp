@@ -98,7 +98,8 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   facts.has_row = monitor().input().rows > 0;
   facts.rows = strut.rows;
   facts.fewest_rows = kFewestHorizons * monitor().horizonSamples();
-  facts.may_fold = whole_drive_->folds.mean() > 0.5;  // most of the time
+  // Most of the time. The live doubt has asked what the model explains: explained_of_late stays 0.
+  facts.may_fold = whole_drive_->folds.mean() > 0.5;
   facts.explained = strut.explained;
   facts.is_physical = isAboveZero(strut.damping_to_mass, strut.damping_to_mass_stddev) &&
                       isAboveZero(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev);

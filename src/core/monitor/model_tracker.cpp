@@ -31,7 +31,7 @@ bool isModel(const StrutEstimate& la) { return la.valid() || la.doubt == Estimat
 
 ModelTracker::ModelTracker(const MonitorSettings& options)
     : identifier_(options),
-      explained_(SensorSpectrum::liveForgetting(*options.sample_period)),
+      explained_(SensorSpectrum::forgettingFactor(*options.sample_period)),
       free_run_(*options.sample_period),
       model_due_(kModelEvery),
       figures_due_(kFiguresEvery),
@@ -64,7 +64,7 @@ void ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
   report.has_row = identifier_.hasRow();
   if (report.has_row) {
     identifier_.describe(report.ls, report.la);
-    const double explained = identifier_.facts(report.la).explained;
+    const double explained = identifier_.errors().explainedBesideNoise(report.la);
     if (std::isfinite(explained)) explained_.add(explained);
   }
   report.comparison.has_sample = compared != nullptr;

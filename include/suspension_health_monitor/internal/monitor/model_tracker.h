@@ -81,7 +81,7 @@ class ModelTracker {
 
   StrutIdentifier identifier_;
   bool period_fits_ = true, may_fold_ = false;
-  RunningMean explained_;  // by LA
+  RunningMean explained_;  // by LA, over the time in which may_fold_ is seen
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
   bool has_own_model_ = false;  // the free run has had parameters of LA, or those that belong to the start values

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -20,9 +19,7 @@ namespace suspension_health_monitor {
 class SampleSeries {
  public:
   explicit SampleSeries(Stamp period)
-      : period_(period),
-        spectra_{SensorSpectrum(SensorSpectrum::liveForgetting(toSeconds(period))),
-                 SensorSpectrum(SensorSpectrum::liveForgetting(toSeconds(period)))} {}
+      : period_(period), spectra_{SensorSpectrum(toSeconds(period)), SensorSpectrum(toSeconds(period))} {}
 
   /// Takes in the next sample if it can be.
   /// @return how it follows the one before, kGap and kClockJumped beginning a new series; empty: it was rejected.

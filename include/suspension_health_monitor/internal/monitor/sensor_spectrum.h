@@ -8,16 +8,16 @@
 
 namespace suspension_health_monitor {
 
-/// How one sensor shakes at the limit of its sampling, beside what it reads on average.
+/// How one sensor shakes at the limit of its sampling of late, beside what it reads on average.
 /// Cost per value: O(1), no allocation.
 class SensorSpectrum {
  public:
   /// @param period  of the values [s].
-  /// @return that of a live judgement, which does not come and go with the road: a memory of ten seconds.
-  static double liveForgetting(double period) { return 1.0 - std::min(1.0, period / 10.0); }
+  /// @return lambda of a memory of ten seconds: a judgement does not come and go with the road.
+  static double forgettingFactor(double period) { return 1.0 - std::min(1.0, period / 10.0); }
 
-  /// @param forgetting_factor  lambda in (0, 1].
-  explicit SensorSpectrum(double forgetting_factor) : mean_(forgetting_factor), limit_(forgetting_factor) {}
+  /// @param period  of the values [s].
+  explicit SensorSpectrum(double period) : mean_(forgettingFactor(period)), limit_(forgettingFactor(period)) {}
 
   /// @param continues  it follows the value before.
   void add(double value, bool continues) {
