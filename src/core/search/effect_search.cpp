@@ -63,7 +63,8 @@ class Search {
     if (options_.progress) options_.progress(share);
   }
   void noteGroup(const Selection& selection);
-  EvaluatedModel extend();
+  EvaluatedModel extend(EvaluatedModel current, int round);
+  EvaluatedModel extendRivals(EvaluatedModel best);
   EvaluatedModel refine(EvaluatedModel current);
   EvaluatedModel withoutSuperfluous(EvaluatedModel current) const;
   EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick);
@@ -77,7 +78,8 @@ class Search {
   const std::optional<StrutModel>& lagged_;
   ModelEvaluator evaluator_;
   EvaluatedModel base_;
-  std::optional<Selection> suspect_;  // the best addition to the base
+  std::optional<Selection> suspect_;    // the best addition to the base
+  std::vector<EvaluatedModel> rivals_;  // others
   std::optional<Explanation> explanation_;
   SearchResult result_;
 };
@@ -134,9 +136,9 @@ bool Search::standsAlone(const EvaluatedModel& candidate) const {
 }
 
 // Forward selection: the best addition as long as it pays.
-EvaluatedModel Search::extend() {
-  EvaluatedModel current = base_;
-  for (int round = 0; round < options_.most_effects; ++round) {
+// @param round  how many the model has already.
+EvaluatedModel Search::extend(EvaluatedModel current, int round) {
+  for (; round < options_.most_effects; ++round) {
     const double done = kStarted + kForward * round / options_.most_effects;
     const auto tick = [&](double share) { report(done + kForward * share / options_.most_effects); };
     std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
@@ -151,10 +153,21 @@ EvaluatedModel Search::extend() {
     result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
     if (!ranking.front().ranked.significant) break;
     const Selection selection = select(ranking, evaluator_.heldOut());
-    if (round == 0) suspect_ = selection;
+    if (round == 0) suspect_ = selection, rivals_ = ranking;
     current = withoutSuperfluous(selection.chosen);
   }
   return current;
+}
+
+// Of several effects that which explains most alone need not be one: a law with more numbers takes some of each. So
+// every other that was fitted has its turn at being the first.
+EvaluatedModel Search::extendRivals(EvaluatedModel best) {
+  for (const EvaluatedModel& rival : rivals_) {
+    if (!rival.ranked.significant || contains(namesBeyond(base_, best), rival.added)) continue;
+    const EvaluatedModel other = extend(rival, 1);
+    if (other.loss < best.loss && complexity(other.ranked.model) <= complexity(best.ranked.model)) best = other;
+  }
+  return best;
 }
 
 // Of several effects every one again. That may make one superfluous, which changes what the others are confused with.
@@ -229,7 +242,9 @@ SearchResult Search::run(const ModelFit& rough) {
   result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
   result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
   explanation_.emplace(records_, evaluator_, base_);
-  EvaluatedModel last = refine(extend());
+  EvaluatedModel last = extend(base_, 0);
+  if (namesBeyond(base_, last).size() > 1) last = extendRivals(last);
+  last = refine(last);
   // What several names explain no better than one does, one explains.
   if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {
     result_.indistinguishable.clear();
