@@ -40,6 +40,7 @@ struct FieldDrive {
   int rate = 200;       ///< of both IMUs [Hz], a divisor of kFieldRate
   bool anti_aliased = true;
   double noise = 0.03;                               ///< of both IMUs [m/s^2]
+  double wheel_noise = 1.0;                          ///< that of the wheel's, of it
   double offset = 0.0;                               ///< of the wheel's IMU [m/s^2]
   double offset_swing = 0.0, offset_period = 600.0;  ///< it drifts besides by +-swing [m/s^2]
   double skew = 0.0;                                 ///< the wheel's readings are stamped so much late, up to 30 ms [s]
@@ -73,7 +74,8 @@ class FieldSimulator {
     }
     if (!drive_.anti_aliased) body = body_, wheel = lateWheel();
     const double offset = drive_.offset + drive_.offset_swing * std::sin(2 * M_PI * time_ / drive_.offset_period);
-    return {fromSeconds(time_), body + drive_.noise * gauss_(random_), wheel + offset + drive_.noise * gauss_(random_)};
+    return {fromSeconds(time_), body + drive_.noise * gauss_(random_),
+            wheel + offset + drive_.wheel_noise * drive_.noise * gauss_(random_)};
   }
 
   double time() const { return time_; }

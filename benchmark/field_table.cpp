@@ -1,6 +1,6 @@
 // Prints the tables of doc/health.md, "In the field": what is said of a strut as it is met there.
-//   field_table healthy|steps|accuracy|skew [MEMORY [HOURS]]     memory in seconds, default 2; hours of a drive,
-//   default 10
+//   field_table healthy|unfiltered|steps|accuracy|skew [MEMORY [HOURS]]     memory in seconds, default 2; hours of a
+//   drive, default 10; unfiltered: healthy without an anti-alias filter
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -69,7 +69,7 @@ struct Healthy {
   FieldDrive drive;
 };
 
-std::vector<Healthy> healthyDrives() {
+std::vector<Healthy> healthyDrives(bool anti_aliased) {
   struct Condition {
     const char* name;
     std::function<void(FieldDrive&)> set;
@@ -99,6 +99,7 @@ std::vector<Healthy> healthyDrives() {
       drive.speed = way.speed;
       drive.rate = way.rate;
       drive.offset = 0.3;
+      drive.anti_aliased = anti_aliased;
       drive.seed = 100 + static_cast<unsigned>(drives.size());
       condition.set(drive);
       drives.push_back({std::string(way.name) + " | " + condition.name, drive});
@@ -106,12 +107,12 @@ std::vector<Healthy> healthyDrives() {
   return drives;
 }
 
-void printHealthy(double memory, double hours) {
+void printHealthy(double memory, double hours, bool anti_aliased) {
   std::printf(
       "| road, %.0f h | what | vehicle | WARN | ERROR | early notices | outliers | cannot tell | sensor accused "
       "| said first |\n|---|---|---|---|---|---|---|---|---|---|\n",
       hours);
-  const std::vector<Healthy> drives = healthyDrives();
+  const std::vector<Healthy> drives = healthyDrives(anti_aliased);
   const auto start = [&](std::size_t i) {
     return std::async(std::launch::async, count, drives[i].drive, memory, 3600.0 * hours);
   };
@@ -297,8 +298,8 @@ int main(int argc, char** argv) {
   using namespace suspension_health_monitor;
   const std::string what = argc > 1 ? argv[1] : "";
   const double memory = argc > 2 ? std::atof(argv[2]) : 2.0, hours = argc > 3 ? std::atof(argv[3]) : 10.0;
-  if (what == "healthy")
-    printHealthy(memory, hours);
+  if (what == "healthy" || what == "unfiltered")
+    printHealthy(memory, hours, what == "healthy");
   else if (what == "steps")
     printSteps(memory);
   else if (what == "accuracy")
@@ -306,6 +307,6 @@ int main(int argc, char** argv) {
   else if (what == "skew")
     printSkew(memory);
   else
-    return std::fprintf(stderr, "usage: field_table healthy|steps|accuracy|skew [MEMORY [HOURS]]\n"), 2;
+    return std::fprintf(stderr, "usage: field_table healthy|unfiltered|steps|accuracy|skew [MEMORY [HOURS]]\n"), 2;
   return 0;
 }

@@ -22,7 +22,7 @@ enum class EstimateDoubt {
   kNotExcited,           ///< parked: the rows are the sensors' noise; the estimate is held
   kDampingNotExcited,    ///< the same of the damping alone; the stiffness goes on
   kStiffnessNotExcited,  ///< the same of the stiffness alone; the damping goes on
-  kUndersampled,         ///< a sensor shakes at half the sampling rate, and the model explains too little
+  kWrongReadings,        ///< what the wheel's readings have that the body does not answer may be most of what they tell
   kOutsideForce,         ///< something else than the wheel moves the body
   kNotExplained,         ///< the model explains less than half of what was measured
   kNotAStrut,            ///< a parameter that has to be above 0 is not
@@ -41,7 +41,7 @@ inline std::array<double, kMostEffects> unknownCoefficients() {
   return unknown;
 }
 
-/// What one estimator knows of the strut. NaN: nothing yet.
+/// What one estimator knows of the strut. NaN: nothing yet; an infinite standard deviation: there is no telling.
 struct StrutEstimate {
   double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
   double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
@@ -201,24 +201,12 @@ struct InputStatus {
   double mean_period = 0.0;    ///< of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
   bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
 
-  /// How a sensor shakes at half the sampling rate: what lies beyond is folded back into the strut's band.
-  struct SamplingLimit {
-    double density = 0.0;  ///< power density there over the mean one; 1 for white noise
-    double level = 0.0;    ///< rms of white noise of that density [m/s^2]
-
-    /// @return true if the sensor shakes there beyond its noise, filtered or not.
-    bool isReached() const { return density > kMostDensity && level > kMostNoise; }
-
-    /// @return true if more lies there than a filter of fourth order at 0.7 of the limit leaves of a car's wheel at 100
-    /// Hz and more: something may have been folded back. A wheel that hops near the limit looks alike.
-    bool mayFold() const { return density > kMostFiltered && level > kMostNoise; }
-
-    static constexpr double kMostFiltered = 0.07, kMostDensity = 0.125;
-    static constexpr double kMostNoise = 0.5;  // [m/s^2]
-  };
-  std::array<SamplingLimit, 2> sampling_limit{};  ///< of the sprung and the unsprung sensor, as of the newest judgement
-  double beyond_strut = 0.0;        ///< share of the body's power above the strut's band, likewise, in [0, 1]
-  double beyond_strut_level = 0.0;  ///< and its rms [m/s^2]
+  /// What the sprung and the unsprung sensor may have of motion that the sampling folds back, at most: rms of white
+  /// noise that is as dense [m/s^2], as of the newest judgement.
+  std::array<double, 2> folded{};
+  std::array<double, 2> at_limit{};  ///< likewise, as dense as they are at half the sampling rate
+  double beyond_strut = 0.0;         ///< share of the body's power above the strut's band, likewise, in [0, 1]
+  double beyond_strut_level = 0.0;   ///< and its rms [m/s^2]
 
   static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
 };

@@ -25,15 +25,6 @@ TEST(LimitedMean, BeginsWithTheFirstValueWhateverItsSize) {
   EXPECT_EQ(limited.deviation(), 0.0);
 }
 
-TEST(LimitedMean, SaysWhatAValueCountsAs) {
-  LimitedMean limited(0.999);
-  for (int k = 0; k < 10000; ++k) limited.add(k % 2 == 0 ? 1.0 : -1.0);
-  const double mean = limited.mean(), deviation = limited.deviation();
-  EXPECT_EQ(LimitedMean(limited).add(0.5), 0.5);
-  EXPECT_DOUBLE_EQ(LimitedMean(limited).add(1e40), mean + 3.0 * deviation);
-  EXPECT_DOUBLE_EQ(LimitedMean(limited).add(-1e40), mean - 3.0 * deviation);
-}
-
 /// @return how far a value moves the mean of values of mean size 1, memory 1000.
 double shiftBy(double value, int times) {
   LimitedMean limited(0.999);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kStiffness = 63.3;  // b0 of the golden car [1/s^2]
 constexpr double kMemory = 20.0;     // [s]
+constexpr double kSettled = 240.0;   // twice what a level of noise is a mean over [s]
 
 /// b0 of one estimator: the mean over a drive, and its standard deviation in it [1/s^2].
 struct MeanStiffness {
@@ -36,12 +37,13 @@ MeanStiffness meanStiffness(bool removes_noise_shift, const StrutEstimate Monito
   int count = 0;
   for (const CornerSample& sample : simulate(options)) {
     const StrutEstimate& found = monitor.addSample(sample)->*estimate;
-    if (toSeconds(sample.stamp) < 100.0) continue;
+    if (toSeconds(sample.stamp) < kSettled) continue;
     ++count;
     mean.value += (found.stiffness_to_mass - mean.value) / count;
     mean.stddev += (found.stiffness_to_mass_stddev - mean.stddev) / count;
   }
-  mean.stddev /= std::sqrt(500.0 / (2.0 * kMemory));  // estimates of an exponential memory are alike over two of it
+  mean.stddev /= std::sqrt((options.duration - kSettled) /
+                           (2.0 * kMemory));  // estimates of an exponential memory are alike over two of it
   return mean;
 }
 

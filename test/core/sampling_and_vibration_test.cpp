@@ -131,7 +131,7 @@ TEST(Sampling, WithoutAFilterDoubtsTheEstimateOverTheWholeDrive) {
     for (std::size_t k = 0; k < body.size(); ++k)
       drive.samples.push_back({fromSeconds(static_cast<double>(k) / kSampled), body[k], wheel[k]});
     const IdentifiedStrut whole = identify({drive}).iv;
-    EXPECT_EQ(whole.reason, filtered ? "" : describe(EstimateDoubt::kUndersampled));
+    EXPECT_EQ(whole.reason, filtered ? "" : describe(EstimateDoubt::kWrongReadings));
     EXPECT_EQ(whole.valid, filtered);
   }
 }

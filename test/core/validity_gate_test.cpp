@@ -35,7 +35,7 @@ const std::vector<Flaw> kFlaws{
     {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.excites_damping = f.excites_stiffness = false; }},
     {EstimateDoubt::kDampingNotExcited, [](EstimateFacts& f) { f.excites_damping = false; }},
     {EstimateDoubt::kStiffnessNotExcited, [](EstimateFacts& f) { f.excites_stiffness = false; }},
-    {EstimateDoubt::kUndersampled, [](EstimateFacts& f) { f.may_fold = true; }},
+    {EstimateDoubt::kWrongReadings, [](EstimateFacts& f) { f.wrong_share = 0.51; }},
     {EstimateDoubt::kOutsideForce, [](EstimateFacts& f) { f.outside_force = true; }},
     {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
     {EstimateDoubt::kNotAStrut, [](EstimateFacts& f) { f.is_physical = false; }},
@@ -70,19 +70,12 @@ TEST(ValidityGate, NamesTheFirstOfSeveralFlaws) {
     }
 }
 
-TEST(ValidityGate, AModelThatExplainsWhatAShakingSensorReadsIsTrusted) {
-  EstimateFacts facts = nothingAgainstIt();
-  facts.may_fold = true;
-  facts.explained_of_late = kLeastExplainedOfShaking;
-  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kNone);
-  facts.explained_of_late = std::nan("");
-  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kUndersampled);
-}
-
 TEST(ValidityGate, NumbersThatAreNoneAreFlaws) {
   EstimateFacts facts = nothingAgainstIt();
   facts.explained = std::nan("");
   EXPECT_EQ(doubtOf(facts), EstimateDoubt::kNotExplained);
+  facts.wrong_share = std::nan("");
+  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kWrongReadings);
   facts.rows = std::nan("");
   EXPECT_EQ(doubtOf(facts), EstimateDoubt::kFewRows);
 }

@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/identification/instrumental_variables.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
@@ -94,17 +95,21 @@ EquationBlock InstrumentalVariables::ofNoise() const {
   return moments;
 }
 
-std::optional<BlockSolution> InstrumentalVariables::solution(const RowErrors& errors) const {
+std::optional<InstrumentalVariables::Solution> InstrumentalVariables::solution(const RowErrors& errors) const {
   const std::optional<BlockSolution> with_noise = equations_.solution({});
   if (!with_noise) return std::nullopt;
   const EquationBlock noise = ofNoise();
-  std::optional<BlockSolution> solution = equations_.solution(noise.scaled(errors.noise_variance));
+  const std::optional<BlockSolution> without = equations_.solution(noise.scaled(errors.noise_variance));
+  if (!without) return std::nullopt;
+  Solution solution{*without};
+  solution.addError(0.5 * (with_noise->theta - solution.theta));
+  solution.addError(std::sqrt(errors.skew_variance) * solution.rate);
   const std::optional<BlockSolution> least =
-      equations_.solution(noise.scaled(errors.noise_variance + errors.resampling_variance));
-  if (!solution || !least) return std::nullopt;
-  solution->addError(0.5 * (with_noise->theta - solution->theta));
-  solution->addError((least->theta - solution->theta) / std::sqrt(3.0));
-  solution->addError(std::sqrt(errors.skew_variance) * solution->rate);
+      equations_.solution(noise.scaled(errors.noise_variance + errors.wrong_variance));
+  const Eigen::Vector2d moved = least ? Eigen::Vector2d(least->theta - solution.theta)
+                                      : Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  solution.addError(moved / std::sqrt(3.0));
+  solution.wrong_share = least ? (moved.array() / least->theta.array()).abs().maxCoeff() : moved[0];
   return solution;
 }
 

@@ -7,9 +7,18 @@
 #include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+// For a normal distribution it is pi/2 times the mean size squared.
+double variance(double mean_size) { return 0.5 * kPi * mean_size * mean_size; }
+
+}  // namespace
 
 NoiseLevel::NoiseLevel(const IntegralFilterOptions& filter)
-    : block_(2.0 * filter.horizon_samples), sizes_(1.0 - 1.0 / (kMostBlocks * block_)), mean_(filter.horizon_samples) {}
+    : block_(2.0 * filter.horizon_samples),
+      sizes_(1.0 - 1.0 / (kMostBlocks * block_)),
+      late_mean_size_(1.0 - 1.0 / (kFewestBlocks * block_)),
+      mean_(filter.horizon_samples) {}
 
 void NoiseLevel::add(double residual) {
   if (in_series_ == 0) mean_.reset();
@@ -23,15 +32,15 @@ void NoiseLevel::add(double residual) {
     return sizes_.weight() < block_ ? size : std::min(size, kMostSizes * sizes_.mean(band));
   };
   sizes_.add({limited(0, change), limited(1, mean)});
+  late_mean_size_.add(std::abs(mean));
 }
 
 std::optional<NoiseLevel::Variances> NoiseLevel::sensorVariances(const RegressorNoise& noise,
                                                                  const Eigen::Vector2d& theta) const {
   if (sizes_.weight() < kFewestBlocks * block_) return std::nullopt;
-  // For a normal distribution the variance is pi/2 times the mean size squared.
-  const double change = sizes_.mean(0), mean = sizes_.mean(1);
-  return Variances{0.5 * kPi * change * change / noise.changeGain(theta),
-                   0.5 * kPi * mean * mean / noise.meanGain(theta)};
+  const double mean_gain = noise.meanGain(theta);
+  return Variances{variance(sizes_.mean(0)) / noise.changeGain(theta), variance(sizes_.mean(1)) / mean_gain,
+                   variance(late_mean_size_.mean()) / mean_gain};
 }
 
 }  // namespace suspension_health_monitor

@@ -46,8 +46,7 @@ IdentifiedStrut atTheEnd(const StrutEstimate& estimate) {
 
 DriveIdentification::WholeDrive::WholeDrive(const MonitorSettings& settings, int rows_late)
     : strut(settings.filter(*settings.sample_period), rows_late, settings.estimators.noise),
-      resampling_noise(*settings.sample_period, kForgetsNothing),
-      folds(kForgetsNothing) {}
+      wrong_variance(kForgetsNothing) {}
 
 DriveIdentification::DriveIdentification(const MonitorSettings& settings, Sink sink)
     : strut_(settings, {std::move(sink), [this](const CornerSample& sample) { take(sample); }}),
@@ -61,17 +60,10 @@ void DriveIdentification::setEffects(const std::vector<ActiveEffect>& effects) {
 void DriveIdentification::take(const CornerSample& sample) {
   const InputStatus before = std::exchange(seen_, monitor().input());
   if (!whole_drive_ || seen_.samples == before.samples) return;  // the monitor has rejected it
-  if (seen_.gaps + seen_.restarts != before.gaps + before.restarts) {
-    whole_drive_->strut.interrupt();
-    whole_drive_->resampling_noise.interrupt();
-  }
+  if (seen_.gaps + seen_.restarts != before.gaps + before.restarts) whole_drive_->strut.interrupt();
   const StrutIdentifier& live = monitor().identifier();
   whole_drive_->strut.push(sample, live.hasRow() ? &live.regression().row() : nullptr, live.regression().wheel());
-  whole_drive_->resampling_noise.setErrors(grid().resamplingErrors());
-  whole_drive_->resampling_noise.add(sample, live.hasRow());
-  const EstimateDoubt doubt = monitor().report().la.doubt;
-  if (doubt == EstimateDoubt::kNone || doubt == EstimateDoubt::kUndersampled)
-    whole_drive_->folds.add(doubt == EstimateDoubt::kUndersampled ? 1.0 : 0.0);
+  if (live.hasRow()) whole_drive_->wrong_variance.add(live.errors().wrongVariances()[1]);
 }
 
 IdentifiedStrut DriveIdentification::overTheDrive() const {
@@ -83,23 +75,21 @@ IdentifiedStrut DriveIdentification::overTheDrive() const {
   strut.explained = whole_drive_->strut.explained();
   const StrutIdentifier& live = monitor().identifier();
   const SkewProfile* skew = live.regression().skew();
-  const std::optional<BlockSolution> solution =
-      whole_drive_->strut.solution({live.errors().noiseVariance(), whole_drive_->resampling_noise.variances()[1],
-                                    skew != nullptr ? skew->variance() : 0.0});
+  const std::optional<InstrumentalVariables::Solution> solution = whole_drive_->strut.solution(
+      {live.errors().noiseVariance(), whole_drive_->wrong_variance.mean(), skew != nullptr ? skew->variance() : 0.0});
+  EstimateFacts facts;
   if (solution) {
     strut.damping_to_mass = solution->theta[kDampingToMass];
     strut.stiffness_to_mass = solution->theta[kStiffnessToMass];
     strut.damping_to_mass_stddev = solution->stddev[kDampingToMass];
     strut.stiffness_to_mass_stddev = solution->stddev[kStiffnessToMass];
     strut.rows = solution->rows;
+    facts.wrong_share = solution->wrong_share;
   }
-  EstimateFacts facts;
   facts.period_fits = monitor().input().period_fits;
   facts.has_row = monitor().input().rows > 0;
   facts.rows = strut.rows;
   facts.fewest_rows = kFewestHorizons * monitor().horizonSamples();
-  // Most of the time. The live doubt has asked what the model explains: explained_of_late stays 0.
-  facts.may_fold = whole_drive_->folds.mean() > 0.5;
   facts.explained = strut.explained;
   facts.is_physical = isAboveZero(strut.damping_to_mass, strut.damping_to_mass_stddev) &&
                       isAboveZero(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev);

@@ -6,12 +6,15 @@
 #include <limits>
 
 #include "suspension_health_monitor/internal/identification/excitation.h"
+#include "suspension_health_monitor/internal/monitor/validity_gate.h"
 #include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kStddevsEvery = 8;    // rows
+constexpr int kStddevsEvery = 8;        // rows
+constexpr double kFactorOfLevel = 2.0;  // of few blocks or windows a level is known within that
 constexpr double kMostNoise = 0.8;  // of a residual or moment: no level of noise is known better than within a tenth
 
 double& stddevOf(StrutEstimate& estimate, int i) {
@@ -67,7 +70,8 @@ void ErrorBudget::interrupt() {
 
 void ErrorBudget::noteValidity(const StrutEstimate& la) {
   // Noise that is as large as the motion is to be known before an estimate can be valid.
-  hears_noise_ = la.valid() || (noise_.isOfVehicle() && la.doubt == EstimateDoubt::kNotExplained);
+  const bool folds = la.doubt == EstimateDoubt::kWrongReadings && la.explained >= kLeastExplained;
+  hears_noise_ = la.valid() || folds || (noise_.isOfVehicle() && la.doubt == EstimateDoubt::kNotExplained);
 }
 
 void ErrorBudget::setForgettingFactor(double forgetting_factor) {
@@ -87,13 +91,12 @@ void ErrorBudget::describe(const PairedEstimators& estimators, const SkewProfile
     if (least_squares.holds(i)) continue;
     const double by_noise = std::hypot(least_squares.parameterShift(i, moments.mean) - noise_shift_[i],
                                        least_squares.parameterShift(i, moments.spread));
-    const double by_resampling = moments.of_resampling ? least_squares.parameterShift(i, *moments.of_resampling)
-                                                       : std::numeric_limits<double>::infinity();
+    const double by_wrong = moments.of_wrong_readings ? least_squares.parameterShift(i, *moments.of_wrong_readings)
+                                                      : std::numeric_limits<double>::infinity();
     const double by_skew = skewShift(least_squares, skew, i);
     const double by_input = i < kNumStrutParameters ? input_stddevs_[i] : 0.0;
-    const auto with_all = [&](double random) {
-      return std::hypot(std::hypot(std::sqrt(random), by_noise, by_resampling), by_skew, by_input);
-    };
+    const double systematic = square(by_noise) + square(by_wrong) + square(by_skew) + square(by_input);
+    const auto with_all = [&](double random) { return std::sqrt(random + systematic); };
     stddevOf(ls, i) = withDifference(with_all(least_squares.parameterVariance(i)), least_squares.parameters()[i],
                                      least_absolute.parameters()[i]);
     stddevOf(la, i) = with_all(least_absolute.parameterVariance(i));
@@ -114,8 +117,15 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
   };
   const double present = unfitted(left);
   std::optional<double> lasting;
-  if (const auto heard = noise_level_ ? noise_level_->sensorVariances(noise_, strut) : std::nullopt)
+  wrong_.variances = resampling_noise_.variances();
+  if (const auto heard = noise_level_ ? noise_level_->sensorVariances(noise_, strut) : std::nullopt) {
     lasting = std::min(heard->of_changes, unfitted(heard->of_means));
+    const double slow = unfitted(std::max(heard->of_means, heard->of_late_means));
+    const double most = std::max(0.0, square(wheel_.at_limit) - kFactorOfLevel * *lasting);
+    wrong_.variances[1] += std::min(most, mostUnanswered(slow - *lasting, strut));
+  } else {
+    wrong_.variances[1] += std::max(0.0, square(wheel_.folded) - kFactorOfLevel * present);
+  }
   const double variance = std::min(lasting.value_or(present), present);
   noise_variance_ = lasting.value_or(0.0);
   noise_share_ = lasting ? variance / present : 0.0;
@@ -123,22 +133,31 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
   const bool removes = lasting && knows_rows;
   if (removes) removeShift(estimators, moment);
   const Eigen::Vector2d spread = lasting ? noise_.momentSpread(strut, variance) : Eigen::Vector2d::Zero();
-  return {moment, spread, resamplingMoment(estimators.leastSquares(), strut)};
+  return {moment, spread, wrongMoment(estimators.leastSquares(), strut)};
+}
+
+// Noise of the wheel's readings that the body does not answer, as of a sensor that is noisier than the body's or of
+// motion that the sampling folds back, is no more than what the slow part of the residuals has beside the noise of
+// both: that is known within a factor of two.
+double ErrorBudget::mostUnanswered(double slow_beside_noise, const Eigen::Vector2d& strut) const {
+  return kFactorOfLevel * std::max(0.0, slow_beside_noise) / noise_.wheelShareOfMean(strut);
 }
 
 // The moment is made by the true strut t, which readings as wrong as they may be have moved to the estimate,
 // t + R^-1 m(t): with m(t) = m(0) + M t that is (1 + R^-1 M) t = estimate - R^-1 m(0). Where such readings would make
 // nearly all of the rows' moments there is no telling.
-std::optional<Eigen::Vector2d> ErrorBudget::resamplingMoment(const RecursiveLeastSquares& least_squares,
-                                                             const Eigen::Vector2d& estimate) const {
-  const Eigen::Vector2d variances = resampling_noise_.variances();
+std::optional<Eigen::Vector2d> ErrorBudget::wrongMoment(const RecursiveLeastSquares& least_squares,
+                                                        const Eigen::Vector2d& estimate) {
+  const Eigen::Vector2d& variances = wrong_.variances;
   const auto shiftBy = [&](const Eigen::Vector2d& moment) { return strutShift(least_squares, moment); };
   const Eigen::Vector2d of_none = noise_.momentOf(Eigen::Vector2d::Zero(), variances);
   Eigen::Matrix2d kept = Eigen::Matrix2d::Identity();
   for (int j = 0; j < kNumStrutParameters; ++j)
     kept.col(j) += shiftBy(noise_.momentOf(Eigen::Vector2d::Unit(j), variances) - of_none);
+  wrong_.share = std::numeric_limits<double>::infinity();
   if (!(kept.determinant() > 1.0 - kMostNoise)) return std::nullopt;
   const Eigen::Vector2d strut = kept.inverse() * (estimate - shiftBy(of_none));
+  wrong_.share = ((strut - estimate).array() / strut.array()).abs().maxCoeff();
   // All of it or none, or a part: a uniform distribution from its end, which the estimate is at.
   return noise_.momentOf(strut, variances) / std::sqrt(3.0);
 }

@@ -31,7 +31,6 @@ bool isModel(const StrutEstimate& la) { return la.valid() || la.doubt == Estimat
 
 ModelTracker::ModelTracker(const MonitorSettings& options)
     : identifier_(options),
-      explained_(SensorSpectrum::forgettingFactor(*options.sample_period)),
       free_run_(*options.sample_period),
       model_due_(kModelEvery),
       figures_due_(kFiguresEvery),
@@ -62,11 +61,7 @@ void ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
   else
     identifier_.skip();
   report.has_row = identifier_.hasRow();
-  if (report.has_row) {
-    identifier_.describe(report.ls, report.la);
-    const double explained = identifier_.errors().explainedBesideNoise(report.la);
-    if (std::isfinite(explained)) explained_.add(explained);
-  }
+  if (report.has_row) identifier_.describe(report.ls, report.la);
   report.comparison.has_sample = compared != nullptr;
   if (compared != nullptr) compare(*compared, predicted, report);
   judge(report);
@@ -77,8 +72,6 @@ void ModelTracker::judge(ModelReport& report) {
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
     EstimateFacts facts = identifier_.facts(*estimate);
     facts.period_fits = period_fits_;
-    facts.may_fold = may_fold_;
-    facts.explained_of_late = explained_.mean();
     facts.free_run_fails = estimate == &report.la && free_run_fails_;
     estimate->doubt = doubtOf(facts);
   }
@@ -120,7 +113,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
 
 void ModelTracker::setInput(const InputStatus& input, ModelReport& report) {
   period_fits_ = input.period_fits;
-  may_fold_ = input.sampling_limit[0].mayFold() || input.sampling_limit[1].mayFold();
+  identifier_.setWheelSpectrum(input.folded[1], input.at_limit[1]);
   judge(report);
 }
 

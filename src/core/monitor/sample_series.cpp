@@ -30,8 +30,10 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
   last_ = sample.stamp;
   ++status_.samples;
   recent_[size_++ % recent_.size()] = sample;
-  spectra_[0].add(sample.sprung_acceleration, how == Continuity::kContinues);
-  spectra_[1].add(sample.unsprung_acceleration, how == Continuity::kContinues);
+  if (how != Continuity::kContinues)
+    for (FoldedPower& folded : folded_) folded.interrupt();
+  folded_[0].add(sample.sprung_acceleration);
+  folded_[1].add(sample.unsprung_acceleration);
   return how;
 }
 
@@ -41,7 +43,8 @@ void SampleSeries::countSpacings() {
 }
 
 void SampleSeries::judge() {
-  for (std::size_t i = 0; i < spectra_.size(); ++i) status_.sampling_limit[i] = spectra_[i].samplingLimit();
+  status_.folded = {folded_[0].level(), folded_[1].level()};
+  status_.at_limit = {folded_[0].levelAtLimit(), folded_[1].levelAtLimit()};
   countSpacings();
   if (spacing_.weight() < kSpacings) return;
   status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;

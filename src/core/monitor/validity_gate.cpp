@@ -24,9 +24,8 @@ constexpr std::array kRules{
     Rule{EstimateDoubt::kNotExcited, [](const EstimateFacts& f) { return !f.excites_damping && !f.excites_stiffness; }},
     Rule{EstimateDoubt::kDampingNotExcited, [](const EstimateFacts& f) { return !f.excites_damping; }},
     Rule{EstimateDoubt::kStiffnessNotExcited, [](const EstimateFacts& f) { return !f.excites_stiffness; }},
-    // What is folded back drives no strut, though the wheel seems to move like that.
-    Rule{EstimateDoubt::kUndersampled,
-         [](const EstimateFacts& f) { return f.may_fold && !(f.explained_of_late >= kLeastExplainedOfShaking); }},
+    // Noise and what is folded back drive no strut, though the wheel seems to move like that.
+    Rule{EstimateDoubt::kWrongReadings, [](const EstimateFacts& f) { return !(f.wrong_share <= kMostWrongShare); }},
     // The regression takes any motion of the body for the wheel's doing.
     Rule{EstimateDoubt::kOutsideForce, [](const EstimateFacts& f) { return f.outside_force; }},
     // No strut between these two signals.

@@ -26,8 +26,10 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNotExcited: return "parked: no excitation of damping and stiffness, estimates held";
     case EstimateDoubt::kDampingNotExcited: return "no excitation of damping, its estimate is held";
     case EstimateDoubt::kStiffnessNotExcited: return "no excitation of stiffness, its estimate is held";
-    case EstimateDoubt::kUndersampled:
-      return "an IMU shakes at half the sampling rate and beyond: sample faster, or filter before sampling";
+    case EstimateDoubt::kWrongReadings:
+      return "the unsprung IMU reads too much that the body does not answer: a noisy sensor, or shaking that the "
+             "sampling "
+             "folds back; filter before sampling, or sample faster";
     case EstimateDoubt::kOutsideForce:
       return "something else than the wheel moves the body, or did so just now: wind, loading, a sensor that is not on "
              "the wheel";
@@ -45,14 +47,15 @@ std::string describe(EstimateDoubt doubt) {
 
 std::string describeShaking(const InputStatus& input) {
   constexpr double kMostBeyond = 0.5, kLeastLevel = 0.3;  // of the power; [m/s^2]: more than a sensor's noise
+  constexpr double kMostFolded = 0.5;                     // [m/s^2], likewise
   std::vector<std::string> found;
   for (const Side side : {Side::kUnsprung, Side::kSprung}) {
-    const InputStatus::SamplingLimit& limit = input.sampling_limit[static_cast<std::size_t>(side)];
-    if (limit.isReached())
-      found.push_back(
-          formatted("the %s IMU shakes near half the sampling rate (power density there %.0f %% of its mean "
-                    "one): sample faster or filter before sampling",
-                    side == Side::kSprung ? "sprung" : "unsprung", 100.0 * limit.density));
+    const double folded = input.folded[static_cast<std::size_t>(side)];
+    if (folded > kMostFolded)
+      found.push_back(formatted(
+          "the %s IMU shakes near half the sampling rate (up to %.2g m/s^2 may be folded back): sample faster "
+          "or filter before sampling",
+          side == Side::kSprung ? "sprung" : "unsprung", folded));
   }
   if (input.beyond_strut > kMostBeyond && input.beyond_strut_level > kLeastLevel)
     found.push_back(

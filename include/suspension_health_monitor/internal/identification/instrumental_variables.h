@@ -46,15 +46,18 @@ class InstrumentalVariables {
   /// What rows are wrong by beyond what their scatter shows.
   struct RowErrors {
     double noise_variance = 0.0;  ///< of a sensor [(m/s^2)^2]
-    double resampling_variance =
-        0.0;                     ///< of what the wheel's readings may be wrong by as noise is, at most [(m/s^2)^2]
-    double skew_variance = 0.0;  ///< of that by which the wheel's readings are late [s^2]
+    double wrong_variance = 0.0;  ///< of what the wheel's readings may be wrong by beside it, at most [(m/s^2)^2]
+    double skew_variance = 0.0;   ///< of that by which the wheel's readings are late [s^2]
+  };
+
+  struct Solution : BlockSolution {
+    double wrong_share = 0.0;  ///< as ErrorBudget::wrongShare()
   };
 
   /// @return what the noise in the instruments shifts is taken off, with half of it in the standard deviation as in
-  /// RegressorNoise::momentSpread(); of what resampling may shift a third of the square is. None while there are too
-  /// few rows, or if resampling may be all of them.
-  std::optional<BlockSolution> solution(const RowErrors& errors) const;
+  /// RegressorNoise::momentSpread(); of what wrong readings may shift a third of the square is. None while there are
+  /// too few rows.
+  std::optional<Solution> solution(const RowErrors& errors) const;
 
   /// @return samples without a gap that give enough rows: those that fill the filter, before and after a row, for a
   /// model, and for the blocks.

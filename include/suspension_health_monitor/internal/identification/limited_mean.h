@@ -15,14 +15,11 @@ class LimitedMean {
   /// @param forgetting_factor  lambda in (0, 1].
   explicit LimitedMean(double forgetting_factor) : mean_(forgetting_factor), deviation_(forgetting_factor) {}
 
-  /// @return what it counts as.
-  double add(double value) {
+  void add(double value) {
     const double off = value - mean_.mean(), most = kFar * deviation_.mean();
     const double limited = most > 0.0 ? std::clamp(off, -most, most) : off;
-    const double counted = mean_.mean() + limited;
-    mean_.add(counted);
+    mean_.add(mean_.mean() + limited);
     deviation_.add((1.0 - 1.0 / mean_.weight()) * std::abs(limited));  // from the new mean: 0 of the first value
-    return counted;
   }
 
   double mean() const { return mean_.mean(); }

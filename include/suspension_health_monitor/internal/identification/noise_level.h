@@ -28,6 +28,7 @@ class NoiseLevel {
   /// Variances of a sensor by what the residuals have of its noise in either band [(m/s^2)^2].
   struct Variances {
     double of_changes, of_means;
+    double of_late_means;  ///< over kFewestBlocks, without a limit
   };
 
   /// @param theta  the strut (b1 [1/s], b0 [1/s^2]).
@@ -40,6 +41,7 @@ class NoiseLevel {
 
   double block_;  // [rows]
   RunningMeans<2> sizes_;
+  RunningMean late_mean_size_;
   HorizonMean mean_;
   double last_ = 0.0;  // residual
   int in_series_ = 0;  // rows

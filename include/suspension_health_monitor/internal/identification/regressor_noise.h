@@ -62,6 +62,11 @@ class RegressorNoise {
   /// @return that of the residual's mean (HorizonMean) [-].
   double meanGain(const Eigen::Vector2d& theta) const { return means_.gain(theta); }
 
+  /// @return the part of that which is noise of the wheel's sensor: half of what phi_1 and phi_0 have of two.
+  double wheelShareOfMean(const Eigen::Vector2d& theta) const {
+    return 0.5 * theta.dot(means_.regressors * theta) / meanGain(theta);
+  }
+
   /// @return variance of psi of it, over that of a sensor [-].
   double outputGain() const { return rows_.outputs; }
 

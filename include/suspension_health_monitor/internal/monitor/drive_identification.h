@@ -7,7 +7,6 @@
 
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/identification/instrumental_variables.h"
-#include "suspension_health_monitor/internal/identification/resampling_noise.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
 
@@ -55,8 +54,7 @@ class DriveIdentification {
   struct WholeDrive {
     explicit WholeDrive(const MonitorSettings& settings, int rows_late);
     InstrumentalVariables strut;
-    ResamplingNoise resampling_noise;
-    RunningMean folds;  // whether a live estimate that is valid otherwise is doubted for what may be folded back
+    RunningMean wrong_variance;  // as InstrumentalVariables::RowErrors, by the live estimation
   };
 
   void take(const CornerSample& sample);

@@ -20,9 +20,10 @@
 namespace suspension_health_monitor {
 
 /// What the estimates of a strut are off by beyond the scatter of rows, and their standard deviations with it: by noise
-/// of the sensors in the regressors (RegressorNoise), whose shift is taken off once it is known; by what
-/// resampled readings are wrong by (ResamplingNoise); by the skew of the clocks (SkewProfile); by what the samples went
-/// through before. These add up as squares (doc/uncertainty.md).
+/// of the sensors in the regressors (RegressorNoise), whose shift is taken off once it is known; by what the wheel's
+/// readings may have beyond that which the body does not answer; by what resampled readings are wrong by
+/// (ResamplingNoise); by the skew of the clocks (SkewProfile); by what the samples went through before. These add up as
+/// squares (doc/uncertainty.md).
 ///
 /// The first three put a moment E[phi e] into the rows, which R^-1 turns into a shift of the estimates. It is that of
 /// LS for both: of normal residuals LA has the same. Cost per row: O(1), and O(p^2) every few rows for p columns; no
@@ -65,11 +66,24 @@ class ErrorBudget {
   /// As StrutIdentifier::setResamplingErrors().
   void setResamplingErrors(const ResamplingErrors& errors) { resampling_noise_.setErrors(errors); }
 
+  /// @param folded  rms of what the wheel's sensor may have folded back, at most [m/s^2]: counts until noise has been
+  /// heard.  @param at_limit  rms of white noise as dense as its readings are at half the rate [m/s^2]: none of them
+  /// has more, be it noise or folded back.
+  void setWheelSpectrum(double folded, double at_limit) { wheel_ = {folded, at_limit}; }
+
   /// @return what is to be taken off the parameters of LS and LA, one per column; 0 if it is left in them.
   const Eigen::VectorXd& noiseShift() const { return noise_shift_; }
 
   /// @return variance of the noise of a sensor [(m/s^2)^2]; 0 before that is known.
   double noiseVariance() const { return noise_variance_; }
+
+  /// @return variances of what readings may be wrong by beyond the sensors' noise, at most, of the sprung and the
+  /// unsprung sensor [(m/s^2)^2].
+  const Eigen::Vector2d& wrongVariances() const { return wrong_.variances; }
+
+  /// @return by how much that may have shifted a parameter, as a share of what it is then, of the one that it has
+  /// shifted most; infinity: there is no telling.
+  double wrongShare() const { return wrong_.share; }
 
   /// Writes the standard deviations, every few rows, and says what noiseShift() is from then on. What is known of a
   /// parameter that is held does not change.
@@ -87,16 +101,17 @@ class ErrorBudget {
   /// x = b1 I_2^2 w'' + b0 I_1^2 w''. Means of x phi_i, and of that times the skew that was taken off.
   enum SkewEffect : std::size_t { kOfSkew, kTakenOff, kNumSkewEffects };
 
-  /// E[phi e] of a row by the sensors' noise, its standard deviation, and that of what resampled readings are wrong by:
-  /// none is as large as it may be.
+  /// E[phi e] of a row by the sensors' noise, its standard deviation, and that of what readings may be wrong by
+  /// beside it: none is as large as it may be.
   struct NoiseMoments {
     Eigen::Vector2d mean, spread;
-    std::optional<Eigen::Vector2d> of_resampling;
+    std::optional<Eigen::Vector2d> of_wrong_readings;
   };
 
   NoiseMoments takeNoise(const PairedEstimators& estimators, const Eigen::Vector2d& strut);
-  std::optional<Eigen::Vector2d> resamplingMoment(const RecursiveLeastSquares& least_squares,
-                                                  const Eigen::Vector2d& estimate) const;
+  double mostUnanswered(double slow_beside_noise, const Eigen::Vector2d& strut) const;
+  std::optional<Eigen::Vector2d> wrongMoment(const RecursiveLeastSquares& least_squares,
+                                             const Eigen::Vector2d& estimate);
   double unfittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut, double left) const;
   void removeShift(const PairedEstimators& estimators, const Eigen::Vector2d& moment);
   double skewShift(const RecursiveLeastSquares& least_squares, const SkewProfile* skew, int i) const;
@@ -108,6 +123,13 @@ class ErrorBudget {
   double noise_share_ = 0.0;               // of the residuals' variance
   Eigen::VectorXd noise_shift_;            // of the parameters
   ResamplingNoise resampling_noise_;
+  struct {
+    Eigen::Vector2d variances = Eigen::Vector2d::Zero();
+    double share = 0.0;
+  } wrong_;  // as wrongVariances(), wrongShare()
+  struct {
+    double folded = 0.0, at_limit = 0.0;
+  } wheel_;  // as of setWheelSpectrum()
   std::array<RunningMeans<kNumSkewEffects>, kNumStrutParameters> skew_effects_;
   Eigen::Vector2d input_stddevs_ = Eigen::Vector2d::Zero();
   EveryN stddevs_due_;

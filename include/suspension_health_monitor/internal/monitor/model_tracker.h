@@ -7,9 +7,7 @@
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/identification/running_comparison.h"
-#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
-#include "suspension_health_monitor/internal/monitor/sensor_spectrum.h"
 #include "suspension_health_monitor/internal/monitor/strut_identifier.h"
 #include "suspension_health_monitor/internal/monitor_settings.h"
 #include "suspension_health_monitor/monitor_report.h"
@@ -52,8 +50,7 @@ class ModelTracker {
   /// Another drive begins, perhaps of another vehicle: nothing is held any more.
   void startNewDrive(ModelReport& report);
 
-  /// @param input  from now on no estimate is valid while samples come at another period than that of the options, or
-  /// sensors shake as the sampling cannot show.
+  /// @param input  from now on no estimate is valid while samples come at another period than that of the options.
   void setInput(const InputStatus& input, ModelReport& report);
 
   /// As StrutIdentifier::setForgetting().
@@ -80,8 +77,7 @@ class ModelTracker {
   void compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report);
 
   StrutIdentifier identifier_;
-  bool period_fits_ = true, may_fold_ = false;
-  RunningMean explained_;  // by LA, over the time in which may_fold_ is seen
+  bool period_fits_ = true;
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
   bool has_own_model_ = false;  // the free run has had parameters of LA, or those that belong to the start values

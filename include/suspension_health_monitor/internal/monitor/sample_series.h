@@ -1,13 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
-#include "suspension_health_monitor/internal/monitor/sensor_spectrum.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
+#include "suspension_health_monitor/internal/signal/folded_power.h"
 #include "suspension_health_monitor/internal/signal/mean_spacing.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/monitor_report.h"
@@ -19,7 +20,9 @@ namespace suspension_health_monitor {
 class SampleSeries {
  public:
   explicit SampleSeries(Stamp period)
-      : period_(period), spectra_{SensorSpectrum(toSeconds(period)), SensorSpectrum(toSeconds(period))} {}
+      : period_(period),
+        folded_{FoldedPower(std::exp(-toSeconds(period) / kFoldedMemory)),
+                FoldedPower(std::exp(-toSeconds(period) / kFoldedMemory))} {}
 
   /// Takes in the next sample if it can be.
   /// @return how it follows the one before, kGap and kClockJumped beginning a new series; empty: it was rejected.
@@ -50,6 +53,8 @@ class SampleSeries {
   const RejectCounts& rejected() const { return rejected_; }
 
  private:
+  static constexpr double kFoldedMemory = 10.0;  // [s]: what is said of a sensor does not come and go with the road
+
   const CornerSample& at(std::size_t number) const { return recent_[number % recent_.size()]; }
   void countSpacings();
 
@@ -58,7 +63,7 @@ class SampleSeries {
   std::array<CornerSample, FreeRun::kDelay + 1> recent_{};  // by their number in the series, modulo
   std::size_t size_ = 0;                                    // of the series
   MeanSpacing spacing_;
-  std::array<SensorSpectrum, 2> spectra_;  // sprung, unsprung
+  std::array<FoldedPower, 2> folded_;  // of the sprung and the unsprung sensor
   InputStatus status_;
   RejectCounts rejected_;
 };

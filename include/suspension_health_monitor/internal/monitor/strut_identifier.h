@@ -72,6 +72,9 @@ class StrutIdentifier {
   /// What the samples are wrong by because they were resampled.
   void setResamplingErrors(const ResamplingErrors& errors) { errors_.setResamplingErrors(errors); }
 
+  /// As ErrorBudget::setWheelSpectrum().
+  void setWheelSpectrum(double folded, double at_limit) { errors_.setWheelSpectrum(folded, at_limit); }
+
   /// @return the factor that rows are forgotten by now.
   double forgettingFactor() const { return estimators_.forgettingFactor(); }
 

@@ -7,28 +7,25 @@ namespace suspension_health_monitor {
 /// Share of the measured signal that a model has to explain to be that of the strut.
 inline constexpr double kLeastExplained = 0.5;
 
-/// The same where a sensor shakes near half the sampling rate, so that what is folded back may be in it: filtered
-/// readings leave 0.87 and more to the model there, those at 100 Hz without a filter, of which b0 is a fifth too small
-/// and worse, up to 0.71 (`folding_table`, doc/robustness.md).
-inline constexpr double kLeastExplainedOfShaking = 0.75;
+/// By that share of itself wrong readings may shift a parameter: of more, most of what the rows tell may be theirs.
+inline constexpr double kMostWrongShare = 0.5;
 
 /// All that decides whether an estimate is valid.
 struct EstimateFacts {
-  bool period_fits = true;         ///< samples come at the sample period of the options
-  bool has_row = false;            ///< the newest sample gave a regression row: the filter is full
-  bool sensor_moves = true;        ///< the body's reading has changed within a horizon
-  double rows = 0.0;               ///< that the estimate rests on, of the model's present columns
-  double fewest_rows = 0.0;        ///< that it needs
-  bool excites_damping = true;     ///< the rows tell of it (Excitation)
-  bool excites_stiffness = true;   ///< likewise
-  bool may_fold = false;           ///< a sensor shakes near half the sampling rate
-  double explained_of_late = 0.0;  ///< mean of explained over the time in which that is seen
-  bool outside_force = false;      ///< something else moves the body, or did within the memory
-  double explained = 0.0;          ///< share of the output's size
-  bool is_physical = false;        ///< all parameters that have to be above 0 are
-  bool skew_is_known = true;       ///< the clocks' skew is one of those that are looked for
-  bool has_stddev = false;         ///< the standard deviations are numbers
-  bool free_run_fails = false;     ///< the free run fits the body's motion worse than a constant does
+  bool period_fits = true;        ///< samples come at the sample period of the options
+  bool has_row = false;           ///< the newest sample gave a regression row: the filter is full
+  bool sensor_moves = true;       ///< the body's reading has changed within a horizon
+  double rows = 0.0;              ///< that the estimate rests on, of the model's present columns
+  double fewest_rows = 0.0;       ///< that it needs
+  bool excites_damping = true;    ///< the rows tell of it (Excitation)
+  bool excites_stiffness = true;  ///< likewise
+  double wrong_share = 0.0;       ///< by which share of itself wrong readings may have shifted a parameter
+  bool outside_force = false;     ///< something else moves the body, or did within the memory
+  double explained = 0.0;         ///< share of the output's size
+  bool is_physical = false;       ///< all parameters that have to be above 0 are
+  bool skew_is_known = true;      ///< the clocks' skew is one of those that are looked for
+  bool has_stddev = false;        ///< the standard deviations are numbers
+  bool free_run_fails = false;    ///< the free run fits the body's motion worse than a constant does
 };
 
 /// The one place that decides whether an estimate may be trusted.
