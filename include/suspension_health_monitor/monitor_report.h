@@ -204,9 +204,9 @@ struct InputStatus {
   /// What the sprung and the unsprung sensor may have of motion that the sampling folds back, at most: rms of white
   /// noise that is as dense [m/s^2], as of the newest judgement.
   std::array<double, 2> folded{};
-  std::array<double, 2> at_limit{};  ///< likewise, as dense as they are at half the sampling rate
-  double beyond_strut = 0.0;         ///< share of the body's power above the strut's band, likewise, in [0, 1]
-  double beyond_strut_level = 0.0;   ///< and its rms [m/s^2]
+  double wheel_at_limit = 0.0;  ///< rms of white noise as dense as the unsprung sensor reads at half the rate [m/s^2]
+  double beyond_strut = 0.0;    ///< share of the body's power above the strut's band, likewise, in [0, 1]
+  double beyond_strut_level = 0.0;  ///< and its rms [m/s^2]
 
   static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
 };

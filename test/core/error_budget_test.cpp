@@ -17,8 +17,8 @@ const IntegralFilterOptions kFilter{30, kPeriod, IntegrationRule::kBandLimited};
 double squareDifference(double larger, double smaller) { return larger * larger - smaller * smaller; }
 
 // The mean of phi phi' by hand: R^-1 turns the moment of wrong times into a shift, of which a third of the square
-// counts. It is the true strut, the estimate less that shift, that makes the moment. Readings are two times 1, two
-// times -1 and so on: next to nothing at half the rate.
+// counts. It is the true strut, the estimate less that shift, that makes the moment. Readings that go up and down
+// between -1 and 1 have the rate 2 / T throughout.
 TEST(ErrorBudget, TimesAndWhatTheInputIsOffByAddAsSquares) {
   RecursiveOptions recursive;
   recursive.forgetting_factor = kForgetting;
@@ -26,17 +26,13 @@ TEST(ErrorBudget, TimesAndWhatTheInputIsOffByAddAsSquares) {
   const RegressorNoise noise(kFilter);
   ErrorBudget budget(kFilter, noise, kNumStrutParameters, kForgetting, false);
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  int count = 0;
-  double weight = 0.0, before = 0.0, rate = 0.0, square_rate = 0.0;
+  double weight = 0.0, body = 1.0;
   for (const RegressionRow& row : randomRows(vectorOf({3.0, 13.8}), 3000, 0.1, 1)) {
     estimators.update(row);
     sum = kForgetting * sum + row.regressor * row.regressor.transpose();
     weight = kForgetting * weight + 1.0;
-    const double body = count++ % 4 < 2 ? 1.0 : -1.0;
     budget.addSample({Stamp{}, body, 0.0}, true);
-    square_rate = kForgetting * square_rate + rate * rate;  // in the middle of the newest five
-    rate = (body - before) / kPeriod;
-    before = body;
+    body = -body;
   }
   const Eigen::Vector2d strut = estimators.leastAbsolute().parameters();
   const auto stddevs = [&]() -> Eigen::Array2d {
@@ -54,7 +50,7 @@ TEST(ErrorBudget, TimesAndWhatTheInputIsOffByAddAsSquares) {
   constexpr double kStampError = 1e-3;
   budget.setResamplingErrors({{kStampError, 0.0}, {0.0, 0.0}});
   const Eigen::Array2d with_stamps = stddevs();
-  const double of_body = kStampError * kStampError * square_rate / weight;
+  const double of_body = std::pow(kStampError * 2.0 / kPeriod, 2);
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   for (int i = 0; i < 20; ++i) shift = weight * sum.inverse() * noise.momentOf(strut - shift, {of_body, 0.0});
   for (int i = 0; i < kNumStrutParameters; ++i) {

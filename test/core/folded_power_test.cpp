@@ -41,7 +41,7 @@ double foldedBehindLags(int lags) {
   return folded / kSteps;
 }
 
-// Two and four times the power of a road under a tyre; the density falls by f^-2 and f^-4.
+// Behind one lag the density falls by f^-2, behind two by f^-4.
 TEST(FoldedPower, BoundsWhatIsFoldedOfMotionThatFallsByAPowerLaw) {
   for (const int lags : {1, 2}) {
     const double ratio = boundBehindLags(lags) / foldedBehindLags(lags);

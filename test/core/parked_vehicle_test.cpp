@@ -46,6 +46,9 @@ class ParkedVehicle : public testing::Test {
         ASSERT_TRUE(std::isfinite(estimate.damping_to_mass) && std::isfinite(estimate.stiffness_to_mass)) << k;
         ASSERT_GT(estimate.damping_to_mass_stddev, 0.0) << k;  // infinite: noise may be all that there is
         ASSERT_GT(estimate.stiffness_to_mass_stddev, 0.0) << k;
+        ASSERT_TRUE(std::isfinite(estimate.damping_to_mass_stddev + estimate.stiffness_to_mass_stddev) ||
+                    !estimate.valid())
+            << k;
         ASSERT_TRUE(std::isfinite(estimate.explained)) << k;
         ASSERT_FALSE(k > 500 && estimate.valid()) << k;
       }

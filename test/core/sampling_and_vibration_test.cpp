@@ -139,8 +139,8 @@ TEST(Sampling, WithoutAFilterDoubtsTheEstimateOverTheWholeDrive) {
   }
 }
 
-// Ten times the body's noise on the wheel pulls b0 down by a tenth and more: that is in the
-// interval, or nothing is told, and it is no fault of the spring.
+// Ten times the body's noise on the wheel pulls b0 down by a tenth and more: that is in the interval, or nothing is
+// told, and it is no fault of the spring.
 TEST(Sampling, NoiseOfTheWheelsSensorAloneIsInTheInterval) {
   const Motion motion = goldenCar("C", 15.0, 120.0);
   const Said said = listen(decimated(motion.body, true), decimated(motion.wheel, true), kSampled, 0.0, 0.3);

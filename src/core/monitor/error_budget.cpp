@@ -70,8 +70,8 @@ void ErrorBudget::interrupt() {
 
 void ErrorBudget::noteValidity(const StrutEstimate& la) {
   // Noise that is as large as the motion is to be known before an estimate can be valid.
-  const bool folds = la.doubt == EstimateDoubt::kWrongReadings && la.explained >= kLeastExplained;
-  hears_noise_ = la.valid() || folds || (noise_.isOfVehicle() && la.doubt == EstimateDoubt::kNotExplained);
+  const bool may_be_noise = la.doubt == EstimateDoubt::kWrongReadings && la.explained >= kLeastExplained;
+  hears_noise_ = la.valid() || may_be_noise || (noise_.isOfVehicle() && la.doubt == EstimateDoubt::kNotExplained);
 }
 
 void ErrorBudget::setForgettingFactor(double forgetting_factor) {

@@ -113,7 +113,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
 
 void ModelTracker::setInput(const InputStatus& input, ModelReport& report) {
   period_fits_ = input.period_fits;
-  identifier_.setWheelSpectrum(input.folded[1], input.at_limit[1]);
+  identifier_.setWheelSpectrum(input.folded[1], input.wheel_at_limit);
   judge(report);
 }
 

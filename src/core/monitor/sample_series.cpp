@@ -44,7 +44,7 @@ void SampleSeries::countSpacings() {
 
 void SampleSeries::judge() {
   status_.folded = {folded_[0].level(), folded_[1].level()};
-  status_.at_limit = {folded_[0].levelAtLimit(), folded_[1].levelAtLimit()};
+  status_.wheel_at_limit = folded_[1].levelAtLimit();
   countSpacings();
   if (spacing_.weight() < kSpacings) return;
   status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;

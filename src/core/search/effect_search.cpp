@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "explanation.h"
 #include "model_evaluator.h"
@@ -79,7 +80,7 @@ class Search {
   ModelEvaluator evaluator_;
   EvaluatedModel base_;
   std::optional<Selection> suspect_;    // the best addition to the base
-  std::vector<EvaluatedModel> rivals_;  // others
+  std::vector<EvaluatedModel> rivals_;  // all that were tried for it
   std::optional<Explanation> explanation_;
   SearchResult result_;
 };
@@ -153,7 +154,10 @@ EvaluatedModel Search::extend(EvaluatedModel current, int round) {
     result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
     if (!ranking.front().ranked.significant) break;
     const Selection selection = select(ranking, evaluator_.heldOut());
-    if (round == 0) suspect_ = selection, rivals_ = ranking;
+    if (round == 0) {
+      suspect_ = selection;
+      rivals_ = std::move(ranking);
+    }
     current = withoutSuperfluous(selection.chosen);
   }
   return current;

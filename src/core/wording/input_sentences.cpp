@@ -28,8 +28,7 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kStiffnessNotExcited: return "no excitation of stiffness, its estimate is held";
     case EstimateDoubt::kWrongReadings:
       return "the unsprung IMU reads too much that the body does not answer: a noisy sensor, or shaking that the "
-             "sampling "
-             "folds back; filter before sampling, or sample faster";
+             "sampling folds back; filter before sampling, or sample faster";
     case EstimateDoubt::kOutsideForce:
       return "something else than the wheel moves the body, or did so just now: wind, loading, a sensor that is not on "
              "the wheel";
