@@ -56,7 +56,7 @@ std::vector<double> decimated(const std::vector<double>& values, bool filtered) 
   return result;
 }
 
-/// What was said of a drive, from 20 s on.
+/// What was said of a drive: alarms of all of it, the rest from 20 s on.
 struct Said {
   long samples = 0, valid = 0, beyond = 0, warned = 0, accused = 0;  // beyond: valid, and off by 3 stddev
   std::string of_input;                                              // at last
@@ -73,11 +73,11 @@ Said listen(const std::vector<double>& body, const std::vector<double>& wheel, d
   options.nominal_stiffness_to_mass = kGoldenB0;
   Said said;
   StrutMonitor monitor(options, [&](const MonitorReport& report) {
-    if (toSeconds(report.stamp) < 20.0) return;
     const HealthLevel level = report.health.level;
+    said.warned += level == HealthLevel::kWarn || level == HealthLevel::kError ? 1 : 0;
+    if (toSeconds(report.stamp) < 20.0) return;
     ++said.samples;
     said.valid += report.la.valid() ? 1 : 0;
-    said.warned += level == HealthLevel::kWarn || level == HealthLevel::kError ? 1 : 0;
     said.accused += report.health.sensor.fault != SensorFault::kNone ? 1 : 0;
     if (!report.la.valid()) return;
     const double off = report.la.stiffness_to_mass - kGoldenB0;
@@ -139,13 +139,17 @@ TEST(Sampling, WithoutAFilterDoubtsTheEstimateOverTheWholeDrive) {
   }
 }
 
-// Ten times the body's noise on the wheel pulls b0 down by a tenth and more: that is in the interval, or nothing is
-// told, and it is no fault of the spring.
+// Ten times the body's noise on the wheel pulls b0 down, by a tenth on class C and nearly to nothing on A: that is in
+// the interval, or nothing is told, and it is no fault of the spring.
 TEST(Sampling, NoiseOfTheWheelsSensorAloneIsInTheInterval) {
-  const Motion motion = goldenCar("C", 15.0, 120.0);
-  const Said said = listen(decimated(motion.body, true), decimated(motion.wheel, true), kSampled, 0.0, 0.3);
-  EXPECT_EQ(said.warned, 0);
-  EXPECT_LE(said.beyond, 0.01 * said.samples);
+  for (const char* road : {"A", "B", "C"})
+    for (const double speed : {8.0, 15.0, 25.0}) {
+      SCOPED_TRACE(std::string(road) + " at " + std::to_string(speed));
+      const Motion motion = goldenCar(road, speed, 120.0);
+      const Said said = listen(decimated(motion.body, true), decimated(motion.wheel, true), kSampled, 0.0, 0.3);
+      EXPECT_EQ(said.warned, 0);
+      EXPECT_LE(said.beyond, 0.01 * said.samples);
+    }
 }
 
 TEST(Vibration, OfAnEngineIsSaidOfTheInputAndAccusesNobody) {

@@ -15,7 +15,7 @@ double variance(double mean_size) { return 0.5 * kPi * mean_size * mean_size; }
 }  // namespace
 
 NoiseLevel::NoiseLevel(const IntegralFilterOptions& filter)
-    : block_(2.0 * filter.horizon_samples),
+    : block_(blockRows(filter)),
       sizes_(1.0 - 1.0 / (kMostBlocks * block_)),
       late_mean_size_(1.0 - 1.0 / (kFewestBlocks * block_)),
       mean_(filter.horizon_samples) {}

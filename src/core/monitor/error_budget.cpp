@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kStddevsEvery = 8;        // rows
 constexpr double kFactorOfLevel = 2.0;  // of few blocks or windows a level is known within that
+constexpr double kSurely = 3.0;         // standard deviations
 constexpr double kMostNoise = 0.8;  // of a residual or moment: no level of noise is known better than within a tenth
 
 double& stddevOf(StrutEstimate& estimate, int i) {
@@ -38,6 +39,7 @@ Eigen::Vector2d strutShift(const RecursiveLeastSquares& least_squares, const Eig
 ErrorBudget::ErrorBudget(const IntegralFilterOptions& filter, const RegressorNoise& noise, int num_columns,
                          double forgetting_factor, bool removes_noise_shift)
     : noise_(noise),
+      block_(NoiseLevel::blockRows(filter)),
       noise_shift_(Eigen::VectorXd::Zero(num_columns)),
       resampling_noise_(filter.period, forgetting_factor),
       skew_effects_{RunningMeans<kNumSkewEffects>(forgetting_factor), RunningMeans<kNumSkewEffects>(forgetting_factor)},
@@ -116,15 +118,17 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
     return noise_level_ && knows_rows ? unfittedNoise(estimators.leastSquares(), strut, variance) : variance;
   };
   const double present = unfitted(left);
+  const double rows = estimators.leastAbsolute().effectiveRows();
   std::optional<double> lasting;
   wrong_.variances = resampling_noise_.variances();
   if (const auto heard = noise_level_ ? noise_level_->sensorVariances(noise_, strut) : std::nullopt) {
     lasting = std::min(heard->of_changes, unfitted(heard->of_means));
     const double slow = unfitted(std::max(heard->of_means, heard->of_late_means));
-    const double most = std::max(0.0, square(wheel_.at_limit) - kFactorOfLevel * *lasting);
-    wrong_.variances[1] += std::min(most, mostUnanswered(slow - *lasting, strut));
+    wrong_.variances[1] += mostUnanswered(slow, *lasting, rows, strut);
   } else {
-    wrong_.variances[1] += std::max(0.0, square(wheel_.folded) - kFactorOfLevel * present);
+    // The whole of the residuals stands for their slow part, of which few rows may have shown little.
+    const double folded = square(wheel_.folded) - kFactorOfLevel * present;
+    wrong_.variances[1] += std::max(folded, mostUnanswered(kFactorOfLevel * present, present, rows, strut));
   }
   const double variance = std::min(lasting.value_or(present), present);
   noise_variance_ = lasting.value_or(0.0);
@@ -138,9 +142,13 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
 
 // Noise of the wheel's readings that the body does not answer, as of a sensor that is noisier than the body's or of
 // motion that the sampling folds back, is no more than what the slow part of the residuals has beside the noise of
-// both: that is known within a factor of two.
-double ErrorBudget::mostUnanswered(double slow_beside_noise, const Eigen::Vector2d& strut) const {
-  return kFactorOfLevel * std::max(0.0, slow_beside_noise) / noise_.wheelShareOfMean(strut);
+// both: that is known within a factor of two. Nor is it more than the wheel's readings have at half the rate, but for
+// what the few blocks of the memory have by chance: a mean of n squares of normal deviates has the variance 2 / n.
+double ErrorBudget::mostUnanswered(double slow, double noise, double rows, const Eigen::Vector2d& strut) const {
+  const double of_residuals = kFactorOfLevel * std::max(0.0, slow - noise) / noise_.wheelShareOfMean(strut);
+  const double of_readings = std::max(0.0, square(wheel_.at_limit) - kFactorOfLevel * noise);
+  const double by_chance = 1.0 + kSurely * std::sqrt(2.0 * block_ / rows);
+  return std::min(of_residuals, by_chance * of_readings);
 }
 
 // The moment is made by the true strut t, which readings as wrong as they may be have moved to the estimate,

@@ -20,6 +20,9 @@ class NoiseLevel {
  public:
   explicit NoiseLevel(const IntegralFilterOptions& filter);
 
+  /// @return rows within which the sensors' noise in them is correlated.
+  static double blockRows(const IntegralFilterOptions& filter) { return 2.0 * filter.horizon_samples; }
+
   /// @param residual  of the next row of an uninterrupted series.
   void add(double residual);
 
@@ -37,9 +40,9 @@ class NoiseLevel {
 
  private:
   static constexpr double kMostSizes = 5.0;
-  static constexpr double kFewestBlocks = 5.0, kMostBlocks = 100.0;  // of two horizons, in which rows are correlated
+  static constexpr double kFewestBlocks = 5.0, kMostBlocks = 100.0;
 
-  double block_;  // [rows]
+  double block_;  // rows
   RunningMeans<2> sizes_;
   RunningMean late_mean_size_;
   HorizonMean mean_;

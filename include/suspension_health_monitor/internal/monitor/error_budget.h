@@ -67,8 +67,8 @@ class ErrorBudget {
   void setResamplingErrors(const ResamplingErrors& errors) { resampling_noise_.setErrors(errors); }
 
   /// @param folded  rms of what the wheel's sensor may have folded back, at most [m/s^2]: counts until noise has been
-  /// heard.  @param at_limit  rms of white noise as dense as its readings are at half the rate [m/s^2]: none of them
-  /// has more, be it noise or folded back.
+  /// heard.  @param at_limit  rms of white noise as dense as its readings are at half the rate [m/s^2]: over a long
+  /// time they have no more of it, be it their sensor's or folded back.
   void setWheelSpectrum(double folded, double at_limit) { wheel_ = {folded, at_limit}; }
 
   /// @return what is to be taken off the parameters of LS and LA, one per column; 0 if it is left in them.
@@ -109,7 +109,7 @@ class ErrorBudget {
   };
 
   NoiseMoments takeNoise(const PairedEstimators& estimators, const Eigen::Vector2d& strut);
-  double mostUnanswered(double slow_beside_noise, const Eigen::Vector2d& strut) const;
+  double mostUnanswered(double slow, double noise, double rows, const Eigen::Vector2d& strut) const;
   std::optional<Eigen::Vector2d> wrongMoment(const RecursiveLeastSquares& least_squares,
                                              const Eigen::Vector2d& estimate);
   double unfittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut, double left) const;
@@ -117,6 +117,7 @@ class ErrorBudget {
   double skewShift(const RecursiveLeastSquares& least_squares, const SkewProfile* skew, int i) const;
 
   RegressorNoise noise_;
+  double block_;                           // as NoiseLevel::blockRows()
   std::optional<NoiseLevel> noise_level_;  // none: what the noise shifts is left in the estimates
   bool hears_noise_ = false;               // in what LA leaves
   double noise_variance_ = 0.0;            // of a sensor, over the time that it has been heard for
