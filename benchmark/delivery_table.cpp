@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -18,10 +19,36 @@ namespace {
 
 constexpr double kSettled = 30.0, kEvery = 2.0, kGravity = 9.81;  // [s], [s], [m/s^2]
 
-/// Chance of a stamp (standard deviation, in periods) and of a message.
+/// Chance of a stamp (standard deviation, in periods) and of a message; the share of messages that wait for 5 to 10
+/// periods, and those behind with them.
 struct Delivery {
   const char* name;
-  double stamped, lost;
+  double stamped, lost, waits = 0.0;
+};
+
+/// Stamps of one sensor's messages.
+class Driver {
+ public:
+  Driver(const Delivery& delivery, double period, std::mt19937_64& random)
+      : delivery_(delivery), period_(period), random_(random) {}
+
+  /// @return none: the message got lost.
+  std::optional<Stamp> stamp(Stamp taken) {
+    constexpr double kApart = 1e-5;  // [s], of messages that have waited
+    const double late = delivery_.stamped * normal_(random_);
+    wait_ = uniform_(random_) < delivery_.waits ? 5.0 + 5.0 * uniform_(random_) : std::max(0.0, wait_ - 1.0);
+    const Stamp stamped = taken + fromSeconds(period_ * (late + wait_));
+    last_ = last_ && wait_ > 0.0 ? std::max(stamped, *last_ + fromSeconds(kApart)) : stamped;
+    return uniform_(random_) < delivery_.lost ? std::nullopt : last_;
+  }
+
+ private:
+  const Delivery& delivery_;
+  double period_, wait_ = 0.0;
+  std::optional<Stamp> last_;
+  std::mt19937_64& random_;
+  std::normal_distribution<double> normal_;
+  std::uniform_real_distribution<double> uniform_;
 };
 
 /// Of all vehicles.
@@ -53,16 +80,13 @@ void drive(const FieldDrive& road, const Delivery& delivery, double seconds, Fou
   });
   FieldSimulator simulator(road);
   std::mt19937_64 random(road.seed);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> uniform;
-  const auto deliver = [&](Side side, const CornerSample& sample, double acceleration) {
-    const double late = delivery.stamped / road.rate * normal(random);
-    if (uniform(random) >= delivery.lost) monitor.push(side, sample.stamp + fromSeconds(late), kGravity + acceleration);
-  };
+  Driver body(delivery, 1.0 / road.rate, random), wheel(delivery, 1.0 / road.rate, random);
   while (simulator.time() < seconds) {
     const CornerSample sample = simulator.next();
-    deliver(Side::kSprung, sample, sample.sprung_acceleration);
-    deliver(Side::kUnsprung, sample, sample.unsprung_acceleration);
+    if (const auto stamp = body.stamp(sample.stamp))
+      monitor.push(Side::kSprung, *stamp, kGravity + sample.sprung_acceleration);
+    if (const auto stamp = wheel.stamp(sample.stamp))
+      monitor.push(Side::kUnsprung, *stamp, kGravity + sample.unsprung_acceleration);
   }
 }
 
@@ -78,7 +102,9 @@ void printTable(double seconds) {
          {Delivery{"as they should", 0.0, 0.0}, Delivery{"stamps off by 0.05 T", 0.05, 0.0},
           Delivery{"stamps off by 0.1 T", 0.1, 0.0}, Delivery{"stamps off by 0.2 T", 0.2, 0.0},
           Delivery{"stamps off by 0.3 T", 0.3, 0.0}, Delivery{"0.2 % lost", 0.0, 0.002},
-          Delivery{"1 % lost", 0.0, 0.01}, Delivery{"1 % lost, stamps off by 0.1 T", 0.1, 0.01}}) {
+          Delivery{"1 % lost", 0.0, 0.01}, Delivery{"1 % lost, stamps off by 0.1 T", 0.1, 0.01},
+          Delivery{"1 % lost, stamps off by 0.3 T", 0.3, 0.01}, Delivery{"0.5 % wait for 5 to 10 T", 0.01, 0.0, 0.005},
+          Delivery{"1 % lost, 1 % wait", 0.01, 0.01, 0.01}}) {
       Found found;
       for (const FieldVehicle& vehicle : kFieldVehicles) {
         FieldDrive road;

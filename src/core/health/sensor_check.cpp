@@ -16,6 +16,10 @@ constexpr double kInG = 0.15;         // so near 1 is what a sensor of gravity r
 
 bool hasGravity(double mean) { return std::abs(mean) > kGravity / 2.0; }
 
+bool isOfMotion(SensorFault fault) {
+  return fault == SensorFault::kNegativeDamping || fault == SensorFault::kUnrelated;
+}
+
 }  // namespace
 
 SensorCheck::SensorCheck(double gravity_tolerance, double memory, int horizon_samples)
@@ -62,6 +66,7 @@ const SensorReport& SensorCheck::judge(const StrutEstimate& la, bool la_tells) {
   if (found != pending_) pending_since_ = samples_;
   pending_ = found;
   const bool stuck = found == SensorFault::kSprungStuck || found == SensorFault::kUnsprungStuck;
+  if (isOfMotion(report_.fault) && la.valid()) report_.fault = SensorFault::kNone;
   if (stuck || samples_ - pending_since_ >= memory_) {
     report_.fault = found;
     report_.mean = {readings_[0].mean(), readings_[1].mean()};

@@ -118,17 +118,19 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
     return noise_level_ && knows_rows ? unfittedNoise(estimators.leastSquares(), strut, variance) : variance;
   };
   const double present = unfitted(left);
-  const double rows = estimators.leastAbsolute().effectiveRows();
+  // A mean of n squares of normal deviates has the variance 2 / n: by so much more noise the few blocks of the memory
+  // may have than there is on average.
+  const double by_chance = 1.0 + kSurely * std::sqrt(2.0 * block_ / estimators.leastAbsolute().effectiveRows());
   std::optional<double> lasting;
   wrong_.variances = resampling_noise_.variances();
   if (const auto heard = noise_level_ ? noise_level_->sensorVariances(noise_, strut) : std::nullopt) {
     lasting = std::min(heard->of_changes, unfitted(heard->of_means));
     const double slow = unfitted(std::max(heard->of_means, heard->of_late_means));
-    wrong_.variances[1] += mostUnanswered(slow, *lasting, rows, strut);
+    wrong_.variances[1] += mostUnanswered(slow, *lasting, by_chance, strut);
   } else {
-    // The whole of the residuals stands for their slow part, of which few rows may have shown little.
+    // The whole of the residuals stands for their slow part, and the spectrum for what has hardly been in them yet.
     const double folded = square(wheel_.folded) - kFactorOfLevel * present;
-    wrong_.variances[1] += std::max(folded, mostUnanswered(kFactorOfLevel * present, present, rows, strut));
+    wrong_.variances[1] += std::max(folded, mostUnanswered(by_chance * present, present, by_chance, strut));
   }
   const double variance = std::min(lasting.value_or(present), present);
   noise_variance_ = lasting.value_or(0.0);
@@ -142,13 +144,11 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
 
 // Noise of the wheel's readings that the body does not answer, as of a sensor that is noisier than the body's or of
 // motion that the sampling folds back, is no more than what the slow part of the residuals has beside the noise of
-// both: that is known within a factor of two. Nor is it more than the wheel's readings have at half the rate, but for
-// what the few blocks of the memory have by chance: a mean of n squares of normal deviates has the variance 2 / n.
-double ErrorBudget::mostUnanswered(double slow, double noise, double rows, const Eigen::Vector2d& strut) const {
+// both: that is known within a factor of two. Nor is it more than the wheel's readings have at half the rate beside
+// that noise, but for what few blocks have by chance.
+double ErrorBudget::mostUnanswered(double slow, double noise, double by_chance, const Eigen::Vector2d& strut) const {
   const double of_residuals = kFactorOfLevel * std::max(0.0, slow - noise) / noise_.wheelShareOfMean(strut);
-  const double of_readings = std::max(0.0, square(wheel_.at_limit) - kFactorOfLevel * noise);
-  const double by_chance = 1.0 + kSurely * std::sqrt(2.0 * block_ / rows);
-  return std::min(of_residuals, by_chance * of_readings);
+  return std::min(of_residuals, by_chance * std::max(0.0, square(wheel_.at_limit) - noise));
 }
 
 // The moment is made by the true strut t, which readings as wrong as they may be have moved to the estimate,

@@ -39,7 +39,6 @@ void FoldedPower::add(double value) {
   }
   below_.add(in_phase * in_phase + in_quadrature * in_quadrature);
   at_limit_.add(at_limit * at_limit);
-  most_.add(at_limit * at_limit);
 }
 
 // An octave further the density is that at half the rate times what it has fallen by from kBelow, for log(2) /

@@ -19,8 +19,8 @@ namespace suspension_health_monitor {
 /// - a spring lets no wheel move without the body;
 /// - a model that explains less than half of a signal that is motion, not noise (its steps from sample to sample are
 ///   smaller than white noise would have them), was given readings that do not belong together.
-/// Each verdict must have lasted for the memory. Nothing is said while the mean is uncertain: a mean counts as off by
-/// what exceeds kMeanNoise of the rms.
+/// Each verdict must have lasted for the memory; one on how they move falls with the first valid estimate. Nothing is
+/// said while the mean is uncertain: a mean counts as off by what exceeds kMeanNoise of the rms.
 /// Cost per sample: O(1), no allocation.
 class SensorCheck {
  public:

@@ -109,7 +109,7 @@ class ErrorBudget {
   };
 
   NoiseMoments takeNoise(const PairedEstimators& estimators, const Eigen::Vector2d& strut);
-  double mostUnanswered(double slow, double noise, double rows, const Eigen::Vector2d& strut) const;
+  double mostUnanswered(double slow, double noise, double by_chance, const Eigen::Vector2d& strut) const;
   std::optional<Eigen::Vector2d> wrongMoment(const RecursiveLeastSquares& least_squares,
                                              const Eigen::Vector2d& estimate);
   double unfittedNoise(const RecursiveLeastSquares& least_squares, const Eigen::Vector2d& strut, double left) const;

@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "suspension_health_monitor/internal/identification/limited_mean.h"
-#include "suspension_health_monitor/internal/identification/running_mean.h"
 
 namespace suspension_health_monitor {
 
@@ -21,8 +20,7 @@ namespace suspension_health_monitor {
 class FoldedPower {
  public:
   /// @param forgetting_factor  lambda in (0, 1], of the values.
-  explicit FoldedPower(double forgetting_factor)
-      : below_(std::pow(forgetting_factor, kEvery)), at_limit_(below_), most_(std::pow(forgetting_factor, kEvery)) {}
+  explicit FoldedPower(double forgetting_factor) : below_(std::pow(forgetting_factor, kEvery)), at_limit_(below_) {}
 
   /// Takes in the next value of a uniform series.
   void add(double value);
@@ -33,18 +31,19 @@ class FoldedPower {
   /// @return rms of white noise as dense as what may be folded back [unit of the values].
   double level() const;
 
-  /// @return rms of white noise as dense as the values are at half the rate, whatever their size: neither the sensor's
-  /// noise nor what is folded back is more [unit of the values].
-  double levelAtLimit() const { return std::sqrt(most_.mean()); }
+  /// @return rms of white noise as dense as the values are at half the rate: neither the sensor's noise nor what is
+  /// folded back is more [unit of the values].
+  double levelAtLimit() const { return std::sqrt(at_limit_.mean() / kLimited); }
 
  private:
   static constexpr std::size_t kWindow = 32;          // values: a band is an eighth of half the rate to either side
-  static constexpr std::size_t kEvery = kWindow / 8;  // values from window to window
+  static constexpr std::size_t kEvery = kWindow / 2;  // values from window to window, that hardly correlate
+
+  static constexpr double kLimited = 0.882;  // LimitedMean of the squares of normal deviates, beside their mean
 
   std::array<double, kWindow> newest_{};
   std::size_t size_ = 0;  // of the series
   LimitedMean below_, at_limit_;
-  RunningMean most_;  // at half the rate, without a limit
 };
 
 }  // namespace suspension_health_monitor
