@@ -115,15 +115,15 @@ void printTable(double seconds) {
         road.seed = seed++;
         drive(road, delivery, seconds, found);
       }
-      double median = std::nan("");
+      char of_valid[40] = "- | -";
       if (!found.off.empty()) {
         const auto middle = found.off.begin() + static_cast<std::ptrdiff_t>(found.off.size() / 2);
         std::nth_element(found.off.begin(), middle, found.off.end());
-        median = *middle;
+        std::snprintf(of_valid, sizeof of_valid, "%+.1f %% | %.0f %%", 100.0 * *middle,
+                      100.0 * found.inside / found.valid);
       }
-      std::printf("| %s | %s | %+.1f %% | %.0f %% | %.0f %% | %.0f %% | %d | %d |\n", way.name, delivery.name,
-                  100.0 * median, 100.0 * found.inside / found.valid, 100.0 * found.valid / found.reports,
-                  100.0 * found.ok / found.reports, found.warn, found.error);
+      std::printf("| %s | %s | %s | %.0f %% | %.0f %% | %d | %d |\n", way.name, delivery.name, of_valid,
+                  100.0 * found.valid / found.reports, 100.0 * found.ok / found.reports, found.warn, found.error);
       std::fflush(stdout);
     }
 }

@@ -123,6 +123,32 @@ TEST(ReadingClock, GoesForwardAndBeginsAnew) {
   }
 }
 
+// Which reading got lost is found out late where stamps are late by a third of a period; a curve through the readings
+// may not be torn by that.
+TEST(ReadingClock, NeverPutsTwoRegularReadingsIntoOnePlace) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  ReadingClock clock;
+  Stamp last{}, before{};
+  for (int k = 1; k <= 20000; ++k) {
+    const double taken = kPeriod * k;
+    const Stamp stamp = fromSeconds(taken + 0.3 * kPeriod * normal(random));
+    if (uniform(random) < 0.02) continue;
+    if (stamp <= last) {
+      clock.passOver(stamp);
+      continue;
+    }
+    last = stamp;
+    const Stamp found = clock.take(stamp, signal(taken) + 0.01 * normal(random));
+    if (k > 10000) {
+      ASSERT_GT(toSeconds(found - before), 0.45 * kPeriod) << k;
+    }
+    before = found;
+  }
+  EXPECT_LT(clock.share(), 0.1);
+}
+
 // Readings that come half as often, or twice, are no lost ones for long.
 TEST(ReadingClock, FollowsAnotherRate) {
   for (const double factor : {0.5, 2.0}) {
