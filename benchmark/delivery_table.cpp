@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "field_drive.h"
+#include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/strut_monitor.h"
 
 namespace suspension_health_monitor {
@@ -116,12 +117,9 @@ void printTable(double seconds) {
         drive(road, delivery, seconds, found);
       }
       char of_valid[40] = "- | -";
-      if (!found.off.empty()) {
-        const auto middle = found.off.begin() + static_cast<std::ptrdiff_t>(found.off.size() / 2);
-        std::nth_element(found.off.begin(), middle, found.off.end());
-        std::snprintf(of_valid, sizeof of_valid, "%+.1f %% | %.0f %%", 100.0 * *middle,
+      if (!found.off.empty())
+        std::snprintf(of_valid, sizeof of_valid, "%+.1f %% | %.0f %%", 100.0 * median(found.off),
                       100.0 * found.inside / found.valid);
-      }
       std::printf("| %s | %s | %s | %.0f %% | %.0f %% | %d | %d |\n", way.name, delivery.name, of_valid,
                   100.0 * found.valid / found.reports, 100.0 * found.ok / found.reports, found.warn, found.error);
       std::fflush(stdout);

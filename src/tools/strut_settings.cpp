@@ -64,16 +64,16 @@ std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& opt
   if (!strut) return "no estimate is valid";
   if (!found.isSteady()) return "the strut is not the same over the drive";
   constexpr double kTold = 3.0;  // standard deviations
-  const auto lack = [](const char* name, double value, double stddev, double warn) -> std::string {
-    if (kTold * stddev <= warn * value) return {};
-    return formatted("%s is known to %.2g %% only, and %.2g %% are needed for a warning at %.3g %%", name,
-                     100.0 * stddev / value, 100.0 * warn / kTold, 100.0 * warn);
+  std::vector<std::string> lacks;
+  const auto ask = [&](const char* name, double value, double stddev, double warn) {
+    if (kTold * stddev <= warn * value) return;
+    lacks.push_back(formatted("%s is known to %.2g %% only, and %.2g %% are needed for a warning at %.3g %%", name,
+                              100.0 * stddev / value, 100.0 * warn / kTold, 100.0 * warn));
   };
   const IdentifiedStrut& its = strut->strut;
-  const std::string damping =
-      lack("damping/mass", its.damping_to_mass, its.damping_to_mass_stddev, options.damping_warn);
-  if (!damping.empty()) return damping;
-  return lack("stiffness/mass", its.stiffness_to_mass, its.stiffness_to_mass_stddev, options.stiffness_warn);
+  ask("damping/mass", its.damping_to_mass, its.damping_to_mass_stddev, options.damping_warn);
+  ask("stiffness/mass", its.stiffness_to_mass, its.stiffness_to_mass_stddev, options.stiffness_warn);
+  return join(lacks, "; ");
 }
 
 OptionMap settingsFor(const std::string& strut, OptionMap given) {

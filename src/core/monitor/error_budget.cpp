@@ -148,7 +148,7 @@ ErrorBudget::NoiseMoments ErrorBudget::takeNoise(const PairedEstimators& estimat
 // that noise, but for what few blocks have by chance.
 double ErrorBudget::mostUnanswered(double slow, double noise, double by_chance, const Eigen::Vector2d& strut) const {
   const double of_residuals = kFactorOfLevel * std::max(0.0, slow - noise) / noise_.wheelShareOfMean(strut);
-  return std::min(of_residuals, by_chance * std::max(0.0, square(wheel_.at_limit) - noise));
+  return std::min(of_residuals, by_chance * std::max(0.0, square(wheel_.at_limit) - kFactorOfLevel * noise));
 }
 
 // The moment is made by the true strut t, which readings as wrong as they may be have moved to the estimate,

@@ -45,8 +45,7 @@ double RegularTimes::startFrom(const Line& line) {
   time_ = line.time;
   spacing_ = line.spacing;
   out_of_step_ = in_row_ = 0;
-  chances_ = {};
-  chances_[kReach] = 1.0;
+  beSureOfCount();
   losses_ = astray_ = followed_ = lately_off_ = 0.0;
   means_ = RunningMeans<kNumMeans>(StreamTiming::kMemory);
   means_.add({line.variance, line.variance, 0.0, 0.0, 0.0});
@@ -136,6 +135,11 @@ double RegularTimes::varianceOfLine() const {
          std::max(0.0, means_.mean(kAlike) - by_chance);
 }
 
+void RegularTimes::beSureOfCount() {
+  chances_ = {};
+  chances_[kReach] = 1.0;
+}
+
 double RegularTimes::lossShare() const { return (kKnown * kLossShare + std::max(0.0, losses_)) / (kKnown + followed_); }
 
 double RegularTimes::astrayShare() const { return (kKnown * kAstrayShare + astray_) / (kKnown + followed_); }
@@ -143,19 +147,17 @@ double RegularTimes::astrayShare() const { return (kKnown * kAstrayShare + astra
 double RegularTimes::usualSquare() const { return std::max(means_.mean(kUsual) / square(spacing_), square(kLeast)); }
 
 RegularTimes::Count RegularTimes::count(double off, bool tells_likelihood) {
-  const double usual = usualSquare();
   followed_ += 1.0;
   Count found;
   // What is nearer to the next period than to any other, by far, is of that, unless the count was in doubt before.
-  const bool is_clear = chances_[kReach] == 1.0 && 1.0 - 2.0 * std::abs(off) > 2.0 * kImpossible * usual;
+  const bool is_clear = chances_[kReach] == 1.0 && 1.0 - 2.0 * std::abs(off) > 2.0 * kImpossible * usualSquare();
   if (is_clear && !tells_likelihood) return found;
   if (std::abs(off) <= kReach) {
     found = infer(off);
   } else {  // a pause
     found.short_by = static_cast<int>(std::clamp(std::round(off), -1e9, 1e9));
     found.likelihood = kLossShare;
-    chances_ = {};
-    chances_[kReach] = 1.0;
+    beSureOfCount();
   }
   losses_ += found.short_by > 0 ? 1.0 : found.short_by < 0 ? -1.0 : 0.0;
   astray_ += found.astray;

@@ -77,6 +77,7 @@ class RegularTimes {
   Line likeliestPeriod() const;
   Count count(double off, bool tells_likelihood);
   Count infer(double off);
+  void beSureOfCount();
   double usualSquare() const;
   double lossShare() const;
   double astrayShare() const;
