@@ -43,6 +43,7 @@ struct FieldDrive {
   double wheel_noise = 1.0;                          ///< that of the wheel's, of it
   double offset = 0.0;                               ///< of the wheel's IMU [m/s^2]
   double offset_swing = 0.0, offset_period = 600.0;  ///< it drifts besides by +-swing [m/s^2]
+  double tilt = 0.0;                                 ///< of the wheel's IMU from the body's: it reads braking [rad]
   double skew = 0.0;                                 ///< the wheel's readings are stamped so much late, up to 30 ms [s]
   double mass = 1.0;                                 ///< of the body, to that of the healthy vehicle
   bool potholes = false, washboard = false, stops = false;
@@ -75,7 +76,7 @@ class FieldSimulator {
     if (!drive_.anti_aliased) body = body_, wheel = lateWheel();
     const double offset = drive_.offset + drive_.offset_swing * std::sin(2 * M_PI * time_ / drive_.offset_period);
     return {fromSeconds(time_), body + drive_.noise * gauss_(random_),
-            wheel + offset + drive_.wheel_noise * drive_.noise * gauss_(random_)};
+            wheel + offset + drive_.tilt * braking_ + drive_.wheel_noise * drive_.noise * gauss_(random_)};
   }
 
   double time() const { return time_; }
@@ -106,7 +107,10 @@ class FieldSimulator {
   }
 
   double roadHeight() {
+    constexpr double kBrakesBuildUp = 0.3;  // [s]
     const double v = speed();
+    braking_ += kStep / kBrakesBuildUp * ((speed_ - v) / kStep - braking_);
+    speed_ = v;
     const double density = 2 * M_PI * 0.1 * std::sqrt(drive_.road * v);  // of the road's rate
     profile_ += kStep * (-2 * M_PI * 0.01 * v * profile_ + density * gauss_(random_) / std::sqrt(2.0 * kStep));
     place_ += kStep * v;
@@ -188,7 +192,7 @@ class FieldSimulator {
   std::array<double, 64> wheels_{};  // of the newest steps
   long steps_ = 0;
   double time_ = 0.0, profile_ = 0.0, place_ = 0.0, pothole_ = 30.0, depth_ = 0.05, phase_ = 0.0;
-  double height_ = 0.0, body_ = 0.0, wheel_ = 0.0;
+  double height_ = 0.0, body_ = 0.0, wheel_ = 0.0, speed_ = drive_.stops ? 0.0 : drive_.speed, braking_ = 0.0;
 };
 
 }  // namespace suspension_health_monitor

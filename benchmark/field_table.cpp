@@ -1,5 +1,5 @@
 // Prints the tables of doc/health.md, "In the field": what is said of a strut as it is met there.
-//   field_table healthy|unfiltered|steps|accuracy|skew [MEMORY [HOURS]]     memory in seconds, default 2; hours of a
+//   field_table healthy|unfiltered|steps [MEMORY [HOURS]]     memory in seconds; hours of a
 //   drive, default 10; unfiltered: healthy without an anti-alias filter
 #include <algorithm>
 #include <cmath>
@@ -8,36 +8,18 @@
 #include <functional>
 #include <future>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "field_drive.h"
-#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "field_monitor.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-MonitorSettings settingsFor(const FieldDrive& drive, double memory) {
-  MonitorOptions options;
-  options.sample_period = 1.0 / drive.rate;
-  options.memory = memory;
-  options.nominal_damping_to_mass = drive.vehicle.b1;
-  options.nominal_stiffness_to_mass = drive.vehicle.b0;
-  return options;
-}
-
 bool isRaised(HealthLevel level) { return level == HealthLevel::kWarn || level == HealthLevel::kError; }
-
-/// Calls look(time, report) for every sample of a drive.
-template <class Look>
-void follow(const FieldDrive& drive, double memory, double seconds, const Look& look) {
-  FieldSimulator simulator(drive);
-  SuspensionMonitor monitor(settingsFor(drive, memory));
-  while (simulator.time() < seconds)
-    if (const MonitorReport* report = monitor.addSample(simulator.next())) look(simulator.time(), *report);
-}
 
 struct Counts {
   int warn = 0, error = 0, early = 0, sensor = 0;
@@ -45,7 +27,7 @@ struct Counts {
   std::string words;  // of the first alarm
 };
 
-Counts count(const FieldDrive& drive, double memory, double seconds) {
+Counts count(const FieldDrive& drive, std::optional<double> memory, double seconds) {
   Counts counts;
   HealthReport before;
   follow(drive, memory, seconds, [&](double, const MonitorReport& report) {
@@ -107,7 +89,7 @@ std::vector<Healthy> healthyDrives(bool anti_aliased) {
   return drives;
 }
 
-void printHealthy(double memory, double hours, bool anti_aliased) {
+void printHealthy(std::optional<double> memory, double hours, bool anti_aliased) {
   std::printf(
       "| road, %.0f h | what | vehicle | WARN | ERROR | early notices | outliers | cannot tell | sensor accused "
       "| said first |\n|---|---|---|---|---|---|---|---|---|---|\n",
@@ -156,7 +138,7 @@ std::string foundAndMedian(std::vector<double> delays) {
   return text;
 }
 
-void printSteps(double memory) {
+void printSteps(std::optional<double> memory) {
   struct Step {
     const char* name;
     double damping, stiffness;
@@ -196,117 +178,19 @@ void printSteps(double memory) {
     }
 }
 
-/// Errors of one estimate of one parameter.
-struct Errors {
-  std::vector<double> relative;
-  double inside = 0.0;
-
-  void add(double value, double stddev, double truth) {
-    relative.push_back(value / truth - 1.0);
-    inside += std::abs(value - truth) < 1.96 * stddev ? 1.0 : 0.0;
-  }
-};
-
-std::string medianAndShare(Errors errors) {
-  if (errors.relative.empty()) return "-";
-  const auto middle = errors.relative.begin() + static_cast<std::ptrdiff_t>(errors.relative.size() / 2);
-  std::nth_element(errors.relative.begin(), middle, errors.relative.end());
-  char text[48];
-  std::snprintf(text, sizeof text, "%+.1f %%, %.0f %%", 100.0 * *middle,
-                100.0 * errors.inside / static_cast<double>(errors.relative.size()));
-  return text;
-}
-
-struct Offset {
-  double constant, swing;
-};
-
-/// Four estimates' errors over 600 s, as cells of a table.
-std::string accuracyOf(const FieldDrive& drive, double memory) {
-  std::array<Errors, 4> errors;
-  double next = 20.0, valid = 0.0, samples = 0.0;
-  follow(drive, memory, 600.0, [&](double time, const MonitorReport& report) {
-    const bool both = report.ls.valid() && report.la.valid();
-    samples += 1.0;
-    valid += both ? 1.0 : 0.0;
-    if (time < next || !both) return;
-    next = time + 2.0;
-    for (std::size_t e = 0; e < 2; ++e) {
-      const StrutEstimate& estimate = e == 0 ? report.ls : report.la;
-      errors[2 * e].add(estimate.damping_to_mass, estimate.damping_to_mass_stddev, drive.vehicle.b1);
-      errors[2 * e + 1].add(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev, drive.vehicle.b0);
-    }
-  });
-  std::string cells;
-  for (const Errors& of_one : errors) cells += medianAndShare(of_one) + " | ";
-  return cells + std::to_string(std::lround(100.0 * valid / samples)) + " %";
-}
-
-const char* roadName(double road) { return road < 2e-5 ? "A" : "C"; }
-
-void printHeader(const char* what) {
-  std::printf(
-      "| road, rate | vehicle | %s | b1 of LS: median error, inside 95 %% | b0 of LS | b1 of LA | b0 of LA | valid |\n"
-      "|---|---|---|---|---|---|---|---|\n",
-      what);
-}
-
-void printAccuracy(double memory) {
-  printHeader("offset [m/s^2]");
-  unsigned seed = 1;
-  for (const double road : {16e-6, 256e-6})
-    for (const int rate : {50, 100, 200, 500})
-      for (const FieldVehicle& vehicle : kFieldVehicles)
-        for (const Offset& offset : {Offset{0.0, 0.0}, Offset{0.8, 0.0}, Offset{0.0, 0.3}}) {
-          FieldDrive drive;
-          drive.vehicle = vehicle;
-          drive.road = road;
-          drive.rate = rate;
-          drive.offset = offset.constant;
-          drive.offset_swing = offset.swing;
-          drive.offset_period = 3770.0;  // 0.3 m/s^2 in ten minutes
-          drive.seed = seed++;
-          std::printf("| %s, %d Hz | %s | %.1f%s | %s |\n", roadName(road), rate, vehicle.name, offset.constant,
-                      offset.swing > 0.0 ? ", drifts" : "", accuracyOf(drive, memory).c_str());
-          std::fflush(stdout);
-        }
-}
-
-void printSkew(double memory) {
-  printHeader("late [ms]");
-  unsigned seed = 1;
-  for (const double road : {16e-6, 256e-6})
-    for (const int rate : {100, 200})
-      for (const FieldVehicle& vehicle : kFieldVehicles)
-        for (const double skew : {0.0, 1e-3, 5e-3, 10e-3}) {
-          FieldDrive drive;
-          drive.vehicle = vehicle;
-          drive.road = road;
-          drive.rate = rate;
-          drive.skew = skew;
-          drive.seed = seed++;
-          std::printf("| %s, %d Hz | %s | %.2f | %s |\n", roadName(road), rate, vehicle.name, 1e3 * skew,
-                      accuracyOf(drive, memory).c_str());
-          std::fflush(stdout);
-        }
-}
-
 }  // namespace
 }  // namespace suspension_health_monitor
 
 int main(int argc, char** argv) {
   using namespace suspension_health_monitor;
   const std::string what = argc > 1 ? argv[1] : "";
-  const double memory = argc > 2 ? std::atof(argv[2]) : 2.0, hours = argc > 3 ? std::atof(argv[3]) : 10.0;
+  const auto memory = argc > 2 ? std::make_optional(std::atof(argv[2])) : std::nullopt;
+  const double hours = argc > 3 ? std::atof(argv[3]) : 10.0;
   if (what == "healthy" || what == "unfiltered")
     printHealthy(memory, hours, what == "healthy");
   else if (what == "steps")
     printSteps(memory);
-  else if (what == "accuracy")
-    printAccuracy(memory);
-  else if (what == "skew")
-    printSkew(memory);
   else
-    return std::fprintf(stderr, "usage: field_table healthy|unfiltered|steps|accuracy|skew [MEMORY [HOURS]]\n"), 2;
+    return std::fprintf(stderr, "usage: field_table healthy|unfiltered|steps [MEMORY [HOURS]]\n"), 2;
   return 0;
 }

@@ -7,8 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "field_drive.h"
-#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "field_monitor.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -37,12 +36,8 @@ void printRow(const FieldWay& way, const FieldVehicle& vehicle, const Readings& 
   drive.rate = way.rate;
   drive.anti_aliased = readings.anti_aliased;
   drive.wheel_noise = readings.wheel_noise;
-  MonitorOptions options;
-  options.sample_period = 1.0 / way.rate;
-  options.nominal_damping_to_mass = vehicle.b1;
-  options.nominal_stiffness_to_mass = vehicle.b0;
   FieldSimulator simulator(drive);
-  SuspensionMonitor monitor(options);
+  SuspensionMonitor monitor(settingsFor(drive));
   std::vector<double> stiffness, stddev, folded;
   double samples = 0.0, valid = 0.0, wrong = 0.0, alarm = 0.0;
   while (simulator.time() < seconds) {

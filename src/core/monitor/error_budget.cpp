@@ -42,6 +42,7 @@ ErrorBudget::ErrorBudget(const IntegralFilterOptions& filter, const RegressorNoi
       block_(NoiseLevel::blockRows(filter)),
       noise_shift_(Eigen::VectorXd::Zero(num_columns)),
       resampling_noise_(filter.period, forgetting_factor),
+      level_changes_(filter.period, forgetting_factor),
       skew_effects_{RunningMeans<kNumSkewEffects>(forgetting_factor), RunningMeans<kNumSkewEffects>(forgetting_factor)},
       stddevs_due_(kStddevsEvery) {
   if (removes_noise_shift) noise_level_.emplace(filter);
@@ -65,9 +66,18 @@ void ErrorBudget::addSkew(const RegressionRow& row, const WheelRow& wheel, doubl
   }
 }
 
+void ErrorBudget::addRow(const RegressionRow& row, double innovation, const RecursiveEstimator& estimator) {
+  constexpr double kNoSpring = 1e-6;  // of the residual; beside such a force the regressor itself stands for the level
+  const double regressor = row.regressor[kStiffnessToMass], b0 = estimator.parameters()[kStiffnessToMass];
+  const bool has_spring = std::abs(b0 * regressor) > kNoSpring * std::abs(innovation);
+  level_changes_.add(regressor, has_spring ? innovation / b0 : regressor, !estimator.holds(kStiffnessToMass));
+  if (hears_noise_ && noise_level_) noise_level_->add(innovation);
+}
+
 void ErrorBudget::interrupt() {
   if (noise_level_) noise_level_->interrupt();
   resampling_noise_.interrupt();
+  level_changes_.interrupt();
 }
 
 void ErrorBudget::noteValidity(const StrutEstimate& la) {
@@ -79,6 +89,7 @@ void ErrorBudget::noteValidity(const StrutEstimate& la) {
 void ErrorBudget::setForgettingFactor(double forgetting_factor) {
   for (auto& effect : skew_effects_) effect.setForgettingFactor(forgetting_factor);
   resampling_noise_.setForgettingFactor(forgetting_factor);
+  level_changes_.setForgettingFactor(forgetting_factor);
 }
 
 void ErrorBudget::describe(const PairedEstimators& estimators, const SkewProfile* skew, StrutEstimate& ls,
@@ -158,16 +169,23 @@ std::optional<Eigen::Vector2d> ErrorBudget::wrongMoment(const RecursiveLeastSqua
                                                         const Eigen::Vector2d& estimate) {
   const Eigen::Vector2d& variances = wrong_.variances;
   const auto shiftBy = [&](const Eigen::Vector2d& moment) { return strutShift(least_squares, moment); };
-  const Eigen::Vector2d of_none = noise_.momentOf(Eigen::Vector2d::Zero(), variances);
+  const double level = level_changes_.variance();
+  const auto ofLevel = [&](const Eigen::Vector2d& strut) -> Eigen::Vector2d {
+    return -strut[kStiffnessToMass] * level * Eigen::Vector2d::Unit(kStiffnessToMass);
+  };
+  const auto momentOf = [&](const Eigen::Vector2d& strut) -> Eigen::Vector2d {
+    return noise_.momentOf(strut, variances) + ofLevel(strut);
+  };
+  const Eigen::Vector2d of_none = momentOf(Eigen::Vector2d::Zero());
   Eigen::Matrix2d kept = Eigen::Matrix2d::Identity();
-  for (int j = 0; j < kNumStrutParameters; ++j)
-    kept.col(j) += shiftBy(noise_.momentOf(Eigen::Vector2d::Unit(j), variances) - of_none);
+  for (int j = 0; j < kNumStrutParameters; ++j) kept.col(j) += shiftBy(momentOf(Eigen::Vector2d::Unit(j)) - of_none);
   wrong_.share = std::numeric_limits<double>::infinity();
+  wrong_.is_of_level = 2.0 * ofLevel(estimate).norm() > momentOf(estimate).norm();
   if (!(kept.determinant() > 1.0 - kMostNoise)) return std::nullopt;
   const Eigen::Vector2d strut = kept.inverse() * (estimate - shiftBy(of_none));
   wrong_.share = ((strut - estimate).array() / strut.array()).abs().maxCoeff();
   // All of it or none, or a part: a uniform distribution from its end, which the estimate is at.
-  return noise_.momentOf(strut, variances) / std::sqrt(3.0);
+  return momentOf(strut) / std::sqrt(3.0);
 }
 
 // Least squares fits the noise, too, which is missing from what it leaves: where g is the residual's variance by that

@@ -88,7 +88,7 @@ void StrutIdentifier::update(const RegressionRow& row) {
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
   if (const SkewProfile* skew = regression_.skew())
     errors_.addSkew(row, regression_.wheel(), skew->skew(), estimators_.leastAbsolute());
-  errors_.addInnovation(estimators_.update(row));
+  errors_.addRow(row, estimators_.update(row), estimators_.leastAbsolute());
 }
 
 void StrutIdentifier::takeExcitation() {
@@ -124,6 +124,7 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
   facts.excites_damping = !isHeld(kDampingToMass);
   facts.excites_stiffness = !isHeld(kStiffnessToMass);
   facts.wrong_share = errors_.wrongShare();
+  facts.is_wrong_by_level = errors_.isWrongByLevel();
   facts.outside_force = rows_to_forget_ > 0.0;
   facts.explained = errors_.explainedBesideNoise(estimate);
   facts.is_physical = estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;

@@ -26,6 +26,9 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNotExcited: return "parked: no excitation of damping and stiffness, estimates held";
     case EstimateDoubt::kDampingNotExcited: return "no excitation of damping, its estimate is held";
     case EstimateDoubt::kStiffnessNotExcited: return "no excitation of stiffness, its estimate is held";
+    case EstimateDoubt::kOffsetChanges:
+      return "the offset between the IMUs changes: one that is tilted reads braking and bends, one that warms up "
+             "drifts";
     case EstimateDoubt::kWrongReadings:
       return "the unsprung IMU reads too much that the body does not answer: a noisy sensor, or shaking that the "
              "sampling folds back; filter before sampling, or sample faster";

@@ -8,6 +8,7 @@
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/every_n.h"
+#include "suspension_health_monitor/internal/identification/level_changes.h"
 #include "suspension_health_monitor/internal/identification/noise_level.h"
 #include "suspension_health_monitor/internal/identification/paired_estimators.h"
 #include "suspension_health_monitor/internal/identification/regressor_noise.h"
@@ -22,11 +23,11 @@ namespace suspension_health_monitor {
 /// What the estimates of a strut are off by beyond the scatter of rows, and their standard deviations with it: by noise
 /// of the sensors in the regressors (RegressorNoise), whose shift is taken off once it is known; by what the wheel's
 /// readings may have beyond that which the body does not answer; by what resampled readings are wrong by
-/// (ResamplingNoise); by the skew of the clocks (SkewProfile); by what the samples went through before. These add up as
-/// squares (doc/uncertainty.md).
+/// (ResamplingNoise); by levels that change (LevelChanges); by the skew of the clocks (SkewProfile); by what the
+/// samples went through before. These add up as squares (doc/uncertainty.md).
 ///
-/// The first three put a moment E[phi e] into the rows, which R^-1 turns into a shift of the estimates. It is that of
-/// LS for both: of normal residuals LA has the same. Cost per row: O(1), and O(p^2) every few rows for p columns; no
+/// All but the last two put a moment E[phi e] into the rows, which R^-1 turns into a shift of the estimates. It is that
+/// of LS for both: of normal residuals LA has the same. Cost per row: O(1), and O(p^2) every few rows for p columns; no
 /// allocation.
 class ErrorBudget {
  public:
@@ -47,10 +48,9 @@ class ErrorBudget {
   /// @param skew  by which the wheel's readings were moved [s].
   void addSkew(const RegressionRow& row, const WheelRow& wheel, double skew, const RecursiveEstimator& estimator);
 
-  /// @param innovation  of LA by such a row, in the unit of psi.
-  void addInnovation(double innovation) {
-    if (hears_noise_ && noise_level_) noise_level_->add(innovation);
-  }
+  /// Takes in such a row once the estimators have.
+  /// @param innovation  of LA by it, in the unit of psi.
+  void addRow(const RegressionRow& row, double innovation, const RecursiveEstimator& estimator);
 
   /// The next sample does not follow the one before.
   void interrupt();
@@ -84,6 +84,9 @@ class ErrorBudget {
   /// @return by how much that may have shifted a parameter, as a share of what it is then, of the one that it has
   /// shifted most; infinity: there is no telling.
   double wrongShare() const { return wrong_.share; }
+
+  /// @return true if most of that is by a level of the readings that changes.
+  bool isWrongByLevel() const { return wrong_.is_of_level; }
 
   /// Writes the standard deviations, every few rows, and says what noiseShift() is from then on. What is known of a
   /// parameter that is held does not change.
@@ -124,10 +127,12 @@ class ErrorBudget {
   double noise_share_ = 0.0;               // of the residuals' variance
   Eigen::VectorXd noise_shift_;            // of the parameters
   ResamplingNoise resampling_noise_;
+  LevelChanges level_changes_;
   struct {
     Eigen::Vector2d variances = Eigen::Vector2d::Zero();
     double share = 0.0;
-  } wrong_;  // as wrongVariances(), wrongShare()
+    bool is_of_level = false;
+  } wrong_;  // as wrongVariances(), wrongShare(), isWrongByLevel()
   struct {
     double folded = 0.0, at_limit = 0.0;
   } wheel_;  // as of setWheelSpectrum()

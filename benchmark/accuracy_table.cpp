@@ -1,0 +1,125 @@
+// Prints the tables of doc/uncertainty.md on vehicles that nobody had in mind, and on clocks that differ: how far LS
+// and LA are off, and how often their intervals hold the truth.
+//   accuracy_table offset|skew [MEMORY]     memory in seconds
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "field_monitor.h"
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+/// Errors of one estimate of one parameter.
+struct Errors {
+  std::vector<double> relative;
+  double inside = 0.0;
+
+  void add(double value, double stddev, double truth) {
+    relative.push_back(value / truth - 1.0);
+    inside += std::abs(value - truth) < 1.96 * stddev ? 1.0 : 0.0;
+  }
+};
+
+std::string medianAndShare(const Errors& errors) {
+  if (errors.relative.empty()) return "-";
+  char text[48];
+  std::snprintf(text, sizeof text, "%+.1f %%, %.0f %%", 100.0 * median(errors.relative),
+                100.0 * errors.inside / static_cast<double>(errors.relative.size()));
+  return text;
+}
+
+struct Offset {
+  double constant, swing;
+};
+
+/// Four estimates' errors over 600 s, as cells of a table.
+std::string accuracyOf(const FieldDrive& drive, std::optional<double> memory) {
+  std::array<Errors, 4> errors;
+  double next = 20.0, valid = 0.0, samples = 0.0;
+  follow(drive, memory, 600.0, [&](double time, const MonitorReport& report) {
+    const bool both = report.ls.valid() && report.la.valid();
+    samples += 1.0;
+    valid += both ? 1.0 : 0.0;
+    if (time < next || !both) return;
+    next = time + 2.0;
+    for (std::size_t e = 0; e < 2; ++e) {
+      const StrutEstimate& estimate = e == 0 ? report.ls : report.la;
+      errors[2 * e].add(estimate.damping_to_mass, estimate.damping_to_mass_stddev, drive.vehicle.b1);
+      errors[2 * e + 1].add(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev, drive.vehicle.b0);
+    }
+  });
+  std::string cells;
+  for (const Errors& of_one : errors) cells += medianAndShare(of_one) + " | ";
+  return cells + std::to_string(std::lround(100.0 * valid / samples)) + " %";
+}
+
+const char* roadName(double road) { return road < 2e-5 ? "A" : "C"; }
+
+void printHeader(const char* what) {
+  std::printf(
+      "| road, rate | vehicle | %s | b1 of LS: median error, inside 95 %% | b0 of LS | b1 of LA | b0 of LA | valid |\n"
+      "|---|---|---|---|---|---|---|---|\n",
+      what);
+}
+
+void printAccuracy(std::optional<double> memory) {
+  printHeader("offset [m/s^2]");
+  unsigned seed = 1;
+  for (const double road : {16e-6, 256e-6})
+    for (const int rate : {50, 100, 200, 500})
+      for (const FieldVehicle& vehicle : kFieldVehicles)
+        for (const Offset& offset : {Offset{0.0, 0.0}, Offset{0.8, 0.0}, Offset{0.0, 0.3}}) {
+          FieldDrive drive;
+          drive.vehicle = vehicle;
+          drive.road = road;
+          drive.rate = rate;
+          drive.offset = offset.constant;
+          drive.offset_swing = offset.swing;
+          drive.offset_period = 3770.0;  // 0.3 m/s^2 in ten minutes
+          drive.seed = seed++;
+          std::printf("| %s, %d Hz | %s | %.1f%s | %s |\n", roadName(road), rate, vehicle.name, offset.constant,
+                      offset.swing > 0.0 ? ", drifts" : "", accuracyOf(drive, memory).c_str());
+          std::fflush(stdout);
+        }
+}
+
+void printSkew(std::optional<double> memory) {
+  printHeader("late [ms]");
+  unsigned seed = 1;
+  for (const double road : {16e-6, 256e-6})
+    for (const int rate : {100, 200})
+      for (const FieldVehicle& vehicle : kFieldVehicles)
+        for (const double skew : {0.0, 1e-3, 5e-3, 10e-3}) {
+          FieldDrive drive;
+          drive.vehicle = vehicle;
+          drive.road = road;
+          drive.rate = rate;
+          drive.skew = skew;
+          drive.seed = seed++;
+          std::printf("| %s, %d Hz | %s | %.2f | %s |\n", roadName(road), rate, vehicle.name, 1e3 * skew,
+                      accuracyOf(drive, memory).c_str());
+          std::fflush(stdout);
+        }
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
+
+int main(int argc, char** argv) {
+  using namespace suspension_health_monitor;
+  const std::string what = argc > 1 ? argv[1] : "";
+  const auto memory = argc > 2 ? std::make_optional(std::atof(argv[2])) : std::nullopt;
+  if (what == "offset")
+    printAccuracy(memory);
+  else if (what == "skew")
+    printSkew(memory);
+  else
+    return std::fprintf(stderr, "usage: accuracy_table offset|skew [MEMORY]\n"), 2;
+  return 0;
+}
