@@ -64,6 +64,11 @@ std::vector<Healthy> healthyDrives(bool anti_aliased) {
       {"payload -30 %", [](FieldDrive& drive) { drive.mass = 0.7; }},
       {"potholes, washboard", [](FieldDrive& drive) { drive.potholes = drive.washboard = true; }},
       {"stop and go", [](FieldDrive& drive) { drive.stops = true; }},
+      {"stop and go, tilt 2 deg",
+       [](FieldDrive& drive) {
+         drive.stops = true;
+         drive.tilt = 2.0 * M_PI / 180.0;
+       }},
       {"engine 0.5 m/s^2", [](FieldDrive& drive) { drive.engine = 0.5; }},
       {"engine 1.5 m/s^2", [](FieldDrive& drive) { drive.engine = 1.5; }},
       {"fade 5 %", [](FieldDrive& drive) { drive.fade = 0.05; }},

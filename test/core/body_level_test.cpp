@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -82,13 +83,16 @@ VehicleStreams streamsAt(const Vector3d& position) {
 }
 
 // A body that heaves, and pitches about its left axis. Its IMU, with the positions in its own axes, leans.
-std::vector<VehicleSample> topOf(const Matrix3d& imu_in_body, const Vector3d& top, int instants) {
+// pulls_away(t): its acceleration forward.
+std::vector<VehicleSample> topOf(
+    const Matrix3d& imu_in_body, const Vector3d& top, int instants,
+    const std::function<double(double)>& pulls_away = [](double) { return 0.0; }) {
   std::vector<VehicleSample> samples;
   VehicleGrid grid(kPeriod, streamsAt(imu_in_body.transpose() * top), {},
                    [&](const VehicleSample& sample) { samples.push_back(sample); });
   for (int k = 0; k < instants; ++k) {
     const double t = kPeriod * k, w = 2.0 * kPi * 1.5;
-    const Vector3d acceleration = imu_in_body.transpose() * Vector3d(0.0, 0.0, 9.81 + std::sin(w * t));
+    const Vector3d acceleration = imu_in_body.transpose() * Vector3d(pulls_away(t), 0.0, 9.81 + std::sin(w * t));
     const Vector3d rate = imu_in_body.transpose() * Vector3d(0.0, 0.05 * std::cos(w * t), 0.0);
     const Stamp stamp = fromSeconds(100.0) + k * fromSeconds(kPeriod);
     grid.push(0, stamp, {acceleration.x(), acceleration.y(), acceleration.z(), rate.x(), rate.y(), rate.z()});
@@ -110,6 +114,28 @@ TEST(VehicleGrid, GivesTheSameTopsHoweverTheBodysIMULeans) {
       ASSERT_NEAR(leaning[k].sprung[0], upright[k].sprung[0], 1e-9) << degrees << ' ' << k;
     }
   }
+}
+
+// It stands for a while, and pulls away within the seconds that tell the level; or it pulls away and brakes all the
+// time.
+TEST(VehicleGrid, TakesNoPullingAwayForALean) {
+  const Vector3d top(1.2, 0.5, -0.3);
+  for (const double degrees : {0.0, 25.0}) {
+    const Matrix3d mount = turn(degrees, {0.2, 1.0, 0.0});
+    const std::vector<VehicleSample> still = topOf(mount, top, 4000);
+    for (const double stands : {1.0, 3.0, 6.0}) {
+      const std::vector<VehicleSample> leaves =
+          topOf(mount, top, 4000, [&](double t) { return t > stands && t < stands + 7.0 ? 2.0 : 0.0; });
+      ASSERT_EQ(leaves.size(), still.size());
+      for (std::size_t k = 0; k < still.size(); ++k)
+        ASSERT_NEAR(leaves[k].sprung[0], still[k].sprung[0], 0.01) << degrees << ' ' << stands << ' ' << k;
+    }
+  }
+  const std::vector<VehicleSample> upright = topOf(Matrix3d::Identity(), top, 4000);
+  const std::vector<VehicleSample> always =
+      topOf(Matrix3d::Identity(), top, 4000, [](double t) { return std::fmod(t, 12.0) < 6.0 ? 2.0 : -2.0; });
+  ASSERT_EQ(always.size(), upright.size());
+  for (std::size_t k = 0; k < upright.size(); ++k) ASSERT_NEAR(always[k].sprung[0], upright[k].sprung[0], 0.01) << k;
 }
 
 // The body's IMU, which stands still and whose stamps come late by chance, tells the top; the wheel's come as they

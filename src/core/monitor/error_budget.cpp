@@ -169,7 +169,7 @@ std::optional<Eigen::Vector2d> ErrorBudget::wrongMoment(const RecursiveLeastSqua
                                                         const Eigen::Vector2d& estimate) {
   const Eigen::Vector2d& variances = wrong_.variances;
   const auto shiftBy = [&](const Eigen::Vector2d& moment) { return strutShift(least_squares, moment); };
-  const double level = level_changes_.variance();
+  const double level = std::max(0.0, level_changes_.variance() - noise_variance_ * noise_.slowGain());
   const auto ofLevel = [&](const Eigen::Vector2d& strut) -> Eigen::Vector2d {
     return -strut[kStiffnessToMass] * level * Eigen::Vector2d::Unit(kStiffnessToMass);
   };

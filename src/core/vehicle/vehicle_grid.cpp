@@ -11,7 +11,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLevelSeconds = 10.0;       // braking and bends are soon over
+constexpr double kLevelSeconds = 10.0;       // longer than most braking, pulling away and bends
+constexpr std::size_t kMostWindows = 3;      // of so many seconds: those take less than half of them
 constexpr double kLevelMemory = 4096.0;      // samples: the ratio of two deviations within 2 %
 constexpr std::size_t kFewestOfLevel = 256;  // the same within 5 %
 
@@ -31,8 +32,9 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
   }
   // Gaps cost a level some instants.
   if (vehicle_.body_imu)
-    num_to_wait_ = std::max(static_cast<std::size_t>(std::ceil(kLevelSeconds / period)), 2 * kFewestOfLevel);
-  waiting_.reserve(num_to_wait_);
+    level_window_ = std::max(static_cast<std::size_t>(std::ceil(kLevelSeconds / period)), 2 * kFewestOfLevel);
+  num_to_wait_ = level_window_;
+  waiting_.reserve(kMostWindows * level_window_);
 }
 
 void VehicleGrid::push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) {
@@ -51,18 +53,26 @@ void VehicleGrid::take(const GridInstant& instant) {
   }
   if (num_to_wait_ == 0) return lead(instant);
   waiting_.push_back(instant);
-  if (waiting_.size() == num_to_wait_) turnUpright();
+  if (waiting_.size() < num_to_wait_) return;
+  const BodyLevel newest = levelSince(waiting_.size() - level_window_);
+  if (newest.isSteady()) return turnUpright(newest);
+  num_to_wait_ += level_window_ / 2;
+  if (num_to_wait_ > kMostWindows * level_window_) turnUpright(levelSince(0));
 }
 
 void VehicleGrid::finish() {
-  if (!waiting_.empty()) turnUpright();
+  if (!waiting_.empty()) turnUpright(levelSince(0));
 }
 
-void VehicleGrid::turnUpright() {
+BodyLevel VehicleGrid::levelSince(std::size_t first) const {
   std::vector<Eigen::Vector3d> accelerations;
-  for (const GridInstant& instant : waiting_)
-    accelerations.emplace_back(Eigen::Map<const Eigen::Vector3d>(&instant.values[*vehicle_.body_imu]));
-  level_ = BodyLevel(accelerations);
+  for (std::size_t i = first; i < waiting_.size(); ++i)
+    accelerations.emplace_back(Eigen::Map<const Eigen::Vector3d>(&waiting_[i].values[*vehicle_.body_imu]));
+  return BodyLevel(accelerations);
+}
+
+void VehicleGrid::turnUpright(const BodyLevel& level) {
+  level_ = level;
   vehicle_.body_mount = level_.mount();
   for (VehicleChannels::Strut& strut : vehicle_.struts) strut.position = level_.mount() * strut.position;
   tops_ = StrutTops(period_, vehicle_);

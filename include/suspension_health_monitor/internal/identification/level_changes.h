@@ -1,21 +1,21 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
-#include "suspension_health_monitor/internal/identification/horizon_mean.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
+#include "suspension_health_monitor/internal/identification/slow_mean.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 
 /// How much of the regressor of stiffness, I_0^2 u'', is no motion but the level of the sensors' difference, where that
 /// changes: an IMU that is tilted reads a part of braking and of bends, one that warms up drifts. A level that stays is
-/// in the constant column. A level is what is much slower than a body oscillates on its springs. It changes by no more
-/// than the regressor does, nor by more than the residuals over b0, for the body does not answer it: motion that slow
-/// is in the regressor, and in the residuals where a level has pulled b0 down, but hardly ever in both. Cost per row:
-/// O(1), no allocation.
+/// in the constant column. A level is what is much slower than a body oscillates on its springs
+/// (SlowMean). It changes by no more
+/// than the regressor does, nor by more than the residuals over b0, for the body does not answer it: motion
+/// that slow is in the regressor, and in the residuals where a level has pulled b0 down, but hardly ever in both. Cost
+/// per row: O(1), no allocation.
 class LevelChanges {
  public:
   /// @param period  of the rows [s].  @param forgetting_factor  of the estimators.
@@ -45,32 +45,7 @@ class LevelChanges {
  private:
   enum Moment : std::size_t { kLevel, kLevelSquare, kUnanswered, kNumMoments };
 
-  /// A mean over kMean, twice.
-  class SlowPart {
-   public:
-    explicit SlowPart(double period) : first_(static_cast<int>(std::lround(kMean / period))), second_(first_) {}
-
-    double push(double value) {
-      rows_ = std::min(rows_ + 1, 2 * first_.fills());
-      return second_.push(first_.push(value));
-    }
-
-    bool full() const { return rows_ == 2 * first_.fills(); }
-
-    void reset() {
-      first_.reset();
-      second_.reset();
-      rows_ = 0;
-    }
-
-   private:
-    static constexpr double kMean = 2.0;  // [s]: of 1 Hz it leaves nothing, of 0.8 Hz 0.3 %
-
-    HorizonMean first_, second_;
-    int rows_ = 0;
-  };
-
-  SlowPart regressor_, unanswered_;
+  SlowMean regressor_, unanswered_;
   RunningMeans<kNumMoments> moments_;
 };
 

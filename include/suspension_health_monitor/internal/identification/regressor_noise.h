@@ -67,6 +67,9 @@ class RegressorNoise {
     return 0.5 * theta.dot(means_.regressors * theta) / meanGain(theta);
   }
 
+  /// @return variance that phi_0 has of the noise in its slow part (SlowMean), over that of a sensor [s^4].
+  double slowGain() const { return slow_; }
+
   /// @return variance of psi of it, over that of a sensor [-].
   double outputGain() const { return rows_.outputs; }
 
@@ -91,6 +94,7 @@ class RegressorNoise {
 
   bool of_two_sensors_ = true;
   Moments rows_, changes_, means_;
+  double slow_ = 0.0;
 };
 
 }  // namespace suspension_health_monitor

@@ -11,8 +11,8 @@ class BodyLevel {
   /// As it is given: nothing to turn.
   BodyLevel() = default;
 
-  /// @param accelerations  of a while, in the IMU's axes [m/s^2]. Their medians are gravity, if they are as large as
-  /// that; an IMU that takes gravity off tells nothing.
+  /// @param accelerations  of a while, in the IMU's axes [m/s^2]. The mean of a few medians is gravity, if it is as
+  /// large as that: a vehicle brakes as much as it pulls away. An IMU that takes gravity off tells nothing.
   explicit BodyLevel(const std::vector<Eigen::Vector3d>& accelerations);
 
   /// @return angle between the IMU's z axis and upright [rad].
@@ -22,11 +22,16 @@ class BodyLevel {
   /// each other and do no harm.
   bool isTurned() const;
 
+  /// @return true if gravity was the same in all parts of the while, but for half of that: else the vehicle braked,
+  /// pulled away or went round a bend.
+  bool isSteady() const { return is_steady_; }
+
   /// @return what turns the IMU's axes upright, by the smallest angle; the identity unless isTurned().
   Eigen::Matrix3d mount() const { return mount_; }
 
  private:
   double lean_ = 0.0;
+  bool is_steady_ = true;
   Eigen::Matrix3d mount_ = Eigen::Matrix3d::Identity();
 };
 

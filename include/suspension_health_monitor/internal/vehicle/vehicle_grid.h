@@ -19,7 +19,8 @@ namespace suspension_health_monitor {
 
 /// The readings of all sensors of a vehicle as samples of its struts, the one way for a live vehicle and for bags:
 /// StreamGrid -> StrutTops. Where the body's IMU is needed the first seconds wait until they have told how it is turned
-/// (BodyLevel). Cost per reading: as StreamGrid, after these seconds no allocation.
+/// (BodyLevel), while the vehicle neither brakes nor pulls away, or in half a minute. Cost per reading: as StreamGrid,
+/// after these seconds no allocation.
 class VehicleGrid {
  public:
   using Sink = std::function<void(const VehicleSample&)>;
@@ -72,7 +73,8 @@ class VehicleGrid {
 
   void take(const GridInstant& instant);
   void lead(const GridInstant& instant);
-  void turnUpright();
+  BodyLevel levelSince(std::size_t first) const;
+  void turnUpright(const BodyLevel& level);
   double deviation(std::size_t first_axis) const;
   bool hasHeardNoise() const;
 
@@ -80,7 +82,8 @@ class VehicleGrid {
   VehicleChannels vehicle_;
   StrutTops tops_;
   BodyLevel level_;
-  std::size_t num_to_wait_ = 0;  // instants until the level is taken
+  std::size_t level_window_ = 0;  // instants that a level is taken of
+  std::size_t num_to_wait_ = 0;   // instants until it is
   std::vector<GridInstant> waiting_;
   StreamGrid grid_;
   std::vector<Channels> channels_;       // by sensor
