@@ -22,10 +22,10 @@ enum class EstimateDoubt {
   kNotExcited,           ///< parked: the rows are the sensors' noise; the estimate is held
   kDampingNotExcited,    ///< the same of the damping alone; the stiffness goes on
   kStiffnessNotExcited,  ///< the same of the stiffness alone; the damping goes on
-  kOffsetChanges,        ///< the offset between the sensors changes by more than the travel that is to be seen
   kWrongReadings,        ///< what the wheel's readings have that the body does not answer may be most of what they tell
   kOutsideForce,         ///< something else than the wheel moves the body
   kNotExplained,         ///< the model explains less than half of what was measured
+  kOffsetChanges,        ///< the offset between the sensors changes by more than the travel that is to be seen
   kNotAStrut,            ///< a parameter that has to be above 0 is not
   kClockSkew,            ///< the clocks of the two IMUs differ by more than can be taken off
   kNoSpread,             ///< no standard deviation can be told

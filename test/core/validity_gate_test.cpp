@@ -35,14 +35,14 @@ const std::vector<Flaw> kFlaws{
     {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.excites_damping = f.excites_stiffness = false; }},
     {EstimateDoubt::kDampingNotExcited, [](EstimateFacts& f) { f.excites_damping = false; }},
     {EstimateDoubt::kStiffnessNotExcited, [](EstimateFacts& f) { f.excites_stiffness = false; }},
+    {EstimateDoubt::kWrongReadings, [](EstimateFacts& f) { f.wrong_share = 0.51; }},
+    {EstimateDoubt::kOutsideForce, [](EstimateFacts& f) { f.outside_force = true; }},
+    {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
     {EstimateDoubt::kOffsetChanges,
      [](EstimateFacts& f) {
        f.wrong_share = 0.51;
        f.is_wrong_by_level = true;
      }},
-    {EstimateDoubt::kWrongReadings, [](EstimateFacts& f) { f.wrong_share = 0.51; }},
-    {EstimateDoubt::kOutsideForce, [](EstimateFacts& f) { f.outside_force = true; }},
-    {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
     {EstimateDoubt::kNotAStrut, [](EstimateFacts& f) { f.is_physical = false; }},
     {EstimateDoubt::kClockSkew, [](EstimateFacts& f) { f.skew_is_known = false; }},
     {EstimateDoubt::kNoSpread, [](EstimateFacts& f) { f.has_stddev = false; }},

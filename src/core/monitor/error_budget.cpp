@@ -82,7 +82,8 @@ void ErrorBudget::interrupt() {
 
 void ErrorBudget::noteValidity(const StrutEstimate& la) {
   // Noise that is as large as the motion is to be known before an estimate can be valid.
-  const bool may_be_noise = la.doubt == EstimateDoubt::kWrongReadings && la.explained >= kLeastExplained;
+  const bool is_doubted = la.doubt == EstimateDoubt::kWrongReadings || la.doubt == EstimateDoubt::kOffsetChanges;
+  const bool may_be_noise = is_doubted && la.explained >= kLeastExplained;
   hears_noise_ = la.valid() || may_be_noise || (noise_.isOfVehicle() && la.doubt == EstimateDoubt::kNotExplained);
 }
 
