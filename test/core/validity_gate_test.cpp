@@ -35,7 +35,11 @@ const std::vector<Flaw> kFlaws{
     {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.excites_damping = f.excites_stiffness = false; }},
     {EstimateDoubt::kDampingNotExcited, [](EstimateFacts& f) { f.excites_damping = false; }},
     {EstimateDoubt::kStiffnessNotExcited, [](EstimateFacts& f) { f.excites_stiffness = false; }},
-    {EstimateDoubt::kWrongReadings, [](EstimateFacts& f) { f.wrong_share = 0.51; }},
+    {EstimateDoubt::kWrongReadings,
+     [](EstimateFacts& f) {
+       f.wrong_share = 0.51;
+       f.is_wrong_by_level = false;
+     }},
     {EstimateDoubt::kOutsideForce, [](EstimateFacts& f) { f.outside_force = true; }},
     {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
     {EstimateDoubt::kOffsetChanges,
