@@ -68,7 +68,8 @@ TEST(ValidityGate, NamesTheFirstOfSeveralFlaws) {
       if (kFlaws[i].doubt == EstimateDoubt::kDampingNotExcited &&
           kFlaws[j].doubt == EstimateDoubt::kStiffnessNotExcited)
         continue;
-      if (kFlaws[i].doubt == EstimateDoubt::kWrongReadings && kFlaws[j].doubt == EstimateDoubt::kOffsetChanges) continue;
+      if (kFlaws[i].doubt == EstimateDoubt::kWrongReadings && kFlaws[j].doubt == EstimateDoubt::kOffsetChanges)
+        continue;
       EstimateFacts facts = nothingAgainstIt();
       kFlaws[i].make(facts);
       kFlaws[j].make(facts);
