@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,10 +35,6 @@ std::string medianAndShare(const Errors& errors) {
   return text;
 }
 
-struct Offset {
-  double constant, swing;
-};
-
 /// Four estimates' errors over 600 s, as cells of a table.
 std::string accuracyOf(const FieldDrive& drive, std::optional<double> memory) {
   std::array<Errors, 4> errors;
@@ -61,51 +58,54 @@ std::string accuracyOf(const FieldDrive& drive, std::optional<double> memory) {
 
 const char* roadName(double road) { return road < 2e-5 ? "A" : "C"; }
 
-void printHeader(const char* what) {
+/// What is done to the sensors of a drive, and how a row calls it.
+struct Variant {
+  const char* name;
+  std::function<void(FieldDrive&)> set;
+};
+
+/// Every rate, vehicle and variant on two roads; what: the variants' column.
+void printTable(const char* what, const std::vector<int>& rates, const std::vector<Variant>& variants,
+                std::optional<double> memory) {
   std::printf(
       "| road, rate | vehicle | %s | b1 of LS: median error, inside 95 %% | b0 of LS | b1 of LA | b0 of LA | valid |\n"
       "|---|---|---|---|---|---|---|---|\n",
       what);
-}
-
-void printAccuracy(std::optional<double> memory) {
-  printHeader("offset [m/s^2]");
   unsigned seed = 1;
   for (const double road : {16e-6, 256e-6})
-    for (const int rate : {50, 100, 200, 500})
+    for (const int rate : rates)
       for (const FieldVehicle& vehicle : kFieldVehicles)
-        for (const Offset& offset : {Offset{0.0, 0.0}, Offset{0.8, 0.0}, Offset{0.0, 0.3}}) {
+        for (const Variant& variant : variants) {
           FieldDrive drive;
           drive.vehicle = vehicle;
           drive.road = road;
           drive.rate = rate;
-          drive.offset = offset.constant;
-          drive.offset_swing = offset.swing;
-          drive.offset_period = 3770.0;  // 0.3 m/s^2 in ten minutes
           drive.seed = seed++;
-          std::printf("| %s, %d Hz | %s | %.1f%s | %s |\n", roadName(road), rate, vehicle.name, offset.constant,
-                      offset.swing > 0.0 ? ", drifts" : "", accuracyOf(drive, memory).c_str());
-          std::fflush(stdout);
-        }
-}
-
-void printSkew(std::optional<double> memory) {
-  printHeader("late [ms]");
-  unsigned seed = 1;
-  for (const double road : {16e-6, 256e-6})
-    for (const int rate : {100, 200})
-      for (const FieldVehicle& vehicle : kFieldVehicles)
-        for (const double skew : {0.0, 1e-3, 5e-3, 10e-3}) {
-          FieldDrive drive;
-          drive.vehicle = vehicle;
-          drive.road = road;
-          drive.rate = rate;
-          drive.skew = skew;
-          drive.seed = seed++;
-          std::printf("| %s, %d Hz | %s | %.2f | %s |\n", roadName(road), rate, vehicle.name, 1e3 * skew,
+          variant.set(drive);
+          std::printf("| %s, %d Hz | %s | %s | %s |\n", roadName(road), rate, vehicle.name, variant.name,
                       accuracyOf(drive, memory).c_str());
           std::fflush(stdout);
         }
+}
+
+void printOffset(std::optional<double> memory) {
+  const auto drifts = [](FieldDrive& drive) {
+    drive.offset_swing = 0.3;
+    drive.offset_period = 3770.0;  // 0.3 m/s^2 in ten minutes
+  };
+  printTable(
+      "offset [m/s^2]", {50, 100, 200, 500},
+      {{"0.0", [](FieldDrive&) {}}, {"0.8", [](FieldDrive& drive) { drive.offset = 0.8; }}, {"0.0, drifts", drifts}},
+      memory);
+}
+
+void printSkew(std::optional<double> memory) {
+  printTable("late [ms]", {100, 200},
+             {{"0.00", [](FieldDrive&) {}},
+              {"1.00", [](FieldDrive& drive) { drive.skew = 1e-3; }},
+              {"5.00", [](FieldDrive& drive) { drive.skew = 5e-3; }},
+              {"10.00", [](FieldDrive& drive) { drive.skew = 10e-3; }}},
+             memory);
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   const auto memory = argc > 2 ? std::make_optional(std::atof(argv[2])) : std::nullopt;
   if (what == "offset")
-    printAccuracy(memory);
+    printOffset(memory);
   else if (what == "skew")
     printSkew(memory);
   else

@@ -11,7 +11,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kPeriod = 0.01, kForgetting = 0.995;  // [s]; a memory of 2 s
-constexpr int kFull = 802;                             // rows until two means over 2 s are
+const int kFull = SlowMean(kPeriod).fills();           // rows
 
 /// Adds value(k) for rows k = 0 to num - 1.
 template <class Value>

@@ -123,8 +123,7 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
   facts.fewest_rows = fewest_rows_;
   facts.excites_damping = !isHeld(kDampingToMass);
   facts.excites_stiffness = !isHeld(kStiffnessToMass);
-  facts.wrong_share = errors_.wrongShare();
-  facts.is_wrong_by_level = errors_.isWrongByLevel();
+  (errors_.isWrongByLevel() ? facts.level_share : facts.wrong_share) = errors_.wrongShare();
   facts.outside_force = rows_to_forget_ > 0.0;
   facts.explained = errors_.explainedBesideNoise(estimate);
   facts.is_physical = estimate.damping_to_mass > 0.0 && estimate.stiffness_to_mass > 0.0;

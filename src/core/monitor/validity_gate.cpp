@@ -25,15 +25,13 @@ constexpr std::array kRules{
     Rule{EstimateDoubt::kDampingNotExcited, [](const EstimateFacts& f) { return !f.excites_damping; }},
     Rule{EstimateDoubt::kStiffnessNotExcited, [](const EstimateFacts& f) { return !f.excites_stiffness; }},
     // Noise and what is folded back drive no strut, though the wheel seems to move like that.
-    Rule{EstimateDoubt::kWrongReadings,
-         [](const EstimateFacts& f) { return !f.is_wrong_by_level && !(f.wrong_share <= kMostWrongShare); }},
+    Rule{EstimateDoubt::kWrongReadings, [](const EstimateFacts& f) { return !(f.wrong_share <= kMostWrongShare); }},
     // The regression takes any motion of the body for the wheel's doing.
     Rule{EstimateDoubt::kOutsideForce, [](const EstimateFacts& f) { return f.outside_force; }},
     // No strut between these two signals.
     Rule{EstimateDoubt::kNotExplained, [](const EstimateFacts& f) { return !(f.explained >= kLeastExplained); }},
     // A level that changes looks like travel that no spring answers.
-    Rule{EstimateDoubt::kOffsetChanges,
-         [](const EstimateFacts& f) { return f.is_wrong_by_level && !(f.wrong_share <= kMostWrongShare); }},
+    Rule{EstimateDoubt::kOffsetChanges, [](const EstimateFacts& f) { return !(f.level_share <= kMostWrongShare); }},
     // A spring and a damper have positive rates.
     Rule{EstimateDoubt::kNotAStrut, [](const EstimateFacts& f) { return !f.is_physical; }},
     // A larger skew would explain more, and the strut would be another one.

@@ -26,9 +26,6 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNotExcited: return "parked: no excitation of damping and stiffness, estimates held";
     case EstimateDoubt::kDampingNotExcited: return "no excitation of damping, its estimate is held";
     case EstimateDoubt::kStiffnessNotExcited: return "no excitation of stiffness, its estimate is held";
-    case EstimateDoubt::kOffsetChanges:
-      return "the offset between the IMUs changes: one that is tilted reads braking and bends, one that warms up "
-             "drifts";
     case EstimateDoubt::kWrongReadings:
       return "the unsprung IMU reads too much that the body does not answer: a noisy sensor, or shaking that the "
              "sampling folds back; filter before sampling, or sample faster";
@@ -36,6 +33,9 @@ std::string describe(EstimateDoubt doubt) {
       return "something else than the wheel moves the body, or did so just now: wind, loading, a sensor that is not on "
              "the wheel";
     case EstimateDoubt::kNotExplained: return "the model does not explain the measured acceleration";
+    case EstimateDoubt::kOffsetChanges:
+      return "the offset between the IMUs changes: one that is tilted reads braking and bends, one that warms up "
+             "drifts";
     case EstimateDoubt::kNotAStrut: return "the estimates are not those of a spring and a damper";
     case EstimateDoubt::kClockSkew:
       return "the clocks of the two IMUs differ by too much for the estimation: synchronise them, diagnose tells "
