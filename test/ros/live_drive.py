@@ -2,7 +2,7 @@
 import threading
 
 import rospy
-from ros_session import PATIENCE, load_nodelet
+from ros_session import PATIENCE, load_nodelet, wait_until
 from std_srvs.srv import Trigger
 from suspension_health_monitor.srv import Diagnose, SetEffects
 
@@ -50,6 +50,13 @@ class Call(threading.Thread):
         return not self.is_alive()
 
 
-def two_searches(monitor):
-    """Two calls at the same time."""
-    return [Call(proxy(monitor, "diagnose", Diagnose), 0.0) for _ in range(2)]
+def refused_beside_a_search(monitor):
+    """(the call that searches, the one that was refused as it came meanwhile). Two calls at the same time, again where
+    the first had ended before the second came."""
+    def one_searches():
+        calls = [Call(proxy(monitor, "diagnose", Diagnose), 0.0) for _ in range(2)]
+        wait_until(lambda: any(call.ended() for call in calls), "an answer to one of two calls")
+        refused = next(call for call in calls if call.ended())
+        search = next(call for call in calls if call is not refused)
+        return (search, refused) if not refused.response.success else wait_until(search.ended, "its end") and None
+    return wait_until(one_searches, "a call refused beside a search")

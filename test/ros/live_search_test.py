@@ -9,7 +9,7 @@ import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from live_drive import COEFFICIENT, DRIVE, EFFECT, KEPT, STIFFNESS_TO_MASS, Services, load_monitor, two_searches
+from live_drive import COEFFICIENT, DRIVE, EFFECT, KEPT, STIFFNESS_TO_MASS, Services, load_monitor, refused_beside_a_search
 from ros_session import PACKAGE, Collector, Pace, load_nodelet, statuses, values, wait_until
 from sensor_msgs.msg import Imu
 from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
@@ -65,7 +65,9 @@ class LiveSearchTest(unittest.TestCase):
             cls.after_three_seconds = cls.services.diagnose(0.0)
         cls.plain = cls.drive_on(KEPT)
         begin = len(cls.la.messages)
-        cls.found, cls.refused = cls.call_twice("live")
+        search, refused = refused_beside_a_search("live")
+        wait_until(search.ended, "the end of the search")
+        cls.found, cls.refused = search.response, refused.response
         cls.estimates_meanwhile = cls.la.messages[begin:]
         cls.status_found = cls.next_status()
         cls.extended_answer = cls.services.set_effects(cls.found.selected, [], [])
@@ -73,13 +75,6 @@ class LiveSearchTest(unittest.TestCase):
         cls.extended = cls.drive_on(WINDOW)
         cls.status_extended = cls.next_status()
         cls.saved = cls.services.save_model()
-
-    @classmethod
-    def call_twice(cls, monitor):
-        """(answer of the call that searched, answer of the call that came meanwhile)."""
-        calls = two_searches(monitor)
-        wait_until(lambda: all(call.ended() for call in calls), "the end of the search")
-        return sorted((call.response for call in calls), key=lambda answer: answer.success, reverse=True)
 
     @classmethod
     def next_status(cls):

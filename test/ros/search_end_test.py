@@ -4,7 +4,7 @@ import unittest
 
 import rospy
 import rostest
-from live_drive import DRIVE, SETTINGS, load_monitor, two_searches
+from live_drive import DRIVE, SETTINGS, load_monitor, refused_beside_a_search
 from ros_session import PACKAGE, Collector, load_nodelet, start_node, wait_until
 from suspension_health_monitor.msg import ModelComparison, ParameterEstimate
 
@@ -23,18 +23,14 @@ class SearchEndTest(unittest.TestCase):
 
     @classmethod
     def search(cls, monitor):
-        """Lets it see enough to search in; a call that searches, after another one has been refused."""
+        """Lets it see enough to search in; a call that searches."""
         comparisons = Collector(f"/{monitor}/comparison", ModelComparison)
         first = comparisons.wait_for(lambda message: True, "a comparison")
         comparisons.wait_for(lambda message: (message.header.stamp - first.header.stamp).to_sec() > 40.0,
                              "enough to search in")
         comparisons.stop()
-
-        def one_searches():
-            calls = two_searches(monitor)
-            wait_until(lambda: any(call.ended() for call in calls), "a refusal of the second call")
-            return next((call for call in calls if not call.ended()), None)
-        return wait_until(one_searches, "a search that goes on")
+        search, _ = refused_beside_a_search(monitor)
+        return search
 
     def test_end_of_the_node_ends_a_search(self):
         with start_node("monitor_node", "node", SETTINGS) as node:
@@ -43,11 +39,14 @@ class SearchEndTest(unittest.TestCase):
             self.assertEqual(node.wait_for_end(), 0, node.output())
 
     def test_unloading_ends_a_search(self):
-        with load_monitor("short_lived") as monitor:
-            search = self.search("short_lived")
-            monitor.stop()
-            wait_until(search.ended, "an answer of the service")
-        self.assertIsNotNone(search.error)
+        """Once more where the search was over before the unloading began."""
+        def unloaded_in_a_search():
+            with load_monitor("short_lived") as monitor:
+                search = self.search("short_lived")
+                monitor.stop()
+                wait_until(search.ended, "an answer of the service")
+            return search.error
+        wait_until(unloaded_in_a_search, "a search that unloading ends")
         stamp = self.beside.messages[-1].header.stamp
         self.beside.wait_for(lambda message: message.header.stamp > stamp, "the other nodelets of the manager")
 
