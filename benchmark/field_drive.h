@@ -47,17 +47,19 @@ struct FieldDrive {
   double skew = 0.0;                                 ///< the wheel's readings are stamped so much late, up to 30 ms [s]
   double mass = 1.0;                                 ///< of the body, to that of the healthy vehicle
   bool potholes = false, washboard = false, stops = false;
-  double engine = 0.0;  ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
-  double fade = 0.0;    ///< share of the damping that is lost while it is hot
+  double engine = 0.0;    ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
+  double friction = 0.0;  ///< dry, between body and wheel, over the body's mass [m/s^2]
+  double fade = 0.0;      ///< share of the damping that is lost while it is hot
   double change_at = 1e300, damping_left = 1.0, stiffness_left = 1.0;
+  double road_after = 0.0;  ///< the road from change_at on; 0: the same [m^3]
   unsigned seed = 1;
 };
 
 inline constexpr int kFieldRate = 2000;  ///< steps per second of the integration
 
 /// Integrates the vehicle's equations (1), (2) in steps of 1/kFieldRate by their exact solution for a road that is
-/// straight over a step; nothing is shared with the package. The road is integrated white noise, G(n) = Gd(0.1)
-/// (0.1/n)^2 above 0.01 cycles/m, under a tyre that touches 0.1 m of it.
+/// straight over a step, and dry friction by steps of Euler; nothing is shared with the package. The road is integrated
+/// white noise, G(n) = Gd(0.1) (0.1/n)^2 above 0.01 cycles/m, under a tyre that touches 0.1 m of it.
 class FieldSimulator {
  public:
   explicit FieldSimulator(const FieldDrive& drive) : drive_(drive), random_(drive.seed) {
@@ -95,6 +97,7 @@ class FieldSimulator {
     e.row(2) << -b0 / body, b0 / body, -b1 / body, b1 / body, 0.0, 1.0, 0.0;
     e.row(3) << b0 / wheel, -(b0 + tyre) / wheel, b1 / wheel, -b1 / wheel, tyre / wheel, 0.0, 0.0;
     e(4, 6) = 1.0;
+    strut_ << 0.0, 0.0, 1.0 / body, -1.0 / wheel;
     derivative_ = e.block<2, 6>(2, 0);
     transition_ = (e * kStep).exp().topRows<4>();
   }
@@ -111,7 +114,8 @@ class FieldSimulator {
     const double v = speed();
     braking_ += kStep / kBrakesBuildUp * ((speed_ - v) / kStep - braking_);
     speed_ = v;
-    const double density = 2 * M_PI * 0.1 * std::sqrt(drive_.road * v);  // of the road's rate
+    const double road = time_ >= drive_.change_at && drive_.road_after > 0.0 ? drive_.road_after : drive_.road;
+    const double density = 2 * M_PI * 0.1 * std::sqrt(road * v);  // of the road's rate
     profile_ += kStep * (-2 * M_PI * 0.01 * v * profile_ + density * gauss_(random_) / std::sqrt(2.0 * kStep));
     place_ += kStep * v;
     double height = profile_;
@@ -140,13 +144,18 @@ class FieldSimulator {
     const double height = roadHeight(), force = drive_.engine * std::sin(phase_);
     Eigen::Matrix<double, 7, 1> input;
     input << state_, height_, force, (height - height_) / kStep;
-    state_ = transition_ * input;
+    state_ = transition_ * input + kStep * rubbing() * strut_;
     height_ = height;
     Eigen::Matrix<double, 6, 1> now;
     now << state_, height, force;
-    const Eigen::Vector2d accelerations = derivative_ * now;
+    const Eigen::Vector2d accelerations = derivative_ * now + rubbing() * strut_.tail<2>();
     body_ = accelerations[0];
     wheel_ = accelerations[1];
+  }
+
+  double rubbing() const {
+    constexpr double kCreep = 0.004;  // [m/s]
+    return drive_.friction == 0.0 ? 0.0 : drive_.friction * std::tanh((state_[3] - state_[2]) / kCreep);
   }
 
   // What the wheel did `skew` ago, by a straight line between steps.
@@ -185,6 +194,7 @@ class FieldSimulator {
   std::uniform_real_distribution<double> uniform_;
   Eigen::Matrix<double, 2, 6> derivative_;
   Eigen::Matrix<double, 4, 7> transition_;
+  Eigen::Vector4d strut_ = Eigen::Vector4d::Zero();  // what a force of the strut does to the state
   Eigen::Vector4d state_ = Eigen::Vector4d::Zero();
   std::array<std::array<double, 3>, 2> sections_{};
   std::array<std::array<std::array<double, 2>, 2>, 2> memory_{};

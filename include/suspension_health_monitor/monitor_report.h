@@ -42,6 +42,15 @@ inline std::array<double, kMostEffects> unknownCoefficients() {
   return unknown;
 }
 
+/// Dry friction of the strut, beside which the linear one was estimated. The force does not depend on the road, what it
+/// makes of b1 and b0 does: the smoother the road, the more.
+struct DryFriction {
+  double force = 0.0;  ///< over the body's mass [m/s^2]; a damper that is harder the faster it moves has a negative one
+  double stddev = 0.0;          ///< [m/s^2]
+  double damping_gain = 0.0;    ///< what 1 m/s^2 of it adds to b1 on this road [s/m]
+  double stiffness_gain = 0.0;  ///< to b0 [1/m]
+};
+
 /// What one estimator knows of the strut. NaN: nothing yet; an infinite standard deviation: there is no telling.
 struct StrutEstimate {
   double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
@@ -56,8 +65,9 @@ struct StrutEstimate {
   double offset = std::nan("");      ///< of the wheel carrier's reading against the body's [m/s^2]; NaN: not estimated
   double clock_skew = std::nan("");  ///< by which the wheel carrier's readings are stamped late, or the body's early
                                      ///< [s]; NaN: not estimated
-  double effective_rows = 0.0;       ///< rows in the estimator's memory
-  double explained = 0.0;            ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
+  std::optional<DryFriction> friction;  ///< that LS leaves; empty: nothing yet
+  double effective_rows = 0.0;          ///< rows in the estimator's memory
+  double explained = 0.0;               ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
   double damping_excitation = std::nan("");      ///< information of phi_1 of late over that of noise (Excitation) [-]
   double stiffness_excitation = std::nan("");    ///< that of phi_0 likewise
@@ -154,6 +164,7 @@ struct Baseline {
   std::optional<double> stiffness_to_mass;  ///< b0 [1/s^2]
   double damping_to_mass_stddev = 0.0;      ///< [1/s]
   double stiffness_to_mass_stddev = 0.0;    ///< [1/s^2]
+  std::optional<DryFriction> friction;      ///< when it was learned; empty: it is not known
   bool learned = false;                     ///< from a drive; false: nominal values
   Stamp from{}, to{};                       ///< the drive that it was learned from
 

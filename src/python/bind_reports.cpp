@@ -10,6 +10,19 @@ namespace py = pybind11;
 namespace {
 
 void bindEstimates(py::module& module) {
+  py::class_<DryFriction>(module, "DryFriction", "Dry friction, beside which the linear strut was estimated.")
+      .def_readonly("force", &DryFriction::force, "over the body's mass [m/s^2]")
+      .def_readonly("stddev", &DryFriction::stddev, "[m/s^2]")
+      .def_readonly("damping_gain", &DryFriction::damping_gain, "what 1 m/s^2 of it adds to b1 on this road [s/m]")
+      .def_readonly("stiffness_gain", &DryFriction::stiffness_gain, "to b0 [1/m]")
+      .def(py::pickle(
+          [](const DryFriction& self) {
+            return py::make_tuple(self.force, self.stddev, self.damping_gain, self.stiffness_gain);
+          },
+          [](const py::tuple& state) {
+            return DryFriction{state[0].cast<double>(), state[1].cast<double>(), state[2].cast<double>(),
+                               state[3].cast<double>()};
+          }));
   py::class_<StrutEstimate>(module, "StrutEstimate", "What one estimator of the live monitor knows; NaN: nothing yet.")
       .def_readonly("damping_to_mass", &StrutEstimate::damping_to_mass, "b1 [1/s]")
       .def_readonly("stiffness_to_mass", &StrutEstimate::stiffness_to_mass, "b0 [1/s^2]")
@@ -18,6 +31,7 @@ void bindEstimates(py::module& module) {
       .def_readonly("offset", &StrutEstimate::offset, "of the wheel carrier's reading against the body's [m/s^2]")
       .def_readonly("clock_skew", &StrutEstimate::clock_skew,
                     "by which the wheel carrier's readings are stamped late [s]")
+      .def_readonly("friction", &StrutEstimate::friction, "that LS leaves, or None")
       .def_readonly("rows", &StrutEstimate::effective_rows, "regression rows in the memory")
       .def_readonly("damping_excitation", &StrutEstimate::damping_excitation,
                     "information on b1 that the motion of late gives, over that of noise [-]")
@@ -59,6 +73,7 @@ void bindCondition(py::module& module) {
       .def_readonly("stiffness_to_mass", &Baseline::stiffness_to_mass, "b0 [1/s^2], or None")
       .def_readonly("damping_to_mass_stddev", &Baseline::damping_to_mass_stddev, "[1/s]; 0 of a given value")
       .def_readonly("stiffness_to_mass_stddev", &Baseline::stiffness_to_mass_stddev, "[1/s^2]")
+      .def_readonly("friction", &Baseline::friction, "when it was learned, or None: not known")
       .def_readonly("learned", &Baseline::learned, "from a drive")
       .def_property_readonly(
           "learned_from", [](const Baseline& self) { return toSeconds(self.from); }, "stamp of its begin [s]")
@@ -67,16 +82,18 @@ void bindCondition(py::module& module) {
       .def(py::pickle(
           [](const Baseline& self) {
             return py::make_tuple(self.damping_to_mass, self.stiffness_to_mass, self.damping_to_mass_stddev,
-                                  self.stiffness_to_mass_stddev, self.learned, self.from.count(), self.to.count());
+                                  self.stiffness_to_mass_stddev, self.friction, self.learned, self.from.count(),
+                                  self.to.count());
           },
           [](const py::tuple& state) {
             return Baseline{state[0].cast<std::optional<double>>(),
                             state[1].cast<std::optional<double>>(),
                             state[2].cast<double>(),
                             state[3].cast<double>(),
-                            state[4].cast<bool>(),
-                            Stamp(state[5].cast<Stamp::rep>()),
-                            Stamp(state[6].cast<Stamp::rep>())};
+                            state[4].cast<std::optional<DryFriction>>(),
+                            state[5].cast<bool>(),
+                            Stamp(state[6].cast<Stamp::rep>()),
+                            Stamp(state[7].cast<Stamp::rep>())};
           }));
   py::class_<HealthReport>(module, "HealthReport", "What is known of the strut's condition.")
       .def_property_readonly(

@@ -19,6 +19,7 @@ namespace {
 struct BaselineSettings {
   std::optional<double> damping_to_mass, stiffness_to_mass;
   std::optional<double> damping_to_mass_stddev, stiffness_to_mass_stddev;
+  std::optional<double> dry_friction, dry_friction_stddev, friction_damping_gain, friction_stiffness_gain;
   std::optional<double> integration_horizon, sample_period;
   std::optional<double> learned_from, learned_to;
 };
@@ -32,6 +33,14 @@ constexpr std::array kBaselineFields{
                   1e12},
     BaselineField{"stiffness_to_mass_stddev", "1/s^2", "its standard deviation",
                   &BaselineSettings::stiffness_to_mass_stddev, 0.0, 1e12},
+    BaselineField{"dry_friction", "m/s^2", "that the strut had besides, over the body's mass; left out: not known",
+                  &BaselineSettings::dry_friction, -1e6, 1e6},
+    BaselineField{"dry_friction_stddev", "m/s^2", "its standard deviation", &BaselineSettings::dry_friction_stddev, 0.0,
+                  1e6},
+    BaselineField{"friction_damping_gain", "s/m", "what 1 m/s^2 of it made of b1 on that road",
+                  &BaselineSettings::friction_damping_gain, -1e9, 1e9},
+    BaselineField{"friction_stiffness_gain", "1/m", "what 1 m/s^2 of it made of b0",
+                  &BaselineSettings::friction_stiffness_gain, -1e12, 1e12},
     BaselineField{"integration_horizon", "s", "of the filter that it was learned with",
                   &BaselineSettings::integration_horizon, 0.0, 1e9},
     BaselineField{"sample_period", "s", "likewise", &BaselineSettings::sample_period, 1e-5, 10.0},
@@ -60,6 +69,10 @@ Baseline toBaseline(const BaselineSettings& settings) {
   baseline.stiffness_to_mass_stddev = settings.stiffness_to_mass_stddev.value_or(0.0);
   checkStddev(baseline.damping_to_mass_stddev, *baseline.damping_to_mass, "damping_to_mass");
   checkStddev(baseline.stiffness_to_mass_stddev, *baseline.stiffness_to_mass, "stiffness_to_mass");
+  if (settings.dry_friction)
+    baseline.friction = DryFriction{*settings.dry_friction, needed(settings.dry_friction_stddev, "dry_friction_stddev"),
+                                    needed(settings.friction_damping_gain, "friction_damping_gain"),
+                                    needed(settings.friction_stiffness_gain, "friction_stiffness_gain")};
   baseline.learned = true;
   baseline.from = fromSeconds(settings.learned_from.value_or(0.0));
   baseline.to = fromSeconds(settings.learned_to.value_or(0.0));
@@ -78,20 +91,27 @@ void checkCertain(const char* name, double value, double stddev, double error, d
 }  // namespace
 
 std::string toYaml(const Baseline& baseline, double horizon, double sample_period) {
-  const BaselineSettings settings{baseline.damping_to_mass,
-                                  baseline.stiffness_to_mass,
-                                  baseline.damping_to_mass_stddev,
-                                  baseline.stiffness_to_mass_stddev,
-                                  horizon,
-                                  sample_period,
-                                  toSeconds(baseline.from),
-                                  toSeconds(baseline.to)};
+  BaselineSettings settings;
+  settings.damping_to_mass = baseline.damping_to_mass;
+  settings.stiffness_to_mass = baseline.stiffness_to_mass;
+  settings.damping_to_mass_stddev = baseline.damping_to_mass_stddev;
+  settings.stiffness_to_mass_stddev = baseline.stiffness_to_mass_stddev;
+  if (baseline.friction) {
+    settings.dry_friction = baseline.friction->force;
+    settings.dry_friction_stddev = baseline.friction->stddev;
+    settings.friction_damping_gain = baseline.friction->damping_gain;
+    settings.friction_stiffness_gain = baseline.friction->stiffness_gain;
+  }
+  settings.integration_horizon = horizon;
+  settings.sample_period = sample_period;
+  settings.learned_from = toSeconds(baseline.from);
+  settings.learned_to = toSeconds(baseline.to);
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::setprecision(17) << "# The healthy strut, written by the monitor.\n";
   for (const BaselineField& field : kBaselineFields)
-    text << field.name << ": " << *(settings.*std::get<std::optional<double> BaselineSettings::*>(field.member))
-         << "  # [" << field.unit << "] " << field.help << '\n';
+    if (const auto& value = settings.*std::get<std::optional<double> BaselineSettings::*>(field.member))
+      text << field.name << ": " << *value << "  # [" << field.unit << "] " << field.help << '\n';
   return text.str();
 }
 

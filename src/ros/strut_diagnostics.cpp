@@ -63,6 +63,10 @@ void StrutDiagnostics::describeHealth(const SuspensionMonitor& monitor, Status& 
   const Baseline& baseline = monitor.baseline();
   addJudgement(status, "damping_to_mass", baseline.damping_to_mass, report.health.damping_change);
   addJudgement(status, "stiffness_to_mass", baseline.stiffness_to_mass, report.health.stiffness_change);
+  if (report.ls.friction) {
+    status.addf("dry friction [m/s^2]", "%.4f", report.ls.friction->force);
+    status.addf("dry friction stddev [m/s^2]", "%.4f", report.ls.friction->stddev);
+  }
   if (report.health.payload_change) status.addf("body mass change [%]", "%+.1f", 100.0 * *report.health.payload_change);
   if (report.health.learning) status.addf("baseline learned [%]", "%.0f", 100.0 * *report.health.learning);
   status.add("early warning", report.health.early_warning);

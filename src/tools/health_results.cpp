@@ -30,6 +30,12 @@ void printEstimate(const char* name, const StrutEstimate& estimate, const std::o
                 estimate.offset, 1e3 * estimate.clock_skew);
 }
 
+void printFriction(const std::optional<DryFriction>& friction) {
+  if (friction)
+    std::printf("    dry friction beside them %.3g m/s^2, standard deviation %.1g\n", friction->force,
+                friction->stddev);
+}
+
 }  // namespace
 
 HealthTable::HealthTable(std::FILE* out, std::vector<std::string> struts) : out_(out), struts_(std::move(struts)) {
@@ -67,6 +73,7 @@ void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const s
   std::printf("\n\nat the end %s: %s\n", nameOf(end.level), end.message.c_str());
   printEstimate("LS", monitor.report().ls, monitor.options().sprung_mass);
   printEstimate("LA", monitor.report().la, monitor.options().sprung_mass);
+  printFriction(monitor.report().ls.friction);
 }
 
 json toJson(const HealthMoment& moment) {
@@ -90,6 +97,11 @@ json estimatesJson(const SuspensionMonitor& monitor) {
   };
   add("la", monitor.report().la);
   add("ls", monitor.report().ls);
+  if (const std::optional<DryFriction>& friction = monitor.report().ls.friction)
+    estimates["dry_friction"] = {{"force", friction->force},
+                                 {"stddev", friction->stddev},
+                                 {"damping_gain", friction->damping_gain},
+                                 {"stiffness_gain", friction->stiffness_gain}};
   return estimates;
 }
 

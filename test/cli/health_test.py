@@ -167,6 +167,17 @@ def test_baseline_file_is_what_is_judged_by(program, worn_bag, tmp_path):
     assert path.read_text() == BASELINE
 
 
+def test_friction_that_the_baseline_had_on_a_smoother_road_is_taken_out_of_it(program, worn_bag, tmp_path):
+    def damping_lost(friction):
+        path = tmp_path / "strut.yaml"
+        path.write_text(BASELINE + friction)
+        said = health(program, tmp_path, [worn_bag], "--baseline", path)
+        return int(re.match(r"damping (\d+) % below baseline", said.result["events"][-1]["message"])[1])
+    smooth = "dry_friction: 0.02\ndry_friction_stddev: 0.001\nfriction_damping_gain: 15\nfriction_stiffness_gain: 0\n"
+    # b1 of the healthy strut is less by 0.02 times 15, less what the gain is here, a few s/m: by a tenth of 3 at most.
+    assert 2 <= damping_lost("") - damping_lost(smooth) <= 7
+
+
 @pytest.mark.parametrize("text, words", [
     (None, ["must be a YAML file"]), ("damping_to_mass: -3\nstiffness_to_mass: 13.8\n", ["damping_to_mass = -3"]),
     ("damping_to_mass: 3\n", ["stiffness_to_mass is missing"]), ("{", ["line 1"])])

@@ -63,6 +63,9 @@ class BaselineTest(unittest.TestCase):
         self.assertAlmostEqual(stored["stiffness_to_mass"], B0, delta=0.4)
         self.assertAlmostEqual(stored["integration_horizon"], 0.6, delta=1e-6)
         self.assertAlmostEqual(stored["sample_period"], 0.02, delta=1e-4)
+        self.assertAlmostEqual(stored["dry_friction"], 0.0, delta=0.01)
+        self.assertLess(stored["dry_friction_stddev"], 0.01)
+        self.assertGreater(stored["friction_damping_gain"], 0.1)
         self.assertGreaterEqual(stored["learned_to"] - stored["learned_from"], LEARN_TIME - 1.0)
         self.assertAlmostEqual(learned.nominal_damping_to_mass, stored["damping_to_mass"], delta=1e-9)
         with self.monitor():
@@ -102,6 +105,7 @@ class BaselineTest(unittest.TestCase):
                   "damping_to_mass: 3\nstiffness_to_mass: 13.8\nstifness: 1\n": ["unknown option stifness"],
                   "damping_to_mass: 3\ndamping_to_mass_stddev: 2\nstiffness_to_mass: 13.8\n":
                       ["damping_to_mass_stddev = 2", "at most half"],
+                  "damping_to_mass: 3\nstiffness_to_mass: 13.8\ndry_friction: 0.1\n": ["dry_friction_stddev is missing"],
                   "damping_to_mass: [": ["line 1"]}
         for text, parts in broken.items():
             with open(self.path, "w", encoding="utf-8") as stream:

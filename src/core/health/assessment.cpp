@@ -115,7 +115,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
     if (learner_ && agreement_.holds())
       if (const std::optional<Baseline> learned = learner_->add(stamp, ls, options_.rows_per_update))
         setBaseline(*learned);
-    const StrutChange changed = change();
+    const StrutChange changed = change(la.friction);
     judge(changed, now);
     noteLoad(changed);
     warnEarly(changed);
@@ -144,12 +144,12 @@ void HealthAssessment::follow(const StrutEstimate& ls, const StrutEstimate& la) 
                            {la.stiffness_to_mass, la.stiffness_to_mass_stddev});
 }
 
-StrutChange HealthAssessment::change() const {
-  const auto from = [&](const std::optional<double>& healthy, double stddev, const FollowedParameter& parameter) {
-    return healthy ? parameter.changeFrom({*healthy, stddev}, options_.min_significance) : std::nullopt;
+StrutChange HealthAssessment::change(const std::optional<DryFriction>& friction) const {
+  const auto from = [&](const std::optional<UncertainValue>& healthy, const FollowedParameter& parameter) {
+    return healthy ? parameter.changeFrom(*healthy, options_.min_significance) : std::nullopt;
   };
-  return splitChange(from(baseline_.damping_to_mass, baseline_.damping_to_mass_stddev, damping_.course),
-                     from(baseline_.stiffness_to_mass, baseline_.stiffness_to_mass_stddev, stiffness_.course),
+  const HealthyValues healthy = onThisRoad(baseline_, friction);
+  return splitChange(from(healthy.damping, damping_.course), from(healthy.stiffness, stiffness_.course),
                      options_.payload_range, known_load_);
 }
 

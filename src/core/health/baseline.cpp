@@ -2,17 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace suspension_health_monitor {
+namespace {
+
+const double kFrictionSpread = 1.0 / std::sqrt(12.0);  // of a uniform distribution of width 1
+
+UncertainValue shifted(double value, double stddev, const DryFriction& friction, double gain_apart) {
+  const double shift = friction.force * gain_apart;
+  const double of_shift = std::hypot(kFrictionSpread * shift, friction.stddev * gain_apart);
+  // Where nearly all of the value was friction there is no telling.
+  if (!(value + shift > of_shift)) return {value, std::numeric_limits<double>::infinity()};
+  return {value + shift, std::hypot(stddev, of_shift)};
+}
+
+}  // namespace
 
 Baseline baselineOf(const StrutEstimate& la, Stamp stamp) {
   return {la.damping_to_mass,
           la.stiffness_to_mass,
           la.damping_to_mass_stddev,
           la.stiffness_to_mass_stddev,
+          la.friction,
           true,
           stamp,
           stamp};
+}
+
+HealthyValues onThisRoad(const Baseline& baseline, const std::optional<DryFriction>& now) {
+  const DryFriction learned = baseline.friction.value_or(DryFriction{}), present = now.value_or(learned);
+  HealthyValues healthy;
+  if (baseline.damping_to_mass)
+    healthy.damping = shifted(*baseline.damping_to_mass, baseline.damping_to_mass_stddev, learned,
+                              present.damping_gain - learned.damping_gain);
+  if (baseline.stiffness_to_mass)
+    healthy.stiffness = shifted(*baseline.stiffness_to_mass, baseline.stiffness_to_mass_stddev, learned,
+                                present.stiffness_gain - learned.stiffness_gain);
+  return healthy;
 }
 
 std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& estimate, double rows) {
@@ -29,11 +56,22 @@ std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& e
   mix(half.stiffness, estimate.stiffness_to_mass);
   mix(half.damping_variance, std::pow(estimate.damping_to_mass_stddev, 2));
   mix(half.stiffness_variance, std::pow(estimate.stiffness_to_mass_stddev, 2));
+  const DryFriction friction = estimate.friction.value_or(DryFriction{});
+  mix(half.friction.force, friction.force);
+  mix(half.friction.damping_gain, friction.damping_gain);
+  mix(half.friction.stiffness_gain, friction.stiffness_gain);
+  mix(half.friction_variance, std::pow(friction.stddev, 2));
   if (progress() < 1.0) return std::nullopt;
   const auto& [a, b] = halves_;
+  const double force = (a.friction.force + b.friction.force) / 2.0;
+  const auto drifts = [&](double first, double second, double first_gain, double second_gain, double variance) {
+    return this->drifts(first - force * first_gain, second - force * second_gain, variance);
+  };
   std::optional<Baseline> learned;
-  if (drifts(a.damping, b.damping, a.damping_variance + b.damping_variance) ||
-      drifts(a.stiffness, b.stiffness, a.stiffness_variance + b.stiffness_variance))
+  if (drifts(a.damping, b.damping, a.friction.damping_gain, b.friction.damping_gain,
+             a.damping_variance + b.damping_variance) ||
+      drifts(a.stiffness, b.stiffness, a.friction.stiffness_gain, b.friction.stiffness_gain,
+             a.stiffness_variance + b.stiffness_variance))
     ++restarts_;
   else
     learned = result(stamp);
@@ -55,6 +93,10 @@ Baseline BaselineLearner::result(Stamp to) const {
   baseline.stiffness_to_mass = (a.stiffness + b.stiffness) / 2.0;
   baseline.damping_to_mass_stddev = std::sqrt((a.damping_variance + b.damping_variance) / 2.0 * correlated);
   baseline.stiffness_to_mass_stddev = std::sqrt((a.stiffness_variance + b.stiffness_variance) / 2.0 * correlated);
+  baseline.friction = DryFriction{(a.friction.force + b.friction.force) / 2.0,
+                                  std::sqrt((a.friction_variance + b.friction_variance) / 2.0 * correlated),
+                                  (a.friction.damping_gain + b.friction.damping_gain) / 2.0,
+                                  (a.friction.stiffness_gain + b.friction.stiffness_gain) / 2.0};
   baseline.learned = true;
   baseline.from = from_;
   baseline.to = to;

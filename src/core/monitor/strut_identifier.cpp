@@ -49,6 +49,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       estimators_(options.estimators.sensors, recursiveOf(options, filter_.horizon_samples), options.leastAbsolute()),
       errors_(filter_, excitation_.noise(), estimators_.leastSquares().numParameters(),
               options.forgettingFactor(filter_.period), options.estimators.removes_noise_shift),
+      friction_(filter_, regression_.delay(), options.forgettingFactor(filter_.period)),
       silent_rows_(filter_.horizon_samples),
       rows_(std::numeric_limits<double>::infinity()) {  // the plain columns are there from the first row on
   setForgetting(options);
@@ -64,6 +65,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
 
 void StrutIdentifier::add(const CornerSample& sample, const double* effect_forces) {
   errors_.addSample(sample, !estimators_.leastSquares().holdsAny());
+  friction_.addSample(sample.unsprung_acceleration - sample.sprung_acceleration);
   const RegressionRow* row = regression_.push(sample, effect_forces);
   has_row_ = row != nullptr;
   if (!has_row_) return;
@@ -88,7 +90,10 @@ void StrutIdentifier::update(const RegressionRow& row) {
   rows_to_forget_ = std::max(0.0, rows_to_forget_ - 1.0);
   if (const SkewProfile* skew = regression_.skew())
     errors_.addSkew(row, regression_.wheel(), skew->skew(), estimators_.leastAbsolute());
-  errors_.addRow(row, estimators_.update(row), estimators_.leastAbsolute());
+  const double innovation = estimators_.update(row);
+  errors_.addRow(row, innovation, estimators_.leastAbsolute());
+  friction_.setForgettingFactor(estimators_.forgettingFactor());
+  friction_.addRow(row, innovation, estimators_.leastAbsolute());
 }
 
 void StrutIdentifier::takeExcitation() {
@@ -112,6 +117,7 @@ void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) {
   }
   if (holdsAll()) return;
   errors_.describe(estimators_, regression_.skew(), ls, la);
+  ls.friction = la.friction = friction_.friction(estimators_.leastSquares());
   regression_.setNoise(errors_.noiseVariance());
 }
 
@@ -136,6 +142,7 @@ void StrutIdentifier::startNewSeries() {
   regression_.reset();
   estimators_.interrupt();
   errors_.interrupt();
+  friction_.interrupt();
   excitation_.reset();
   has_row_ = false;
 }

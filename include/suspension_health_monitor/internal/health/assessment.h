@@ -32,6 +32,8 @@ struct HealthOptions : HealthThresholds {
 /// Judges damping and stiffness by their change from the healthy strut: nominal values, or a baseline that it learns.
 ///
 /// - What is judged: the trend of LS or of LA, which have no lag behind a steady change (FollowedParameter).
+/// - A baseline is compared as it would be on the present road: dry friction makes more of b1 the smoother that is
+///   (onThisRoad()).
 /// - LS and LA that disagree for long (Agreement) are reported: there are outliers.
 /// - Payload moves both parameters, damage one (splitChange()).
 /// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation). It ends when
@@ -76,7 +78,7 @@ class HealthAssessment {
   };
 
   void follow(const StrutEstimate& ls, const StrutEstimate& la);
-  StrutChange change() const;
+  StrutChange change(const std::optional<DryFriction>& friction) const;
   void noteLoad(const StrutChange& change);
   LoadDoubt doubtOfLoad(const StrutChange& change) const;
   void judge(const StrutChange& change, HealthReport& now);

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "suspension_health_monitor/internal/health/parameter_trend.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -9,13 +10,24 @@ namespace suspension_health_monitor {
 /// @return the strut as LA estimates it at `stamp`, as healthy: after a service.
 Baseline baselineOf(const StrutEstimate& la, Stamp stamp);
 
+/// The healthy strut's parameters; empty: not known.
+struct HealthyValues {
+  std::optional<UncertainValue> damping, stiffness;  ///< b1 [1/s], b0 [1/s^2]
+};
+
+/// @param now  of the present estimates; empty: as when the baseline was learned.
+/// @return as what the healthy strut would be estimated on the present road: its dry friction is the same, but not what
+/// that makes of b1 and b0. Friction is no more than a part of what it is in a rod that sticks, or in a valve: how much
+/// it makes is known within a half either way, uniformly.
+HealthyValues onThisRoad(const Baseline& baseline, const std::optional<DryFriction>& now);
+
 /// Learns the baseline from a stretch of estimates of LS that LA agrees with: their mean, over halves that must agree.
 ///
 /// A strut that changes while it is learned is not taken as healthy: if the means of the two halves differ by more than
-/// kDrift standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another
-/// drive, perhaps of another vehicle. Standard deviation of a mean over n rows: that of one estimate times sqrt(2 m /
-/// n), with m the estimator's memory: exponential forgetting correlates estimates over 2 m rows. Cost per estimate:
-/// O(1), no allocation.
+/// kDrift standard deviations and 3 % beyond what dry friction makes of another road, learning begins anew. So it does
+/// when the clock goes back: that is another drive, perhaps of another vehicle. Standard deviation of a mean over n
+/// rows: that of one estimate times sqrt(2 m / n), with m the estimator's memory: exponential forgetting correlates
+/// estimates over 2 m rows. Cost per estimate: O(1), no allocation.
 class BaselineLearner {
  public:
   /// @param rows  to learn from, > 0.  @param memory  m of the estimator in rows.
@@ -33,6 +45,8 @@ class BaselineLearner {
     double rows = 0.0;
     double damping = 0.0, stiffness = 0.0;                    // means
     double damping_variance = 0.0, stiffness_variance = 0.0;  // means of an estimate's variance
+    DryFriction friction;                                     // mean
+    double friction_variance = 0.0;                           // likewise
   };
 
   static constexpr double kDrift = 3.0;

@@ -6,6 +6,7 @@
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/excitation.h"
+#include "suspension_health_monitor/internal/identification/friction_listener.h"
 #include "suspension_health_monitor/internal/identification/paired_estimators.h"
 #include "suspension_health_monitor/internal/identification/synchronous_regression.h"
 #include "suspension_health_monitor/internal/monitor/error_budget.h"
@@ -94,6 +95,7 @@ class StrutIdentifier {
   SynchronousRegression regression_;
   PairedEstimators estimators_;
   ErrorBudget errors_;
+  FrictionListener friction_;
   SilentRows silent_rows_;
   bool has_row_ = false;
   double rows_;                  // of the model's present columns
