@@ -11,6 +11,7 @@ class Baseline:
     def __init__(self, damping_to_mass: Optional[float] = ..., stiffness_to_mass: Optional[float] = ...) -> None: ...
     damping_to_mass: Optional[float]
     damping_to_mass_stddev: float
+    friction: Optional[DryFriction]
     learned: bool
     learned_from: float
     learned_to: float
@@ -95,6 +96,12 @@ class DirectionLoop:
     extending: ResidualBins
     gap: float
     gap_standard_error: float
+
+class DryFriction:
+    damping_gain: float
+    force: float
+    stddev: float
+    stiffness_gain: float
 
 class Effect:
     coefficients: List[Tuple[str, str]]
@@ -290,6 +297,7 @@ class StrutEstimate:
     damping_to_mass: float
     damping_to_mass_stddev: float
     explained: float
+    friction: Optional[DryFriction]
     natural_frequency: float
     offset: float
     reason: str

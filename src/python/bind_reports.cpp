@@ -1,3 +1,6 @@
+#include <array>
+#include <optional>
+
 #include "bindings.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
@@ -9,20 +12,25 @@ namespace py = pybind11;
 
 namespace {
 
+/// What a baseline's friction is sent as.
+using Numbers = std::array<double, 4>;
+
+std::optional<Numbers> toNumbers(const std::optional<DryFriction>& friction) {
+  if (!friction) return std::nullopt;
+  return Numbers{friction->force, friction->stddev, friction->damping_gain, friction->stiffness_gain};
+}
+
+std::optional<DryFriction> toFriction(const std::optional<Numbers>& numbers) {
+  if (!numbers) return std::nullopt;
+  return DryFriction{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
+}
+
 void bindEstimates(py::module& module) {
   py::class_<DryFriction>(module, "DryFriction", "Dry friction, beside which the linear strut was estimated.")
       .def_readonly("force", &DryFriction::force, "over the body's mass [m/s^2]")
       .def_readonly("stddev", &DryFriction::stddev, "[m/s^2]")
       .def_readonly("damping_gain", &DryFriction::damping_gain, "what 1 m/s^2 of it adds to b1 on this road [s/m]")
-      .def_readonly("stiffness_gain", &DryFriction::stiffness_gain, "to b0 [1/m]")
-      .def(py::pickle(
-          [](const DryFriction& self) {
-            return py::make_tuple(self.force, self.stddev, self.damping_gain, self.stiffness_gain);
-          },
-          [](const py::tuple& state) {
-            return DryFriction{state[0].cast<double>(), state[1].cast<double>(), state[2].cast<double>(),
-                               state[3].cast<double>()};
-          }));
+      .def_readonly("stiffness_gain", &DryFriction::stiffness_gain, "to b0 [1/m]");
   py::class_<StrutEstimate>(module, "StrutEstimate", "What one estimator of the live monitor knows; NaN: nothing yet.")
       .def_readonly("damping_to_mass", &StrutEstimate::damping_to_mass, "b1 [1/s]")
       .def_readonly("stiffness_to_mass", &StrutEstimate::stiffness_to_mass, "b0 [1/s^2]")
@@ -82,15 +90,15 @@ void bindCondition(py::module& module) {
       .def(py::pickle(
           [](const Baseline& self) {
             return py::make_tuple(self.damping_to_mass, self.stiffness_to_mass, self.damping_to_mass_stddev,
-                                  self.stiffness_to_mass_stddev, self.friction, self.learned, self.from.count(),
-                                  self.to.count());
+                                  self.stiffness_to_mass_stddev, toNumbers(self.friction), self.learned,
+                                  self.from.count(), self.to.count());
           },
           [](const py::tuple& state) {
             return Baseline{state[0].cast<std::optional<double>>(),
                             state[1].cast<std::optional<double>>(),
                             state[2].cast<double>(),
                             state[3].cast<double>(),
-                            state[4].cast<std::optional<DryFriction>>(),
+                            toFriction(state[4].cast<std::optional<Numbers>>()),
                             state[5].cast<bool>(),
                             Stamp(state[6].cast<Stamp::rep>()),
                             Stamp(state[7].cast<Stamp::rep>())};

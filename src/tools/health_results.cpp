@@ -92,16 +92,16 @@ json estimatesJson(const SuspensionMonitor& monitor) {
     estimates[name] = toJson(atTheEnd(estimate));
     estimates[name]["offset"] = estimate.offset;
     estimates[name]["clock_skew"] = estimate.clock_skew;
+    if (estimate.friction)
+      estimates[name]["friction"] = {{"force", estimate.friction->force},
+                                     {"stddev", estimate.friction->stddev},
+                                     {"damping_gain", estimate.friction->damping_gain},
+                                     {"stiffness_gain", estimate.friction->stiffness_gain}};
     estimates[name]["damping_excitation"] = estimate.damping_excitation;
     estimates[name]["stiffness_excitation"] = estimate.stiffness_excitation;
   };
   add("la", monitor.report().la);
   add("ls", monitor.report().ls);
-  if (const std::optional<DryFriction>& friction = monitor.report().ls.friction)
-    estimates["dry_friction"] = {{"force", friction->force},
-                                 {"stddev", friction->stddev},
-                                 {"damping_gain", friction->damping_gain},
-                                 {"stiffness_gain", friction->stiffness_gain}};
   return estimates;
 }
 

@@ -172,10 +172,10 @@ def test_friction_that_the_baseline_had_on_a_smoother_road_is_taken_out_of_it(pr
         path = tmp_path / "strut.yaml"
         path.write_text(BASELINE + friction)
         said = health(program, tmp_path, [worn_bag], "--baseline", path)
-        return int(re.match(r"damping (\d+) % below baseline", said.result["events"][-1]["message"])[1])
-    smooth = "dry_friction: 0.02\ndry_friction_stddev: 0.001\nfriction_damping_gain: 15\nfriction_stiffness_gain: 0\n"
-    # b1 of the healthy strut is less by 0.02 times 15, less what the gain is here, a few s/m: by a tenth of 3 at most.
-    assert 2 <= damping_lost("") - damping_lost(smooth) <= 7
+        return int(re.match(r"damping (\d+) % below baseline", said.result["end"]["message"])[1])
+    smooth = "dry_friction: 0.02\ndry_friction_stddev: 0.001\nfriction_damping_gain: 20\nfriction_stiffness_gain: 0\n"
+    # The gain is 5 to 10 here: b1 of the healthy strut is 2.7 to 2.8 instead of 3, and some 1.95 of it is left.
+    assert 3 <= damping_lost("") - damping_lost(smooth) <= 8
 
 
 @pytest.mark.parametrize("text, words", [

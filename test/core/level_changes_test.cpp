@@ -91,7 +91,7 @@ TEST_P(TiltedWheelImu, NeitherBlamesAStrutNorIsWrongWithConfidence) {
   drive.tilt = 2.0 * kPi / 180.0;
   drive.seed = 40 + static_cast<unsigned>(GetParam());
   double valid = 0.0, wrong = 0.0, reports = 0.0;
-  follow(drive, {}, 600.0, [&](double time, const MonitorReport& report) {
+  follow(drive, {}, 1800.0, [&](double time, const MonitorReport& report) {
     EXPECT_NE(report.health.level, HealthLevel::kWarn) << time;
     EXPECT_NE(report.health.level, HealthLevel::kError) << time;
     reports += 1.0;

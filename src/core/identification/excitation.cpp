@@ -115,7 +115,7 @@ void Excitation::judgeExcited(const Block& recent) {
   // one that is held needs to be released.
   if (isHeld() && recent.blocks == 2)
     for (Part& part : parts_)
-      if (part.excited && part.excitation < leastToRelease(recent)) hold(part);
+      if (part.excited && !(tells && part.excitation >= leastToRelease(recent))) hold(part);
   if (is_new) since_held_ = Block();
 }
 
