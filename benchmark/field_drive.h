@@ -49,6 +49,7 @@ struct FieldDrive {
   bool potholes = false, washboard = false, stops = false;
   double engine = 0.0;    ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
   double friction = 0.0;  ///< dry, between body and wheel, over the body's mass [m/s^2]
+  double digressive = 0.0;  ///< v0 of a damper b1 v / (1 + |v| / v0) [m/s]; 0: it is linear
   double fade = 0.0;      ///< share of the damping that is lost while it is hot
   double change_at = 1e300, damping_left = 1.0, stiffness_left = 1.0;
   double road_after = 0.0;  ///< the road from change_at on; 0: the same [m^3]
@@ -58,8 +59,9 @@ struct FieldDrive {
 inline constexpr int kFieldRate = 2000;  ///< steps per second of the integration
 
 /// Integrates the vehicle's equations (1), (2) in steps of 1/kFieldRate by their exact solution for a road that is
-/// straight over a step, and dry friction by steps of Euler; nothing is shared with the package. The road is integrated
-/// white noise, G(n) = Gd(0.1) (0.1/n)^2 above 0.01 cycles/m, under a tyre that touches 0.1 m of it.
+/// straight over a step, and what a strut has beside its linear force by steps of Euler; nothing is shared with the
+/// package. The road is integrated white noise, G(n) = Gd(0.1) (0.1/n)^2 above 0.01 cycles/m, under a tyre that touches
+/// 0.1 m of it.
 class FieldSimulator {
  public:
   explicit FieldSimulator(const FieldDrive& drive) : drive_(drive), random_(drive.seed) {
@@ -88,8 +90,9 @@ class FieldSimulator {
 
   void refresh() {
     const bool changed = time_ >= drive_.change_at;
-    const double b1 = drive_.vehicle.b1 * (changed ? drive_.damping_left : 1.0) *
-                      (1.0 - drive_.fade * 0.5 * (1.0 - std::cos(2 * M_PI * time_ / 1800.0)));
+    damping_left_ =
+        (changed ? drive_.damping_left : 1.0) * (1.0 - drive_.fade * 0.5 * (1.0 - std::cos(2 * M_PI * time_ / 1800.0)));
+    const double b1 = drive_.vehicle.b1 * damping_left_;
     const double b0 = drive_.vehicle.b0 * (changed ? drive_.stiffness_left : 1.0);
     const double body = drive_.mass, wheel = drive_.vehicle.wheel_to_body, tyre = drive_.vehicle.tyre_to_body;
     Eigen::Matrix<double, 7, 7> e = Eigen::Matrix<double, 7, 7>::Zero();  // z, w, z', w', road, force, road's rate
@@ -144,18 +147,23 @@ class FieldSimulator {
     const double height = roadHeight(), force = drive_.engine * std::sin(phase_);
     Eigen::Matrix<double, 7, 1> input;
     input << state_, height_, force, (height - height_) / kStep;
-    state_ = transition_ * input + kStep * rubbing() * strut_;
+    state_ = transition_ * input + kStep * strutForce() * strut_;
     height_ = height;
     Eigen::Matrix<double, 6, 1> now;
     now << state_, height, force;
-    const Eigen::Vector2d accelerations = derivative_ * now + rubbing() * strut_.tail<2>();
+    const Eigen::Vector2d accelerations = derivative_ * now + strutForce() * strut_.tail<2>();
     body_ = accelerations[0];
     wheel_ = accelerations[1];
   }
 
-  double rubbing() const {
+  // Beside the linear one, over the healthy body's mass.
+  double strutForce() const {
     constexpr double kCreep = 0.004;  // [m/s]
-    return drive_.friction == 0.0 ? 0.0 : drive_.friction * std::tanh((state_[3] - state_[2]) / kCreep);
+    const double rate = state_[3] - state_[2];
+    double force = drive_.friction == 0.0 ? 0.0 : drive_.friction * std::tanh(rate / kCreep);
+    if (drive_.digressive > 0.0)
+      force -= drive_.vehicle.b1 * damping_left_ * rate * std::abs(rate) / (drive_.digressive + std::abs(rate));
+    return force;
   }
 
   // What the wheel did `skew` ago, by a straight line between steps.
@@ -189,6 +197,7 @@ class FieldSimulator {
   }
 
   FieldDrive drive_;
+  double damping_left_ = 1.0;  // share, now
   std::mt19937_64 random_;
   std::normal_distribution<double> gauss_;
   std::uniform_real_distribution<double> uniform_;

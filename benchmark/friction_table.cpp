@@ -1,5 +1,5 @@
-// Prints the table of dry friction of doc/health.md: a baseline that is learned on one road, then the same strut, or
-// one that has lost 40 % of its damping, on another.
+// Prints the table of dampers that are not linear of doc/health.md: a baseline that is learned on one road, then the
+// same strut, or one that has lost 40 % of its damping, on another.
 //   friction_table [SEED]
 #include <algorithm>
 #include <array>
@@ -25,6 +25,20 @@ struct Way {
 };
 
 constexpr std::array kWays{Way{"A to C", 16e-6, 256e-6}, Way{"B to D", 64e-6, 1024e-6}, Way{"C to A", 256e-6, 16e-6}};
+
+/// What a strut has beside the linear one.
+struct Damper {
+  const char* name;
+  double friction, digressive;  // as in FieldDrive
+};
+
+constexpr std::array kDampers{Damper{"linear", 0.0, 0.0},
+                              Damper{"friction 0.05 m/s^2", 0.05, 0.0},
+                              Damper{"friction 0.1 m/s^2", 0.1, 0.0},
+                              Damper{"friction 0.2 m/s^2", 0.2, 0.0},
+                              Damper{"friction 0.4 m/s^2", 0.4, 0.0},
+                              Damper{"digressive, 0.8 m/s", 0.0, 0.8},
+                              Damper{"digressive, 0.3 m/s", 0.0, 0.3}};
 
 /// What was said on the second road, of all vehicles.
 struct Judged {
@@ -57,12 +71,12 @@ void judge(const FieldDrive& drive, Judged& judged) {
   judged.damping.push_back(median(std::move(damping)));
 }
 
-void printRow(double friction, const Way& way, double left, const Judged& judged) {
+void printRow(const Damper& damper, const Way& way, double left, const Judged& judged) {
   const auto range = [](std::vector<double> values) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     return std::pair(*least, *most);
   };
-  std::printf("| %.2f | %s | %+.0f %% | ", friction, way.name, 100.0 * (left - 1.0));
+  std::printf("| %s | %s | %+.0f %% | ", damper.name, way.name, 100.0 * (left - 1.0));
   if (judged.heard.empty()) return void(std::printf("none learned | | | | | |\n"));
   const auto heard = range(judged.heard), damping = range(judged.damping);
   std::printf("%.2f to %.2f | %+.0f to %+.0f %% | %ld | %ld | %ld | %ld | %d |\n", heard.first, heard.second,
@@ -72,29 +86,32 @@ void printRow(double friction, const Way& way, double left, const Judged& judged
   std::fflush(stdout);
 }
 
+Judged judge(const Damper& damper, const Way& way, double left, unsigned seed) {
+  Judged judged;
+  for (const FieldVehicle& vehicle : kFieldVehicles) {
+    FieldDrive drive;
+    drive.vehicle = vehicle;
+    drive.friction = damper.friction;
+    drive.digressive = damper.digressive;
+    drive.rate = 100;
+    drive.road = way.from;
+    drive.change_at = kLearned;
+    drive.road_after = way.to;
+    drive.damping_left = left;
+    drive.seed = seed;
+    judge(drive, judged);
+  }
+  return judged;
+}
+
 void printTable(unsigned seed) {
   std::printf(
-      "| friction [m/s^2] | roads | damping is | friction heard | damping judged | OK %% | WARN %% | ERROR %% | STALE "
-      "%% | "
+      "| damper | roads | damping is | friction heard [m/s^2] | damping judged | OK %% | WARN %% | ERROR %% | STALE %% "
+      "| "
       "no baseline |\n|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const double friction : {0.0, 0.05, 0.1, 0.2, 0.4})
+  for (const Damper& damper : kDampers)
     for (const Way& way : kWays)
-      for (const double left : {1.0, 0.6}) {
-        Judged judged;
-        for (const FieldVehicle& vehicle : kFieldVehicles) {
-          FieldDrive drive;
-          drive.vehicle = vehicle;
-          drive.friction = friction;
-          drive.rate = 100;
-          drive.road = way.from;
-          drive.change_at = kLearned;
-          drive.road_after = way.to;
-          drive.damping_left = left;
-          drive.seed = seed;
-          judge(drive, judged);
-        }
-        printRow(friction, way, left, judged);
-      }
+      for (const double left : {1.0, 0.6}) printRow(damper, way, left, judge(damper, way, left, seed));
 }
 
 }  // namespace

@@ -86,30 +86,40 @@ Baseline learnedBaseline() {
 }
 
 TEST(HealthyValues, AreThoseOfThePresentRoad) {
-  const HealthyValues healthy = onThisRoad(learnedBaseline(), DryFriction{0.7, 0.5, 5.0, -10.0});
+  const HealthyValues healthy = onThisRoad(learnedBaseline(), DryFriction{0.2, 0.01, 5.0, -10.0}, 5.0);
   EXPECT_NEAR(healthy.damping->value, 8.0 + 0.2 * (5.0 - 20.0), 1e-12);
-  EXPECT_NEAR(healthy.damping->stddev, std::sqrt(0.3 * 0.3 + 3.0 * 3.0 / 12.0 + 0.15 * 0.15), 1e-12);
+  EXPECT_NEAR(healthy.damping->stddev, std::sqrt(0.3 * 0.3 + 0.6 * 0.6 + 0.15 * 0.15 / 2.0), 1e-12);
   EXPECT_NEAR(healthy.stiffness->value, 40.0 + 0.2 * (50.0 - 10.0), 1e-12);
-  EXPECT_NEAR(healthy.stiffness->stddev, std::sqrt(8.0 * 8.0 / 12.0 + 0.4 * 0.4), 1e-12);
+  EXPECT_NEAR(healthy.stiffness->stddev, std::sqrt(1.6 * 1.6 + 0.4 * 0.4 / 2.0), 1e-12);
+}
+
+// b1 = b - k r on a road of rate r has, along g = 1 / r, the slope f = k r^2 there, for roads that are not far apart.
+TEST(HealthyValues, FollowADamperThatIsSofterTheFasterItMoves) {
+  const double b = 6.0, k = 1.0;
+  const auto on = [&](double rate) { return DryFriction{k * rate * rate, 0.0, 1.0 / rate, 0.0}; };
+  Baseline baseline = learnedBaseline();
+  baseline.damping_to_mass = b - k * 1.0;
+  baseline.friction = on(1.0);
+  EXPECT_NEAR(onThisRoad(baseline, on(1.5), 4.0).damping->value, b - k * 1.5, 0.1 * 0.5);
 }
 
 TEST(HealthyValues, AreTheLearnedOnesOnTheSameRoadAndWhereFrictionIsNotKnown) {
   const Baseline baseline = learnedBaseline();
   Baseline without = baseline;
   without.friction.reset();
-  for (const HealthyValues& healthy :
-       {onThisRoad(baseline, {}), onThisRoad(baseline, baseline.friction), onThisRoad(without, baseline.friction)}) {
+  for (const HealthyValues& healthy : {onThisRoad(baseline, {}, 4.0), onThisRoad(baseline, baseline.friction, 4.0),
+                                       onThisRoad(without, baseline.friction, 4.0)}) {
     EXPECT_EQ(healthy.damping->value, 8.0);
     EXPECT_EQ(healthy.damping->stddev, 0.3);
     EXPECT_EQ(healthy.stiffness->value, 40.0);
   }
-  EXPECT_FALSE(onThisRoad({}, baseline.friction).damping);
+  EXPECT_FALSE(onThisRoad({}, baseline.friction, 4.0).damping);
 }
 
 TEST(HealthyValues, CannotBeToldWhereNearlyAllOfThemWasFriction) {
   Baseline baseline = learnedBaseline();
   baseline.friction->force = 0.5;
-  EXPECT_TRUE(std::isinf(onThisRoad(baseline, DryFriction{0.5, 0.0, 2.0, -50.0}).damping->stddev));
+  EXPECT_TRUE(std::isinf(onThisRoad(baseline, DryFriction{0.5, 0.0, 2.0, -50.0}, 4.0).damping->stddev));
 }
 
 StrutEstimate estimate(double damping, const DryFriction& friction) {

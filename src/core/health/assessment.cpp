@@ -148,7 +148,7 @@ StrutChange HealthAssessment::change(const std::optional<DryFriction>& friction)
   const auto from = [&](const std::optional<UncertainValue>& healthy, const FollowedParameter& parameter) {
     return healthy ? parameter.changeFrom(*healthy, options_.min_significance) : std::nullopt;
   };
-  const HealthyValues healthy = onThisRoad(baseline_, friction);
+  const HealthyValues healthy = onThisRoad(baseline_, friction, options_.min_significance);
   return splitChange(from(healthy.damping, damping_.course), from(healthy.stiffness, stiffness_.course),
                      options_.payload_range, known_load_);
 }

@@ -7,11 +7,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-const double kFrictionSpread = 1.0 / std::sqrt(12.0);  // of a uniform distribution of width 1
-
-UncertainValue shifted(double value, double stddev, const DryFriction& friction, double gain_apart) {
+UncertainValue shifted(double value, double stddev, const DryFriction& friction, double gain_apart, double certain) {
   const double shift = friction.force * gain_apart;
-  const double of_shift = std::hypot(kFrictionSpread * shift, friction.stddev * gain_apart);
+  const double of_shift = std::hypot(shift / certain, friction.stddev * gain_apart);
   // Where nearly all of the value was friction there is no telling.
   if (!(value + shift > of_shift)) return {value, std::numeric_limits<double>::infinity()};
   return {value + shift, std::hypot(stddev, of_shift)};
@@ -30,15 +28,17 @@ Baseline baselineOf(const StrutEstimate& la, Stamp stamp) {
           stamp};
 }
 
-HealthyValues onThisRoad(const Baseline& baseline, const std::optional<DryFriction>& now) {
-  const DryFriction learned = baseline.friction.value_or(DryFriction{}), present = now.value_or(learned);
+HealthyValues onThisRoad(const Baseline& baseline, const std::optional<DryFriction>& now, double certain) {
   HealthyValues healthy;
+  const DryFriction learned = baseline.friction.value_or(DryFriction{});
+  const DryFriction present = baseline.friction && now ? *now : learned;
+  const DryFriction between{(learned.force + present.force) / 2.0, std::hypot(learned.stddev, present.stddev) / 2.0};
   if (baseline.damping_to_mass)
-    healthy.damping = shifted(*baseline.damping_to_mass, baseline.damping_to_mass_stddev, learned,
-                              present.damping_gain - learned.damping_gain);
+    healthy.damping = shifted(*baseline.damping_to_mass, baseline.damping_to_mass_stddev, between,
+                              present.damping_gain - learned.damping_gain, certain);
   if (baseline.stiffness_to_mass)
-    healthy.stiffness = shifted(*baseline.stiffness_to_mass, baseline.stiffness_to_mass_stddev, learned,
-                                present.stiffness_gain - learned.stiffness_gain);
+    healthy.stiffness = shifted(*baseline.stiffness_to_mass, baseline.stiffness_to_mass_stddev, between,
+                                present.stiffness_gain - learned.stiffness_gain, certain);
   return healthy;
 }
 

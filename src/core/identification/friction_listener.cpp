@@ -63,11 +63,11 @@ std::optional<DryFriction> FrictionListener::friction(const RecursiveLeastSquare
   const Eigen::Vector2d gain(least_squares.parameterShift(kDampingToMass, between),
                              least_squares.parameterShift(kStiffnessToMass, between));
   const double own = moments_.mean(kSignSquare) - between.dot(gain);
-  if (!(own > 0.0)) return std::nullopt;
-  const double left = moments_.mean(kSignOutput) - between.dot(least_squares.parameters().head<kNumStrutParameters>());
   // The residuals are as correlated beside c as beside the column of b1, of whose mean square this is what is its own.
   const double damping_own = 1.0 / least_squares.parameterShift(kDampingToMass, Eigen::Vector2d::UnitX());
   const double variance = least_squares.parameterVariance(kDampingToMass) * damping_own / own;
+  if (!(own > 0.0) || !std::isfinite(variance)) return std::nullopt;
+  const double left = moments_.mean(kSignOutput) - between.dot(least_squares.parameters().head<kNumStrutParameters>());
   return DryFriction{left / own, std::sqrt(variance), gain[kDampingToMass], gain[kStiffnessToMass]};
 }
 

@@ -16,10 +16,13 @@ struct HealthyValues {
 };
 
 /// @param now  of the present estimates; empty: as when the baseline was learned.
-/// @return as what the healthy strut would be estimated on the present road: its dry friction is the same, but not what
-/// that makes of b1 and b0. Friction is no more than a part of what it is in a rod that sticks, or in a valve: how much
-/// it makes is known within a half either way, uniformly.
-HealthyValues onThisRoad(const Baseline& baseline, const std::optional<DryFriction>& now);
+/// @param certain  standard deviations that a change must have to be one: what friction does is as uncertain as it is
+/// large (doc/health.md, Another road), so that no change is certain within that.
+/// @return as what the healthy strut would be estimated on the present road. Its dry friction f is the same, but not
+/// what that makes of b1 and b0, f g: along g b1 has the slope f. Of a damper that is digressive or progressive that
+/// slope is not the same on every road; the mean of those at both ends takes b1 from one to the other (the trapezoid
+/// rule).
+HealthyValues onThisRoad(const Baseline& baseline, const std::optional<DryFriction>& now, double certain);
 
 /// Learns the baseline from a stretch of estimates of LS that LA agrees with: their mean, over halves that must agree.
 ///

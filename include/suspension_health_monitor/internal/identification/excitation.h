@@ -27,7 +27,7 @@ std::array<double, kNumStrutParameters> excitationOf(const RowMoments& rows, con
 /// excitationOf(), 1 for noise.
 /// - A parameter is held once two blocks do not tell of it, and its information has fallen below a tenth of the usual,
 ///   that of blocks that told of it over ten memories: readings that no strut explains on a road as rough as ever are
-///   not rest.
+///   not rest. Beside one that is held the other one is held, too, unless it would be released.
 /// - It is held no longer when the rows since then, up to eight blocks, tell of it and not by chance, or when eight
 ///   blocks in a row have more than a tenth of the usual information: that is no rest, though the strut is not within
 ///   twice the known one. No single row does: a wrong reading is in 2 L + 1 of them.
