@@ -183,7 +183,8 @@ struct HealthReport {
   HealthLevel stiffness_level = HealthLevel::kOk;
   bool estimate_valid = false;                   ///< of LA
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not
-  bool uncertain = false;  ///< valid, but a change as large as the error threshold would not be significant
+  bool uncertain = false;       ///< valid, but a change as large as the error threshold would not be significant
+  bool friction_doubt = false;  ///< mostly since dry friction makes so much of the estimates on this road
   LoadDoubt load_doubt = LoadDoubt::kNone;
   bool early_warning = false;  ///< a small change is certain before it reaches a threshold; raises no level
   bool outliers = false;       ///< LS and LA have disagreed for long: outliers or saturation

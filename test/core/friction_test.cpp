@@ -5,6 +5,7 @@
 
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -133,13 +134,13 @@ StrutEstimate estimate(double damping, const DryFriction& friction) {
   return of;
 }
 
-HealthLevel levelAfter(const Baseline& baseline, const StrutEstimate& of) {
+HealthReport reportAfter(const Baseline& baseline, const StrutEstimate& of) {
   HealthOptions options;
   options.confirm_time = 1.0;
   HealthAssessment assessment(options);
   assessment.setBaseline(baseline);
   for (int k = 0; k < 1000; ++k) assessment.update(fromSeconds(0.01 * k), of, of);
-  return assessment.report().level;
+  return assessment.report();
 }
 
 TEST(HealthAssessment, ARougherRoadIsNoLossOfDamping) {
@@ -147,10 +148,25 @@ TEST(HealthAssessment, ARougherRoadIsNoLossOfDamping) {
   baseline.damping_to_mass_stddev = 0.05;
   baseline.friction = DryFriction{0.1, 0.0, 30.0, 0.0};
   const DryFriction rough{0.1, 0.0, 15.0, 0.0};
-  EXPECT_EQ(levelAfter(baseline, estimate(6.5, rough)), HealthLevel::kOk);
-  EXPECT_EQ(levelAfter(baseline, estimate(3.0, rough)), HealthLevel::kError);
+  EXPECT_EQ(reportAfter(baseline, estimate(6.5, rough)).level, HealthLevel::kOk);
+  EXPECT_EQ(reportAfter(baseline, estimate(3.0, rough)).level, HealthLevel::kError);
   baseline.friction.reset();
-  EXPECT_EQ(levelAfter(baseline, estimate(6.5, rough)), HealthLevel::kWarn);
+  EXPECT_EQ(reportAfter(baseline, estimate(6.5, rough)).level, HealthLevel::kWarn);
+}
+
+TEST(HealthAssessment, SaysThatFrictionIsWhyItCannotTell) {
+  Baseline baseline = learnedBaseline();
+  baseline.friction = DryFriction{0.2, 0.0, 30.0, 0.0};
+  const DryFriction rough{0.2, 0.0, 10.0, 0.0};
+  const HealthReport report = reportAfter(baseline, estimate(4.0, rough));
+  EXPECT_EQ(report.level, HealthLevel::kStale);
+  EXPECT_TRUE(report.friction_doubt);
+  EXPECT_NE(describe(report).find("dry friction"), std::string::npos) << describe(report);
+  StrutEstimate vague = estimate(8.0, *baseline.friction);
+  vague.damping_to_mass_stddev = 2.0;
+  const HealthReport other = reportAfter(baseline, vague);
+  EXPECT_EQ(other.level, HealthLevel::kStale);
+  EXPECT_FALSE(other.friction_doubt);
 }
 
 TEST(BaselineLearner, TakesAnotherRoadForNoChangeOfTheStrut) {

@@ -44,6 +44,11 @@ struct PartChange {
   double warn, error;   ///< thresholds [-]
 };
 
+// Half of the change's variance and more.
+bool isMostlyFriction(const std::optional<HealthyValue>& healthy, const std::optional<LogChange>& change) {
+  return healthy && change && healthy->by_friction / healthy->value >= std::sqrt(0.5) * change->stddev;
+}
+
 // Level of one parameter. A level that holds already ends below its threshold less the hysteresis, or less a standard
 // deviation if that is more, or when the change has lost half of the significance that it began with.
 HealthLevel levelOf(const PartChange& change, HealthLevel before, const HealthOptions& options) {
@@ -115,8 +120,11 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
     if (learner_ && agreement_.holds())
       if (const std::optional<Baseline> learned = learner_->add(stamp, ls, options_.rows_per_update))
         setBaseline(*learned);
-    const StrutChange changed = change(la.friction);
+    const HealthyValues healthy = onThisRoad(baseline_, la.friction, options_.min_significance);
+    const StrutChange changed = change(healthy);
     judge(changed, now);
+    now.friction_doubt = now.uncertain && (isMostlyFriction(healthy.damping, changed.measured_damping) ||
+                                           isMostlyFriction(healthy.stiffness, changed.measured_stiffness));
     noteLoad(changed);
     warnEarly(changed);
   }
@@ -144,11 +152,10 @@ void HealthAssessment::follow(const StrutEstimate& ls, const StrutEstimate& la) 
                            {la.stiffness_to_mass, la.stiffness_to_mass_stddev});
 }
 
-StrutChange HealthAssessment::change(const std::optional<DryFriction>& friction) const {
-  const auto from = [&](const std::optional<UncertainValue>& healthy, const FollowedParameter& parameter) {
-    return healthy ? parameter.changeFrom(*healthy, options_.min_significance) : std::nullopt;
+StrutChange HealthAssessment::change(const HealthyValues& healthy) const {
+  const auto from = [&](const std::optional<HealthyValue>& value, const FollowedParameter& parameter) {
+    return value ? parameter.changeFrom(*value, options_.min_significance) : std::nullopt;
   };
-  const HealthyValues healthy = onThisRoad(baseline_, friction, options_.min_significance);
   return splitChange(from(healthy.damping, damping_.course), from(healthy.stiffness, stiffness_.course),
                      options_.payload_range, known_load_);
 }

@@ -7,12 +7,12 @@
 namespace suspension_health_monitor {
 namespace {
 
-UncertainValue shifted(double value, double stddev, const DryFriction& friction, double gain_apart, double certain) {
+HealthyValue shifted(double value, double stddev, const DryFriction& friction, double gain_apart, double certain) {
   const double shift = friction.force * gain_apart;
-  const double of_shift = std::hypot(shift / certain, friction.stddev * gain_apart);
-  // Where nearly all of the value was friction there is no telling.
-  if (!(value + shift > of_shift)) return {value, std::numeric_limits<double>::infinity()};
-  return {value + shift, std::hypot(stddev, of_shift)};
+  const double by_friction = std::hypot(shift / certain, friction.stddev * gain_apart);
+  constexpr double kNoTelling = std::numeric_limits<double>::infinity();
+  if (!(value + shift > by_friction)) return {{value, kNoTelling}, kNoTelling};  // nearly all of the value was friction
+  return {{value + shift, std::hypot(stddev, by_friction)}, by_friction};
 }
 
 }  // namespace

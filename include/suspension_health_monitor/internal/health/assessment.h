@@ -78,7 +78,7 @@ class HealthAssessment {
   };
 
   void follow(const StrutEstimate& ls, const StrutEstimate& la);
-  StrutChange change(const std::optional<DryFriction>& friction) const;
+  StrutChange change(const HealthyValues& healthy) const;
   void noteLoad(const StrutChange& change);
   LoadDoubt doubtOfLoad(const StrutChange& change) const;
   void judge(const StrutChange& change, HealthReport& now);

@@ -10,9 +10,14 @@ namespace suspension_health_monitor {
 /// @return the strut as LA estimates it at `stamp`, as healthy: after a service.
 Baseline baselineOf(const StrutEstimate& la, Stamp stamp);
 
+/// A parameter of the healthy strut.
+struct HealthyValue : UncertainValue {
+  double by_friction = 0.0;  ///< what friction makes uncertain of it, a part of stddev
+};
+
 /// The healthy strut's parameters; empty: not known.
 struct HealthyValues {
-  std::optional<UncertainValue> damping, stiffness;  ///< b1 [1/s], b0 [1/s^2]
+  std::optional<HealthyValue> damping, stiffness;  ///< b1 [1/s], b0 [1/s^2]
 };
 
 /// @param now  of the present estimates; empty: as when the baseline was learned.
