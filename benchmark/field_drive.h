@@ -47,10 +47,10 @@ struct FieldDrive {
   double skew = 0.0;                                 ///< the wheel's readings are stamped so much late, up to 30 ms [s]
   double mass = 1.0;                                 ///< of the body, to that of the healthy vehicle
   bool potholes = false, washboard = false, stops = false;
-  double engine = 0.0;    ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
-  double friction = 0.0;  ///< dry, between body and wheel, over the body's mass [m/s^2]
+  double engine = 0.0;      ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
+  double friction = 0.0;    ///< dry, between body and wheel, over the body's mass [m/s^2]
   double digressive = 0.0;  ///< v0 of a damper b1 v / (1 + |v| / v0) [m/s]; 0: it is linear
-  double fade = 0.0;      ///< share of the damping that is lost while it is hot
+  double fade = 0.0;        ///< share of the damping that is lost while it is hot
   double change_at = 1e300, damping_left = 1.0, stiffness_left = 1.0;
   double road_after = 0.0;  ///< the road from change_at on; 0: the same [m^3]
   unsigned seed = 1;

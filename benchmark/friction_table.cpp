@@ -43,8 +43,8 @@ constexpr std::array kDampers{Damper{"linear", 0.0, 0.0},
 /// What was said on the second road, of all vehicles.
 struct Judged {
   std::array<double, 4> samples{};  // by level
-  std::vector<double> damping,
-      heard;  // its median change, the baseline's friction; of each vehicle that has a baseline
+  std::vector<double> damping;      // its median change, of each vehicle that has a baseline
+  std::vector<double> heard;        // the friction in that baseline
   int not_learned = 0;
 
   long percent(HealthLevel level) const {

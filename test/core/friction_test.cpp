@@ -12,14 +12,13 @@ namespace {
 
 constexpr double kB1 = 4.0, kB0 = 50.0, kRate = 200.0;
 
-/// A travel of which every derivative is known, in two modes that beat, and the two readings of a strut that makes
+/// A travel of which every derivative is known, in modes that beat, and the two readings of a strut that makes
 /// b1 v + b0 d + f sgn(v) + q v |v| of it: no equation is integrated.
 struct KnownStrut {
   double size = 0.01;        // of the travel [m]
   double friction = 0.0;     // f [m/s^2]
   double quadratic = 0.0;    // q [1/m]
   double body_offset = 0.0;  // [m/s^2]
-  double damping = kB1;
 
   CornerSample at(double t) const {
     double d = 0.0, v = 0.0, a = 0.0;
@@ -29,7 +28,7 @@ struct KnownStrut {
       v += size * omega * std::cos(phase);
       a -= size * omega * omega * std::sin(phase);
     }
-    const double body = damping * v + kB0 * d + friction * (v > 0.0 ? 1.0 : -1.0) + quadratic * v * std::abs(v);
+    const double body = kB1 * v + kB0 * d + friction * (v > 0.0 ? 1.0 : -1.0) + quadratic * v * std::abs(v);
     return {fromSeconds(t), body + body_offset, body + a};
   }
 };

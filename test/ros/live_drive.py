@@ -58,5 +58,8 @@ def refused_beside_a_search(monitor):
         wait_until(lambda: any(call.ended() for call in calls), "an answer to one of two calls")
         refused = next(call for call in calls if call.ended())
         search = next(call for call in calls if call is not refused)
-        return (search, refused) if not refused.response.success else wait_until(search.ended, "its end") and None
+        if not refused.response.success:
+            return search, refused
+        wait_until(search.ended, "the end of the other search")
+        return None
     return wait_until(one_searches, "a call refused beside a search")

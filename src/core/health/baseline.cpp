@@ -62,16 +62,9 @@ std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& e
   mix(half.friction.stiffness_gain, friction.stiffness_gain);
   mix(half.friction_variance, std::pow(friction.stddev, 2));
   if (progress() < 1.0) return std::nullopt;
-  const auto& [a, b] = halves_;
-  const double force = (a.friction.force + b.friction.force) / 2.0;
-  const auto drifts = [&](double first, double second, double first_gain, double second_gain, double variance) {
-    return this->drifts(first - force * first_gain, second - force * second_gain, variance);
-  };
   std::optional<Baseline> learned;
-  if (drifts(a.damping, b.damping, a.friction.damping_gain, b.friction.damping_gain,
-             a.damping_variance + b.damping_variance) ||
-      drifts(a.stiffness, b.stiffness, a.friction.stiffness_gain, b.friction.stiffness_gain,
-             a.stiffness_variance + b.stiffness_variance))
+  if (drifts(&Half::damping, &DryFriction::damping_gain, &Half::damping_variance) ||
+      drifts(&Half::stiffness, &DryFriction::stiffness_gain, &Half::stiffness_variance))
     ++restarts_;
   else
     learned = result(stamp);
@@ -79,10 +72,14 @@ std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& e
   return learned;
 }
 
-bool BaselineLearner::drifts(double first, double second, double variance) const {
+bool BaselineLearner::drifts(double Half::*mean, double DryFriction::*gain, double Half::*variance) const {
+  const auto& [a, b] = halves_;
+  const auto withoutFriction = [&](const Half& half) { return half.*mean - friction() * half.friction.*gain; };
+  const double first = withoutFriction(a), second = withoutFriction(b);
   const double difference = std::abs(second - first);
   const double correlated = std::min(1.0, 4.0 * memory_ / rows_);  // of half the rows
-  return difference > kLeastDrift * std::abs(first) && difference > kDrift * std::sqrt(variance * correlated);
+  return difference > kLeastDrift * std::abs(first) &&
+         difference > kDrift * std::sqrt((a.*variance + b.*variance) * correlated);
 }
 
 Baseline BaselineLearner::result(Stamp to) const {
@@ -93,8 +90,7 @@ Baseline BaselineLearner::result(Stamp to) const {
   baseline.stiffness_to_mass = (a.stiffness + b.stiffness) / 2.0;
   baseline.damping_to_mass_stddev = std::sqrt((a.damping_variance + b.damping_variance) / 2.0 * correlated);
   baseline.stiffness_to_mass_stddev = std::sqrt((a.stiffness_variance + b.stiffness_variance) / 2.0 * correlated);
-  baseline.friction = DryFriction{(a.friction.force + b.friction.force) / 2.0,
-                                  std::sqrt((a.friction_variance + b.friction_variance) / 2.0 * correlated),
+  baseline.friction = DryFriction{friction(), std::sqrt((a.friction_variance + b.friction_variance) / 2.0 * correlated),
                                   (a.friction.damping_gain + b.friction.damping_gain) / 2.0,
                                   (a.friction.stiffness_gain + b.friction.stiffness_gain) / 2.0};
   baseline.learned = true;

@@ -9,15 +9,15 @@ namespace {
 // Of n rows of white noise two regressors explain more than a share x of psi^2 with probability (1 - x)^((n - 2) / 2):
 // a half of one block's once in 2e9.
 constexpr double kLeastShare = 0.5;
-constexpr int kFewestBlockRows = 64;                     // of a block
-constexpr int kMostJudgedBlocks = 8;                      // that are judged together before a parameter is released
-constexpr double kUsualShare = 0.1;                 // of the usual information: no rest
-constexpr double kWheelStands = 0.01;               // of the wheel's usual part
-constexpr double kMostGrowth = 4.0;                 // of the usual in a block: an outlier does not become it
-constexpr double kUsualMemories = 10.0;             // of the estimator, that the usual lasts
-constexpr double kMostTimes = 2.0;                  // the known strut
+constexpr int kFewestBlockRows = 64;               // of a block
+constexpr int kMostJudgedBlocks = 8;               // that are judged together before a parameter is released
+constexpr double kUsualShare = 0.1;                // of the usual information: no rest
+constexpr double kWheelStands = 0.01;              // of the wheel's usual part
+constexpr double kMostGrowth = 4.0;                // of the usual in a block: an outlier does not become it
+constexpr double kUsualMemories = 10.0;            // of the estimator, that the usual lasts
+constexpr double kMostTimes = 2.0;                 // the known strut
 constexpr double kLarger = 2.0, kFarLarger = 9.0;  // the body's part over the wheel's
-constexpr double kOffsetMemory = 0.9975;            // forgetting factor of a row
+constexpr double kOffsetMemory = 0.9975;           // forgetting factor of a row
 
 std::array<double, kNumStrutParameters> informationOf(const RowMoments& rows) {
   return {rows.damping_information, rows.stiffness_information};
@@ -91,9 +91,7 @@ void Excitation::judgeWheel() {
 }
 
 void Excitation::judgeExcited(const Block& recent) {
-  const StrutFit fit = recent.moments.bestStrut(most_);
-  const bool tells = fit.rest < (1.0 - kLeastShare) * recent.moments.output;
-  const auto excitation = excitationOf(recent.moments, fit, noise_);
+  const Told told = toldBy(recent);
   const auto information = informationOf(recent.moments), newest = informationOf(block_.moments);
   bool is_new = false;
   const auto hold = [&](Part& part) {
@@ -104,8 +102,8 @@ void Excitation::judgeExcited(const Block& recent) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (!part.excited) continue;
-    part.excitation = excitation[i];
-    if (tells && excitation[i] >= kLeastExcitation) {
+    part.excitation = told.excitation[i];
+    if (told.of_strut && told.excitation[i] >= kLeastExcitation) {
       usual_[i].learn(newest[i] / block_.rows, most_blocks_);
     } else if (recent.blocks == 2 && information[i] / recent.rows < kUsualShare * usual_[i].mean) {
       hold(part);
@@ -114,27 +112,28 @@ void Excitation::judgeExcited(const Block& recent) {
   // On the way to a stop one goes before the other: beside one that is held the other one stays if it tells as much as
   // one that is held needs to be released.
   if (isHeld() && recent.blocks == 2)
-    for (Part& part : parts_)
-      if (part.excited && !(tells && part.excitation >= leastToRelease(recent))) hold(part);
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (parts_[i].excited && !told.releases(i)) hold(parts_[i]);
   if (is_new) since_held_ = Block();
 }
 
-double Excitation::leastToRelease(const Block& rows) { return kLeastExcitation * kMostJudgedBlocks / rows.blocks; }
+Excitation::Told Excitation::toldBy(const Block& rows) const {
+  const StrutFit fit = rows.moments.bestStrut(most_);
+  return {fit.rest < (1.0 - kLeastShare) * rows.moments.output, excitationOf(rows.moments, fit, noise_),
+          kLeastExcitation * kMostJudgedBlocks / rows.blocks};
+}
 
 void Excitation::judgeHeld() {
   since_held_ += block_;
-  const StrutFit fit = since_held_.moments.bestStrut(most_);
-  const bool tells = fit.rest < (1.0 - kLeastShare) * since_held_.moments.output;
-  const auto excitation = excitationOf(since_held_.moments, fit, noise_);
-  const double least = leastToRelease(since_held_);
+  const Told told = toldBy(since_held_);
   const auto newest = informationOf(block_.moments);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     if (part.excited) continue;
-    part.excitation = excitation[i];
+    part.excitation = told.excitation[i];
     const bool is_rough = newest[i] >= kUsualShare * usual_[i].mean * block_.rows;
     part.rough_blocks = is_rough ? part.rough_blocks + 1 : 0;
-    part.excited = (tells && excitation[i] >= least) || part.rough_blocks >= kMostJudgedBlocks;
+    part.excited = told.releases(i) || part.rough_blocks >= kMostJudgedBlocks;
   }
   if (since_held_.blocks == kMostJudgedBlocks || !isHeld()) since_held_ = Block();
 }

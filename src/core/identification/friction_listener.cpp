@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
-#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -24,15 +23,18 @@ FrictionListener::FrictionListener(const IntegralFilterOptions& filter, int dela
 
 void FrictionListener::addSample(double relative) {
   // As after a long time of the first reading, most of which is the offset between the sensors, or gravity.
-  if (!has_sample_) integral_ = slow_ = relative / leak_;
-  const double before = integral_ - slow_, mean = has_sample_ ? (newest_ + relative) / 2.0 : relative;
-  has_sample_ = true;
+  if (!has_sample_) {
+    integral_ = slow_ = relative / leak_;
+    newest_ = relative;
+    has_sample_ = true;
+  }
+  const double before = integral_ - slow_;
+  integral_ += period_ * ((newest_ + relative) / 2.0 - leak_ * integral_);
   newest_ = relative;
-  integral_ += period_ * (mean - leak_ * integral_);
   slow_ += period_ * leak_ * (integral_ - slow_);
   const double rate = integral_ - slow_, step = std::abs(rate - before);
   // The mean sign of a straight line over a period.
-  sign_.push(2.0 * std::abs(rate) < step ? 2.0 * rate / step : rate > 0.0 ? 1.0 : rate < 0.0 ? -1.0 : 0.0);
+  sign_.push(rate == 0.0 ? 0.0 : std::clamp(2.0 * rate / step, -1.0, 1.0));
   column_.push(sign_.full() ? sign_.output(2) : 0.0);
 }
 

@@ -53,8 +53,7 @@ std::string describeJudgement(const HealthReport& report) {
     return describe(report.load_doubt);
   if (report.level == HealthLevel::kStale && report.uncertain && report.friction_doubt)
     return "cannot tell: dry friction, or a damper that is not linear, makes too much of the difference between this "
-           "road and "
-           "that of the baseline (learn one on such a road)";
+           "road and that of the baseline (learn one on such a road)";
   if (report.level == HealthLevel::kStale && report.uncertain)
     return "cannot tell: estimates too uncertain to prove a change (drive on, or on a rougher road)";
   if (report.level == HealthLevel::kStale && report.estimate_valid)

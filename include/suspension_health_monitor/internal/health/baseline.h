@@ -60,7 +60,8 @@ class BaselineLearner {
   static constexpr double kDrift = 3.0;
   static constexpr double kLeastDrift = 0.03;  // of the value: less is what another road does
 
-  bool drifts(double first, double second, double variance) const;
+  double friction() const { return (halves_[0].friction.force + halves_[1].friction.force) / 2.0; }
+  bool drifts(double Half::*mean, double DryFriction::*gain, double Half::*variance) const;
   Baseline result(Stamp to) const;
 
   double rows_, memory_;

@@ -102,7 +102,16 @@ class Excitation {
     Block& operator+=(const Block& other);
   };
 
-  static double leastToRelease(const Block& rows);
+  /// What some rows tell of the parameters.
+  struct Told {
+    bool of_strut;  ///< the best strut leaves less than half of psi
+    std::array<double, kNumStrutParameters> excitation;
+    double least;  ///< that releases a parameter which is held
+
+    bool releases(std::size_t i) const { return of_strut && excitation[i] >= least; }
+  };
+
+  Told toldBy(const Block& rows) const;
   void closeBlock();
   void judgeWheel();
   void judgeExcited(const Block& recent);

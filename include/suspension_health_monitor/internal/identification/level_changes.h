@@ -11,9 +11,8 @@ namespace suspension_health_monitor {
 
 /// How much of the regressor of stiffness, I_0^2 u'', is no motion but the level of the sensors' difference, where that
 /// changes: an IMU that is tilted reads a part of braking and of bends, one that warms up drifts. A level that stays is
-/// in the constant column. A level is what is much slower than a body oscillates on its springs
-/// (SlowMean). It changes by no more
-/// than the regressor does, nor by more than the residuals over b0, for the body does not answer it: motion
+/// in the constant column. A level is what is much slower than a body oscillates on its springs (SlowMean). It changes
+/// by no more than the regressor does, nor by more than the residuals over b0, for the body does not answer it: motion
 /// that slow is in the regressor, and in the residuals where a level has pulled b0 down, but hardly ever in both. Cost
 /// per row: O(1), no allocation.
 class LevelChanges {
