@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/blocks/window_fit.h"
+
+namespace suspension_health_monitor {
+
+/// The newest blocks of one strut top and the estimate that they give.
+///
+/// The window is the smallest one that knows b1 and b0 well enough (BlockOptions::enough), or the one that knows them
+/// best: short on a rough road, long on a smooth one, with no memory to choose. What changes slowly, the delay, the
+/// forces' columns and the neighbours', is known from all blocks and comes to a window as its prior; if the newest
+/// blocks contradict that, the windows begin without it. Blocks are linearised at the estimate of their time, and again
+/// where that is stale. Cost per block: some ten linearisations at most, after the start; no allocation.
+class BlockEstimator {
+ public:
+  static constexpr int kMostBlocks = 64;  ///< of a window: a minute at T = 2 s, far longer than a damper stays the same
+                                          ///< temperature, shorter than health/oldest_data asks for
+  static constexpr std::array kWindows{3, 4, 6, 8, 12, 16, 24, 32, 48, 64};  ///< [blocks]
+
+  BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options);
+
+  /// @return the place of the next block, to be filled; the newest then is the one before.
+  StrutBlock& next();
+
+  /// Takes in the block that next() gave.
+  /// @return the estimate; nullptr: none yet, or too little is known.
+  const WindowEstimate* update();
+
+  /// @return of all blocks kept, with the data alone.
+  const std::optional<WindowEstimate>& ofAllBlocks() const { return of_all_; }
+
+  const StrutEquations& equations() const { return equations_; }
+  const BlockVector& theta() const { return theta_; }  ///< to linearise at, and for models
+  bool hasTheta() const { return has_theta_; }
+
+  /// Goes on with this estimate, as of blocks of another length.
+  void begin(const BlockVector& theta, const BlockPrior& slow);
+  const BlockPrior& slowPrior() const { return slow_; }
+
+  /// The blocks end here; what is known of slow parameters stays.
+  void restart();
+
+ private:
+  std::vector<const StrutBlock*>& newest(int count);
+  StrutBlock& block(int age);  // 0: the newest
+  bool start();
+  void learnSlow();
+  bool contradictsSlow();
+  void refine(int window, const BlockPrior& prior);
+  bool isStale(const StrutBlock& block) const;
+  bool fit(int window, const BlockPrior& prior, WindowEstimate& result);
+
+  BlockOptions options_;
+  StrutEquations equations_;
+  WindowFit window_fit_;
+  std::vector<StrutBlock> ring_;
+  int count_ = 0, head_ = -1;
+  int updates_ = 0;
+  BlockPrior first_, slow_;  // of nothing but the options; with what all blocks tell of slow parameters
+  Eigen::VectorXd usual_;
+  double scatter_ = 1.0;
+  BlockVector theta_;
+  bool has_theta_ = false;
+  WindowEstimate best_, trial_;
+  std::optional<WindowEstimate> of_all_;
+  std::vector<const StrutBlock*> pointers_;
+  std::vector<double> sorted_;
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace suspension_health_monitor {
+
+/// Blocks of Fourier modulating functions, and what is assumed of the strut before any data. Every other number of the
+/// estimator is derived from these where it stands. Symbols as in doc/equations.md, Block estimate.
+struct BlockOptions {
+  double length = 2.0;     ///< T of the first blocks [s]; then it follows the bounce by factors of two
+  double enough = 0.0375;  ///< relative standard deviation of b1 and b0 that needs no more blocks: 0.15, the change
+                           ///< that warns, over 4, the standard deviations that prove it [-]
+  double delay_stddev = 0.005;   ///< prior of the clocks' difference [s]
+  double friction_stddev = 0.3;  ///< prior of dry friction over the body's mass [m/s^2]
+};
+
+/// The bins of a block that the estimator uses: k = first .. last, w_k = 2 pi k / T. The Hann window mixes each bin
+/// with its neighbours, so that spectra hold bins first - 1 .. last + 1.
+struct BlockBand {
+  static constexpr int kFirst = 2;  ///< below, an offset and a drift of the sensors leak in through the Hann window
+  static constexpr int kLast = 40;  ///< 20 times the first: from half the bounce to beyond the wheel's hop
+  static constexpr double kUsable = 0.35;  ///< of the rate: anti-alias filters of both IMUs differ beyond
+
+  double length = 0.0;  ///< T [s]
+  int first = kFirst, last = kLast;
+
+  /// @param period  the longest sampling time of the streams [s].
+  BlockBand(double block_length, double period)
+      : length(block_length), last(std::min(kLast, static_cast<int>(std::floor(kUsable * block_length / period)))) {}
+
+  int size() const { return last - first + 1; }
+  int spectrumSize() const { return last - first + 3; }
+  double omega(int bin) const { return 2.0 * M_PI * bin / length; }  ///< [rad/s]
+};
+
+}  // namespace suspension_health_monitor

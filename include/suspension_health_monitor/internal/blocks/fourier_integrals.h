@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/blocks/block_options.h"
+
+namespace suspension_health_monitor {
+
+/// Fourier integrals of the channels of one stream over half blocks, by the trapezoid rule on the stream's own stamps:
+///     I_k = sum of (x_i - x_0) e^(-j w_k (t_i - a)) (t_(i+1) - t_(i-1)) / 2 over a <= t_i < a + T/2.
+/// Two halves make a block: U_k = I_k + (-1)^k I'_k. Where stamps are even the rule is exact up to aliasing; the Hann
+/// window, applied to U_k later, removes what is wrong at the block's ends. x_0 is the stream's first reading: a
+/// constant has no part in any bin that is used, and what is small loses little by stamps that are uneven. Cost per
+/// reading: O(bins), no allocation. Source: Shinbrot's modulating functions, with Fourier's (A. E. Pearson, Y. Shen,
+/// Weighted least squares / MFT algorithms for linear differential system identification, 1993).
+class FourierIntegrals {
+ public:
+  static constexpr int kHalves = 8;  ///< that are kept: a stream may run four blocks ahead of another
+
+  /// @param channels  values per reading.
+  FourierIntegrals(const BlockBand& band, std::size_t channels);
+
+  /// Takes in the next reading; stamps increase.
+  /// @param time  since the start of half block 0 [s], not negative.
+  void push(double time, const double* values);
+
+  /// @return the first half block that is not complete yet.
+  long openHalf() const { return open_; }
+
+  /// @return the integrals over a half block, bins first - 1 .. last + 1 by channels; nullptr if readings are missing.
+  const Eigen::ArrayXXcd* half(long index) const;
+
+ private:
+  struct Half {
+    long index = -1;
+    bool is_complete = false;
+    Eigen::ArrayXXcd integrals;
+  };
+
+  Half& slot(long index) { return halves_[static_cast<std::size_t>(index % kHalves)]; }
+  void begin(long index);
+  void add(double weight);
+  void finishUntil(long index);
+
+  BlockBand band_;
+  double half_length_, longest_spacing_;
+  std::size_t channels_;
+  std::array<Half, kHalves> halves_;
+  std::vector<double> cosines_, sines_;  // of w_k (t - a), k = 1 .. a multiple of kLanes
+  Eigen::ArrayXXd real_, imaginary_;     // sums of the open half block
+  std::vector<double> first_, newest_;   // readings
+  std::optional<double> time_;           // of the newest reading
+  double spacing_ = 0.0;                 // before it
+  long open_ = 0;
+  bool is_whole_ = false;  // no reading of the open half block is missing
+};
+
+}  // namespace suspension_health_monitor

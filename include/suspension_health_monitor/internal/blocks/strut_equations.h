@@ -1,0 +1,100 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "suspension_health_monitor/internal/blocks/block_options.h"
+#include "suspension_health_monitor/internal/blocks/modulation.h"
+#include "suspension_health_monitor/internal/blocks/noise_bands.h"
+
+namespace suspension_health_monitor {
+
+/// Vectors and matrices over parameters, without the heap.
+inline constexpr int kMostBlockParameters = 32;
+using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostBlockParameters, 1>;
+using BlockMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostBlockParameters, kMostBlockParameters>;
+
+/// Parameters of a strut's block equations; those of the columns follow.
+enum BlockParameter : int {
+  kBlockDamping,     ///< b1 [1/s]
+  kBlockStiffness,   ///< b0 [1/s^2]
+  kBlockDelay,       ///< tau by which the wheel's readings are stamped late [s]
+  kBlockWheelShare,  ///< r: the wheel sensor's share of what is unexplained [-], in (0, 1)
+  kNumBlockParameters
+};
+
+/// How many columns the equations of one strut top have beside b1, b0, tau and r.
+struct BlockColumns {
+  int forces = 1;  ///< known shapes of a force over the body's mass, on the wheel's stamps: dry friction, or effects
+  int neighbours = 0;  ///< travel rates and travels of the other struts of the body
+
+  int numParameters() const { return kNumBlockParameters + forces + neighbours; }
+  int firstForce() const { return kNumBlockParameters; }
+  int firstNeighbour() const { return kNumBlockParameters + forces; }
+};
+
+/// One block of one strut top: its spectra, and its equations linearised at `at`.
+struct StrutBlock {
+  double end = 0.0;                       ///< time at which it ends [s]
+  Eigen::ArrayXcd wheel;                  ///< integrals of w'', bins first - 1 .. last + 1
+  Eigen::ArrayXXcd forces;                ///< those of the force columns
+  Eigen::ArrayXXcd body;                  ///< H_0, H_1, H_2 of z'' at the strut's top, bins first .. last
+  Eigen::ArrayXXcd neighbours;            ///< H_1, H_0 of the others' w'' - z''
+  Eigen::ArrayXXcd predicted_neighbours;  ///< the same as the model has them, driven by the wheels
+  Eigen::ArrayXcd predicted_travel;       ///< H_0 of the own w'' - z'' likewise; empty: a strut alone
+
+  /// Sums over the bins of one band at theta = at. Re(a* b) of complex columns, Z instruments, R regressors, e
+  /// residual.
+  struct Band {
+    Eigen::MatrixXd information;  ///< Z'R
+    Eigen::VectorXd score;        ///< Z'e
+    Eigen::MatrixXd moments;      ///< R'R with the residual as the last column
+    double wheel_power = 0.0;     ///< |W^|^2
+    double body_power = 0.0;      ///< |H_0(Y)|^2
+    double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
+  };
+  BlockVector at;
+  std::vector<Band> bands;
+};
+
+/// The equations of a strut top in the bins of one block. With y = z'', x = w'' (delayed by tau), s = j w_k,
+///     H_2(y) = b1 H_1(x - y) + b0 H_0(x - y) + sum c_m H_2(f_m) + sum of neighbours' columns
+/// holds exactly in every bin, whatever the initial states. With A = s^2 + b1 s + b0, g = b1 s + b0 and G = g / A the
+/// residual counts as an output's, e = (left - right) / A. A share r of its power is the wheel sensor's, so that
+///     W^ = H_0(x) + rho e / G,  rho = r |g|^2 / (r |g|^2 + (1 - r) |A|^2)
+/// is the wheel's motion without the part that is in e: the instruments Z are the derivatives of G W^, the regressors R
+/// those of -e. Source: R. Pintelon, J. Schoukens, System Identification: A Frequency Domain Approach, 2012, ch. 9
+/// (errors in variables, known noise structure).
+class StrutEquations {
+ public:
+  StrutEquations(const BlockBand& band, const BlockColumns& columns);
+
+  /// @return a block of the right shape, to be filled.
+  StrutBlock makeBlock() const;
+
+  /// Computes the sums of a block's bands at theta. Cost: O(bins * parameters^2), no allocation.
+  void linearise(const BlockVector& theta, StrutBlock& block);
+
+  /// @return b1, b0 of weighted least squares over blocks, as a start.
+  Eigen::Vector2d start(const std::vector<const StrutBlock*>& blocks);
+
+  const BlockBand& band() const { return band_; }
+  const NoiseBands& noiseBands() const { return noise_bands_; }
+  const BlockColumns& columns() const { return columns_; }
+  const Modulation& undelayed() const { return undelayed_; }
+
+ private:
+  void sumBands(StrutBlock& block) const;
+
+  BlockBand band_;
+  NoiseBands noise_bands_;
+  BlockColumns columns_;
+  Modulation undelayed_, delayed_;
+  Eigen::ArrayXcd s_;
+  Eigen::ArrayXcd a_, g_, gain_, x0_, x1_, x2_, wheel_, e_over_g_;
+  Eigen::ArrayXd rho_, rho_slope_;
+  Eigen::MatrixXcd instruments_, regressors_;  // bins by parameters; the residual is the regressors' last column
+};
+
+}  // namespace suspension_health_monitor

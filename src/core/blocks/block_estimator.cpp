@@ -1,0 +1,177 @@
+#include "suspension_health_monitor/internal/blocks/block_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+constexpr double kShareMean = 0.5, kShareStddev = 0.29;  // of r: uniform in (0, 1)
+constexpr int kSlowEvery = 4;                            // blocks: all blocks then have changed by a sixteenth
+constexpr double kSlowFactor = 1.5;  // standard deviations of what changes slowly count so much more for fewer blocks
+constexpr double kContradiction = 3.0;  // standard deviations
+constexpr double kLost = 0.3;           // relative standard deviation from which there is no estimate to linearise at
+constexpr int kStartBlocks = 8, kStartSteps = 8;
+constexpr int kRefined = 8;          // blocks that are linearised anew per update
+constexpr double kStale = 0.02;      // relative change of b1 or b0 since the linearisation
+constexpr double kStalePhase = 0.1;  // of the phase that the delay makes in the last bin [rad]
+constexpr double kStaleShare = 0.2;  // of r
+
+bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
+
+}  // namespace
+
+BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options)
+    : options_(options),
+      equations_(band, columns),
+      window_fit_(equations_.noiseBands(), columns, kMostBlocks),
+      ring_(kMostBlocks, equations_.makeBlock()) {
+  const int p = columns.numParameters();
+  first_.mean.setZero(p);
+  first_.stddev.setConstant(p, kUnknown);
+  first_.stddev[kBlockDelay] = options.delay_stddev;
+  first_.mean[kBlockWheelShare] = kShareMean;
+  first_.stddev[kBlockWheelShare] = kShareStddev;
+  slow_ = first_;
+  theta_.setZero(p);
+  pointers_.reserve(kMostBlocks);
+  sorted_.reserve(kMostBlocks);
+}
+
+StrutBlock& BlockEstimator::block(int age) {
+  return ring_[static_cast<std::size_t>((head_ - age + kMostBlocks) % kMostBlocks)];
+}
+
+StrutBlock& BlockEstimator::next() {
+  head_ = (head_ + 1) % kMostBlocks;
+  count_ = std::min(count_ + 1, kMostBlocks);
+  return block(0);
+}
+
+void BlockEstimator::restart() {
+  count_ = 0;
+  usual_.resize(0);
+  scatter_ = 1.0;
+  of_all_.reset();
+}
+
+void BlockEstimator::begin(const BlockVector& theta, const BlockPrior& slow) {
+  theta_ = theta;
+  slow_ = slow;
+  has_theta_ = true;
+}
+
+std::vector<const StrutBlock*>& BlockEstimator::newest(int count) {
+  pointers_.clear();
+  for (int age = count - 1; age >= 0; --age) pointers_.push_back(&block(age));
+  return pointers_;
+}
+
+bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result) {
+  window_fit_.fit(newest(window), prior, theta_, usual_, scatter_, result);
+  return result.isUsable();
+}
+
+const WindowEstimate* BlockEstimator::update() {
+  if (has_theta_) equations_.linearise(theta_, block(0));
+  if (count_ < kWindows.front() || !(has_theta_ || start())) return nullptr;
+  if (++updates_ % kSlowEvery == 0 && count_ >= kStartBlocks) learnSlow();
+  const BlockPrior& prior = contradictsSlow() ? first_ : slow_;
+  int window = 0;
+  for (const int m : kWindows) {
+    if (m > count_) break;
+    if (!fit(m, prior, trial_)) continue;
+    if (window == 0 || trial_.worst() < best_.worst()) {
+      std::swap(best_, trial_);
+      window = m;
+    }
+    if (best_.worst() < options_.enough) break;
+  }
+  if (window == 0) {
+    has_theta_ = false;
+    return nullptr;
+  }
+  refine(window, prior);
+  has_theta_ = best_.isUsable() && best_.worst() < kLost;
+  if (!has_theta_) return nullptr;
+  theta_ = best_.theta;
+  return &best_;
+}
+
+// Linear least squares, which noise of the regressors biases, then some steps from there.
+bool BlockEstimator::start() {
+  const int window = std::min(count_, kStartBlocks);
+  const Eigen::Vector2d linear = equations_.start(newest(window));
+  // A strut that bounces a quarter as fast as the lowest bin, damped by a tenth, is the softest that the blocks can
+  // see.
+  const double slowest = equations_.band().omega(BlockBand::kFirst) / 8.0;
+  theta_ = first_.mean;
+  theta_[kBlockDamping] = std::max(linear[0], 0.2 * slowest);
+  theta_[kBlockStiffness] = std::max(linear[1], slowest * slowest);
+  for (int i = 0; i < kStartSteps; ++i) {
+    for (int age = 0; age < window; ++age) equations_.linearise(theta_, block(age));
+    if (!fit(window, first_, trial_)) return false;
+    theta_ = trial_.theta;
+  }
+  if (!(trial_.worst() < kLost)) return false;
+  for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
+  return true;
+}
+
+void BlockEstimator::learnSlow() {
+  if (!fit(count_, first_, trial_)) return;
+  slow_ = first_;
+  for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
+    if (!isSlow(i)) continue;
+    slow_.mean[i] = trial_.theta[i];
+    slow_.stddev[i] = std::min(kSlowFactor * std::sqrt(trial_.covariance(i, i)), first_.stddev[i]);
+  }
+  const auto& power = window_fit_.power();
+  usual_.resize(power.cols());
+  for (Eigen::Index i = 0; i < power.cols(); ++i) {
+    sorted_.assign(power.col(i).begin(), power.col(i).end());
+    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+    std::nth_element(sorted_.begin(), middle, sorted_.end());
+    usual_[i] = std::max(*middle, std::numeric_limits<double>::min());
+  }
+  scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
+  of_all_ = trial_;
+}
+
+bool BlockEstimator::contradictsSlow() {
+  if (usual_.size() == 0) return false;
+  BlockPrior open = slow_;
+  open.stddev = first_.stddev;
+  if (!fit(kWindows.front(), open, trial_)) return false;
+  for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
+    if (!isSlow(i) || !std::isfinite(slow_.stddev[i])) continue;
+    const double apart = std::abs(trial_.theta[i] - slow_.mean[i]);
+    if (apart > kContradiction * std::sqrt(trial_.covariance(i, i) + slow_.stddev[i] * slow_.stddev[i])) return true;
+  }
+  return false;
+}
+
+bool BlockEstimator::isStale(const StrutBlock& block) const {
+  const auto moved = [&](int i) { return std::abs(best_.theta[i] - block.at[i]); };
+  const BlockBand& band = equations_.band();
+  return moved(kBlockDamping) > kStale * block.at[kBlockDamping] ||
+         moved(kBlockStiffness) > kStale * block.at[kBlockStiffness] ||
+         moved(kBlockDelay) * band.omega(band.last) > kStalePhase || moved(kBlockWheelShare) > kStaleShare;
+}
+
+void BlockEstimator::refine(int window, const BlockPrior& prior) {
+  int refined = 0;
+  for (int age = 0; age < window && refined < kRefined; ++age) {
+    if (!isStale(block(age))) continue;
+    equations_.linearise(best_.theta, block(age));
+    ++refined;
+  }
+  if (refined == 0) return;
+  trial_ = best_;
+  window_fit_.fit(newest(window), prior, best_.theta, usual_, scatter_, trial_);
+  if (trial_.isUsable()) std::swap(best_, trial_);
+}
+
+}  // namespace suspension_health_monitor

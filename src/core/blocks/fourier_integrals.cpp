@@ -1,0 +1,99 @@
+#include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr int kLanes = 8;  // bins that are turned at once
+// A gap of a 32nd of the block costs as much of its information, and the rule across it is noise that is measured.
+constexpr double kLongestSpacing = 1.0 / 32.0;
+
+}  // namespace
+
+FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
+    : band_(band),
+      half_length_(band.length / 2.0),
+      longest_spacing_(kLongestSpacing * band.length),
+      channels_(channels),
+      first_(channels),
+      newest_(channels) {
+  const int lanes = (band.last + 1 + kLanes - 1) / kLanes * kLanes;
+  cosines_.resize(static_cast<std::size_t>(lanes));
+  sines_.resize(cosines_.size());
+  real_.setZero(lanes, static_cast<Eigen::Index>(channels));
+  imaginary_ = real_;
+  for (Half& each : halves_) each.integrals.setZero(band.spectrumSize(), static_cast<Eigen::Index>(channels));
+}
+
+void FourierIntegrals::push(double time, const double* values) {
+  const long half = static_cast<long>(std::floor(time / half_length_));
+  if (!time_) {
+    std::copy_n(values, channels_, first_.begin());
+    begin(half);
+    is_whole_ = time - static_cast<double>(half) * half_length_ < longest_spacing_;
+  } else {
+    const double spacing = time - *time_;
+    const bool is_gap = spacing > longest_spacing_;
+    add((spacing_ + (is_gap ? 0.0 : spacing)) / 2.0);
+    if (is_gap) is_whole_ = false;
+    finishUntil(half);
+    if (is_gap) is_whole_ = false;
+    spacing_ = is_gap ? 0.0 : spacing;
+  }
+  time_ = time;
+  std::copy_n(values, channels_, newest_.begin());
+}
+
+void FourierIntegrals::begin(long index) {
+  open_ = index;
+  is_whole_ = true;
+  real_.setZero();
+  imaginary_.setZero();
+}
+
+// Takes in the newest reading with the weight that is known now.
+void FourierIntegrals::add(double weight) {
+  const double phase = -2.0 * M_PI * (*time_ - static_cast<double>(open_) * half_length_) / band_.length;
+  const auto count = static_cast<int>(cosines_.size());
+  double *c = cosines_.data(), *s = sines_.data();
+  c[0] = std::cos(phase);
+  s[0] = std::sin(phase);
+  for (int k = 1; k < kLanes; ++k) {
+    c[k] = c[k - 1] * c[0] - s[k - 1] * s[0];
+    s[k] = c[k - 1] * s[0] + s[k - 1] * c[0];
+  }
+  const double c8 = c[kLanes - 1], s8 = s[kLanes - 1];
+  for (int k = kLanes; k < count; ++k) {
+    c[k] = c[k - kLanes] * c8 - s[k - kLanes] * s8;
+    s[k] = c[k - kLanes] * s8 + s[k - kLanes] * c8;
+  }
+  for (std::size_t j = 0; j < channels_; ++j) {
+    const double x = weight * (newest_[j] - first_[j]);
+    double *real = real_.col(static_cast<Eigen::Index>(j)).data(),
+           *imaginary = imaginary_.col(static_cast<Eigen::Index>(j)).data();
+    for (int k = 0; k < count; ++k) {
+      real[k] += x * c[k];
+      imaginary[k] += x * s[k];
+    }
+  }
+}
+
+void FourierIntegrals::finishUntil(long index) {
+  if (index == open_) return;
+  Half& half = slot(open_);
+  half.index = open_;
+  half.is_complete = is_whole_;
+  const Eigen::Index from = band_.first - 2, size = band_.spectrumSize();  // element i is bin i + 1
+  half.integrals.real() = real_.middleRows(from, size);
+  half.integrals.imag() = imaginary_.middleRows(from, size);
+  begin(index);
+}
+
+const Eigen::ArrayXXcd* FourierIntegrals::half(long index) const {
+  const Half& half = halves_[static_cast<std::size_t>(index % kHalves)];
+  return half.index == index && half.is_complete ? &half.integrals : nullptr;
+}
+
+}  // namespace suspension_health_monitor

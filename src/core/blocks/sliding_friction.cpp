@@ -1,0 +1,40 @@
+#include "suspension_health_monitor/internal/blocks/sliding_friction.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kLeastFriction = 0.002;  // of the wheel's rms: then the direction is that of the rate, nearly
+
+}  // namespace
+
+double SlidingFriction::push(double time, double wheel) {
+  const double spacing = time_ ? time - *time_ : 0.0;
+  time_ = time;
+  if (!(spacing > 0.0) || spacing > memory_) {
+    mean_ = wheel_ = wheel;
+    variance_ = travel_ = rate_ = 0.0;
+    return 0.0;
+  }
+  const double share = spacing / memory_;
+  mean_ += share * (wheel - mean_);
+  variance_ += share * ((wheel - mean_) * (wheel - mean_) - variance_);
+  const double friction =
+      std::max({friction_, kLeastFriction * std::sqrt(variance_), std::numeric_limits<double>::min()});
+  const int steps = static_cast<int>(std::ceil(spacing / longest_step_));
+  const double h = spacing / steps, damped = 1.0 / (1.0 + h * (b1_ + h * b0_)), limit = h * friction * damped;
+  double direction = 0.0;
+  for (int i = 1; i <= steps; ++i) {
+    const double drive = wheel_ + (wheel - wheel_) * i / steps - mean_;
+    const double free = (rate_ + h * (drive - b0_ * travel_)) * damped;
+    rate_ = std::copysign(std::max(std::abs(free) - limit, 0.0), free);
+    direction = (free - rate_) / limit;
+    travel_ += h * rate_;
+  }
+  wheel_ = wheel;
+  return direction;
+}
+
+}  // namespace suspension_health_monitor

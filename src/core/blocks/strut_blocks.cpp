@@ -1,0 +1,125 @@
+#include "suspension_health_monitor/internal/blocks/strut_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kStepsOfFriction = 4096.0;  // per block: a thousand and more per bounce
+constexpr double kBlocksOfMean = 2.0;        // memory of the wheel's slow mean
+
+}  // namespace
+
+StrutBlocks::StrutBlocks(const BlockOptions& options, double period, std::size_t effects)
+    : options_(options), period_(period), effects_(effects) {
+  begin(options.length);
+}
+
+void StrutBlocks::begin(double length) {
+  const BlockBand band(length, period_);
+  const BlockColumns columns{effects_ > 0 ? static_cast<int>(effects_) : 1, 0};
+  std::optional<BlockEstimator> before;
+  before.swap(estimator_);
+  estimator_.emplace(band, columns, options_);
+  if (before && before->hasTheta()) estimator_->begin(before->theta(), before->slowPrior());
+  streams_.clear();
+  streams_.emplace_back(band, 1);
+  streams_.emplace_back(band, effects_ > 0 ? 1 : 2);
+  if (effects_ > 0) streams_.emplace_back(band, effects_);
+  friction_.reset();
+  if (effects_ == 0) friction_.emplace(length / kStepsOfFriction, kBlocksOfMean * length);
+  origin_.reset();
+  next_half_ = 1;
+  estimate_.length = length;
+}
+
+void StrutBlocks::restart() { begin(estimate_.length); }
+
+const BlockEstimate* StrutBlocks::push(Side side, Stamp stamp, double acceleration) {
+  if (!origin_) origin_ = stamp;
+  const double time = toSeconds(stamp - *origin_);
+  if (time < 0.0) return nullptr;  // the other stream began later
+  if (side == Side::kSprung) {
+    streams_[0].push(time, &acceleration);
+  } else if (friction_) {
+    const BlockVector& theta = estimator_->theta();
+    if (estimator_->hasTheta())
+      friction_->setStrut(theta[kBlockDamping], theta[kBlockStiffness], theta[kNumBlockParameters]);
+    const double values[] = {acceleration, friction_->push(time, acceleration)};
+    streams_[1].push(time, values);
+  } else {
+    streams_[1].push(time, &acceleration);
+  }
+  return takeBlocks();
+}
+
+const BlockEstimate* StrutBlocks::pushForces(Stamp stamp, const double* forces) {
+  if (!origin_) origin_ = stamp;
+  const double time = toSeconds(stamp - *origin_);
+  if (time < 0.0) return nullptr;
+  streams_[2].push(time, forces);
+  return takeBlocks();
+}
+
+bool StrutBlocks::isPassed(long half) const {
+  return std::all_of(streams_.begin(), streams_.end(), [&](const auto& stream) { return stream.openHalf() > half; });
+}
+
+const BlockEstimate* StrutBlocks::takeBlocks() {
+  // A stream that is silent holds the others up only as long as their half blocks are kept.
+  long newest = 0;
+  for (const FourierIntegrals& stream : streams_) newest = std::max(newest, stream.openHalf());
+  next_half_ = std::max(next_half_, newest - FourierIntegrals::kHalves + 2);
+  const BlockEstimate* found = nullptr;
+  while (isPassed(next_half_)) {
+    const bool is_whole = std::all_of(streams_.begin(), streams_.end(), [&](const auto& stream) {
+      return stream.half(next_half_ - 1) != nullptr && stream.half(next_half_) != nullptr;
+    });
+    const long half = next_half_++;
+    if (!is_whole) continue;
+    fill(half, estimator_->next());
+    const WindowEstimate* estimate = estimator_->update();
+    if (estimate == nullptr) continue;
+    static_cast<WindowEstimate&>(estimate_) = *estimate;
+    const double length = estimate_.length;
+    estimate_.rate /= length;
+    estimate_.stamp = *origin_ + fromSeconds(static_cast<double>(half + 1) * length / 2.0);
+    has_estimate_ = true;
+    found = &estimate_;
+    follow(estimate->theta[kBlockStiffness]);
+    if (estimate_.length != length) break;
+  }
+  return found;
+}
+
+void StrutBlocks::fill(long half, StrutBlock& block) const {
+  const BlockBand& band = estimator_->equations().band();
+  const auto whole = [&](std::size_t stream, Eigen::Index channel, auto&& result) {
+    const auto &first = *streams_[stream].half(half - 1), &second = *streams_[stream].half(half);
+    for (Eigen::Index i = 0; i < first.rows(); ++i) {
+      const bool is_odd = (band.first - 1 + i) % 2 != 0;
+      result[i] = first(i, channel) + (is_odd ? -second(i, channel) : second(i, channel));
+    }
+  };
+  block.end = static_cast<double>(half + 1) * band.length / 2.0;
+  whole(1, 0, block.wheel);
+  for (Eigen::Index m = 0; m < block.forces.cols(); ++m)
+    effects_ > 0 ? whole(2, m, block.forces.col(m)) : whole(1, 1, block.forces.col(m));
+  Eigen::ArrayXcd body(band.spectrumSize());
+  whole(0, 0, body);
+  for (std::size_t p = 0; p < 3; ++p)
+    estimator_->equations().undelayed().apply(p, body, block.body.col(static_cast<Eigen::Index>(p)));
+}
+
+// Blocks of fewer periods than kFewestPeriods lose the bounce below their lowest bin; of more than kMostPeriods they
+// are slower than they need to be, and the bounce is in few bins of many.
+void StrutBlocks::follow(double stiffness) {
+  const double periods = estimate_.length * std::sqrt(stiffness) / (2.0 * M_PI);
+  if (periods < kFewestPeriods)
+    begin(2.0 * estimate_.length);
+  else if (periods > kMostPeriods)
+    begin(0.5 * estimate_.length);
+}
+
+}  // namespace suspension_health_monitor

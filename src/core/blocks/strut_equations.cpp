@@ -1,0 +1,126 @@
+#include "suspension_health_monitor/internal/blocks/strut_equations.h"
+
+#include <Eigen/QR>
+
+namespace suspension_health_monitor {
+namespace {
+
+// Complex columns as real ones of twice the length: their products are sums of Re(a* b).
+Eigen::Map<const Eigen::MatrixXd> asReal(const Eigen::MatrixXcd& columns) {
+  return {reinterpret_cast<const double*>(columns.data()), 2 * columns.rows(), columns.cols()};
+}
+
+}  // namespace
+
+StrutEquations::StrutEquations(const BlockBand& band, const BlockColumns& columns)
+    : band_(band), noise_bands_(band), columns_(columns), undelayed_(band), delayed_(band), s_(undelayed_.s()) {
+  for (Eigen::ArrayXcd* each : {&a_, &g_, &gain_, &x0_, &x1_, &x2_, &wheel_, &e_over_g_}) each->resize(s_.size());
+  rho_.resize(s_.size());
+  rho_slope_.resize(s_.size());
+  instruments_.resize(s_.size(), columns.numParameters());
+  regressors_.resize(s_.size(), columns.numParameters() + 1);
+}
+
+StrutBlock StrutEquations::makeBlock() const {
+  const Eigen::Index p = columns_.numParameters();
+  StrutBlock block;
+  block.wheel.setZero(band_.spectrumSize());
+  block.forces.setZero(band_.spectrumSize(), columns_.forces);
+  block.body.setZero(s_.size(), 3);
+  block.neighbours.setZero(s_.size(), columns_.neighbours);
+  block.predicted_neighbours = block.neighbours;
+  if (columns_.neighbours > 0) block.predicted_travel.setZero(s_.size());
+  block.at.setZero(p);
+  block.bands.resize(static_cast<std::size_t>(noise_bands_.count()));
+  for (StrutBlock::Band& each : block.bands) {
+    each.information.setZero(p, p);
+    each.score.setZero(p);
+    each.moments.setZero(p + 1, p + 1);
+  }
+  return block;
+}
+
+void StrutEquations::linearise(const BlockVector& theta, StrutBlock& block) {
+  const double b1 = theta[kBlockDamping], b0 = theta[kBlockStiffness], r = theta[kBlockWheelShare];
+  const Eigen::Index p = columns_.numParameters();
+  delayed_.setDelay(theta[kBlockDelay]);
+  delayed_.apply(0, block.wheel, x0_);
+  delayed_.apply(1, block.wheel, x1_);
+  delayed_.apply(2, block.wheel, x2_);
+  const auto y0 = block.body.col(0), y1 = block.body.col(1), y2 = block.body.col(2);
+  g_ = b1 * s_ + b0;
+  a_ = s_ * s_ + g_;
+  gain_ = g_ / a_;
+
+  auto residual = regressors_.col(p).array();
+  regressors_.col(kBlockDamping).array() = (x1_ - y1) / a_;
+  regressors_.col(kBlockStiffness).array() = (x0_ - y0) / a_;
+  regressors_.col(kBlockDelay).array() = (b1 * x2_ + b0 * x1_) / a_;
+  residual = y2 / a_ - b1 * regressors_.col(kBlockDamping).array() - b0 * regressors_.col(kBlockStiffness).array();
+  for (int m = 0; m < columns_.forces; ++m) {
+    auto force = regressors_.col(columns_.firstForce() + m).array();
+    delayed_.apply(2, block.forces.col(m), force);
+    force /= a_;
+    residual -= theta[columns_.firstForce() + m] * force;
+    instruments_.col(columns_.firstForce() + m) = regressors_.col(columns_.firstForce() + m);
+  }
+  for (int m = 0; m < columns_.neighbours; ++m) {
+    const int i = columns_.firstNeighbour() + m;
+    regressors_.col(i).array() = block.neighbours.col(m) / a_;
+    residual -= theta[i] * regressors_.col(i).array();
+    instruments_.col(i).array() = block.predicted_neighbours.col(m) / a_;
+  }
+
+  const auto g2 = g_.abs2(), a2 = a_.abs2();
+  rho_ = r * g2 / (r * g2 + (1.0 - r) * a2);
+  rho_slope_ = g2 * a2 / (r * g2 + (1.0 - r) * a2).square();
+  e_over_g_ = rho_ * residual / gain_;
+  wheel_ = x0_ + e_over_g_;
+  auto travel = instruments_.col(kBlockStiffness).array();  // H_0 of w'' - z'' by the model, over A
+  if (columns_.neighbours > 0)
+    travel = (block.predicted_travel + s_ * s_ / a_ * e_over_g_) / a_;
+  else
+    travel = s_ * s_ / a_ * wheel_ / a_;
+  instruments_.col(kBlockDamping).array() = s_ * travel;
+  instruments_.col(kBlockDelay).array() = gain_ * s_ * wheel_;
+  instruments_.col(kBlockWheelShare).array() = -rho_slope_ / gain_.conjugate() * wheel_;
+  regressors_.col(kBlockWheelShare) = instruments_.col(kBlockWheelShare);
+  block.at = theta;
+  sumBands(block);
+}
+
+void StrutEquations::sumBands(StrutBlock& block) const {
+  const auto z = asReal(instruments_), r = asReal(regressors_);
+  const Eigen::Index p = columns_.numParameters();
+  for (int i = 0; i < noise_bands_.count(); ++i) {
+    const int first = noise_bands_.first(i), size = noise_bands_.size(i);
+    StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+    const auto z_band = z.middleRows(2 * first, 2 * size), r_band = r.middleRows(2 * first, 2 * size);
+    band.information.noalias() = z_band.transpose().lazyProduct(r_band.leftCols(p));
+    band.score.noalias() = z_band.transpose().lazyProduct(r_band.col(p));
+    band.moments.noalias() = r_band.transpose().lazyProduct(r_band);
+    band.wheel_power = wheel_.segment(first, size).abs2().sum();
+    band.body_power = block.body.col(0).segment(first, size).abs2().sum();
+    band.rate_power =
+        ((x1_ - block.body.col(1)).segment(first, size).abs2() / s_.segment(first, size).abs2().square()).sum();
+  }
+}
+
+Eigen::Vector2d StrutEquations::start(const std::vector<const StrutBlock*>& blocks) {
+  const Eigen::Index n = s_.size();
+  Eigen::MatrixXcd rows(n * static_cast<Eigen::Index>(blocks.size()), 2);
+  Eigen::MatrixXcd output(rows.rows(), 1);
+  Eigen::Index at = 0;
+  for (const StrutBlock* block : blocks) {
+    undelayed_.apply(0, block->wheel, x0_);
+    undelayed_.apply(1, block->wheel, x1_);
+    // Over s^2: displacements, which a bounce has most of.
+    rows.col(0).segment(at, n).array() = (x1_ - block->body.col(1)) / (s_ * s_);
+    rows.col(1).segment(at, n).array() = (x0_ - block->body.col(0)) / (s_ * s_);
+    output.col(0).segment(at, n).array() = block->body.col(2) / (s_ * s_);
+    at += n;
+  }
+  return asReal(rows).colPivHouseholderQr().solve(asReal(output).col(0));
+}
+
+}  // namespace suspension_health_monitor
