@@ -26,7 +26,7 @@ bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
 BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options)
     : options_(options),
       equations_(band, columns),
-      window_fit_(equations_.noiseBands(), columns, kMostBlocks),
+      window_fit_(band, columns, kMostBlocks),
       ring_(kMostBlocks, equations_.makeBlock()) {
   const int p = columns.numParameters();
   first_.mean.setZero(p);
@@ -50,13 +50,6 @@ StrutBlock& BlockEstimator::next() {
   return block(0);
 }
 
-void BlockEstimator::restart() {
-  count_ = 0;
-  usual_.resize(0);
-  scatter_ = 1.0;
-  of_all_.reset();
-}
-
 void BlockEstimator::begin(const BlockVector& theta, const BlockPrior& slow) {
   theta_ = theta;
   slow_ = slow;
@@ -76,13 +69,18 @@ bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& re
 
 const WindowEstimate* BlockEstimator::update() {
   if (has_theta_) equations_.linearise(theta_, block(0));
-  if (count_ < kWindows.front() || !(has_theta_ || start())) return nullptr;
+  if (count_ < kWindows.front() || !(has_theta_ || start())) {
+    if (count_ >= kWindows.front()) newest_worst_ = kUnknown;
+    return nullptr;
+  }
   if (++updates_ % kSlowEvery == 0 && count_ >= kStartBlocks) learnSlow();
   const BlockPrior& prior = contradictsSlow() ? first_ : slow_;
   int window = 0;
   for (const int m : kWindows) {
     if (m > count_) break;
-    if (!fit(m, prior, trial_)) continue;
+    const bool is_usable = fit(m, prior, trial_);
+    if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : kUnknown;
+    if (!is_usable) continue;
     if (window == 0 || trial_.worst() < best_.worst()) {
       std::swap(best_, trial_);
       window = m;

@@ -34,7 +34,11 @@ void StrutBlocks::begin(double length) {
   estimate_.length = length;
 }
 
-void StrutBlocks::restart() { begin(estimate_.length); }
+void StrutBlocks::restart() {
+  estimator_.reset();
+  has_estimate_ = false;
+  begin(options_.length);
+}
 
 const BlockEstimate* StrutBlocks::push(Side side, Stamp stamp, double acceleration) {
   if (!origin_) origin_ = stamp;
@@ -83,7 +87,6 @@ const BlockEstimate* StrutBlocks::takeBlocks() {
     if (estimate == nullptr) continue;
     static_cast<WindowEstimate&>(estimate_) = *estimate;
     const double length = estimate_.length;
-    estimate_.rate /= length;
     estimate_.stamp = *origin_ + fromSeconds(static_cast<double>(half + 1) * length / 2.0);
     has_estimate_ = true;
     found = &estimate_;

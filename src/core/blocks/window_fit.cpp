@@ -1,25 +1,16 @@
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kIterations = 3;     // of weights and parameters
-constexpr double kUnusual = 10.0;  // times the usual power, from which a block counts less
+constexpr int kIterations = 3;  // of weights and parameters
+constexpr double kLeastShare = 0.02;  // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
 
-// Power of the residual in a band, by its expansion about the block's theta, on which it depends by b1, b0 and columns
-// linearly, but for the weight 1 / A.
-double powerAt(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta, BlockVector& step) {
-  const Eigen::Index p = theta.size();
-  step = theta - block.at;
-  step[kBlockWheelShare] = 0.0;  // e does not depend on it
-  const double power = band.moments(p, p) - 2.0 * step.dot(band.moments.col(p).head(p)) +
-                       step.dot(band.moments.topLeftCorner(p, p).selfadjointView<Eigen::Upper>() * step);
-  return std::max(power, 0.0);
-}
+// Within a factor of two of what it was, so that the model stays stable.
+double withinReach(double value, double before) { return std::clamp(value, 0.5 * before, 2.0 * before); }
 
 }  // namespace
 
@@ -28,189 +19,152 @@ bool WindowEstimate::isUsable() const {
          covariance(0, 0) > 0.0 && covariance.topLeftCorner<2, 2>().determinant() > 0.0;
 }
 
-WindowFit::WindowFit(const NoiseBands& bands, const BlockColumns& columns, int most_blocks)
-    : bands_(bands), columns_(columns) {
+WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int most_blocks)
+    : length_(band.length), bands_(band), columns_(columns) {
   const Eigen::Index p = columns.numParameters();
-  power_.setZero(most_blocks, bands.count());
+  power_.setZero(most_blocks, bands_.count());
   weight_.setOnes(most_blocks);
-  noise_.setOnes(bands.count());
-  share_scale_ = noise_;
-  for (BlockMatrix* each : {&normal_, &inverse_, &prior_information_}) each->setZero(p, p);
-  for (BlockVector* each : {&right_, &step_, &scale_}) each->setZero(p);
-  previous_.setZero(2, bands.count());
-  lu_ = Eigen::PartialPivLU<BlockMatrix>(p);
-  medians_.reserve(static_cast<std::size_t>(most_blocks));
-  own_.reserve(medians_.capacity());
-  own_covariance_.reserve(medians_.capacity());
+  weights_.noise.setOnes(bands_.count());
+  weights_.share_scale = weights_.noise;
+  normal_.setZero(p, p);
+  right_.setZero(p);
+  previous_.setZero(2, bands_.count());
+  distances_.reserve(static_cast<std::size_t>(most_blocks));
+  own_.reserve(distances_.capacity());
+  own_covariance_.reserve(distances_.capacity());
 }
 
 void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
                     const Eigen::VectorXd& usual, double least_inflation, WindowEstimate& result) {
   blocks_ = static_cast<int>(blocks.size());
+  weights_.usual = usual;
   result.blocks = blocks_;
   result.theta = start;
   for (int i = 0; i < kIterations; ++i) {
-    weigh(blocks, result.theta, usual);
-    if (!solve(blocks, prior, result.theta)) break;
+    weigh(blocks, result.theta);
+    sum(blocks, prior);
+    const NormalEquations equations(normal_, right_);
+    if (!equations.is_solvable) break;
+    const double b1 = result.theta[kBlockDamping], b0 = result.theta[kBlockStiffness];
+    result.theta = equations.solution;
+    result.theta[kBlockDamping] = withinReach(result.theta[kBlockDamping], b1);
+    result.theta[kBlockStiffness] = withinReach(result.theta[kBlockStiffness], b0);
+    result.theta[kBlockWheelShare] = std::clamp(result.theta[kBlockWheelShare], kLeastShare, 1.0 - kLeastShare);
   }
-  weigh(blocks, result.theta, usual);
+  weigh(blocks, result.theta);
   describe(blocks, prior, least_inflation, result);
 }
 
 // The noise's spectrum, and how much a block counts.
-void WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta,
-                      const Eigen::VectorXd& usual) {
-  noise_.setZero();
-  share_scale_.setZero();
+void WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {
+  Eigen::VectorXd &noise = weights_.noise, &scale = weights_.share_scale;
+  noise.setZero();
+  scale.setZero();
   double weights = 0.0;
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
-    double times_usual = 0.0;
-    for (int i = 0; i < bands_.count(); ++i) {
-      power_(b, i) = powerAt(block.bands[static_cast<std::size_t>(i)], block, theta, step_) / bands_.size(i);
-      if (usual.size() > 0) times_usual += power_(b, i) / usual[i] / bands_.count();
-    }
-    weight_[b] = times_usual > kUnusual ? kUnusual / times_usual : 1.0;
+    weight_[b] = weights_.of(block, bands_, theta);
     weights += weight_[b];
     for (int i = 0; i < bands_.count(); ++i) {
-      noise_[i] += weight_[b] * power_(b, i);
-      share_scale_[i] += weight_[b] * block.bands[static_cast<std::size_t>(i)].wheel_power / bands_.size(i);
+      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+      power_(b, i) = residualPower(band, block, theta) / bands_.size(i);
+      noise[i] += weight_[b] * power_(b, i);
+      scale[i] += weight_[b] * band.wheel_power / bands_.size(i);
     }
   }
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
-    noise_[i] = std::max(noise_[i], least * share_scale_[i]) / weights;
-    share_scale_[i] = share_scale_[i] > 0.0 ? noise_[i] * weights / share_scale_[i] : 0.0;
-    if (!(noise_[i] > 0.0)) noise_[i] = 1.0;  // the sensors read constants
+    noise[i] = std::max(noise[i], least * scale[i]) / weights;
+    scale[i] = scale[i] > 0.0 ? noise[i] * weights / scale[i] : 0.0;
+    if (!(noise[i] > 0.0)) noise[i] = 1.0;  // the sensors read constants
   }
 }
 
-bool WindowFit::solve(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, BlockVector& theta) {
-  const Eigen::Index p = theta.size();
-  prior_information_.setZero();
-  prior_information_.diagonal() = prior.stddev.array().square().inverse();
-  normal_ = prior_information_;
-  right_ = prior_information_ * prior.mean;
+void WindowFit::sum(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior) {
+  normal_.setZero();
+  normal_.diagonal() = prior.stddev.cwiseAbs2().cwiseInverse();
+  right_ = normal_.diagonal().cwiseProduct(prior.mean);
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     for (int i = 0; i < bands_.count(); ++i) {
       const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      const double weight = weight_[b] / noise_[i];
-      scale_.setOnes();
-      scale_[kBlockWheelShare] = share_scale_[i];
-      inverse_.noalias() = weight * (scale_.asDiagonal() * band.information * scale_.asDiagonal());
-      normal_ += inverse_;
-      right_.noalias() += inverse_ * block.at;
-      right_ += weight * scale_.cwiseProduct(band.score);
+      const double weight = weight_[b] / weights_.noise[i], scale = weights_.share_scale[i];
+      const BlockMatrix information = weight * informationOf(band, scale);
+      normal_ += information;
+      right_.noalias() += information * block.at;
+      right_ += weight * band.score;
+      right_[kBlockWheelShare] += weight * (scale - 1.0) * band.score[kBlockWheelShare];
     }
   }
-  // Units differ by orders of magnitude.
-  scale_ = normal_.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
-  if (!scale_.allFinite()) return false;
-  inverse_.noalias() = scale_.asDiagonal() * normal_ * scale_.asDiagonal();
-  lu_.compute(inverse_);
-  step_ = scale_.cwiseProduct(lu_.solve(scale_.cwiseProduct(right_)));
-  if (!step_.allFinite()) return false;
-  for (Eigen::Index i = 0; i < p; ++i) {
-    if (i == kBlockDamping || i == kBlockStiffness)
-      theta[i] = std::clamp(step_[i], 0.5 * theta[i], 2.0 * theta[i]);
-    else if (i == kBlockWheelShare)
-      theta[i] = std::clamp(step_[i], 0.02, 0.98);
-    else
-      theta[i] = step_[i];
-  }
-  return true;
 }
 
 void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                          WindowEstimate& result) {
-  BlockVector ignored = result.theta;
-  if (!solve(blocks, prior, ignored)) {
-    result.covariance.setConstant(result.theta.size(), result.theta.size(), std::numeric_limits<double>::infinity());
-    return;
-  }
-  // normal_ is now at the final weights.
-  inverse_ = lu_.inverse();
-  inverse_ = scale_.asDiagonal() * inverse_ * scale_.asDiagonal();
-  const double correlation = kBinCorrelation + kBlockCorrelation * (blocks_ - 1.0) / blocks_;
-  result.covariance.noalias() =
-      inverse_ * (correlation * (normal_ - prior_information_) + prior_information_) * inverse_.transpose();
-  result.covariance = 0.5 * (result.covariance + result.covariance.transpose()).eval();
-  result.inflation =
-      std::max(least_inflation, inflation(blocks, result.theta, result.covariance.topLeftCorner<2, 2>()));
+  sum(blocks, prior);
+  const NormalEquations equations(normal_, right_);
+  result.covariance = covarianceByNoise(normal_, equations.inverse, prior, blocks_);
+  if (!equations.is_solvable) result.covariance.setConstant(std::numeric_limits<double>::infinity());
+  result.inflation = std::max(least_inflation, inflation(blocks, result, equations.inverse, prior));
   result.covariance *= result.inflation;
-  result.noise = noise_;
+  result.noise = weights_.noise;
 
-  double body = 0.0, unexplained = 0.0, rate = 0.0, weights = 0.0;
+  double body = 0.0, unexplained = 0.0, rate = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero(), information = age;
-  BlockVector& linear = ignored;  // the strut without the columns
-  linear = result.theta;
-  linear.tail(columns_.forces + columns_.neighbours).head(columns_.forces).setZero();
-  const double now = blocks.back()->end;
+  const BlockVector linear = linearPart(result.theta, columns_);
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     for (int i = 0; i < bands_.count(); ++i) {
       const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
       body += weight_[b] * band.body_power;
-      unexplained += weight_[b] * powerAt(band, block, linear, step_);
+      unexplained += weight_[b] * residualPower(band, block, linear);
       rate += weight_[b] * band.rate_power;
-      const Eigen::Vector2d own = weight_[b] / noise_[i] * band.information.diagonal().head<2>();
+      const Eigen::Vector2d own = weight_[b] / weights_.noise[i] * band.information.diagonal().head<2>();
       information += own;
-      age += own * (now - block.end);
+      age += own * (blocks.back()->end - block.end);
     }
-    weights += weight_[b];
   }
   result.explained = body > 0.0 ? 1.0 - unexplained / body : 0.0;
-  // Parseval: the mean square over a block is 2 sum |H|^2 / (T^2 mean(hann^2)), and mean(hann^2) = 3/8; T^2 by the
-  // user.
-  result.rate = std::sqrt(2.0 * rate / weights / 0.375);
+  result.setRate(rate / weight_.head(blocks_).sum(), length_);
   result.age = (age.array() / information.array()).maxCoeff();
-}
-
-// The score of a cell at theta, by its expansion about the block's, into right_.
-void WindowFit::takeScore(const StrutBlock& block, int b, int i, const BlockVector& theta) {
-  const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-  step_ = theta - block.at;
-  step_[kBlockWheelShare] *= share_scale_[i];
-  right_ = weight_[b] / noise_[i] * (band.score - band.information * step_);
-  right_[kBlockWheelShare] *= share_scale_[i];
 }
 
 // The mean over b1 and b0 of how much more the estimate varies by the scatter of cells, and of neighbouring blocks
 // together, than by their noise.
-double WindowFit::inflation(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta,
-                            const Eigen::Matrix2d& covariance) {
-  Eigen::Matrix2d scattered = (inverse_ * prior_information_ * inverse_.transpose()).topLeftCorner<2, 2>();
+double WindowFit::inflation(const std::vector<const StrutBlock*>& blocks, const WindowEstimate& result,
+                            const BlockMatrix& inverse, const BlockPrior& prior) {
+  Eigen::Matrix2d scattered = inverse.topRows<2>() * prior.stddev.cwiseAbs2().cwiseInverse().asDiagonal() *
+                              inverse.topRows<2>().transpose();
   previous_.setZero();
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     for (int i = 0; i < bands_.count(); ++i) {
-      takeScore(block, b, i, theta);
-      const Eigen::Vector2d moved = inverse_.topRows<2>() * right_;
+      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+      const Eigen::Vector2d moved = weight_[b] / weights_.noise[i] * inverse.topRows<2>() *
+                                    scoreOf(band, block, result.theta, weights_.share_scale[i]);
       const Eigen::Matrix2d with_previous = 0.5 * moved * previous_.col(i).transpose();
       scattered += moved * moved.transpose() + with_previous + with_previous.transpose();
       previous_.col(i) = moved;
     }
   }
-  const double determinant = covariance.determinant();
-  if (!(determinant > 0.0)) return std::numeric_limits<double>::infinity();
+  const Eigen::Matrix2d covariance = result.covariance.topLeftCorner<2, 2>();
+  if (!(covariance.determinant() > 0.0)) return std::numeric_limits<double>::infinity();
   return 0.5 * (covariance.inverse() * scattered).trace();
 }
 
 double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {
   own_.clear();
   own_covariance_.clear();
-  medians_.clear();
+  distances_.clear();
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     Eigen::Vector2d score = Eigen::Vector2d::Zero();
     for (int i = 0; i < bands_.count(); ++i) {
-      takeScore(block, b, i, theta);
-      score += right_.head<2>();
-      information +=
-          weight_[b] / noise_[i] * block.bands[static_cast<std::size_t>(i)].information.topLeftCorner<2, 2>();
+      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+      const double weight = weight_[b] / weights_.noise[i];
+      information += weight * band.information.topLeftCorner<2, 2>();
+      score += weight * scoreOf(band, block, theta, weights_.share_scale[i]).head<2>();
     }
     if (!(information.determinant() > 0.0)) continue;
     own_covariance_.push_back(information.inverse());
@@ -219,11 +173,11 @@ double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blo
   for (std::size_t b = 2; b < own_.size(); ++b) {
     const Eigen::Vector2d apart = own_[b] - own_[b - 2];
     const Eigen::Matrix2d covariance = kBinCorrelation * (own_covariance_[b] + own_covariance_[b - 2]);
-    medians_.push_back(apart.dot(covariance.inverse() * apart));
+    distances_.push_back(apart.dot(covariance.inverse() * apart));
   }
-  if (medians_.size() < 5) return 1.0;
-  const auto middle = medians_.begin() + static_cast<std::ptrdiff_t>(medians_.size() / 2);
-  std::nth_element(medians_.begin(), middle, medians_.end());
+  if (distances_.size() < 5) return 1.0;
+  const auto middle = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 2);
+  std::nth_element(distances_.begin(), middle, distances_.end());
   constexpr double kMedianOfChiSquare = 1.386;  // 2 ln 2, of two degrees of freedom
   return std::max(1.0, *middle / kMedianOfChiSquare);
 }

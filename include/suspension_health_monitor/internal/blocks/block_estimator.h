@@ -38,12 +38,12 @@ class BlockEstimator {
   const BlockVector& theta() const { return theta_; }  ///< to linearise at, and for models
   bool hasTheta() const { return has_theta_; }
 
+  /// @return the larger relative standard deviation of b1 and b0 by the newest blocks alone, kWindows[0] of them [-].
+  double newestWorst() const { return newest_worst_; }
+
   /// Goes on with this estimate, as of blocks of another length.
   void begin(const BlockVector& theta, const BlockPrior& slow);
   const BlockPrior& slowPrior() const { return slow_; }
-
-  /// The blocks end here; what is known of slow parameters stays.
-  void restart();
 
  private:
   std::vector<const StrutBlock*>& newest(int count);
@@ -66,6 +66,7 @@ class BlockEstimator {
   double scatter_ = 1.0;
   BlockVector theta_;
   bool has_theta_ = false;
+  double newest_worst_ = 0.0;
   WindowEstimate best_, trial_;
   std::optional<WindowEstimate> of_all_;
   std::vector<const StrutBlock*> pointers_;

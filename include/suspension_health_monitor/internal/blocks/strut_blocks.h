@@ -39,7 +39,10 @@ class StrutBlocks {
   const BlockEstimate* estimate() const { return has_estimate_ ? &estimate_ : nullptr; }
   const BlockEstimator& estimator() const { return *estimator_; }
 
-  /// Another drive: blocks are forgotten, the estimate stays until there is a new one.
+  /// @return as BlockEstimator::newestWorst(); infinite while the first blocks of a new length fill.
+  double newestWorst() const { return estimator_->newestWorst(); }
+
+  /// Another drive, perhaps of another vehicle: nothing is known any more.
   void restart();
 
  private:
