@@ -75,7 +75,10 @@ void WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
-    noise[i] = std::max(noise[i], least * scale[i]) / weights;
+    // From so many degrees of freedom the power is known to 1 +- sqrt(2 / degrees) only: by that weights are worse than
+    // the best ones, and their inverse is too large on average, each by 2 / degrees of the variance.
+    const double degrees = weights * bands_.size(i) / kBinCorrelation;
+    noise[i] = (1.0 + 4.0 / degrees) * std::max(noise[i], least * scale[i]) / weights;
     scale[i] = scale[i] > 0.0 ? noise[i] * weights / scale[i] : 0.0;
     if (!(noise[i] > 0.0)) noise[i] = 1.0;  // the sensors read constants
   }

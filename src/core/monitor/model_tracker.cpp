@@ -68,6 +68,14 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
   estimate.window = (blocks.blocks + 1) * blocks.length / 2.0;
 }
 
+EstimateFacts blockFacts(const StrutEstimate& estimate) {
+  EstimateFacts facts;
+  facts.damping_stddev = estimate.damping_to_mass_stddev / estimate.damping_to_mass;
+  facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
+  facts.explained = estimate.explained;
+  return facts;
+}
+
 bool agree(double a, double a_stddev, double b, double b_stddev) {
   const double apart = std::abs(a - b);
   return apart <= kMostApart * std::abs(b) || apart <= kMostStddevsApart * std::hypot(a_stddev, b_stddev);
@@ -153,17 +161,23 @@ void ModelTracker::judge(ModelReport& report) {
 }
 
 void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
-  EstimateFacts facts;
+  EstimateFacts facts = blockFacts(estimate);
   if (const BlockEstimate* blocks = blocks_.estimate()) {
     facts.has_row = true;
-    facts.damping_stddev = estimate.damping_to_mass_stddev / estimate.damping_to_mass;
-    facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
-    facts.explained = estimate.explained;
     estimate.age = facts.age = blocks->age + toSeconds(now_ - blocks->stamp);
     facts.oldest = oldest_data_;
-    facts.free_run_fails = !is_paper_ && free_run_fails_;
   }
   estimate.doubt = doubtOf(facts);
+}
+
+StrutEstimate ModelTracker::overTheDrive() {
+  StrutEstimate estimate;
+  const std::optional<BlockEstimate> blocks = blocks_.overTheDrive();
+  if (blocks) describe(*blocks, effects().size(), estimate);
+  EstimateFacts facts = blockFacts(estimate);
+  facts.has_row = blocks.has_value();
+  estimate.doubt = doubtOf(facts);
+  return estimate;
 }
 
 void ModelTracker::takeModel(const ModelReport& report) {

@@ -80,8 +80,9 @@ BlockVector linearPart(const BlockVector& theta, const BlockColumns& columns);
 /// parameters^2), no allocation after the construction.
 class WindowFit {
  public:
-  static constexpr double kBinCorrelation = 1.944;    ///< 1 + 2 ((2/3)^2 + (1/6)^2): squared correlations of Hann bins
-  static constexpr double kBlockCorrelation = 0.167;  ///< that of half overlapped blocks, summed likewise
+  /// A score is a real part, which has half of the power of complex noise: sums of squared correlations over two.
+  static constexpr double kBinCorrelation = 0.972;     ///< (1 + 2 ((2/3)^2 + (1/6)^2)) / 2, of Hann bins
+  static constexpr double kBlockCorrelation = 0.083;   ///< that of neighbouring blocks, which overlap by half
 
   WindowFit(const BlockBand& band, const BlockColumns& columns, int most_blocks);
 

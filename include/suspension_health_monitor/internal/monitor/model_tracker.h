@@ -66,6 +66,10 @@ class ModelTracker {
   /// @return true while what is measured tells nothing of the strut, and LS and LA stay as they are.
   bool holds() const { return identifier_.holds(); }
 
+  /// @return the estimate over all readings so far, as StrutBlocks::overTheDrive(); with NaN: too little is known. Not
+  /// for the sample path.
+  StrutEstimate overTheDrive();
+
   /// @return the factor that rows are forgotten by.
   double forgettingFactor() const { return identifier_.forgettingFactor(); }
 

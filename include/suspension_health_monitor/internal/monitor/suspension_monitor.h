@@ -62,6 +62,9 @@ class SuspensionMonitor {
   void setBaseline(const Baseline& baseline) { health_.setBaseline(baseline); }
   const Baseline& baseline() const { return health_.baseline(); }
 
+  /// @return as ModelTracker::overTheDrive(), of the model with effects if there is one.
+  StrutEstimate overTheDrive() { return (extended_ ? *extended_ : plain_).overTheDrive(); }
+
   const MonitorReport& report() const { return report_; }
   const InputStatus& input() const { return series_.status(); }
   const RejectCounts& rejected() const { return series_.rejected(); }
