@@ -65,6 +65,9 @@ class SuspensionMonitor {
   /// @return as ModelTracker::overTheDrive(), of the model with effects if there is one.
   StrutEstimate overTheDrive() { return (extended_ ? *extended_ : plain_).overTheDrive(); }
 
+  /// @return what models are made of: the block estimate, or, with `preset: paper`, LA.
+  const StrutEstimate& modelEstimate() const { return options_.preset == "paper" ? report_.la : report_.estimate; }
+
   const MonitorReport& report() const { return report_; }
   const InputStatus& input() const { return series_.status(); }
   const RejectCounts& rejected() const { return series_.rejected(); }
