@@ -64,11 +64,12 @@ void checkStddev(double stddev, double value, const char* name) {
                                 name + " = " + numberText(value));
 }
 
-// Files without that covariance were learned by recursive least squares: friction is a part of their b1, and their noise
-// shifted them by what the blocks do not have.
+// Files without that covariance were learned by recursive least squares: friction is a part of their b1, and their
+// noise shifted them by what the blocks do not have.
 void widen(Baseline& baseline) {
   constexpr double kOfEstimator = 0.02;  // of the value, measured by accuracy_table
-  baseline.damping_to_mass_stddev = std::hypot(baseline.damping_to_mass_stddev, kOfEstimator * *baseline.damping_to_mass);
+  baseline.damping_to_mass_stddev =
+      std::hypot(baseline.damping_to_mass_stddev, kOfEstimator * *baseline.damping_to_mass);
   baseline.stiffness_to_mass_stddev =
       std::hypot(baseline.stiffness_to_mass_stddev, kOfEstimator * *baseline.stiffness_to_mass);
   if (baseline.friction) *baseline.damping_to_mass -= baseline.friction->force * baseline.friction->damping_gain;
@@ -178,8 +179,8 @@ void LiveBaseline::save(const SuspensionMonitor* monitor) {
   const MonitorOptions& options = monitor->options();
   checkCertain("damping_to_mass", estimate.damping_to_mass, estimate.damping_to_mass_stddev, options.damping_error,
                HealthOptions{}.min_significance);
-  checkCertain("stiffness_to_mass", estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev, options.stiffness_error,
-               HealthOptions{}.min_significance);
+  checkCertain("stiffness_to_mass", estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev,
+               options.stiffness_error, HealthOptions{}.min_significance);
   const Baseline present = baselineOf(estimate, monitor->report().stamp);
   write(present, *monitor);
   known_ = present;

@@ -12,7 +12,8 @@
 
 namespace suspension_health_monitor {
 
-/// What is told of every sample: ~estimate, ~ls, ~la, ~comparison, ~health and those of the tyre; and ~model, when it changes.
+/// What is told of every sample: ~estimate, ~ls, ~la, ~comparison, ~health and those of the tyre; and ~model, when it
+/// changes.
 class ReportTopics {
  public:
   static constexpr std::uint32_t kQueueSize = 100000;  // messages
