@@ -17,7 +17,8 @@ double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const 
   double times = 0.0;
   for (int i = 0; i < bands.count(); ++i)
     times += residualPower(block.bands[static_cast<std::size_t>(i)], block, theta) / (bands.size(i) * usual[i]);
-  return std::min(1.0, kUnusual * bands.count() / times);
+  const double beyond = kUnusual * bands.count() / times;
+  return beyond < 1.0 ? beyond * beyond : 1.0;
 }
 
 double residualPower(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta) {
