@@ -27,7 +27,7 @@ constexpr double kSettled = 20.0;  // [s]
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The estimate that is measured.
-const StrutEstimate& judged(const MonitorReport& report) { return report.la; }
+const StrutEstimate& judged(const MonitorReport& report) { return report.estimate; }
 
 bool isRaised(HealthLevel level) { return level == HealthLevel::kWarn || level == HealthLevel::kError; }
 

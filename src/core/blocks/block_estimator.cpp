@@ -27,6 +27,7 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
     : options_(options),
       equations_(band, columns),
       window_fit_(band, columns, kMostBlocks),
+      drive_(band, columns),
       ring_(kMostBlocks, equations_.makeBlock()) {
   const int p = columns.numParameters();
   first_.mean.setZero(p);
@@ -45,8 +46,10 @@ StrutBlock& BlockEstimator::block(int age) {
 }
 
 StrutBlock& BlockEstimator::next() {
+  if (count_ == kMostBlocks) retire(block(kMostBlocks - 1));
   head_ = (head_ + 1) % kMostBlocks;
   count_ = std::min(count_ + 1, kMostBlocks);
+  block(0).at.setZero();
   return block(0);
 }
 
@@ -63,7 +66,7 @@ std::vector<const StrutBlock*>& BlockEstimator::newest(int count) {
 }
 
 bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result) {
-  window_fit_.fit(newest(window), prior, theta_, usual_, scatter_, result);
+  window_fit_.fit(newest(window), prior, theta_, weights_.usual, scatter_, result);
   return result.isUsable();
 }
 
@@ -127,19 +130,49 @@ void BlockEstimator::learnSlow() {
     slow_.stddev[i] = std::min(kSlowFactor * std::sqrt(trial_.covariance(i, i)), first_.stddev[i]);
   }
   const auto& power = window_fit_.power();
-  usual_.resize(power.cols());
+  weights_ = window_fit_.weights();
+  weights_.usual.resize(power.cols());
   for (Eigen::Index i = 0; i < power.cols(); ++i) {
     sorted_.assign(power.col(i).begin(), power.col(i).end());
     const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
     std::nth_element(sorted_.begin(), middle, sorted_.end());
-    usual_[i] = std::max(*middle, std::numeric_limits<double>::min());
+    weights_.usual[i] = std::max(*middle, std::numeric_limits<double>::min());
   }
   scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
-  of_all_ = trial_;
+}
+
+// Blocks that were never linearised, since no strut was known then, tell nothing.
+void BlockEstimator::retire(const StrutBlock& block) {
+  if (weights_.usual.size() > 0 && block.at[kBlockStiffness] > 0.0) drive_.add(block, weights_, block.at);
+}
+
+DriveFit BlockEstimator::takeDrive() {
+  if (has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_)) weights_ = window_fit_.weights();
+  for (int age = count_ - 1; age >= 0; --age) retire(block(age));
+  return drive_;
+}
+
+std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
+  constexpr int kMostSteps = 30;
+  constexpr double kStill = 1e-12;  // relative
+  if (drive_.blocks() > 0) {
+    BlockEstimator copy = *this;
+    return copy.takeDrive().estimate(first_);
+  }
+  if (count_ < kWindows.front() || !(has_theta_ || start())) return std::nullopt;
+  WindowEstimate result;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const BlockVector before = theta_;
+    for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
+    if (!fit(count_, first_, result)) return std::nullopt;
+    theta_ = result.theta;
+    if (((theta_ - before).array().abs() <= kStill * theta_.array().abs()).head<2>().all()) break;
+  }
+  return result;
 }
 
 bool BlockEstimator::contradictsSlow() {
-  if (usual_.size() == 0) return false;
+  if (weights_.usual.size() == 0) return false;
   BlockPrior open = slow_;
   open.stddev = first_.stddev;
   if (!fit(kWindows.front(), open, trial_)) return false;
@@ -168,7 +201,7 @@ void BlockEstimator::refine(int window, const BlockPrior& prior) {
   }
   if (refined == 0) return;
   trial_ = best_;
-  window_fit_.fit(newest(window), prior, best_.theta, usual_, scatter_, trial_);
+  window_fit_.fit(newest(window), prior, best_.theta, weights_.usual, scatter_, trial_);
   if (trial_.isUsable()) std::swap(best_, trial_);
 }
 

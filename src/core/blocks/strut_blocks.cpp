@@ -42,9 +42,20 @@ void StrutBlocks::begin(double length) {
 }
 
 void StrutBlocks::restart() {
+  const double length = estimate_.length;
+  const DriveFit drive = estimator_->takeDrive();
   estimator_.reset();
   has_estimate_ = false;
-  begin(options_.length);
+  begin(length);
+  estimator_->continueDrive(drive);
+}
+
+std::optional<BlockEstimate> StrutBlocks::overTheDrive() {
+  const std::optional<WindowEstimate> found = estimator_->overTheDrive();
+  if (!found) return std::nullopt;
+  BlockEstimate result = estimate_;
+  static_cast<WindowEstimate&>(result) = *found;
+  return result;
 }
 
 const BlockEstimate* StrutBlocks::push(Side side, Stamp stamp, double acceleration) {

@@ -6,7 +6,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kIterations = 3;  // of weights and parameters
+constexpr int kIterations = 3;        // of weights and parameters
 constexpr double kLeastShare = 0.02;  // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
 
 // Within a factor of two of what it was, so that the model stays stable.
@@ -75,7 +75,10 @@ void WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
-    noise[i] = std::max(noise[i], least * scale[i]) / weights;
+    // From so many degrees of freedom the power is known to 1 +- sqrt(2 / degrees) only: by that weights are worse than
+    // the best ones, and their inverse is too large on average, each by 2 / degrees of the variance.
+    const double degrees = weights * bands_.size(i) / kBinCorrelation;
+    noise[i] = (1.0 + 4.0 / degrees) * std::max(noise[i], least * scale[i]) / weights;
     scale[i] = scale[i] > 0.0 ? noise[i] * weights / scale[i] : 0.0;
     if (!(noise[i] > 0.0)) noise[i] = 1.0;  // the sensors read constants
   }
@@ -133,8 +136,8 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
 // together, than by their noise.
 double WindowFit::inflation(const std::vector<const StrutBlock*>& blocks, const WindowEstimate& result,
                             const BlockMatrix& inverse, const BlockPrior& prior) {
-  Eigen::Matrix2d scattered = inverse.topRows<2>() * prior.stddev.cwiseAbs2().cwiseInverse().asDiagonal() *
-                              inverse.topRows<2>().transpose();
+  Eigen::Matrix2d scattered =
+      inverse.topRows<2>() * prior.stddev.cwiseAbs2().cwiseInverse().asDiagonal() * inverse.topRows<2>().transpose();
   previous_.setZero();
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];

@@ -26,7 +26,8 @@ std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const
 
 // The free run follows estimates that are worth something, though it may fail by them for now.
 bool isModel(const StrutEstimate& estimate) {
-  return estimate.valid() || estimate.doubt == EstimateDoubt::kFreeRunFails || estimate.doubt == EstimateDoubt::kOldData;
+  return estimate.valid() || estimate.doubt == EstimateDoubt::kFreeRunFails ||
+         estimate.doubt == EstimateDoubt::kOldData;
 }
 
 // The newest blocks alone say nothing of the strut where they do not know it to half of itself.
@@ -66,6 +67,14 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
   estimate.effective_rows = blocks.blocks;
   estimate.explained = blocks.explained;
   estimate.window = (blocks.blocks + 1) * blocks.length / 2.0;
+}
+
+EstimateFacts blockFacts(const StrutEstimate& estimate) {
+  EstimateFacts facts;
+  facts.damping_stddev = estimate.damping_to_mass_stddev / estimate.damping_to_mass;
+  facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
+  facts.explained = estimate.explained;
+  return facts;
 }
 
 bool agree(double a, double a_stddev, double b, double b_stddev) {
@@ -153,25 +162,32 @@ void ModelTracker::judge(ModelReport& report) {
 }
 
 void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
-  EstimateFacts facts;
+  EstimateFacts facts = blockFacts(estimate);
   if (const BlockEstimate* blocks = blocks_.estimate()) {
     facts.has_row = true;
-    facts.damping_stddev = estimate.damping_to_mass_stddev / estimate.damping_to_mass;
-    facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
-    facts.explained = estimate.explained;
     estimate.age = facts.age = blocks->age + toSeconds(now_ - blocks->stamp);
     facts.oldest = oldest_data_;
-    facts.free_run_fails = !is_paper_ && free_run_fails_;
   }
   estimate.doubt = doubtOf(facts);
+}
+
+StrutEstimate ModelTracker::overTheDrive() {
+  StrutEstimate estimate;
+  const std::optional<BlockEstimate> blocks = blocks_.overTheDrive();
+  if (blocks) describe(*blocks, effects().size(), estimate);
+  EstimateFacts facts = blockFacts(estimate);
+  facts.has_row = blocks.has_value();
+  estimate.doubt = doubtOf(facts);
+  return estimate;
 }
 
 void ModelTracker::takeModel(const ModelReport& report) {
   const bool by_blocks = !is_paper_ && isModel(report.estimate);
   const StrutEstimate& estimate = by_blocks ? report.estimate : report.la;
   // Until the blocks know the strut LA leads, which needs no more than its own rows for that.
-  const bool leads = !by_blocks && (is_paper_ ? isModel(report.la) : blocks_.estimate() == nullptr &&
-                                                                         isLeading(identifier_.facts(report.la)));
+  const bool leads =
+      !by_blocks &&
+      (is_paper_ ? isModel(report.la) : blocks_.estimate() == nullptr && isLeading(identifier_.facts(report.la)));
   if (!by_blocks && !leads) return;
   if (!free_run_.trySetModel(estimate.damping_to_mass, estimate.stiffness_to_mass)) return;
   has_own_model_ = true;

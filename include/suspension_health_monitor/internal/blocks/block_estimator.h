@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/blocks/drive_fit.h"
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
 
 namespace suspension_health_monitor {
@@ -31,8 +32,13 @@ class BlockEstimator {
   /// @return the estimate; nullptr: none yet, or too little is known.
   const WindowEstimate* update();
 
-  /// @return of all blocks kept, with the data alone.
-  const std::optional<WindowEstimate>& ofAllBlocks() const { return of_all_; }
+  /// @return the estimate over all blocks so far, those of `before` among them; empty: too little is known. Of no more
+  /// blocks than are kept it is iterated until it stands still. Not for the sample path.
+  std::optional<WindowEstimate> overTheDrive();
+
+  /// Hands over what blocks of the same length have told, to go on with after another start.
+  DriveFit takeDrive();
+  void continueDrive(const DriveFit& drive) { drive_ = drive; }
 
   const StrutEquations& equations() const { return equations_; }
   const BlockVector& theta() const { return theta_; }  ///< to linearise at, and for models
@@ -51,6 +57,7 @@ class BlockEstimator {
   bool start();
   void learnSlow();
   bool contradictsSlow();
+  void retire(const StrutBlock& block);
   void refine(int window, const BlockPrior& prior);
   bool isStale(const StrutBlock& block) const;
   bool fit(int window, const BlockPrior& prior, WindowEstimate& result);
@@ -62,13 +69,13 @@ class BlockEstimator {
   int count_ = 0, head_ = -1;
   int updates_ = 0;
   BlockPrior first_, slow_;  // of nothing but the options; with what all blocks tell of slow parameters
-  Eigen::VectorXd usual_;
+  BlockWeights weights_;     // of all blocks; with what is usual
   double scatter_ = 1.0;
+  DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;
   bool has_theta_ = false;
   double newest_worst_ = 0.0;
   WindowEstimate best_, trial_;
-  std::optional<WindowEstimate> of_all_;
   std::vector<const StrutBlock*> pointers_;
   std::vector<double> sorted_;
 };

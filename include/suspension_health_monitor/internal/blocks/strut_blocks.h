@@ -42,7 +42,10 @@ class StrutBlocks {
   /// @return as BlockEstimator::newestWorst(); infinite while the first blocks of a new length fill.
   double newestWorst() const { return estimator_->newestWorst(); }
 
-  /// Another drive, perhaps of another vehicle: nothing is known any more.
+  /// @return over all readings so far, before restart(), too; empty: too little is known. Not for the sample path.
+  std::optional<BlockEstimate> overTheDrive();
+
+  /// Another drive, perhaps of another vehicle: nothing is known any more, but to overTheDrive().
   void restart();
 
  private:

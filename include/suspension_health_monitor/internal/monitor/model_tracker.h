@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/blocks/strut_blocks.h"
+#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/identification/running_comparison.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
@@ -15,8 +15,8 @@
 
 namespace suspension_health_monitor {
 
-/// One model of the strut, plain or with effects, followed through a drive: the estimates of its blocks (StrutBlocks) and
-/// of its rows (StrutIdentifier), the decision whether they are valid (doubtOf()), and the free run against the
+/// One model of the strut, plain or with effects, followed through a drive: the estimates of its blocks (StrutBlocks)
+/// and of its rows (StrutIdentifier), the decision whether they are valid (doubtOf()), and the free run against the
 /// measurement: with the block estimate, or LA's where there is none, as with `preset: paper`.
 ///
 /// Rows of the plain model are those of the newest sample. The columns of effects need travel and travel rate, which
@@ -65,6 +65,10 @@ class ModelTracker {
 
   /// @return true while what is measured tells nothing of the strut, and LS and LA stay as they are.
   bool holds() const { return identifier_.holds(); }
+
+  /// @return the estimate over all readings so far, as StrutBlocks::overTheDrive(); with NaN: too little is known. Not
+  /// for the sample path.
+  StrutEstimate overTheDrive();
 
   /// @return the factor that rows are forgotten by.
   double forgettingFactor() const { return identifier_.forgettingFactor(); }
