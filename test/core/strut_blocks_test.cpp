@@ -251,8 +251,9 @@ TEST(StrutBlocks, NeedNeitherCommonNorEvenStampsOfTheSensors) {
                    [](const Reading& a, const Reading& b) { return a.stamp < b.stamp; });
   StrutBlocks blocks({}, 0.01);
   feed(blocks, readings);
-  ASSERT_TRUE(blocks.estimator().ofAllBlocks());
-  const WindowEstimate& all = *blocks.estimator().ofAllBlocks();
+  const std::optional<BlockEstimate> found = blocks.overTheDrive();
+  ASSERT_TRUE(found);
+  const WindowEstimate& all = *found;
   EXPECT_GT(all.blocks, 30);
   EXPECT_NEAR(all.theta[0] / b1, 1.0, std::min(0.02, 4.0 * all.relativeStddev(0)));
   EXPECT_NEAR(all.theta[1] / b0, 1.0, std::min(0.02, 4.0 * all.relativeStddev(1)));
@@ -265,8 +266,9 @@ TEST(StrutBlocks, RecoverCoulombsFrictionWithinATenth) {
     drive.seconds = 64.0;
     StrutBlocks blocks({}, 1.0 / drive.rate);
     feed(blocks, readingsOf(withFriction(drive, friction)));
-    ASSERT_TRUE(blocks.estimator().ofAllBlocks());
-    const WindowEstimate& all = *blocks.estimator().ofAllBlocks();
+    const std::optional<BlockEstimate> found = blocks.overTheDrive();
+    ASSERT_TRUE(found);
+    const WindowEstimate& all = *found;
     EXPECT_NEAR(all.theta[kNumBlockParameters], friction, 0.1 * friction);
     // Of 0.6 m/s^2 a strut without friction explains two thirds; what is left by the law moves b1 by some 8 %.
     const double law = friction < 0.3 ? 0.03 : 0.15;

@@ -52,7 +52,8 @@ TEST(WindowFit, HoldsTheTruthInNinetyFiveOfAHundredIntervals) {
     for (const std::size_t i : {0, 1}) {
       // 190 with a standard deviation of sqrt(200 * 0.95 * 0.05) = 3.1; three and a half of them.
       EXPECT_GE(hits[i], 179) << "parameter " << i << ", noise " << noise;
-      EXPECT_GT(std::sqrt(squares[i] / kDrives), 0.6) << "wider than it need be";
+      // What holds more is wider than it need be: a chi of 200 degrees is known to 5 %, three of them, and 10 % beside.
+      EXPECT_GT(std::sqrt(squares[i] / kDrives), 0.75) << "parameter " << i << ", noise " << noise;
     }
   }
 }
@@ -89,7 +90,7 @@ TEST(WindowFit, MeasuresTheSpectrumOfWhatIsUnexplained) {
   const NoiseBands bands(BlockBand(2.0, 1.0 / drive.rate));
   for (int b = 2; b < bands.count(); ++b) {
     // Bins are worth 1 / 1.944 of independent ones, and blocks 1 / 1.167.
-    const double cells = 63.0 * bands.size(b) / (WindowFit::kBinCorrelation + WindowFit::kBlockCorrelation);
+    const double cells = 63.0 * bands.size(b) / (2.0 * (WindowFit::kBinCorrelation + WindowFit::kBlockCorrelation));
     EXPECT_NEAR(estimate.noise[b] / expected, 1.0, 4.0 / std::sqrt(cells)) << "band " << b;
   }
 }
@@ -114,13 +115,12 @@ TEST(WindowFit, IsNotMovedByAnEngineThatShakesTheBodyInOneBand) {
   }
 }
 
-std::array<Mean, 4> errorsOf50(NoisyDrive drive) {
-  std::array<Mean, 4> mean;  // error of b1, of b0, r, stated standard deviation of b1
+std::array<Mean, 3> errorsOf50(NoisyDrive drive) {
+  std::array<Mean, 3> mean;  // error of b1, of b0, r
   for (drive.seed = 1; drive.seed <= 50; ++drive.seed) {
     const WindowEstimate estimate = estimateOf(drive);
     for (const int i : {0, 1}) mean[static_cast<std::size_t>(i)].add(relativeError(estimate, drive, i));
     mean[2].add(estimate.theta[kBlockWheelShare]);
-    mean[3].add(estimate.relativeStddev(0));
   }
   return mean;
 }
@@ -130,7 +130,7 @@ TEST(WindowFit, IsNotBiasedWhicheverSensorHasAllTheNoise) {
     NoisyDrive drive;
     drive.body_noise = wheel ? 0.0 : 0.3;
     drive.wheel_noise = wheel ? 0.03 : 0.0;
-    const std::array<Mean, 4> mean = errorsOf50(drive);
+    const std::array<Mean, 3> mean = errorsOf50(drive);
     for (const std::size_t i : {0, 1})
       EXPECT_LT(std::abs(mean[i].value()), 3.0 * mean[i].stddev()) << (wheel ? "wheel" : "body") << ", parameter " << i;
   }
@@ -143,16 +143,13 @@ TEST(WindowFit, IsBiasedByTheWheelsNoiseNoMoreThanItsShareOfTheWheelsPower) {
     NoisyDrive drive;
     drive.body_noise = 0.0;
     drive.wheel_noise = noise;
-    const std::array<Mean, 4> mean = errorsOf50(drive);
+    const std::array<Mean, 3> mean = errorsOf50(drive);
     const double share =
         std::pow(noise / drive.wheel_rms, 2) * (1.0 / 3.0) / (1.0 / 2.0);  // white to rate / 3, rate / 2
     EXPECT_GT(mean[0].value(), -1.1 * share);
     EXPECT_LT(mean[0].value(), 3.0 * mean[0].stddev());
     EXPECT_LT(std::abs(mean[1].value()), 0.2 * share + 3.0 * mean[1].stddev());
     EXPECT_GT(mean[2].value(), 0.5);  // it is heard that the noise is the wheel's
-    if (noise == 0.3) {
-      EXPECT_GT(mean[0].value(), -2.0 * mean[3].value());
-    }
   }
 }
 

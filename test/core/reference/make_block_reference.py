@@ -152,6 +152,7 @@ def window(blocks, bands, at, usual=None):
         q = np.array([[power((k.e - (not_r * (theta - at)) @ k.R)[b]) for b in bands] for k in blocks]) / sizes
         w = np.ones(len(blocks)) if usual is None else np.minimum(1.0, 10.0 / (q / usual).mean(1))
         s2 = w @ q / w.sum()
+        s2 = s2 * (1 + 4 * 0.972 / (w.sum() * sizes))  # known by so few degrees of freedom
         wheel = w @ (np.array([[power(k.W[b]) for b in bands] for k in blocks]) / sizes) / w.sum()
         return w, s2, s2 / wheel
 
@@ -179,7 +180,7 @@ def window(blocks, bands, at, usual=None):
     N, _ = normal(w, s2, scale)
     inverse = np.linalg.inv(N)
     B = len(blocks)
-    correlation = 1.944 + 0.167 * (B - 1) / B
+    correlation = 0.972 + 0.083 * (B - 1) / B
     covariance = inverse @ (correlation * (N - P) + P) @ inverse.T
     covariance = (covariance + covariance.T) / 2
     scores = np.zeros((B, len(bands), 2))
