@@ -19,7 +19,7 @@ StrutBlocks::StrutBlocks(const BlockOptions& options, double period, std::size_t
 
 void StrutBlocks::begin(double length) {
   const BlockBand band(length, period_);
-  const BlockColumns columns{effects_ > 0 ? static_cast<int>(effects_) : 1, 0};
+  const BlockColumns columns{effects_ > 0 ? static_cast<int>(effects_) : 1, 0, effects_ == 0};
   std::optional<BlockEstimator> before;
   before.swap(estimator_);
   estimator_.emplace(band, columns, options_);
