@@ -77,16 +77,6 @@ EstimateFacts blockFacts(const StrutEstimate& estimate) {
   return facts;
 }
 
-bool agree(double a, double a_stddev, double b, double b_stddev) {
-  const double apart = std::abs(a - b);
-  return apart <= kMostApart * std::abs(b) || apart <= kMostStddevsApart * std::hypot(a_stddev, b_stddev);
-}
-
-bool agree(const StrutEstimate& a, const StrutEstimate& b) {
-  return agree(a.damping_to_mass, a.damping_to_mass_stddev, b.damping_to_mass, b.damping_to_mass_stddev) &&
-         agree(a.stiffness_to_mass, a.stiffness_to_mass_stddev, b.stiffness_to_mass, b.stiffness_to_mass_stddev);
-}
-
 }  // namespace
 
 ModelTracker::ModelTracker(const MonitorSettings& options)
