@@ -32,7 +32,7 @@ StrutEstimate estimate(double damping_change, double stiffness_change) {
 Stamp at(double seconds) { return fromSeconds(seconds); }
 
 const HealthReport& update(HealthAssessment& assessment, Stamp stamp, const StrutEstimate& both) {
-  return assessment.update(stamp, both, both);
+  return assessment.update(stamp, both, true);
 }
 
 // The report once the estimate has lasted: for ten memories, after which a trend is as certain as its estimates.
