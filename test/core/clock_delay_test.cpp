@@ -64,12 +64,15 @@ TEST(ClockDelay, IsEstimatedAndChangesNoEstimate) {
 }
 
 TEST(ClockDelay, ThatTheRowsDoNotKnowIsADoubtOfLeastSquaresWhereItMakesThemWrong) {
-  for (const int late : {-10, -3, -1, 0, 1, 3, 10}) {
+  for (const int late : {-10, -1, 0, 1, 10}) {
     SCOPED_TRACE(late);
     const MonitorReport report = reportOf(driveWith(late, "C"));
     for (const StrutEstimate* rows : {&report.ls, &report.la}) {
-      if (std::abs(late) <= 1) EXPECT_TRUE(rows->valid()) << describe(rows->doubt);
-      if (std::abs(late) >= 10) EXPECT_EQ(rows->doubt, EstimateDoubt::kDisagrees);
+      if (std::abs(late) == 10) {
+        EXPECT_EQ(rows->doubt, EstimateDoubt::kDisagrees);
+      } else {
+        EXPECT_TRUE(rows->valid()) << describe(rows->doubt);
+      }
     }
   }
 }
