@@ -71,7 +71,8 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
 
 EstimateFacts blockFacts(const StrutEstimate& estimate) {
   EstimateFacts facts;
-  facts.damping_stddev = estimate.damping_to_mass_stddev / estimate.damping_to_mass;
+  facts.damping_stddev =
+      estimate.damping_to_mass_stddev / leastDamping(estimate.damping_to_mass, estimate.stiffness_to_mass);
   facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
   facts.explained = estimate.explained;
   return facts;
