@@ -33,8 +33,9 @@ function estimateRow(name, estimate) {
 function estimatesSection({strut, estimates}, several) {
   return section(
       idOf('estimates', strut, several), titleOf('Estimates at the end', strut, several),
-      'What the monitor’s two estimators know after the last reading, ± standard deviation: la, which outliers hardly ' +
-          'move, and ls, least squares.',
+      'What the monitor knows after the last reading, ± standard deviation. Trust “estimate”: health is judged by it. ' +
+          'The paper’s two estimators stand beside it: ls, least squares, and la, which outliers hardly move; their ' +
+          'deviation is that of their own scatter.',
       wideTable(
           [
             head(''), head('b₁ damping/mass [1/s]', 'number'), head('b₀ stiffness/mass [1/s²]', 'number'),
