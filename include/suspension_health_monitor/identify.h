@@ -45,8 +45,8 @@ struct IdentifyResult {
   /// At the end of the drive, over the memory: least squares and least sum of absolute values, as the live monitor has
   /// them.
   IdentifiedStrut ls, la;
-  IdentifiedStrut estimate;  ///< of the blocks over the whole drive: what to trust
-  IdentifiedStrut now;       ///< of the blocks at the end of the drive, as the live monitor has it
+  IdentifiedStrut estimate;                       ///< of the blocks over the whole drive: what to trust
+  IdentifiedStrut now;                            ///< of the blocks at the end of the drive, as the live monitor has it
   std::uint64_t samples = 0;                      ///< taken in
   std::uint64_t rows = 0;                         ///< regression rows that they gave
   std::uint64_t gaps = 0;                         ///< after each of which the filter filled anew
@@ -54,8 +54,8 @@ struct IdentifyResult {
   std::map<std::string, std::uint64_t> rejected;  ///< readings that were kept out, by reason; only those that occurred
   std::vector<std::string> warnings;              ///< of sensors, stamps and a strut that changes, in words
 
-  /// @return false if the strut at the end is another one than over the whole drive, beyond doubt: it has changed, or no
-  /// strut without effects moves like that.
+  /// @return false if the strut at the end is another one than over the whole drive, beyond doubt: it has changed, or
+  /// no strut without effects moves like that.
   bool isSteady() const;
 };
 

@@ -63,9 +63,9 @@ struct StrutEstimate {
   std::size_t num_effects = 0;                     ///< in the model
   std::array<double, kMostEffects> coefficients = unknownCoefficients();  ///< c_j [unit of the effect's coefficient]
   std::array<double, kMostEffects> coefficient_stddevs = unknownCoefficients();  ///< likewise
-  double offset = std::nan("");        ///< of the wheel carrier's reading against the body's [m/s^2]; of LS and LA
-  double delay = std::nan("");         ///< by which the wheel carrier's readings are stamped late [s]; of the blocks
-  double delay_stddev = std::nan("");  ///< [s]
+  double offset = std::nan("");         ///< of the wheel carrier's reading against the body's [m/s^2]; of LS and LA
+  double delay = std::nan("");          ///< by which the wheel carrier's readings are stamped late [s]; of the blocks
+  double delay_stddev = std::nan("");   ///< [s]
   std::optional<DryFriction> friction;  ///< of the blocks; empty: other effects are in the model
   double effective_rows = 0.0;          ///< rows in the memory of LS, LA; blocks of the window
   double explained = 0.0;  ///< share of what was measured: of mean sizes of rows (LS, LA), of the body's power (blocks)
@@ -119,7 +119,7 @@ struct ComparisonReport {
 
 /// What is known of one model after one sample.
 struct ModelReport {
-  bool has_row = false;  ///< the sample gave a regression row; false while the filter fills: the estimates then hold
+  bool has_row = false;    ///< the sample gave a regression row; false while the filter fills: the estimates then hold
   StrutEstimate estimate;  ///< of the blocks (internal/blocks): what to trust
   StrutEstimate ls, la;    ///< the paper's, renewed with every row
   ComparisonReport comparison;
@@ -216,7 +216,7 @@ struct InputStatus {
   double mean_period = 0.0;    ///< of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
   bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
 
-  double beyond_strut = 0.0;    ///< share of the body's power above the strut's band, likewise, in [0, 1]
+  double beyond_strut = 0.0;        ///< share of the body's power above the strut's band, likewise, in [0, 1]
   double beyond_strut_level = 0.0;  ///< and its rms [m/s^2]
 
   static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e

@@ -94,9 +94,10 @@ inline constexpr std::array kMonitorFields{
     MonitorField{"estimation", "integration_horizon", "s",
                  "horizon h of the integral filter, near one period of the body's bounce; left out: 0.6",
                  &MonitorOptions::integration_horizon, 1e-5, 1e6},
-    MonitorField{"estimation", "block_length", "s",
-                 "of the first blocks that the estimate is made of; then it follows the body's bounce by factors of two",
-                 &MonitorOptions::block_length, 1e-3, 1e3},
+    MonitorField{
+        "estimation", "block_length", "s",
+        "of the first blocks that the estimate is made of; then it follows the body's bounce by factors of two",
+        &MonitorOptions::block_length, 1e-3, 1e3},
     MonitorField{
         "estimation", "memory", "s",
         "of LS and LA: what is that old counts 1/e, 10 samples at least; left out: 2 or 10/3 of the horizon, the "

@@ -6,7 +6,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kIterations = 3;  // of weights and parameters
+constexpr int kIterations = 3;        // of weights and parameters
 constexpr double kLeastShare = 0.02;  // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
 
 // Within a factor of two of what it was, so that the model stays stable.
@@ -136,8 +136,8 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
 // together, than by their noise.
 double WindowFit::inflation(const std::vector<const StrutBlock*>& blocks, const WindowEstimate& result,
                             const BlockMatrix& inverse, const BlockPrior& prior) {
-  Eigen::Matrix2d scattered = inverse.topRows<2>() * prior.stddev.cwiseAbs2().cwiseInverse().asDiagonal() *
-                              inverse.topRows<2>().transpose();
+  Eigen::Matrix2d scattered =
+      inverse.topRows<2>() * prior.stddev.cwiseAbs2().cwiseInverse().asDiagonal() * inverse.topRows<2>().transpose();
   previous_.setZero();
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];

@@ -21,8 +21,8 @@ ValueAndVariance dampingAt(double m, double b1, double stddev, const DryFriction
 
 std::optional<LogChange> logChange(const ValueAndVariance& now, const ValueAndVariance& healthy) {
   if (!(now.value > 0.0 && healthy.value > 0.0)) return std::nullopt;
-  return LogChange{std::log(now.value / healthy.value), std::sqrt(now.variance / square(now.value) +
-                                                                  healthy.variance / square(healthy.value))};
+  return LogChange{std::log(now.value / healthy.value),
+                   std::sqrt(now.variance / square(now.value) + healthy.variance / square(healthy.value))};
 }
 
 }  // namespace
@@ -111,9 +111,8 @@ bool BaselineLearner::drifts() const {
                             square(second_stddev) * std::min(1.0, b.window / b.seconds);
     return difference > kLeastDrift * std::abs(first) && difference > kDrift * std::sqrt(variance);
   };
-  const double gain = a.mean.friction && b.mean.friction
-                          ? (a.mean.friction->damping_gain + b.mean.friction->damping_gain) / 2.0
-                          : 0.0;
+  const double gain =
+      a.mean.friction && b.mean.friction ? (a.mean.friction->damping_gain + b.mean.friction->damping_gain) / 2.0 : 0.0;
   const auto damping = [&](const Baseline& mean) {
     return *mean.damping_to_mass + (mean.friction ? mean.friction->force * gain : 0.0);
   };
@@ -136,11 +135,11 @@ Baseline BaselineLearner::result(Stamp to) const {
   baseline.damping_to_mass_stddev = stddev(a.mean.damping_to_mass_stddev, b.mean.damping_to_mass_stddev);
   baseline.stiffness_to_mass_stddev = stddev(a.mean.stiffness_to_mass_stddev, b.mean.stiffness_to_mass_stddev);
   if (a.mean.friction && b.mean.friction)
-    baseline.friction = DryFriction{
-        middle(a.mean.friction->force, b.mean.friction->force),
-        stddev(a.mean.friction->stddev, b.mean.friction->stddev),
-        middle(a.mean.friction->damping_gain, b.mean.friction->damping_gain),
-        square(share) * middle(a.mean.friction->damping_covariance, b.mean.friction->damping_covariance)};
+    baseline.friction =
+        DryFriction{middle(a.mean.friction->force, b.mean.friction->force),
+                    stddev(a.mean.friction->stddev, b.mean.friction->stddev),
+                    middle(a.mean.friction->damping_gain, b.mean.friction->damping_gain),
+                    square(share) * middle(a.mean.friction->damping_covariance, b.mean.friction->damping_covariance)};
   baseline.learned = true;
   baseline.from = from_;
   baseline.to = to;

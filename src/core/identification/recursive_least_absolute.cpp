@@ -18,9 +18,7 @@ void LeastAbsoluteOptions::validate() const {
 
 RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive,
                                                const LeastAbsoluteOptions& options)
-    : RecursiveEstimator(num_parameters, recursive),
-      absolute_(options),
-      weights_(recursive.forgetting_factor) {
+    : RecursiveEstimator(num_parameters, recursive), absolute_(options), weights_(recursive.forgetting_factor) {
   options.validate();
 }
 

@@ -26,7 +26,8 @@ std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const
 
 // The free run follows estimates that are worth something, though it may fail by them for now.
 bool isModel(const StrutEstimate& estimate) {
-  return estimate.valid() || estimate.doubt == EstimateDoubt::kFreeRunFails || estimate.doubt == EstimateDoubt::kOldData;
+  return estimate.valid() || estimate.doubt == EstimateDoubt::kFreeRunFails ||
+         estimate.doubt == EstimateDoubt::kOldData;
 }
 
 // The newest blocks alone say nothing of the strut where they do not know it to half of itself.
@@ -184,8 +185,9 @@ void ModelTracker::takeModel(const ModelReport& report) {
   const bool by_blocks = !is_paper_ && isModel(report.estimate);
   const StrutEstimate& estimate = by_blocks ? report.estimate : report.la;
   // Until the blocks know the strut LA leads, which needs no more than its own rows for that.
-  const bool leads = !by_blocks && (is_paper_ ? isModel(report.la) : blocks_.estimate() == nullptr &&
-                                                                         isLeading(identifier_.facts(report.la)));
+  const bool leads =
+      !by_blocks &&
+      (is_paper_ ? isModel(report.la) : blocks_.estimate() == nullptr && isLeading(identifier_.facts(report.la)));
   if (!by_blocks && !leads) return;
   if (!free_run_.trySetModel(estimate.damping_to_mass, estimate.stiffness_to_mass)) return;
   has_own_model_ = true;

@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-
 namespace suspension_health_monitor {
 namespace {
 

@@ -22,7 +22,8 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNoRows: return "the first blocks fill after a start or a gap";
     case EstimateDoubt::kWrongPeriod: return "stamps do not fit sample_period";
     case EstimateDoubt::kFewRows: return "too few samples yet";
-    case EstimateDoubt::kNotExcited: return "too little motion to know damping and stiffness: drive, or on a rougher road";
+    case EstimateDoubt::kNotExcited:
+      return "too little motion to know damping and stiffness: drive, or on a rougher road";
     case EstimateDoubt::kDampingNotExcited: return "too little motion to know damping: drive on, or on a rougher road";
     case EstimateDoubt::kStiffnessNotExcited:
       return "too little motion to know stiffness: drive on, or on a rougher road";

@@ -69,7 +69,7 @@ class BlockEstimator {
   int count_ = 0, head_ = -1;
   int updates_ = 0;
   BlockPrior first_, slow_;  // of nothing but the options; with what all blocks tell of slow parameters
-  BlockWeights weights_;  // of all blocks; with what is usual
+  BlockWeights weights_;     // of all blocks; with what is usual
   double scatter_ = 1.0;
   DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;

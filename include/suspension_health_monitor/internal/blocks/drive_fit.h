@@ -7,9 +7,10 @@
 
 namespace suspension_health_monitor {
 
-/// The estimate over a drive of any length: the normal equations of WindowFit, summed block by block with the weights and
-/// at the parameters of their time. The equations are linear in b1 and b0 whatever they are weighted by, so that this is
-/// consistent; memory and cost do not grow with the drive. Cost per block: O(bands * parameters^2), no allocation.
+/// The estimate over a drive of any length: the normal equations of WindowFit, summed block by block with the weights
+/// and at the parameters of their time. The equations are linear in b1 and b0 whatever they are weighted by, so that
+/// this is consistent; memory and cost do not grow with the drive. Cost per block: O(bands * parameters^2), no
+/// allocation.
 class DriveFit {
  public:
   static constexpr int kFewestBlocks = 3;  ///< as of the smallest window

@@ -27,8 +27,8 @@ struct WindowEstimate {
   Eigen::VectorXd noise;   ///< power of e per bin of each band: the unexplained spectrum
 
   double relativeStddev(int i) const { return std::sqrt(covariance(i, i)) / theta[i]; }
-  /// @param power  mean over blocks of the sum over bins of |H_1(X - Y)|^2 / |s|^4. By Parseval the mean square of a signal
-  /// over a block of length T is 2 / (T^2 mean(hann^2)) times that, mean(hann^2) = 3/8.
+  /// @param power  mean over blocks of the sum over bins of |H_1(X - Y)|^2 / |s|^4. By Parseval the mean square of a
+  /// signal over a block of length T is 2 / (T^2 mean(hann^2)) times that, mean(hann^2) = 3/8.
   void setRate(double power, double length) { rate = std::sqrt(2.0 * power / 0.375) / length; }
   bool isUsable() const;  ///< finite, with b1, b0 above 0
   double worst() const { return std::max(relativeStddev(kBlockDamping), relativeStddev(kBlockStiffness)); }
@@ -48,8 +48,10 @@ struct BlockWeights {
 /// linearly, but for the weight 1 / A.
 double residualPower(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta);
 
-/// The score Z'e of a band at theta, by its expansion about the block's, and its information, with the column of r scaled.
-BlockVector scoreOf(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta, double share_scale);
+/// The score Z'e of a band at theta, by its expansion about the block's, and its information, with the column of r
+/// scaled.
+BlockVector scoreOf(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta,
+                    double share_scale);
 BlockMatrix informationOf(const StrutBlock::Band& band, double share_scale);
 
 /// Solves normal equations whose units differ by orders of magnitude.
@@ -81,8 +83,8 @@ BlockVector linearPart(const BlockVector& theta, const BlockColumns& columns);
 class WindowFit {
  public:
   /// A score is a real part, which has half of the power of complex noise: sums of squared correlations over two.
-  static constexpr double kBinCorrelation = 0.972;     ///< (1 + 2 ((2/3)^2 + (1/6)^2)) / 2, of Hann bins
-  static constexpr double kBlockCorrelation = 0.083;   ///< that of neighbouring blocks, which overlap by half
+  static constexpr double kBinCorrelation = 0.972;    ///< (1 + 2 ((2/3)^2 + (1/6)^2)) / 2, of Hann bins
+  static constexpr double kBlockCorrelation = 0.083;  ///< that of neighbouring blocks, which overlap by half
 
   WindowFit(const BlockBand& band, const BlockColumns& columns, int most_blocks);
 
@@ -115,8 +117,8 @@ class WindowFit {
   NoiseBands bands_;
   BlockColumns columns_;
   int blocks_ = 0;
-  Eigen::ArrayXXd power_;    // of e per bin, blocks by bands
-  Eigen::ArrayXd weight_;    // of blocks
+  Eigen::ArrayXXd power_;  // of e per bin, blocks by bands
+  Eigen::ArrayXd weight_;  // of blocks
   BlockWeights weights_;
   BlockMatrix normal_;
   BlockVector right_;

@@ -30,7 +30,8 @@ struct HealthOptions : HealthThresholds {
 /// - A baseline is compared as it would be on the present road (changeFrom()).
 /// - LS and LA that disagree for long (Agreement) are reported: there are outliers.
 /// - Payload moves both parameters, damage one (splitChange()).
-/// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation), of one estimate
+/// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation), of one
+/// estimate
 ///   to the next at least. It ends when the change is below the threshold by the hysteresis, or a standard deviation if
 ///   that is more, or has lost half of the significance. A change that the error threshold could not prove is kStale,
 ///   "cannot tell", as is an estimate that is not valid; never "healthy". A sensor that is at fault makes an error a
@@ -84,9 +85,9 @@ class HealthAssessment {
   Baseline baseline_;
   std::optional<BaselineLearner> learner_;
   Parameter damping_, stiffness_;
-  Agreement agreement_;       // of LS and LA
-  double known_load_ = 0.0;   // ln of the body's mass over the healthy vehicle's, when last nothing else had changed
-  double since_early_ = 0.0;  // seconds since the early warning saw the newest change
+  Agreement agreement_;         // of LS and LA
+  double known_load_ = 0.0;     // ln of the body's mass over the healthy vehicle's, when last nothing else had changed
+  double since_early_ = 0.0;    // seconds since the early warning saw the newest change
   std::optional<Stamp> taken_;  // when the newest estimate came
   HealthReport judged_;         // what that estimate says
   HealthLevel level_ = HealthLevel::kStale;

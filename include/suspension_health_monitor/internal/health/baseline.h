@@ -18,17 +18,17 @@ struct ChangeFromBaseline {
 };
 
 /// The change from the healthy strut, each with its standard deviation. Dampers are compared as they act on a road
-/// between the present one and the baseline's: friction f counts as f m, m the mean of the gains g of both. Where the law
-/// is not Coulomb's, f changes with the road, and what lies between both is not known to (f - f_n) (g - g_n) / 2.
+/// between the present one and the baseline's: friction f counts as f m, m the mean of the gains g of both. Where the
+/// law is not Coulomb's, f changes with the road, and what lies between both is not known to (f - f_n) (g - g_n) / 2.
 /// Empty parts: no healthy value, no estimate, or one that is not above 0.
 ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now);
 
 /// Learns the baseline from a stretch of valid estimates: their mean, over halves that must agree.
 ///
 /// A strut that changes while it is learned is not taken as healthy: if the means of the two halves differ by more than
-/// kDrift standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another drive,
-/// perhaps of another vehicle. Estimates whose windows overlap share their errors: those of a mean over t seconds have
-/// window / t of the variance of one. Cost per estimate: O(1), no allocation.
+/// kDrift standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another
+/// drive, perhaps of another vehicle. Estimates whose windows overlap share their errors: those of a mean over t
+/// seconds have window / t of the variance of one. Cost per estimate: O(1), no allocation.
 class BaselineLearner {
  public:
   /// @param seconds  to learn from, > 0.
@@ -44,8 +44,8 @@ class BaselineLearner {
  private:
   struct Half {
     double seconds = 0.0;
-    Baseline mean;              // standard deviations: those of one estimate, as root mean squares
-    double window = 0.0;        // mean span of an estimate's window [s]
+    Baseline mean;        // standard deviations: those of one estimate, as root mean squares
+    double window = 0.0;  // mean span of an estimate's window [s]
     void add(const StrutEstimate& estimate, double seconds);
   };
 

@@ -8,10 +8,10 @@
 
 namespace suspension_health_monitor {
 
-/// By how much the variance of a recursive estimate exceeds the one for independent rows: each reading of a sensor is in
-/// 2 L + 1 rows of the integral filter. With scores s_i = w_i e_i phi_i, and g their sum over a batch of rows much longer
-/// than that, it is E[g^2] / sum E[s^2], averaged over the parameters (method of batch means, e.g. C. J. Geyer, Practical
-/// Markov chain Monte Carlo, 1992). Cost per row: O(p), no allocation.
+/// By how much the variance of a recursive estimate exceeds the one for independent rows: each reading of a sensor is
+/// in 2 L + 1 rows of the integral filter. With scores s_i = w_i e_i phi_i, and g their sum over a batch of rows much
+/// longer than that, it is E[g^2] / sum E[s^2], averaged over the parameters (method of batch means, e.g. C. J. Geyer,
+/// Practical Markov chain Monte Carlo, 1992). Cost per row: O(p), no allocation.
 class BatchScatter {
  public:
   /// @param num_parameters  p >= 1.  @param correlated_rows  2 L; 0: the rows are independent.
@@ -53,7 +53,7 @@ class BatchScatter {
   }
 
  private:
-  static constexpr int kCorrelationsPerBatch = 4;                 // a quarter of a batch is then at its ends
+  static constexpr int kCorrelationsPerBatch = 4;                   // a quarter of a batch is then at its ends
   static constexpr double kFewestBatches = 20.0, kBatches = 100.0;  // a mean of n squares varies by sqrt(2 / n)
 
   int correlated_rows_, batch_rows_;

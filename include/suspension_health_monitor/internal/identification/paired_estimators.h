@@ -8,9 +8,9 @@
 
 namespace suspension_health_monitor {
 
-/// LS and LA of the same rows of a strut, side by side: they have the same columns and forget by the same factor, and LS
-/// tells whether LA is lost. Columns are b1, b0, those of the effects, those of the sensors.
-/// Cost per row: O(p^2) for p columns, no allocation.
+/// LS and LA of the same rows of a strut, side by side: they have the same columns and forget by the same factor, and
+/// LS tells whether LA is lost. Columns are b1, b0, those of the effects, those of the sensors. Cost per row: O(p^2)
+/// for p columns, no allocation.
 class PairedEstimators {
  public:
   /// Of the plain strut.

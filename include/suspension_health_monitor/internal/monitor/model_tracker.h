@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/blocks/strut_blocks.h"
+#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/identification/running_comparison.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
@@ -15,8 +15,8 @@
 
 namespace suspension_health_monitor {
 
-/// One model of the strut, plain or with effects, followed through a drive: the estimates of its blocks (StrutBlocks) and
-/// of its rows (StrutIdentifier), the decision whether they are valid (doubtOf()), and the free run against the
+/// One model of the strut, plain or with effects, followed through a drive: the estimates of its blocks (StrutBlocks)
+/// and of its rows (StrutIdentifier), the decision whether they are valid (doubtOf()), and the free run against the
 /// measurement: with the block estimate, or LA's where there is none, as with `preset: paper`.
 ///
 /// Rows of the plain model are those of the newest sample. The columns of effects need travel and travel rate, which

@@ -14,12 +14,12 @@ namespace suspension_health_monitor {
 
 /// Identifies one strut from a series of samples: the facade that the nodelet, the command line and the tests share.
 ///
-/// Per reading: the blocks of both sensors (StrutBlocks), whose estimate comes after every half block. Per sample of the
-/// grid, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then the free
-/// run against the measurement. Health is judged with every block estimate.
-/// While samples come at another period than that of the options no estimate is valid (InputStatus::period_fits).
-/// With effects in the model (ModelTracker) the plain one runs along, with LS and LA of its own, to be compared with.
-/// Cost per sample: O(1) whatever the horizon; no allocation, no lock.
+/// Per reading: the blocks of both sensors (StrutBlocks), whose estimate comes after every half block. Per sample of
+/// the grid, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then
+/// the free run against the measurement. Health is judged with every block estimate. While samples come at another
+/// period than that of the options no estimate is valid (InputStatus::period_fits). With effects in the model
+/// (ModelTracker) the plain one runs along, with LS and LA of its own, to be compared with. Cost per sample: O(1)
+/// whatever the horizon; no allocation, no lock.
 class SuspensionMonitor {
  public:
   /// @param options  with sample_period given.
@@ -65,6 +65,9 @@ class SuspensionMonitor {
   /// @return as ModelTracker::overTheDrive(), of the model with effects if there is one.
   StrutEstimate overTheDrive() { return (extended_ ? *extended_ : plain_).overTheDrive(); }
 
+  /// @return what models are made of: the block estimate, or, with `preset: paper`, LA.
+  const StrutEstimate& modelEstimate() const { return options_.preset == "paper" ? report_.la : report_.estimate; }
+
   const MonitorReport& report() const { return report_; }
   const InputStatus& input() const { return series_.status(); }
   const RejectCounts& rejected() const { return series_.rejected(); }
@@ -90,7 +93,7 @@ class SuspensionMonitor {
   HealthAssessment health_;
   SensorCheck sensors_;
   EveryN sensors_due_;
-  bool has_new_estimate_ = false;  // that health has not seen
+  bool has_new_estimate_ = false;        // that health has not seen
   std::optional<Stamp> reported_until_;  // by the model before the effects were set
   MonitorReport report_;
 };

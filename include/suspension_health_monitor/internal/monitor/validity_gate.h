@@ -13,8 +13,8 @@ inline constexpr double kLeastExplained = 0.5;
 inline constexpr double kMostRelativeStddev = 0.15;
 
 /// LS and LA may be so far from the block estimate, by either measure, and be valid.
-inline constexpr double kMostApart = 0.05;         ///< of the block estimate
-inline constexpr double kMostStddevsApart = 4.0;   ///< standard deviations of both
+inline constexpr double kMostApart = 0.05;        ///< of the block estimate
+inline constexpr double kMostStddevsApart = 4.0;  ///< standard deviations of both
 
 /// All that decides whether an estimate is valid. What does not concern an estimator stays as it is here.
 struct EstimateFacts {
@@ -28,8 +28,8 @@ struct EstimateFacts {
   bool is_physical = true;        ///< all parameters that have to be above 0 are
   double age = 0.0;               ///< of the data [s]
   double oldest = std::numeric_limits<double>::infinity();  ///< that may still count [s]
-  bool agrees = true;             ///< with the block estimate, as kMostApart or kMostStddevsApart say
-  bool free_run_fails = false;    ///< the free run fits the body's motion worse than a constant does
+  bool agrees = true;           ///< with the block estimate, as kMostApart or kMostStddevsApart say
+  bool free_run_fails = false;  ///< the free run fits the body's motion worse than a constant does
 };
 
 /// The one place that decides whether an estimate may be trusted.
