@@ -25,7 +25,7 @@ int main() {
     monitor.push(shm::Side::kSprung, stamp, readings.body);
     monitor.push(shm::Side::kUnsprung, stamp, readings.wheel);
   }
-  const shm::StrutEstimate last = monitor.report().la;
+  const shm::StrutEstimate last = monitor.report().estimate;
   std::printf("at the end: damping/mass %.2f +- %.2f 1/s, stiffness/mass %.1f +- %.1f 1/s^2%s\n", last.damping_to_mass,
               1.96 * last.damping_to_mass_stddev, last.stiffness_to_mass, 1.96 * last.stiffness_to_mass_stddev,
               last.valid() ? "" : " (not valid)");
