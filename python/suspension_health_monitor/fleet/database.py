@@ -283,5 +283,5 @@ def histories(engine):
                                    [Event(*row) for row in happened[vehicle, strut]],
                                    [Finding(when, verdict, effects.split(), path, page)
                                     for when, verdict, effects, path, page in found[vehicle, strut]],
-                                   len(wrong_clocks[vehicle, strut]), former if former.any() else None))
+                                   len(wrong_clocks[vehicle, strut]), former if former.any() and not former.all() else None))
     return result

@@ -42,7 +42,7 @@ class StrutHistory:
     events: List[Event] = dataclasses.field(default_factory=list)
     findings: List[Finding] = dataclasses.field(default_factory=list)
     wrong_clocks: int = 0  # drives that are left out, since their dates cannot be
-    former: Optional[np.ndarray] = None  # (N,) whether it was estimated otherwise than today; None: none was
+    former: Optional[np.ndarray] = None  # (N,) whether it was estimated otherwise than the others; None: all alike
 
     @property
     def last_event(self) -> Optional[Event]:
