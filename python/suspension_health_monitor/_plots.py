@@ -21,7 +21,7 @@ def _estimates(axes, course, values):
         valid = course.valid
         axis.fill_between(course.time, middle - spread, middle + spread, where=valid, alpha=0.25, linewidth=0)
         axis.plot(course.time, middle, linewidth=0.6, color="0.6")
-        axis.plot(course.time, [m if v else float("nan") for m, v in zip(middle, valid)], label="estimate, valid")
+        axis.plot(course.time, [m if v else float("nan") for m, v in zip(middle, valid)], label="estimate")
         for estimator in ("la", "ls"):
             axis.plot(course.time, getattr(course, f"{estimator}_{name}"), linewidth=0.6, label=estimator)
         for label, value in values(name):

@@ -140,7 +140,7 @@ void identify(const Arguments& arguments) {
   printTable(digest.items());
   printEnd(identification, result, pipeline.monitor.sprung_mass);
   printChange(change);
-  const auto reason = whyNotValid(result);
+  const auto reason = whyNotValid(result, pipeline.monitor);
   if (!reason)
     for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
   printWritten(*values, not_nominal.empty() ? outputs : std::vector<std::string>{"csv", "json"});

@@ -7,6 +7,7 @@
 
 #include "bag_samples.h"
 #include "errors.h"
+#include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
@@ -130,8 +131,12 @@ void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstim
   if (const auto ratio = massRatio(strut, estimate)) std::printf("    wheel mass / body mass %.4f\n", *ratio);
 }
 
-std::optional<std::string> whyNotValid(const IdentifyResult& found) {
+std::optional<std::string> whyNotValid(const IdentifyResult& found, const MonitorOptions& options) {
   if (found.estimate.valid || found.now.valid) return std::nullopt;
+  constexpr double kLengths = (BlockEstimator::kWindows[0] + 1) / 2.0;  // of blocks that overlap by half
+  if (found.estimate.rows == 0.0)
+    return "there is no estimate: too short" + describeEnough(kLengths * options.block_length) +
+           ", too little motion, or not the two sides of one strut";
   return "no estimate is valid: " + found.estimate.reason;
 }
 

@@ -41,6 +41,6 @@ void printChange(const std::string& change);
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);
 
 /// @return why the strut is not known, neither over the whole drive nor at its end, in words; nothing: it is.
-std::optional<std::string> whyNotValid(const IdentifyResult& found);
+std::optional<std::string> whyNotValid(const IdentifyResult& found, const MonitorOptions& options);
 
 }  // namespace suspension_health_monitor

@@ -102,13 +102,17 @@ def test_table_has_every_second_and_the_events_of_the_result(worn):
 
 
 def test_estimates_are_those_of_the_drive(worn):
-    last, la = worn.rows[-1], worn.result["la"]
+    last, estimate = worn.rows[-1], worn.result["estimate"]
     assert float(last["b1"]) == pytest.approx(2.0, abs=0.4)
     assert float(last["b0"]) == pytest.approx(B0, rel=0.1)
-    assert la["damping_to_mass"] == pytest.approx(float(last["b1"]), abs=float(last["b1_stddev"]))
-    assert 0.0 < la["damping_to_mass_stddev"] < 1.0
-    b1, stddev = re.search(r"^LA: damping/mass (\S+) \+- (\S+) 1/s", worn.text, re.MULTILINE).groups()
-    assert (float(b1), float(stddev)) == pytest.approx((la["damping_to_mass"], la["damping_to_mass_stddev"]), abs=1e-4)
+    assert estimate["damping_to_mass"] == pytest.approx(float(last["b1"]), abs=float(last["b1_stddev"]))
+    assert 0.0 < estimate["damping_to_mass_stddev"] < 1.0
+    b1, stddev = re.search(r"^estimate: damping/mass (\S+) \+- (\S+) 1/s", worn.text, re.MULTILINE).groups()
+    assert (float(b1), float(stddev)) == pytest.approx(
+        (estimate["damping_to_mass"], estimate["damping_to_mass_stddev"]), abs=1e-4)
+    assert set(estimate["friction"]) == {"force", "stddev", "damping_gain"}
+    assert abs(estimate["delay"]) < 3 * estimate["delay_stddev"] and "late" not in worn.text
+    assert estimate["explained"] > 0.9 and 0 < estimate["age"] < estimate["window"] and estimate["reason"] == ""
 
 
 def test_offset_between_the_sensors_is_in_the_table(program, tmp_path):
