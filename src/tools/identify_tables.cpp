@@ -133,11 +133,13 @@ void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstim
 
 std::optional<std::string> whyNotValid(const IdentifyResult& found, const MonitorOptions& options) {
   if (found.estimate.valid || found.now.valid) return std::nullopt;
+  if (found.estimate.rows > 0.0) return "no estimate is valid: " + found.estimate.reason;
   constexpr double kLengths = (BlockEstimator::kWindows[0] + 1) / 2.0;  // of blocks that overlap by half
-  if (found.estimate.rows == 0.0)
-    return "there is no estimate: too short" + describeEnough(kLengths * options.block_length) +
-           ", too little motion, or not the two sides of one strut";
-  return "no estimate is valid: " + found.estimate.reason;
+  const double enough = kLengths * options.block_length;
+  if (static_cast<double>(found.samples) * found.sample_period < enough)
+    return "there is no estimate: too short" + describeEnough(enough);
+  return std::string("there is no estimate: too little motion, ") + (found.gaps > 0 ? "too many gaps, " : "") +
+         "or not the two sides of one strut";
 }
 
 }  // namespace suspension_health_monitor
