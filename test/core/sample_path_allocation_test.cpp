@@ -11,8 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "block_drive.h"
 #include "paper_drive.h"
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/blocks/strut_blocks.h"
 #include "suspension_health_monitor/internal/identification/instrumental_variables.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
@@ -67,6 +69,28 @@ TEST(SamplePath, AllocatesNothingInTheStrutRegressionWithBothEstimators) {
             }),
             0);
   EXPECT_GT(ls.effectiveRows(), 40.0);
+}
+
+TEST(SamplePath, AllocatesNothingInTheBlocksOfAStrutOnceTheyKnowIt) {
+  NoisyDrive drive;
+  drive.seconds = 128.0;
+  drive.body_noise = drive.wheel_noise = 0.5;
+  const SampledStrut sampled = drive.sample();
+  StrutBlocks blocks({}, 1.0 / drive.rate);
+  // The first estimate is followed by what all blocks tell, from the eighth on.
+  long before = 0;
+  int estimates = 0;
+  for (std::size_t i = 0; i < sampled.body.size(); ++i) {
+    const double t = static_cast<double>(i) / drive.rate;
+    if (t < 16.0) before = num_allocations;
+    if (t > 60.3 && t < 61.7) continue;  // a gap
+    for (const Side side : {Side::kSprung, Side::kUnsprung}) {
+      const double reading = (side == Side::kSprung ? sampled.body : sampled.wheel)[i];
+      if (blocks.push(side, fromSeconds(t), reading) != nullptr && t > 16.0) ++estimates;
+    }
+  }
+  EXPECT_EQ(num_allocations, before);
+  EXPECT_GT(estimates, 100);
 }
 
 TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {

@@ -33,6 +33,7 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   first_.mean.setZero(p);
   first_.stddev.setConstant(p, kUnknown);
   first_.stddev[kBlockDelay] = options.delay_stddev;
+  if (columns.has_friction) first_.stddev[columns.firstForce()] = options.friction_stddev;
   first_.mean[kBlockWheelShare] = kShareMean;
   first_.stddev[kBlockWheelShare] = kShareStddev;
   slow_ = first_;

@@ -17,7 +17,8 @@ double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const 
   double times = 0.0;
   for (int i = 0; i < bands.count(); ++i)
     times += residualPower(block.bands[static_cast<std::size_t>(i)], block, theta) / (bands.size(i) * usual[i]);
-  return std::min(1.0, kUnusual * bands.count() / times);
+  const double beyond = kUnusual * bands.count() / times;
+  return beyond < 1.0 ? beyond * beyond : 1.0;
 }
 
 double residualPower(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta) {
@@ -48,9 +49,14 @@ BlockMatrix informationOf(const StrutBlock::Band& band, double share_scale) {
 
 NormalEquations::NormalEquations(const BlockMatrix& normal, const BlockVector& right)
     : inverse(normal), solution(right) {
-  const BlockVector scale = normal.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+  // A column that is silent, such as that of an end stop which is not reached, leaves its parameter at 0, unknown.
+  constexpr double kNoInformation = 1e-200;
+  const BlockVector information = normal.diagonal().cwiseAbs().cwiseMax(kNoInformation);
+  const BlockVector scale = information.cwiseSqrt().cwiseInverse();
   if (!scale.allFinite()) return;
-  const BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+  BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+  for (Eigen::Index i = 0; i < scaled.rows(); ++i)
+    if (normal(i, i) == 0.0) scaled(i, i) = 1.0;
   inverse = Eigen::PartialPivLU<BlockMatrix>(scaled).inverse();
   inverse = scale.asDiagonal() * inverse * scale.asDiagonal();
   solution.noalias() = inverse * right;

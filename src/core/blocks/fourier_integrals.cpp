@@ -36,11 +36,23 @@ void FourierIntegrals::push(double time, const double* values) {
   } else {
     const double spacing = time - *time_;
     const bool is_gap = spacing > longest_spacing_;
-    add((spacing_ + (is_gap ? 0.0 : spacing)) / 2.0);
-    if (is_gap) is_whole_ = false;
-    finishUntil(half);
-    if (is_gap) is_whole_ = false;
-    spacing_ = is_gap ? 0.0 : spacing;
+    if (is_gap) {
+      is_whole_ = false;
+      finishUntil(half);
+      is_whole_ = false;
+      spacing_ = 0.0;
+    } else if (half == open_) {
+      add(*time_, newest_.data(), (spacing_ + spacing) / 2.0);
+      spacing_ = spacing;
+    } else {
+      // The end of the half block cuts the spacing: the rule over either part, on the straight line between readings.
+      const double before = (static_cast<double>(half) * half_length_ - *time_) / spacing, after = 1.0 - before;
+      add(*time_, newest_.data(), (spacing_ + (1.0 - after * after) * spacing) / 2.0);
+      add(time, values, before * before * spacing / 2.0);
+      finishUntil(half);
+      add(*time_, newest_.data(), after * after * spacing / 2.0);
+      spacing_ = (1.0 - before * before) * spacing;
+    }
   }
   time_ = time;
   std::copy_n(values, channels_, newest_.begin());
@@ -53,9 +65,8 @@ void FourierIntegrals::begin(long index) {
   imaginary_.setZero();
 }
 
-// Takes in the newest reading with the weight that is known now.
-void FourierIntegrals::add(double weight) {
-  const double phase = -2.0 * M_PI * (*time_ - static_cast<double>(open_) * half_length_) / band_.length;
+void FourierIntegrals::add(double time, const double* values, double weight) {
+  const double phase = -2.0 * M_PI * (time - static_cast<double>(open_) * half_length_) / band_.length;
   const auto count = static_cast<int>(cosines_.size());
   double *c = cosines_.data(), *s = sines_.data();
   c[0] = std::cos(phase);
@@ -70,7 +81,7 @@ void FourierIntegrals::add(double weight) {
     s[k] = c[k - kLanes] * s8 + s[k - kLanes] * c8;
   }
   for (std::size_t j = 0; j < channels_; ++j) {
-    const double x = weight * (newest_[j] - first_[j]);
+    const double x = weight * (values[j] - first_[j]);
     double *real = real_.col(static_cast<Eigen::Index>(j)).data(),
            *imaginary = imaginary_.col(static_cast<Eigen::Index>(j)).data();
     for (int k = 0; k < count; ++k) {

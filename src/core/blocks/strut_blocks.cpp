@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kStepsOfFriction = 4096.0;  // per block: a thousand and more per bounce
 constexpr double kBlocksOfMean = 2.0;        // memory of the wheel's slow mean
+constexpr double kUsualDamping = 0.6;        // b1 over the bounce: a damping ratio of 0.3
 
 }  // namespace
 
@@ -18,17 +19,23 @@ StrutBlocks::StrutBlocks(const BlockOptions& options, double period, std::size_t
 
 void StrutBlocks::begin(double length) {
   const BlockBand band(length, period_);
-  const BlockColumns columns{effects_ > 0 ? static_cast<int>(effects_) : 1, 0};
+  const BlockColumns columns{effects_ > 0 ? static_cast<int>(effects_) : 1, 0, effects_ == 0};
   std::optional<BlockEstimator> before;
   before.swap(estimator_);
   estimator_.emplace(band, columns, options_);
   if (before && before->hasTheta()) estimator_->begin(before->theta(), before->slowPrior());
+  body_.resize(band.spectrumSize());
   streams_.clear();
   streams_.emplace_back(band, 1);
   streams_.emplace_back(band, effects_ > 0 ? 1 : 2);
   if (effects_ > 0) streams_.emplace_back(band, effects_);
   friction_.reset();
-  if (effects_ == 0) friction_.emplace(length / kStepsOfFriction, kBlocksOfMean * length);
+  if (effects_ == 0) {
+    friction_.emplace(length / kStepsOfFriction, kBlocksOfMean * length);
+    // Until there is an estimate: a usual strut in the middle of the bounces that this length is for.
+    const double bounce = 2.0 * M_PI * std::sqrt(kFewestPeriods * kMostPeriods) / length;
+    friction_->setStrut(kUsualDamping * bounce, bounce * bounce, 0.0);
+  }
   origin_.reset();
   next_half_ = 1;
   estimate_.length = length;
@@ -107,7 +114,7 @@ const BlockEstimate* StrutBlocks::takeBlocks() {
   return found;
 }
 
-void StrutBlocks::fill(long half, StrutBlock& block) const {
+void StrutBlocks::fill(long half, StrutBlock& block) {
   const BlockBand& band = estimator_->equations().band();
   const auto whole = [&](std::size_t stream, Eigen::Index channel, auto&& result) {
     const auto &first = *streams_[stream].half(half - 1), &second = *streams_[stream].half(half);
@@ -120,10 +127,9 @@ void StrutBlocks::fill(long half, StrutBlock& block) const {
   whole(1, 0, block.wheel);
   for (Eigen::Index m = 0; m < block.forces.cols(); ++m)
     effects_ > 0 ? whole(2, m, block.forces.col(m)) : whole(1, 1, block.forces.col(m));
-  Eigen::ArrayXcd body(band.spectrumSize());
-  whole(0, 0, body);
+  whole(0, 0, body_);
   for (std::size_t p = 0; p < 3; ++p)
-    estimator_->equations().undelayed().apply(p, body, block.body.col(static_cast<Eigen::Index>(p)));
+    estimator_->equations().undelayed().apply(p, body_, block.body.col(static_cast<Eigen::Index>(p)));
 }
 
 // Blocks of fewer periods than kFewestPeriods lose the bounce below their lowest bin; of more than kMostPeriods they

@@ -60,11 +60,11 @@ void WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
   Eigen::VectorXd &noise = weights_.noise, &scale = weights_.share_scale;
   noise.setZero();
   scale.setZero();
-  double weights = 0.0;
+  for (int b = 0; b < blocks_; ++b) weight_[b] = weights_.of(*blocks[static_cast<std::size_t>(b)], bands_, theta);
+  weight_.head(blocks_) /= weight_.head(blocks_).maxCoeff();  // where all are noisy that is the noise
+  const double weights = weight_.head(blocks_).sum();
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
-    weight_[b] = weights_.of(block, bands_, theta);
-    weights += weight_[b];
     for (int i = 0; i < bands_.count(); ++i) {
       const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
       power_(b, i) = residualPower(band, block, theta) / bands_.size(i);

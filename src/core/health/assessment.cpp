@@ -59,7 +59,7 @@ void HealthOptions::validate() const {
 HealthAssessment::HealthAssessment(const HealthOptions& options)
     : options_(options),
       confirmation_(fromSeconds(options.confirm_time)),
-      damping_{earlyWarning(options)},
+      damping_{{}, earlyWarning(options)},
       stiffness_(damping_) {
   options.validate();
   baseline_.damping_to_mass = options.nominal_damping_to_mass;
@@ -78,6 +78,7 @@ void HealthAssessment::setBaseline(const Baseline& baseline) {
   learner_.reset();
   since_early_ = known_load_ = 0.0;
   for (Parameter* parameter : {&damping_, &stiffness_}) {
+    parameter->trend.restart();
     parameter->early = earlyWarning(options_);
     parameter->level = HealthLevel::kOk;
   }
@@ -115,7 +116,14 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   const double seconds = taken_ && stamp > *taken_ ? std::min(toSeconds(stamp - *taken_), estimate.window) : 0.0;
   taken_ = stamp;
   learn(stamp, estimate, seconds);
-  const ChangeFromBaseline changed = changeFrom(baseline_, estimate);
+  ChangeFromBaseline changed = changeFrom(baseline_, estimate);
+  const auto carryOn = [&](Parameter& parameter, std::optional<LogChange>& change) {
+    if (change)
+      change =
+          parameter.trend.carryOn(*change, estimate.age, toSeconds(stamp), estimate.window, options_.min_significance);
+  };
+  carryOn(damping_, changed.change.damping);
+  carryOn(stiffness_, changed.change.stiffness);
   const StrutChange change = splitChange(changed.change, options_.payload_range, known_load_);
   judged_ = HealthReport();
   judge(change);

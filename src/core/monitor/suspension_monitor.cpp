@@ -83,7 +83,7 @@ const MonitorReport* SuspensionMonitor::addGridSample(const CornerSample& sample
   report_.stamp = of_row->stamp;
   report_.measured = of_row->sprung_acceleration;
   sensors_.add(sample);
-  if (sensors_due_()) judgeSensors();
+  if (sensors_due_() || has_new_estimate_) judgeSensors();
   return &report_;
 }
 

@@ -25,9 +25,10 @@ struct BlockBand {
   double length = 0.0;  ///< T [s]
   int first = kFirst, last = kLast;
 
-  /// @param period  the longest sampling time of the streams [s].
+  /// @param period  the longest sampling time of the streams [s]. Longer ones than T / 32 give no block.
   BlockBand(double block_length, double period)
-      : length(block_length), last(std::min(kLast, static_cast<int>(std::floor(kUsable * block_length / period)))) {}
+      : length(block_length),
+        last(static_cast<int>(std::clamp(kUsable * block_length / period, 1.0 * kFirst, 1.0 * kLast))) {}
 
   int size() const { return last - first + 1; }
   int spectrumSize() const { return last - first + 3; }

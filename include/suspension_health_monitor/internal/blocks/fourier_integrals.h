@@ -11,9 +11,11 @@
 namespace suspension_health_monitor {
 
 /// Fourier integrals of the channels of one stream over half blocks, by the trapezoid rule on the stream's own stamps:
-///     I_k = sum of (x_i - x_0) e^(-j w_k (t_i - a)) (t_(i+1) - t_(i-1)) / 2 over a <= t_i < a + T/2.
-/// Two halves make a block: U_k = I_k + (-1)^k I'_k. Where stamps are even the rule is exact up to aliasing; the Hann
-/// window, applied to U_k later, removes what is wrong at the block's ends. x_0 is the stream's first reading: a
+///     I_k = sum of (x_i - x_0) e^(-j w_k (t_i - a)) (t_(i+1) - t_(i-1)) / 2 over a <= t_i < a + T/2,
+/// but that a spacing cut by an end of the half block belongs to either part by the straight line between its readings:
+/// H_2 (Modulation) weights the ends by 2 pi^2 / T^2, so that a half spacing there would be an error of first order.
+/// Two halves make a block: U_k = I_k + (-1)^k I'_k. Where stamps are even the rule is exact up to aliasing within the
+/// block, and H_p up to the second order at its ends. x_0 is the stream's first reading: a
 /// constant has no part in any bin that is used, and what is small loses little by stamps that are uneven. Cost per
 /// reading: O(bins), no allocation. Source: Shinbrot's modulating functions, with Fourier's (A. E. Pearson, Y. Shen,
 /// Weighted least squares / MFT algorithms for linear differential system identification, 1993).
@@ -43,7 +45,7 @@ class FourierIntegrals {
 
   Half& slot(long index) { return halves_[static_cast<std::size_t>(index % kHalves)]; }
   void begin(long index);
-  void add(double weight);
+  void add(double time, const double* values, double weight);  // to the open half block
   void finishUntil(long index);
 
   BlockBand band_;
@@ -54,7 +56,7 @@ class FourierIntegrals {
   Eigen::ArrayXXd real_, imaginary_;     // sums of the open half block
   std::vector<double> first_, newest_;   // readings
   std::optional<double> time_;           // of the newest reading
-  double spacing_ = 0.0;                 // before it
+  double spacing_ = 0.0;                 // before it, as far as it is in the open half block
   long open_ = 0;
   bool is_whole_ = false;  // no reading of the open half block is missing
 };

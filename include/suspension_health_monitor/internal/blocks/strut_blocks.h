@@ -54,7 +54,7 @@ class StrutBlocks {
   void begin(double length);
   const BlockEstimate* takeBlocks();
   bool isPassed(long half) const;
-  void fill(long half, StrutBlock& block) const;
+  void fill(long half, StrutBlock& block);
   void follow(double stiffness);
 
   BlockOptions options_;
@@ -64,7 +64,8 @@ class StrutBlocks {
   std::optional<BlockEstimator> estimator_;
   std::vector<FourierIntegrals> streams_;  // sprung, unsprung with friction, effects
   std::optional<SlidingFriction> friction_;
-  long next_half_ = 1;  // the second half of the next block
+  Eigen::ArrayXcd body_;  // integrals of z'' of the block that is filled
+  long next_half_ = 1;    // the second half of the next block
   BlockEstimate estimate_;
   bool has_estimate_ = false;
 };

@@ -28,6 +28,7 @@ enum BlockParameter : int {
 struct BlockColumns {
   int forces = 1;  ///< known shapes of a force over the body's mass, on the wheel's stamps: dry friction, or effects
   int neighbours = 0;  ///< travel rates and travels of the other struts of the body
+  bool has_friction = true;  ///< the force is dry friction, of which something is known beforehand
 
   int numParameters() const { return kNumBlockParameters + forces + neighbours; }
   int firstForce() const { return kNumBlockParameters; }

@@ -5,6 +5,7 @@
 
 #include "suspension_health_monitor/internal/health/agreement.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
+#include "suspension_health_monitor/internal/health/change_trend.h"
 #include "suspension_health_monitor/internal/health/early_warning.h"
 #include "suspension_health_monitor/internal/health/level_confirmation.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
@@ -27,7 +28,8 @@ struct HealthOptions : HealthThresholds {
 /// Judges damping and stiffness by their change from the healthy strut: nominal values, or a baseline that it learns.
 ///
 /// - What is judged is the block estimate, whose standard deviations and correlation decide what is certain.
-/// - A baseline is compared as it would be on the present road (changeFrom()).
+/// - A baseline is compared as it would be on the present road (changeFrom()), a steady change without its lag
+///   (ChangeTrend).
 /// - LS and LA that disagree for long (Agreement) are reported: there are outliers.
 /// - Payload moves both parameters, damage one (splitChange()).
 /// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation), of one
@@ -69,6 +71,7 @@ class HealthAssessment {
 
   /// What is followed of damping or of stiffness.
   struct Parameter {
+    ChangeTrend trend;
     EarlyWarning early;
     HealthLevel level = HealthLevel::kOk;  // before it is confirmed
   };

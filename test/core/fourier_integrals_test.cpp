@@ -1,0 +1,152 @@
+#include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "block_drive.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+const BlockBand kBand(2.0, 0.01);
+
+std::vector<double> evenStamps(double spacing, double end) {
+  std::vector<double> stamps;
+  for (int i = 0; i * spacing < end; ++i) stamps.push_back(i * spacing);
+  return stamps;
+}
+
+std::vector<double> unevenStamps(double spacing, double end, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> jitter(0.3, 1.7);
+  std::vector<double> stamps;
+  for (double t = 0.0; t < end; t += spacing * jitter(random)) stamps.push_back(t);
+  return stamps;
+}
+
+FourierIntegrals integrate(const std::vector<double>& stamps, const Exponentials& signal, double offset = 0.0) {
+  FourierIntegrals stream(kBand, 1);
+  for (const double t : stamps) {
+    const double value = signal.at(t) + offset;
+    stream.push(t, &value);
+  }
+  return stream;
+}
+
+// x e^(-j w (t - a)) by the straight line between stamps, integrated over [a, b].
+Complex byStraightLines(const std::vector<double>& stamps, const Exponentials& signal, double omega, double a,
+                        double b) {
+  const auto at = [&](double t) {
+    return (signal.at(t) - signal.at(stamps.front())) * std::exp(Complex(0.0, -omega * (t - a)));
+  };
+  Complex sum;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    const double from = std::max(stamps[i - 1], a), to = std::min(stamps[i], b);
+    if (from >= to) continue;
+    const Complex left = at(stamps[i - 1]), slope = (at(stamps[i]) - left) / (stamps[i] - stamps[i - 1]);
+    sum += (to - from) * (left + slope * ((from + to) / 2.0 - stamps[i - 1]));
+  }
+  return sum;
+}
+
+TEST(FourierIntegrals, OfASineOfABinOnEvenStampsAreHalfTheBlockInThatBinAndZeroElsewhere) {
+  for (const int bin : {2, 7, 31}) {
+    Exponentials sine;
+    sine.addSine(1.5, bin / kBand.length, 0.4);
+    const FourierIntegrals stream = integrate(evenStamps(0.01, 6.1), sine);
+    for (const long half : {1L, 2L, 4L}) {
+      const Eigen::ArrayXcd block = wholeBlock(kBand, stream, half);
+      for (int i = 0; i < kBand.spectrumSize(); ++i) {
+        const double turned = half % 2 == 0 && bin % 2 == 1 ? -1.0 : 1.0;  // the block begins half a block later
+        const Complex expected = kBand.first - 1 + i == bin ? turned * std::polar(1.5, 0.4) : Complex{};
+        EXPECT_NEAR(std::abs(block[i] - expected), 0.0, 1e-12) << "bin " << kBand.first - 1 + i << " of " << bin;
+      }
+    }
+  }
+}
+
+TEST(FourierIntegrals, AreTheTrapezoidRuleOnTheStreamsOwnStampsWhereverTheHalfBlocksCutThem) {
+  const Exponentials signal = severalSines();
+  for (const auto& stamps : {evenStamps(0.0073, 4.2), unevenStamps(0.01, 4.2, 3)}) {
+    const FourierIntegrals stream = integrate(stamps, signal);
+    for (const long half : {0L, 1L, 2L, 3L})
+      for (int i = 0; i < kBand.spectrumSize(); ++i) {
+        const double a = static_cast<double>(half), omega = kBand.omega(kBand.first - 1 + i);
+        EXPECT_NEAR(std::abs((*stream.half(half))(i, 0) - byStraightLines(stamps, signal, omega, a, a + 1.0)), 0.0,
+                    1e-11);
+      }
+  }
+}
+
+TEST(FourierIntegrals, OnUnevenStampsDifferFromTheClosedFormByNoMoreThanTheTrapezoidRule) {
+  Exponentials sine;
+  sine.addSine(2.0, 1.37, 0.9);
+  const std::vector<double> stamps = unevenStamps(0.005, 4.2, 5);
+  const FourierIntegrals stream = integrate(stamps, sine);
+  double cubes = 0.0;
+  for (std::size_t i = 1; i < stamps.size() && stamps[i - 1] < 3.0; ++i)
+    if (stamps[i] > 1.0) cubes += std::pow(stamps[i] - stamps[i - 1], 3);
+  for (int i = 0; i < kBand.spectrumSize(); ++i) {
+    const double omega = kBand.omega(kBand.first - 1 + i);
+    // The constant x_0 has no part in a bin; of the straight lines' product with it the rule makes an error, too.
+    const double curvature = 2.0 * std::pow(omega + 2.0 * M_PI * 1.37, 2) + std::abs(sine.at(0.0)) * omega * omega;
+    const Complex expected = sine.integral(1.0, 2.0, omega);
+    EXPECT_LT(std::abs(wholeBlock(kBand, stream, 2)[i] - expected), curvature * cubes / 12.0);
+  }
+}
+
+TEST(FourierIntegrals, AreNotChangedByAConstantHoweverUnevenTheStamps) {
+  const std::vector<double> stamps = unevenStamps(0.01, 4.2, 7);
+  const FourierIntegrals plain = integrate(stamps, severalSines()), moved = integrate(stamps, severalSines(), 4096.0);
+  // A reading of 4096 is rounded to 2^-41; the half block is 1 s.
+  for (const long half : {0L, 3L}) EXPECT_LT((*plain.half(half) - *moved.half(half)).abs().maxCoeff(), 1e-12);
+}
+
+TEST(FourierIntegrals, OfAHalfBlockWithAGapAreNone) {
+  const double longest = kBand.length / 32.0;
+  const auto wholeHalves = [&](double gap_from, double gap) {
+    FourierIntegrals stream(kBand, 1);
+    const double value = 1.0;
+    for (int i = 0; i < 430; ++i)
+      if (const double t = 0.01 * i; t <= gap_from || t > gap_from + gap - 1e-9) stream.push(t, &value);
+    std::vector<bool> result;
+    for (long half = 0; half < 4; ++half) result.push_back(stream.half(half) != nullptr);
+    return result;
+  };
+  EXPECT_EQ(wholeHalves(1.5, longest - 0.01), (std::vector<bool>{true, true, true, true}));
+  EXPECT_EQ(wholeHalves(1.5, longest + 0.01), (std::vector<bool>{true, false, true, true}));
+  EXPECT_EQ(wholeHalves(1.97, longest + 0.01), (std::vector<bool>{true, false, false, true}));
+  EXPECT_EQ(wholeHalves(0.99, 2.5), (std::vector<bool>{false, false, false, false}));
+}
+
+TEST(FourierIntegrals, OfAStreamThatBeginsLateLackTheHalfBlockItBeginsIn) {
+  const auto firstHalf = [&](double begin) {
+    FourierIntegrals stream(kBand, 1);
+    const double value = 1.0;
+    for (int i = 0; i < 110; ++i) stream.push(begin + 0.01 * i, &value);
+    return stream.half(0);
+  };
+  EXPECT_NE(firstHalf(0.02), nullptr);
+  EXPECT_EQ(firstHalf(0.2), nullptr);
+}
+
+TEST(FourierIntegrals, AreKeptForEightHalfBlocksAndForEveryChannelOnItsOwn) {
+  FourierIntegrals both(kBand, 2), second(kBand, 1);
+  for (int i = 0; i <= 1200; ++i) {
+    const double t = 0.01 * i, values[] = {std::cos(5.0 * t), std::sin(3.0 * t)};
+    both.push(t, values);
+    second.push(t, values + 1);
+  }
+  EXPECT_EQ(both.openHalf(), 12);
+  EXPECT_EQ(both.half(3), nullptr);
+  for (long half = 4; half < 12; ++half) {
+    ASSERT_NE(both.half(half), nullptr) << half;
+    EXPECT_EQ((both.half(half)->col(1) - second.half(half)->col(0)).abs().maxCoeff(), 0.0);
+  }
+  EXPECT_EQ(both.half(12), nullptr);
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
