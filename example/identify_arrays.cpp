@@ -12,7 +12,7 @@ int main() {
   namespace shm = suspension_health_monitor;
   const shm::IdentifyResult result = shm::identify({shm::makeDrive(SimulatedStrut::kPeriod, read.body, read.wheel)});
   for (const auto& [name, found] :
-       {std::pair("ls", result.ls), std::pair("la", result.la), std::pair("estimate", result.estimate)})
+       {std::pair("estimate", result.estimate), std::pair("ls", result.ls), std::pair("la", result.la)})
     std::printf("%s: damping/mass %.3f +- %.3f 1/s, stiffness/mass %.2f +- %.2f 1/s^2%s\n", name, found.damping_to_mass,
                 1.96 * found.damping_to_mass_stddev, found.stiffness_to_mass, 1.96 * found.stiffness_to_mass_stddev,
                 found.valid ? "" : (", not valid: " + found.reason).c_str());

@@ -40,7 +40,7 @@ def identify(*drives: Any, vehicle: Optional[Path] = None, model: Model = None, 
         axes, frames, ranges, rates and what is published. Of bags also sprung_topic, unsprung_topic,
         road_topic, start [s], end [s]. Left out: the period is measured, the horizon proposed from the data.
         strut: of the vehicle, the only one that is wanted.
-    :returns: an Identification: .la, .ls, .iv with .damping_to_mass, .stiffness_to_mass, their _stddev, .valid ...;
+    :returns: an Identification: .estimate, .ls, .la with .damping_to_mass, .stiffness_to_mass, their _stddev, .valid ...;
         .change, a sentence, where nominal values are given; of a vehicle a dict of them by strut.
     :raises ValueError: wrong option, array or file; or too little data, saying what would be enough.
     """

@@ -58,6 +58,8 @@ class Course:
     damping_to_mass: Numbers
     damping_to_mass_stddev: Numbers
     fit_percent: Numbers
+    la_damping_to_mass: Numbers
+    la_stiffness_to_mass: Numbers
     level: Numbers
     ls_damping_to_mass: Numbers
     ls_stiffness_to_mass: Numbers
@@ -98,10 +100,10 @@ class DirectionLoop:
     gap_standard_error: float
 
 class DryFriction:
+    damping_covariance: float
     damping_gain: float
     force: float
     stddev: float
-    stiffness_gain: float
 
 class Effect:
     coefficients: List[Tuple[str, str]]
@@ -139,6 +141,7 @@ class Health:
     course: Course
     early_warnings: List[HealthMoment]
     end: HealthMoment
+    estimate: StrutEstimate
     events: List[HealthMoment]
     la: StrutEstimate
     ls: StrutEstimate
@@ -169,12 +172,14 @@ class Identification:
     change: str
     clock_jumps: int
     course: Course
+    estimate: IdentifiedStrut
     gaps: int
     horizon_samples: int
     iv: IdentifiedStrut
     la: IdentifiedStrut
     ls: IdentifiedStrut
     mean_period: float
+    now: IdentifiedStrut
     rejected: Dict[str, int]
     rows: int
     sample_period: float
@@ -186,6 +191,7 @@ class Identification:
     def _repr_html_(self) -> str: ...
 
 class IdentifiedStrut:
+    age: float
     damping_ratio: float
     damping_to_mass: float
     damping_to_mass_stddev: float
@@ -214,6 +220,7 @@ class ModelNumber:
 
 class MonitorReport:
     comparison: ComparisonReport
+    estimate: StrutEstimate
     health: HealthReport
     la: StrutEstimate
     ls: StrutEstimate
@@ -290,22 +297,24 @@ class Simulation:
     def _repr_html_(self) -> str: ...
 
 class StrutEstimate:
-    clock_skew: float
+    age: float
     coefficients: Numbers
-    damping_excitation: float
+    correlation: float
     damping_ratio: float
     damping_to_mass: float
     damping_to_mass_stddev: float
+    delay: float
+    delay_stddev: float
     explained: float
     friction: Optional[DryFriction]
     natural_frequency: float
     offset: float
     reason: str
     rows: float
-    stiffness_excitation: float
     stiffness_to_mass: float
     stiffness_to_mass_stddev: float
     valid: bool
+    window: float
 
 class StrutModel:
     damping_to_mass: float

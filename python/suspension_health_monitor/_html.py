@@ -71,12 +71,12 @@ def _estimate_row(name, estimate):
 
 
 def _identification(self):
-    return f"<Identification: la {_estimate(self.la)}; {self.rows} rows, T {self.sample_period:.6g} s, " \
+    return f"<Identification: {_estimate(self.estimate)}; {self.rows} rows, T {self.sample_period:.6g} s, " \
            f"horizon {self.horizon_samples} samples>"
 
 
 def _identification_html(self):
-    rows = [_estimate_row(name, getattr(self, name)) for name in ("la", "ls", "iv")]
+    rows = [_estimate_row(name, getattr(self, name)) for name in ("estimate", "la", "ls")]
     caption = f"{self.samples} samples of {self.sample_period:.6g} s, horizon {self.horizon_samples} samples, " \
               f"{self.gaps} gaps, {sum(self.rejected.values())} readings kept out"
     return _table(_ESTIMATE_HEAD, rows, caption) + _paragraphs(self.change, *self.warnings)
@@ -90,7 +90,7 @@ def _health(self):
 
 def _health_html(self):
     events = [(f"{event.time:.2f}", _level(event.level), event.message) for event in self.events]
-    ends = [_estimate_row(name, getattr(self, name)) for name in ("la", "ls")]
+    ends = [_estimate_row(name, getattr(self, name)) for name in ("estimate", "la", "ls")]
     end = _Markup(f"At the end {_level(self.end.level)}: {html.escape(self.end.message)}")
     return _paragraphs(end, f"Judged by {self.reference}.") + _table(("time [s]", "level", "reason"), events) \
         + _table(_ESTIMATE_HEAD, ends)
@@ -167,6 +167,6 @@ def install():
     _core.HealthMoment.__repr__ = lambda self: f"<{self.time:.2f} s {self.level}: {self.message}>"
     _core.FailureRegion.__repr__ = lambda self: f"<{self.sentence}>"
     _core.HealthReport.__repr__ = lambda self: f"<{self.level}: {self.message}>"
-    _core.MonitorReport.__repr__ = lambda self: f"<MonitorReport: {self.health!r}, la {_estimate(self.la)}>"
+    _core.MonitorReport.__repr__ = lambda self: f"<MonitorReport: {self.health!r}, {_estimate(self.estimate)}>"
     _core.Baseline.__repr__ = lambda self: f"<Baseline: b1 {self.damping_to_mass}, b0 {self.stiffness_to_mass}>"
     _core.RankedModel.__repr__ = lambda self: f"<{' + '.join(self.effects)}: {_number(self.held_out_rmse)} m/s^2>"

@@ -57,7 +57,7 @@ class StrutMonitor:
 
     @property
     def report(self) -> _core.MonitorReport:
-        """What is known after the newest sample: a MonitorReport with .la, .ls, .comparison, .health."""
+        """What is known after the newest sample: a MonitorReport with .estimate, .ls, .la, .comparison, .health."""
         return self._core.report
 
     @property

@@ -21,8 +21,9 @@ def _estimates(axes, course, values):
         valid = course.valid
         axis.fill_between(course.time, middle - spread, middle + spread, where=valid, alpha=0.25, linewidth=0)
         axis.plot(course.time, middle, linewidth=0.6, color="0.6")
-        axis.plot(course.time, [m if v else float("nan") for m, v in zip(middle, valid)], label="la, valid")
-        axis.plot(course.time, getattr(course, f"ls_{name}"), linewidth=0.6, label="ls")
+        axis.plot(course.time, [m if v else float("nan") for m, v in zip(middle, valid)], label="estimate")
+        for estimator in ("la", "ls"):
+            axis.plot(course.time, getattr(course, f"{estimator}_{name}"), linewidth=0.6, label=estimator)
         for label, value in values(name):
             axis.axhline(value, linestyle="--", color="k", linewidth=0.8, label=label)
         shown = [*middle[valid], *(value for _, value in values(name))]  # not what an estimate is while it settles
@@ -37,7 +38,7 @@ def _plot_identification(self, axes=None):
     """Damping and stiffness over time with their 95 % band; returns the figure. axes: two, to draw into."""
     figure, axes = _axes(axes, 2, sharex=True)
     _estimates(axes, self.course,
-               lambda name: [("iv, whole drive", getattr(self.iv, name))] if self.iv.valid else [])
+               lambda name: [("whole drive", getattr(self.estimate, name))] if self.estimate.valid else [])
     axes[-1].set_xlabel("time [s]")
     return figure
 

@@ -76,7 +76,8 @@ def introduction(results):
         '<span class="la">least sum of absolute values (LA)</span> lets single wrong readings count less. In each '
         "drive below the damper slowly loses a third of its damping between 40 s and 100 s. The drives differ in what "
         "else goes wrong: nothing, a sensor cable that drops out, or bumps that drive the strut into its end stops. "
-        "The question is who still tells the truth.",
+        "The question is who still tells the truth. The levels go by neither: the monitor judges by an estimate of its "
+        "own, <code>/monitor/estimate</code>.",
         "All curves were recorded from <code>/monitor/ls</code>, <code>/monitor/la</code>, "
         "<code>/monitor/comparison</code>, <code>/monitor/health</code> and <code>/simulator/truth</code> while the "
         "nodelets ran on simulated time, faster than the wall clock, with the settings of the paper "

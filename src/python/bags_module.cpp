@@ -34,7 +34,7 @@ Identification identifyBags(const Arguments& arguments, LongWork& work) {
   TopicGaps gaps(options.pipeline.shell.input_timeout);
   tools.tellReading(options.bags.paths.size());
   recorded.read(gaps);
-  const DriveIdentification& made = recorded.made();
+  DriveIdentification& made = recorded.made();
   gaps.explain([&] { requireRows(made.monitor(), made.grid(), recorded.rejected()); });
   Identification found = Identification::of(made, recorded.rejected(), course);
   found.change = describeChange(found, knownHealthy(options.healthy, options.pipeline), options.pipeline.monitor);

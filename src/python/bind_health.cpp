@@ -59,6 +59,7 @@ void bindHealth(py::module& module) {
       .def_readonly("end", &HealthSummary::end, "what is said at the end")
       .def_readonly("seconds", &HealthSummary::seconds, "how long each level held [s]")
       .def_readonly("counts", &HealthSummary::counts, "changes to each level")
+      .def_readonly("estimate", &HealthSummary::estimate, "at the end, what the strut is judged by")
       .def_readonly("ls", &HealthSummary::ls, "estimates at the end")
       .def_readonly("la", &HealthSummary::la, "estimates at the end")
       .def_readonly("reference", &HealthSummary::reference, "what the strut was judged by at the end, in words")

@@ -17,7 +17,7 @@ using Numbers = std::array<double, 4>;
 
 std::optional<Numbers> toNumbers(const std::optional<DryFriction>& friction) {
   if (!friction) return std::nullopt;
-  return Numbers{friction->force, friction->stddev, friction->damping_gain, friction->stiffness_gain};
+  return Numbers{friction->force, friction->stddev, friction->damping_gain, friction->damping_covariance};
 }
 
 std::optional<DryFriction> toFriction(const std::optional<Numbers>& numbers) {
@@ -29,22 +29,24 @@ void bindEstimates(py::module& module) {
   py::class_<DryFriction>(module, "DryFriction", "Dry friction, beside which the linear strut was estimated.")
       .def_readonly("force", &DryFriction::force, "over the body's mass [m/s^2]")
       .def_readonly("stddev", &DryFriction::stddev, "[m/s^2]")
-      .def_readonly("damping_gain", &DryFriction::damping_gain, "what 1 m/s^2 of it adds to b1 on this road [s/m]")
-      .def_readonly("stiffness_gain", &DryFriction::stiffness_gain, "to b0 [1/m]");
+      .def_readonly("damping_gain", &DryFriction::damping_gain, "what 1 m/s^2 of it acts as of b1 on this road [s/m]")
+      .def_readonly("damping_covariance", &DryFriction::damping_covariance, "of the errors of b1 and force [m/s^3]");
   py::class_<StrutEstimate>(module, "StrutEstimate", "What one estimator of the live monitor knows; NaN: nothing yet.")
       .def_readonly("damping_to_mass", &StrutEstimate::damping_to_mass, "b1 [1/s]")
       .def_readonly("stiffness_to_mass", &StrutEstimate::stiffness_to_mass, "b0 [1/s^2]")
       .def_readonly("damping_to_mass_stddev", &StrutEstimate::damping_to_mass_stddev, "[1/s]")
       .def_readonly("stiffness_to_mass_stddev", &StrutEstimate::stiffness_to_mass_stddev, "[1/s^2]")
-      .def_readonly("offset", &StrutEstimate::offset, "of the wheel carrier's reading against the body's [m/s^2]")
-      .def_readonly("clock_skew", &StrutEstimate::clock_skew,
-                    "by which the wheel carrier's readings are stamped late [s]")
-      .def_readonly("friction", &StrutEstimate::friction, "that LS leaves, or None")
-      .def_readonly("rows", &StrutEstimate::effective_rows, "regression rows in the memory")
-      .def_readonly("damping_excitation", &StrutEstimate::damping_excitation,
-                    "information on b1 that the motion of late gives, over that of noise [-]")
-      .def_readonly("stiffness_excitation", &StrutEstimate::stiffness_excitation, "the same on b0 [-]")
+      .def_readonly("correlation", &StrutEstimate::correlation, "of the errors of b1 and b0 [-]; of estimate")
+      .def_readonly("offset", &StrutEstimate::offset,
+                    "of the wheel carrier's reading against the body's [m/s^2]; of ls and la, else NaN")
+      .def_readonly("delay", &StrutEstimate::delay,
+                    "by which the wheel carrier's readings are stamped late [s]; of estimate, else NaN")
+      .def_readonly("delay_stddev", &StrutEstimate::delay_stddev, "[s]")
+      .def_readonly("friction", &StrutEstimate::friction, "of estimate without other effects, or None")
+      .def_readonly("rows", &StrutEstimate::effective_rows, "of estimate blocks, else regression rows in the memory")
       .def_readonly("explained", &StrutEstimate::explained, "share of the body's motion that the strut explains")
+      .def_readonly("age", &StrutEstimate::age, "of the data behind estimate, on average [s]; else NaN")
+      .def_readonly("window", &StrutEstimate::window, "time that they span [s]; else NaN")
       .def_property_readonly(
           "coefficients",
           [](const StrutEstimate& self) {
@@ -123,6 +125,7 @@ void bindCondition(py::module& module) {
   py::class_<MonitorReport>(module, "MonitorReport", "Everything that is known after one sample.")
       .def_property_readonly(
           "stamp", [](const MonitorReport& self) { return toSeconds(self.stamp); }, "[s]")
+      .def_readonly("estimate", &MonitorReport::estimate, "of the newest blocks: what to trust, and health goes by")
       .def_readonly("ls", &MonitorReport::ls, "by least squares")
       .def_readonly("la", &MonitorReport::la, "by the least sum of absolute values")
       .def_readonly("comparison", &MonitorReport::comparison)
@@ -146,19 +149,23 @@ void bindCourse(py::module& module) {
   add(
       "time", [](const CoursePoint& p) { return toSeconds(p.stamp); }, "[s]");
   add(
-      "damping_to_mass", [](const CoursePoint& p) { return p.la.damping_to_mass; }, "of la [1/s]");
+      "damping_to_mass", [](const CoursePoint& p) { return p.estimate.damping_to_mass; }, "of estimate [1/s]");
   add(
-      "stiffness_to_mass", [](const CoursePoint& p) { return p.la.stiffness_to_mass; }, "of la [1/s^2]");
+      "stiffness_to_mass", [](const CoursePoint& p) { return p.estimate.stiffness_to_mass; }, "of estimate [1/s^2]");
   add(
-      "damping_to_mass_stddev", [](const CoursePoint& p) { return p.la.damping_to_mass_stddev; }, "[1/s]");
+      "damping_to_mass_stddev", [](const CoursePoint& p) { return p.estimate.damping_to_mass_stddev; }, "[1/s]");
   add(
-      "stiffness_to_mass_stddev", [](const CoursePoint& p) { return p.la.stiffness_to_mass_stddev; }, "[1/s^2]");
+      "stiffness_to_mass_stddev", [](const CoursePoint& p) { return p.estimate.stiffness_to_mass_stddev; }, "[1/s^2]");
   add(
       "ls_damping_to_mass", [](const CoursePoint& p) { return p.ls.damping_to_mass; }, "of ls [1/s]");
   add(
       "ls_stiffness_to_mass", [](const CoursePoint& p) { return p.ls.stiffness_to_mass; }, "of ls [1/s^2]");
   add(
-      "valid", [](const CoursePoint& p) { return p.la.valid(); }, "of la");
+      "la_damping_to_mass", [](const CoursePoint& p) { return p.la.damping_to_mass; }, "of la [1/s]");
+  add(
+      "la_stiffness_to_mass", [](const CoursePoint& p) { return p.la.stiffness_to_mass; }, "of la [1/s^2]");
+  add(
+      "valid", [](const CoursePoint& p) { return p.estimate.valid(); }, "of estimate");
   add(
       "rmse", [](const CoursePoint& p) { return p.rmse; }, "of the free run [m/s^2]");
   add(

@@ -23,7 +23,7 @@ std::vector<HealthMoment> shifted(std::vector<HealthMoment> moments, Stamp shift
 
 }  // namespace
 
-Identification Identification::of(const DriveIdentification& made, const RejectCounts& rejected, const Course& course) {
+Identification Identification::of(DriveIdentification& made, const RejectCounts& rejected, const Course& course) {
   const SuspensionMonitor& monitor = made.monitor();
   const std::string nothing = describeNoRow(monitor, made.grid(), rejected);
   if (!nothing.empty()) throw std::invalid_argument(nothing);
@@ -50,6 +50,7 @@ HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& m
     summary.seconds[nameOf(level)] = toSeconds(log.duration(level));
     summary.counts[nameOf(level)] = log.count(level);
   }
+  summary.estimate = monitor.report().estimate;
   summary.ls = monitor.report().ls;
   summary.la = monitor.report().la;
   summary.baseline = monitor.baseline();

@@ -20,7 +20,7 @@ namespace suspension_health_monitor {
 /// What was known at one time.
 struct CoursePoint {
   Stamp stamp{};
-  StrutEstimate ls, la;
+  StrutEstimate estimate, ls, la;
   double rmse = std::nan(""), fit_percent = std::nan("");
   HealthLevel level = HealthLevel::kStale;
 };
@@ -32,8 +32,8 @@ class Course {
   explicit Course(Stamp shift = {}) : shift_(shift) {}
 
   void add(const MonitorReport& report) {
-    points_.add({report.stamp - shift_, report.ls, report.la, report.comparison.rmse, report.comparison.fit_percent,
-                 report.health.level});
+    points_.add({report.stamp - shift_, report.estimate, report.ls, report.la, report.comparison.rmse,
+                 report.comparison.fit_percent, report.health.level});
   }
 
   const std::vector<CoursePoint>& points() const { return points_.items(); }
@@ -55,7 +55,7 @@ struct Identification : IdentifyResult {
   Course course;
 
   /// @throws std::invalid_argument  saying why, if the readings have not given one regression row.
-  static Identification of(const DriveIdentification& made, const RejectCounts& rejected, const Course& course);
+  static Identification of(DriveIdentification& made, const RejectCounts& rejected, const Course& course);
 };
 
 struct SearchedStrut : Diagnosis {
@@ -67,7 +67,7 @@ struct HealthSummary {
   HealthMoment end;
   std::map<std::string, double> seconds;      ///< by level [s]
   std::map<std::string, std::size_t> counts;  ///< changes to it
-  StrutEstimate ls, la;                       ///< at the end
+  StrutEstimate estimate, ls, la;             ///< at the end
   std::string reference;                      ///< what the strut was judged by at the end, in words
   Baseline baseline;                          ///< the same
   std::map<std::string, std::uint64_t> rejected;

@@ -37,11 +37,11 @@ std::string sourceOf(const HealthContent& content) {
 
 void HealthCourse::add(const HealthMoment& moment, const Baseline& healthy) {
   if (count_++ % stride_ != 0) return;
-  const auto if_valid = [&](double number) { return moment.la.valid() ? number : kNothing; };
+  const auto if_valid = [&](double number) { return moment.estimate.valid() ? number : kNothing; };
   points_.push_back({toSeconds(moment.elapsed),
-                     {if_valid(moment.la.damping_to_mass), if_valid(moment.la.damping_to_mass_stddev),
+                     {if_valid(moment.estimate.damping_to_mass), if_valid(moment.estimate.damping_to_mass_stddev),
                       healthy.damping_to_mass.value_or(kNothing)},
-                     {if_valid(moment.la.stiffness_to_mass), if_valid(moment.la.stiffness_to_mass_stddev),
+                     {if_valid(moment.estimate.stiffness_to_mass), if_valid(moment.estimate.stiffness_to_mass_stddev),
                       healthy.stiffness_to_mass.value_or(kNothing)}});
   if (points_.size() < 2 * kMostPoints) return;
   for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];

@@ -23,17 +23,29 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-void printEstimate(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
-  printResult(name, atTheEnd(estimate), mass);
-  if (!std::isnan(estimate.offset))
-    std::printf("    offset of the wheel carrier's IMU against the body's %.3g m/s^2, stamped %.3g ms late\n",
-                estimate.offset, 1e3 * estimate.clock_skew);
+// A strut with memory turns the phase as a delay does, but it leaves more of the motion unexplained.
+bool isDelayed(const StrutEstimate& estimate) {
+  constexpr double kBeyondDoubt = 3.0;  // standard deviations
+  constexpr double kExplained = 0.9;
+  return std::abs(estimate.delay) > kBeyondDoubt * estimate.delay_stddev && estimate.explained > kExplained;
 }
 
-void printFriction(const std::optional<DryFriction>& friction) {
-  if (friction)
-    std::printf("    dry friction beside them %.3g m/s^2, standard deviation %.1g\n", friction->force,
-                friction->stddev);
+void printBlocks(const StrutEstimate& estimate, const std::optional<double>& mass) {
+  printResult("estimate", toIdentified(estimate), mass);
+  if (estimate.friction)
+    std::printf("    dry friction %.3g +- %.1g m/s^2\n", estimate.friction->force, estimate.friction->stddev);
+  if (isDelayed(estimate))
+    std::printf("    the wheel carrier's readings are stamped %.3g +- %.1g ms late\n", 1e3 * estimate.delay,
+                1e3 * estimate.delay_stddev);
+  if (!std::isnan(estimate.age))
+    std::printf("    explains %.1f %% of the body's motion, from %.3g s of data, on average %.3g s old\n",
+                100.0 * estimate.explained, estimate.window, estimate.age);
+}
+
+void printRows(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
+  printResult(name, toIdentified(estimate), mass);
+  if (!std::isnan(estimate.offset))
+    std::printf("    offset of the wheel carrier's IMU against the body's %.3g m/s^2\n", estimate.offset);
 }
 
 }  // namespace
@@ -46,12 +58,12 @@ HealthTable::HealthTable(std::FILE* out, std::vector<std::string> struts) : out_
 void HealthTable::add(std::size_t strut, const HealthMoment& moment) {
   if (out_ == nullptr) return;
   constexpr std::int64_t second = 1000000000;
-  const StrutEstimate& la = moment.la;
+  const StrutEstimate& estimate = moment.estimate;
   std::fprintf(out_, "%" PRId64 ".%09" PRId64 ",", moment.stamp.count() / second, moment.stamp.count() % second);
   if (!struts_.empty()) std::fprintf(out_, "%s,", struts_[strut].c_str());
   std::fprintf(out_, "%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level), quoted(moment.message).c_str(),
-               la.damping_to_mass, la.stiffness_to_mass, la.damping_to_mass_stddev, la.stiffness_to_mass_stddev,
-               la.offset);
+               estimate.damping_to_mass, estimate.stiffness_to_mass, estimate.damping_to_mass_stddev,
+               estimate.stiffness_to_mass_stddev, moment.offset);
 }
 
 void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference) {
@@ -71,9 +83,9 @@ void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const s
   if (!log.earlyWarnings().empty()) std::printf(", the first at %.2f s", toSeconds(log.earlyWarnings().front().stamp));
   const HealthMoment end = log.latest();
   std::printf("\n\nat the end %s: %s\n", nameOf(end.level), end.message.c_str());
-  printEstimate("LS", monitor.report().ls, monitor.options().sprung_mass);
-  printEstimate("LA", monitor.report().la, monitor.options().sprung_mass);
-  printFriction(monitor.report().ls.friction);
+  printBlocks(monitor.report().estimate, monitor.options().sprung_mass);
+  printRows("LS", monitor.report().ls, monitor.options().sprung_mass);
+  printRows("LA", monitor.report().la, monitor.options().sprung_mass);
 }
 
 json toJson(const HealthMoment& moment) {
@@ -87,21 +99,18 @@ json secondsJson(const HealthLog& log) {
 }
 
 json estimatesJson(const SuspensionMonitor& monitor) {
-  json estimates;
-  const auto add = [&](const char* name, const StrutEstimate& estimate) {
-    estimates[name] = toJson(atTheEnd(estimate));
-    estimates[name]["offset"] = estimate.offset;
-    estimates[name]["clock_skew"] = estimate.clock_skew;
-    if (estimate.friction)
-      estimates[name]["friction"] = {{"force", estimate.friction->force},
-                                     {"stddev", estimate.friction->stddev},
-                                     {"damping_gain", estimate.friction->damping_gain},
-                                     {"stiffness_gain", estimate.friction->stiffness_gain}};
-    estimates[name]["damping_excitation"] = estimate.damping_excitation;
-    estimates[name]["stiffness_excitation"] = estimate.stiffness_excitation;
-  };
-  add("la", monitor.report().la);
-  add("ls", monitor.report().ls);
+  const MonitorReport& report = monitor.report();
+  json blocks = toJson(toIdentified(report.estimate));
+  blocks["delay"] = report.estimate.delay;
+  blocks["delay_stddev"] = report.estimate.delay_stddev;
+  if (const auto& friction = report.estimate.friction)
+    blocks["friction"] = {
+        {"force", friction->force}, {"stddev", friction->stddev}, {"damping_gain", friction->damping_gain}};
+  blocks["age"] = report.estimate.age;
+  blocks["window"] = report.estimate.window;
+  json estimates{{"estimate", blocks}, {"ls", toJson(toIdentified(report.ls))}, {"la", toJson(toIdentified(report.la))}};
+  estimates["ls"]["offset"] = report.ls.offset;
+  estimates["la"]["offset"] = report.la.offset;
   return estimates;
 }
 

@@ -32,7 +32,7 @@ nlohmann::json toJson(const HealthMoment& moment);
 /// @return the seconds by level.
 nlohmann::json secondsJson(const HealthLog& log);
 
-/// @return LS and LA at the end by name.
+/// @return the block estimate, LS and LA at the end, by name.
 nlohmann::json estimatesJson(const SuspensionMonitor& monitor);
 
 /// The result for programs.

@@ -56,10 +56,8 @@ void writeJson(std::FILE* out, const DriveIdentification& identification, const 
                         {"sample_period", found.sample_period},
                         {"mean_period", monitor.input().mean_period},
                         {"warnings", found.warnings},
-                        {"horizon_samples", found.horizon_samples},
-                        {"ls", toJson(found.ls)},
-                        {"la", toJson(found.la)},
-                        {"iv", toJson(found.iv)}};
+                        {"horizon_samples", found.horizon_samples}};
+  addEstimates(found, result);
   if (const TyreTracker* tyre = identification.tyre())
     result["tyre"] = {{"ls", toJson(tyre->report().ls, monitor.report().ls)},
                       {"la", toJson(tyre->report().la, monitor.report().la)}};
@@ -67,28 +65,22 @@ void writeJson(std::FILE* out, const DriveIdentification& identification, const 
   std::fprintf(out, "%s\n", result.dump(2).c_str());
 }
 
-/// @param has_iv  the model is linear, so that there are instrumental variables.
-void printEnd(const DriveIdentification& identification, const IdentifyResult& found, const std::optional<double>& mass,
-              bool has_iv) {
-  std::printf("\nat the end, over the last %.0f rows:\n", found.la.rows);
-  printResult("LS", found.ls, mass);
-  printResult("LA", found.la, mass);
+void printEnd(const DriveIdentification& identification, const IdentifyResult& found,
+              const std::optional<double>& mass) {
+  std::printf("\n");
+  printEstimates(found, mass);
   if (const TyreTracker* tyre = identification.tyre()) {
     const MonitorReport& strut = identification.monitor().report();
     printTyre("LS", tyre->report().ls, strut.ls);
     printTyre("LA", tyre->report().la, strut.la);
   }
-  if (!has_iv) return;
-  std::printf("over the whole drive, by instrumental variables:\n");
-  printResult("IV", found.iv, mass);
 }
 
-std::string suspicions(const DriveIdentification& identification) {
+std::string suspicions(const DriveIdentification& identification, const IdentifiedStrut& found) {
   const SensorReport& sensor = identification.monitor().report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated) return "; " + describe(sensor);
-  const StrutEstimate& la = identification.monitor().report().la;
   constexpr double kCertain = 5.0;  // standard deviations
-  return describeSuspicions(identification.grid(), la.damping_to_mass < -kCertain * la.damping_to_mass_stddev);
+  return describeSuspicions(identification.grid(), found.damping_to_mass < -kCertain * found.damping_to_mass_stddev);
 }
 
 }  // namespace
@@ -121,17 +113,14 @@ void identify(const Arguments& arguments) {
   if (csv) RowTable::writeHead(csv->stream(), false);
   RowTable table(csv ? csv->stream() : nullptr, "");
   Digest<MonitorReport> digest(kTableLines);
-  bool ever_valid = false;
   const PipelineOptions& pipeline = options.pipeline;
   RecordedIdentification recorded(options, [&](const MonitorReport& report) {
     table.add(report);
-    if (!report.has_row) return;
-    ever_valid = ever_valid || report.la.valid() || report.ls.valid();
-    digest.add(report);
+    if (report.has_row) digest.add(report);
   });
   TopicGaps gaps(pipeline.shell.input_timeout);
   recorded.read(gaps);
-  const DriveIdentification& identification = recorded.made();
+  DriveIdentification& identification = recorded.made();
   const RejectCounts rejected = recorded.rejected();
   gaps.explain([&] { requireRows(identification.monitor(), identification.grid(), rejected); });
   table.finish();
@@ -149,14 +138,14 @@ void identify(const Arguments& arguments) {
   gaps.print();
   printInput(monitor, identification.grid(), options, rejected);
   printTable(digest.items());
-  printEnd(identification, result, pipeline.monitor.sprung_mass, !recorded.hasEffects());
+  printEnd(identification, result, pipeline.monitor.sprung_mass);
   printChange(change);
-  const auto reason = whyNotValid(monitor, ever_valid);
+  const auto reason = whyNotValid(result, pipeline.monitor);
   if (!reason)
     for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
   printWritten(*values, not_nominal.empty() ? outputs : std::vector<std::string>{"csv", "json"});
   if (settings && !not_nominal.empty() && !reason) throw TooLittleError("no settings are written: " + not_nominal);
-  if (reason) throw TooLittleError(*reason + suspicions(identification) + describeRejected(rejected));
+  if (reason) throw TooLittleError(*reason + suspicions(identification, result.estimate) + describeRejected(rejected));
 }
 
 }  // namespace suspension_health_monitor

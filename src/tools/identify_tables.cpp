@@ -7,6 +7,7 @@
 
 #include "bag_samples.h"
 #include "errors.h"
+#include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
@@ -28,12 +29,6 @@ std::string describeOscillation(const IdentifiedStrut& estimate) {
 std::string describeHop(const WheelEstimate& estimate) {
   const double frequency = estimate.wheelHopFrequency();
   return std::isnan(frequency) ? "no wheel hop" : "wheel hop " + cell(0, 3, frequency) + " Hz";
-}
-
-// Parked at the end: what was learned on the drive still holds.
-bool isHeld(EstimateDoubt doubt) {
-  return doubt == EstimateDoubt::kNotExcited || doubt == EstimateDoubt::kDampingNotExcited ||
-         doubt == EstimateDoubt::kStiffnessNotExcited;
 }
 
 }  // namespace
@@ -60,14 +55,16 @@ void requireRows(const SuspensionMonitor& monitor, const UniformGrid& grid, cons
 }
 
 void printTable(const std::vector<MonitorReport>& reports) {
-  std::printf("              damping/mass [1/s]   stiffness/mass [1/s^2]           free run\n");
-  std::printf("    time [s]        LS        LA           LS         LA rmse [m/s^2]  fit [%%]   valid\n");
+  std::printf("                   damping/mass [1/s]           stiffness/mass [1/s^2]           free run\n");
+  std::printf(
+      "    time [s]  estimate       LS       LA   estimate         LS         LA rmse [m/s^2]  fit [%%]   valid\n");
   for (const MonitorReport& report : reports)
-    std::printf("%12.2f %s %s  %s %s %s %s   %s\n", toSeconds(report.stamp),
-                cell(9, 4, report.ls.damping_to_mass).c_str(), cell(9, 4, report.la.damping_to_mass).c_str(),
-                cell(11, 4, report.ls.stiffness_to_mass).c_str(), cell(10, 4, report.la.stiffness_to_mass).c_str(),
+    std::printf("%12.2f %s %s %s %s %s %s %s %s   %s\n", toSeconds(report.stamp),
+                cell(9, 4, report.estimate.damping_to_mass).c_str(), cell(8, 4, report.ls.damping_to_mass).c_str(),
+                cell(8, 4, report.la.damping_to_mass).c_str(), cell(10, 4, report.estimate.stiffness_to_mass).c_str(),
+                cell(10, 4, report.ls.stiffness_to_mass).c_str(), cell(10, 4, report.la.stiffness_to_mass).c_str(),
                 cell(12, 4, report.comparison.rmse).c_str(), cell(8, 1, report.comparison.fit_percent).c_str(),
-                report.la.valid() ? "yes" : "no");
+                report.estimate.valid() ? "yes" : "no");
 }
 
 void printResult(const char* name, const IdentifiedStrut& estimate, const std::optional<double>& mass) {
@@ -85,16 +82,33 @@ void printResult(const char* name, const IdentifiedStrut& estimate, const std::o
                 *mass * estimate.stiffness_to_mass);
 }
 
+void printEstimates(const IdentifyResult& found, const std::optional<double>& mass) {
+  std::printf("over the whole drive, %.0f blocks:\n", found.estimate.rows);
+  printResult("estimate", found.estimate, mass);
+  std::printf("at its end, over the last %.0f rows:\n", found.la.rows);
+  printResult("LS", found.ls, mass);
+  printResult("LA", found.la, mass);
+}
+
 nlohmann::json toJson(const IdentifiedStrut& estimate) {
-  nlohmann::json result = {{"damping_to_mass", estimate.damping_to_mass},
-                           {"stiffness_to_mass", estimate.stiffness_to_mass},
-                           {"damping_to_mass_stddev", estimate.damping_to_mass_stddev},
-                           {"stiffness_to_mass_stddev", estimate.stiffness_to_mass_stddev},
-                           {"natural_frequency", estimate.naturalFrequency()},
-                           {"damping_ratio", estimate.dampingRatio()},
-                           {"valid", estimate.valid}};
-  if (!estimate.valid) result["reason"] = estimate.reason;
-  return result;
+  return {{"damping_to_mass", estimate.damping_to_mass},
+          {"stiffness_to_mass", estimate.stiffness_to_mass},
+          {"damping_to_mass_stddev", estimate.damping_to_mass_stddev},
+          {"stiffness_to_mass_stddev", estimate.stiffness_to_mass_stddev},
+          {"natural_frequency", estimate.naturalFrequency()},
+          {"damping_ratio", estimate.dampingRatio()},
+          {"valid", estimate.valid},
+          {"reason", estimate.reason},
+          {"explained", estimate.explained},
+          {"rows", estimate.rows}};
+}
+
+void addEstimates(const IdentifyResult& found, nlohmann::json& result) {
+  result["estimate"] = toJson(found.estimate);
+  result["estimate"]["age"] = found.estimate.age;
+  result["iv"] = result["estimate"];  // until the next version
+  result["ls"] = toJson(found.ls);
+  result["la"] = toJson(found.la);
 }
 
 void printChange(const std::string& change) {
@@ -117,18 +131,15 @@ void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstim
   if (const auto ratio = massRatio(strut, estimate)) std::printf("    wheel mass / body mass %.4f\n", *ratio);
 }
 
-std::optional<std::string> whyNotValid(const SuspensionMonitor& monitor, bool was_valid) {
-  if (monitor.report().ls.valid() || monitor.report().la.valid()) return std::nullopt;
-  if (auto warning = periodWarning(monitor)) return warning;
-  if (was_valid && isHeld(monitor.report().la.doubt)) return std::nullopt;
-  if (!was_valid) {
-    const MonitorSettings settings(monitor.options());
-    const double enough =
-        settings.samplesOfRow(monitor.period()) + settings.fewestRows(kFewestHorizons, monitor.period());
-    return "no estimate was ever valid: too short" + describeEnough(enough * monitor.period()) +
-           ", too little motion, or not the two sides of one strut";
-  }
-  return "no estimate is valid at the end of the drive: " + describe(monitor.report().la.doubt) + " (column \"valid\")";
+std::optional<std::string> whyNotValid(const IdentifyResult& found, const MonitorOptions& options) {
+  if (found.estimate.valid || found.now.valid) return std::nullopt;
+  if (found.estimate.rows > 0.0) return "no estimate is valid: " + found.estimate.reason;
+  constexpr double kLengths = (BlockEstimator::kWindows[0] + 1) / 2.0;  // of blocks that overlap by half
+  const double enough = kLengths * options.block_length;
+  if (static_cast<double>(found.samples) * found.sample_period < enough)
+    return "there is no estimate: too short" + describeEnough(enough);
+  return std::string("there is no estimate: too little motion, ") + (found.gaps > 0 ? "too many gaps, " : "") +
+         "or not the two sides of one strut";
 }
 
 }  // namespace suspension_health_monitor

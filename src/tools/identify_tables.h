@@ -25,7 +25,13 @@ void printTable(const std::vector<MonitorReport>& reports);
 /// @param name  of the estimator.  @param mass  of the body [kg], for damping and stiffness in SI.
 void printResult(const char* name, const IdentifiedStrut& estimate, const std::optional<double>& mass);
 
+/// Over the whole drive, which is what to trust; then LS and LA at its end.
+void printEstimates(const IdentifyResult& found, const std::optional<double>& mass);
+
 nlohmann::json toJson(const IdentifiedStrut& estimate);
+
+/// Adds the same to a result for programs.
+void addEstimates(const IdentifyResult& found, nlohmann::json& result);
 
 /// How the strut is against the healthy one.
 /// @param change  in a sentence; nothing is told of an empty one.
@@ -34,9 +40,7 @@ void printChange(const std::string& change);
 /// @param strut  by the same estimator.
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);
 
-/// @param was_valid  an estimate was valid at some time.
-/// @return why neither LS nor LA is valid at the end of the drive, in words; nothing: one of them is, or both
-///         are held, since the drive ends parked.
-std::optional<std::string> whyNotValid(const SuspensionMonitor& monitor, bool was_valid);
+/// @return why the strut is not known, neither over the whole drive nor at its end, in words; nothing: it is.
+std::optional<std::string> whyNotValid(const IdentifyResult& found, const MonitorOptions& options);
 
 }  // namespace suspension_health_monitor

@@ -19,16 +19,15 @@ namespace suspension_health_monitor {
 namespace {
 
 nlohmann::json toJson(const IdentifyResult& found) {
-  return {{"samples", found.samples},
+  nlohmann::json result{{"samples", found.samples},
           {"rows", found.rows},
           {"gaps", found.gaps},
           {"clock_jumps", found.clock_jumps},
           {"sample_period", found.sample_period},
           {"horizon_samples", found.horizon_samples},
-          {"warnings", found.warnings},
-          {"ls", toJson(found.ls)},
-          {"la", toJson(found.la)},
-          {"iv", toJson(found.iv)}};
+          {"warnings", found.warnings}};
+  addEstimates(found, result);
+  return result;
 }
 
 std::vector<Baseline> healthyStruts(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
@@ -87,11 +86,8 @@ void identifyStruts(const boost::program_options::variables_map& values) {
   for (const std::size_t i : vehicle.asked) {
     const IdentifyResult& strut = found.struts[i];
     const PipelineOptions& its_settings = settings.struts[i];
-    std::printf("\n%s, at the end, over the last %.0f rows:\n", vehicle.names[i].c_str(), strut.la.rows);
-    printResult("LS", strut.ls, its_settings.monitor.sprung_mass);
-    printResult("LA", strut.la, its_settings.monitor.sprung_mass);
-    std::printf("over the whole drive, by instrumental variables:\n");
-    printResult("IV", strut.iv, its_settings.monitor.sprung_mass);
+    std::printf("\n%s, ", vehicle.names[i].c_str());
+    printEstimates(strut, its_settings.monitor.sprung_mass);
     const std::string change = describeChange(strut, healthy[i], its_settings.monitor);
     printChange(change);
     if (const std::optional<StrutOfDrive> its = strutOf(strut)) {

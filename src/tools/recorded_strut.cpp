@@ -18,9 +18,7 @@ RecordedIdentification::RecordedIdentification(const BagOptions& options, DriveI
     : options_(options),
       made_(options.pipeline.monitor, std::move(report)),
       sensors_(options.pipeline.shell, options.bags.transforms.get()) {
-  const LiveModel model(options.pipeline.shell);
-  has_effects_ = !model.effects().empty();
-  made_.setEffects(model.effects());
+  made_.setEffects(LiveModel(options.pipeline.shell).effects());
 }
 
 void RecordedIdentification::read(TopicGaps& gaps) {

@@ -30,15 +30,13 @@ class RecordedIdentification {
   /// @param gaps  is told of all that is read.
   void read(TopicGaps& gaps);
 
-  const DriveIdentification& made() const { return made_; }
-  bool hasEffects() const { return has_effects_; }
+  DriveIdentification& made() { return made_; }
 
   /// @return everything that was kept out.
   RejectCounts rejected() const;
 
  private:
   BagOptions options_;
-  bool has_effects_;
   DriveIdentification made_;
   StrutSensors sensors_;
 };

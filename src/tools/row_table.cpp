@@ -9,7 +9,8 @@ RowTable::RowTable(std::FILE* out, const std::string& strut) : out_(out), strut_
 void RowTable::writeHead(std::FILE* out, bool of_vehicle) {
   std::fprintf(out,
                "time,%sls_damping_to_mass,ls_stiffness_to_mass,la_damping_to_mass,la_stiffness_to_mass,"
-               "measured,predicted,residual\n",
+               "measured,predicted,residual,estimate_damping_to_mass,estimate_stiffness_to_mass,"
+               "estimate_damping_to_mass_stddev,estimate_stiffness_to_mass_stddev\n",
                of_vehicle ? "strut," : "");
 }
 
@@ -18,7 +19,9 @@ void RowTable::add(const MonitorReport& report) {
   if (!waiting_.empty() && report.stamp < waiting_.back().stamp) finish();  // the clock went back
   if (report.has_row)
     waiting_.push_back({report.stamp, report.ls.damping_to_mass, report.ls.stiffness_to_mass, report.la.damping_to_mass,
-                        report.la.stiffness_to_mass, report.measured});
+                        report.la.stiffness_to_mass, report.measured, report.estimate.damping_to_mass,
+                        report.estimate.stiffness_to_mass, report.estimate.damping_to_mass_stddev,
+                        report.estimate.stiffness_to_mass_stddev});
   const ComparisonReport& comparison = report.comparison;
   while (comparison.has_sample && !waiting_.empty() && waiting_.front().stamp <= comparison.stamp)
     write(waiting_.front().stamp == comparison.stamp ? comparison.predicted : std::nullopt);
@@ -35,9 +38,11 @@ void RowTable::write(const std::optional<double>& predicted) {
                row.stamp.count() % 1000000000, strut_.c_str(), row.ls_damping, row.ls_stiffness, row.la_damping,
                row.la_stiffness, row.measured);
   if (predicted)
-    std::fprintf(out_, "%.17g,%.17g\n", *predicted, row.measured - *predicted);
+    std::fprintf(out_, "%.17g,%.17g,", *predicted, row.measured - *predicted);
   else
-    std::fputs("nan,nan\n", out_);
+    std::fputs("nan,nan,", out_);
+  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g\n", row.damping, row.stiffness, row.damping_stddev,
+               row.stiffness_stddev);
 }
 
 }  // namespace suspension_health_monitor

@@ -29,6 +29,7 @@ class RowTable {
   struct Row {
     Stamp stamp;
     double ls_damping, ls_stiffness, la_damping, la_stiffness, measured;
+    double damping, stiffness, damping_stddev, stiffness_stddev;  // of the block estimate
   };
 
   void write(const std::optional<double>& predicted);

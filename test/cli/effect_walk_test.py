@@ -37,7 +37,7 @@ def test_five_commands_of_the_readme(tmp_path, port):
     told = (tmp_path / "replay.txt").read_text()
     assert "REQUIRED" not in told and "has died" not in told
     assert re.search(r"/monitor: driven for 1[12]\d\.\d s until the clock stopped, worst level OK \(OK .* s", told)
-    assert re.search(r"/monitor: la: damping/mass \S+ \+- \S+ 1/s, stiffness/mass \S+ \+- \S+ 1/s\^2", told)
+    assert re.search(r"/monitor: estimate: damping/mass \S+ \+- \S+ 1/s, stiffness/mass \S+ \+- \S+ 1/s\^2", told)
     rows = list(csv.DictReader(line for line in (tmp_path / "comparison.csv").read_text().splitlines()
                                if re.match(r"%time|\d", line)))
     assert len(rows) > 1000

@@ -79,6 +79,60 @@ def require_whole(url):
     assert rows(url, "SELECT id FROM drives WHERE status = 'ok' AND id NOT IN (SELECT drive_id FROM struts)") == []
 
 
+def make_schema_1(url):
+    """A database as the fleet had it at schema 1, with two drives of one strut by the estimators of then."""
+    import sqlalchemy
+    from sqlalchemy import Boolean, Column, Float, ForeignKey, Integer, String, Text
+    from suspension_health_monitor.fleet import database
+    engine = database.connect(url, create=True)
+    its = sqlalchemy.MetaData()
+    sqlalchemy.Table("drives", its, Column("id", Integer, primary_key=True))  # of which the next one refers to the number
+    struts = sqlalchemy.Table(
+        "struts", its, Column("id", Integer, primary_key=True),
+        Column("drive_id", Integer, ForeignKey("drives.id"), nullable=False, index=True),
+        Column("strut", Text, nullable=False), Column("estimator", String(2)), Column("damping_to_mass", Float),
+        Column("damping_to_mass_stddev", Float), Column("stiffness_to_mass", Float),
+        Column("stiffness_to_mass_stddev", Float), Column("damping_excitation", Float),
+        Column("stiffness_excitation", Float), Column("offset", Float), Column("temperature", Float),
+        Column("valid", Boolean, nullable=False), Column("reason", Text))
+    with engine.begin() as connection:
+        database.struts.drop(connection)
+        struts.create(connection)
+        connection.execute(database.schema.update().values(version=1))
+        for number, (estimator, damping) in enumerate((("iv", 5.0), ("la", 4.0)), 1):
+            connection.execute(database.drives.insert().values(
+                key=f"old {number}", path=f"old_{number}.bag", vehicle="robot", start=1e9 + number, duration=60.0,
+                status="ok", diagnosed=False, options="", scanned_at=1e9))
+            connection.execute(struts.insert().values(
+                drive_id=number, strut="left", estimator=estimator, damping_to_mass=damping, damping_to_mass_stddev=0.1,
+                stiffness_to_mass=60.0, stiffness_to_mass_stddev=0.5, damping_excitation=7.0, stiffness_excitation=8.0,
+                offset=0.01, valid=True))
+    engine.dispose()
+
+
+def require_migration(url):
+    """A scan takes such a database over: old rows stay until they are replaced, new ones stand beside them."""
+    from suspension_health_monitor.fleet import database
+    from suspension_health_monitor.fleet.drive import OK, Drive
+    for _ in range(2):
+        engine = database.connect(url, create=True)
+    assert rows(url, "SELECT version FROM fleet_schema") == [(2,)]
+    strut = dict(strut="left", estimator="estimate", damping_to_mass=3.0, damping_to_mass_stddev=0.1,
+                 stiffness_to_mass=60.0, stiffness_to_mass_stddev=0.5, offset=0.0, temperature=None, valid=True, reason=None)
+    drive = Drive(OK, start=1e9 + 9, duration=60.0, struts=[strut])
+    assert not database.write(engine, database.Bag("old 1", "old_1.bag", "robot"), drive), "it is known"
+    assert database.write(engine, database.Bag("new", "new.bag", "robot"), drive)
+    (history,) = database.histories(engine)
+    assert history.damping_to_mass.tolist() == [5.0, 4.0, 3.0] and history.former.tolist() == [True, True, False]
+    assert rows(url, "SELECT estimator, damping_excitation FROM struts ORDER BY id") == [
+        ("iv", 7.0), ("la", 7.0), ("estimate", None)]
+    assert database.write(engine, database.Bag("old 1", "old_1.bag", "robot"), drive, again=True)
+    assert database.write(engine, database.Bag("old 2", "old_2.bag", "robot"), drive, again=True)
+    (history,) = database.histories(engine)
+    assert history.damping_to_mass.tolist() == [3.0, 3.0, 3.0] and history.former is None
+    engine.dispose()
+
+
 def write_program(path, lines):
     """A program instead of suspension_bag; $1 is the command, $2 the bag."""
     path.write_text("#!/bin/sh\n" + lines + '\nexec "$REAL" "$@"\n')

@@ -5,16 +5,16 @@ import threading
 
 import pytest
 
-pytest.importorskip("sqlalchemy")
-from suspension_health_monitor.fleet import database, wording  # noqa: E402  after the reason to skip
-from suspension_health_monitor.fleet.drive import CRASHED, OK, POOR, UNREAD, UNREADABLE, Drive  # noqa: E402
-from suspension_health_monitor.fleet.errors import FleetError, UsageError  # noqa: E402
+import fleet
+from suspension_health_monitor.fleet import database, wording
+from suspension_health_monitor.fleet.drive import CRASHED, OK, POOR, UNREAD, UNREADABLE, Drive
+from suspension_health_monitor.fleet.errors import FleetError, UsageError
 
 
 def estimate(strut, damping, valid=True):
-    return dict(strut=strut, estimator="iv", damping_to_mass=damping, damping_to_mass_stddev=0.1,
-                stiffness_to_mass=60.0, stiffness_to_mass_stddev=0.5, damping_excitation=None, stiffness_excitation=None, offset=0.01,
-                temperature=None, valid=valid, reason=None if valid else "parked")
+    return dict(strut=strut, estimator="estimate", damping_to_mass=damping, damping_to_mass_stddev=0.1,
+                stiffness_to_mass=60.0, stiffness_to_mass_stddev=0.5, offset=0.01, temperature=None, valid=valid,
+                reason=None if valid else "parked")
 
 
 def bag(key, path="a.bag", **more):
@@ -121,10 +121,19 @@ def test_a_newer_schema_is_refused(tmp_path):
     url = f"sqlite:///{tmp_path / 'fleet.db'}"
     database.connect(url, create=True)
     with sqlite3.connect(tmp_path / "fleet.db") as connection:
-        connection.execute("UPDATE fleet_schema SET version = 2")
+        connection.execute("UPDATE fleet_schema SET version = 3")
     for create in (False, True):
-        with pytest.raises(FleetError, match="fleet.db has schema version 2, this program knows 1"):
+        with pytest.raises(FleetError, match="fleet.db has schema version 3, this program knows 2"):
             database.connect(url, create)
+
+
+def test_a_database_of_schema_1_is_migrated_in_place(tmp_path):
+    url = f"sqlite:///{tmp_path / 'fleet.db'}"
+    fleet.make_schema_1(url)
+    (history,) = database.histories(database.connect(url))
+    assert history.damping_to_mass.tolist() == [5.0, 4.0] and history.former is None, "may be read as it is"
+    assert fleet.rows(url, "SELECT version FROM fleet_schema") == [(1,)]
+    fleet.require_migration(url)
 
 
 def test_what_is_no_fleet_is_refused(tmp_path):

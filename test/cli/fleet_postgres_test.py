@@ -81,13 +81,23 @@ def test_histories(server):
     assert set(history.damping_to_mass) == {history.damping_to_mass[0]} and history.damping_to_mass[0] > 0
 
 
+def test_a_database_of_schema_1_is_migrated_in_place(server):
+    """Its column is too narrow for the name of the estimator."""
+    of_its_own = server.rpartition("/")[0] + "/old"
+    import sqlalchemy
+    with sqlalchemy.create_engine(server).connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
+        connection.execute(sqlalchemy.text("CREATE DATABASE old"))
+    fleet.make_schema_1(of_its_own)
+    fleet.require_migration(of_its_own)
+
+
 def test_a_newer_schema_is_refused(server, tmp_path):
     import sqlalchemy
     engine = sqlalchemy.create_engine(server)
     with engine.begin() as connection:
-        connection.execute(sqlalchemy.text("UPDATE fleet_schema SET version = 2"))
+        connection.execute(sqlalchemy.text("UPDATE fleet_schema SET version = 3"))
     status, output, error = fleet.run(tmp_path, "scan", tmp_path, "--db", server)
     assert (status, output) == (3, "")
     (tmp_path / "a.bag").write_text("no bag\n")
     status, output, error = fleet.run(tmp_path, "scan", tmp_path, "--db", server)
-    assert (status, output) == (3, "") and "has schema version 2, this program knows 1" in error
+    assert (status, output) == (3, "") and "has schema version 3, this program knows 2" in error

@@ -241,6 +241,24 @@ def test_repair_is_found_after_three_drives():
     assert change.part == "damping" and "damping +" in wording.change(change)
 
 
+@pytest.mark.parametrize("shift", [-0.02, 0.02])
+def test_another_estimator_is_no_change_of_the_strut(shift):
+    """It sees the same strut by 2 % otherwise: that is no step, no wear, and hides neither."""
+    time = np.linspace(0, 2, 120)
+    former = time < 1
+    seen = dict(damping=np.exp(shift * former) * noise(31, 120), stddev=0.003)
+    unaware = prognosis.prognosis(strut(time, **seen))
+    assert unaware.changes or unaware.dated, "who does not know it takes it for a change"
+    found = prognosis.prognosis(dataclasses.replace(strut(time, **seen), former=former))
+    assert found.changes == [] and found.likely_change is None and found.dated is None
+    broken = seen["damping"] * np.where(time < 1.5, 1.0, 0.75)
+    found = prognosis.prognosis(dataclasses.replace(strut(time, broken, stddev=0.003), former=former))
+    (change,) = found.changes
+    assert change.time == pytest.approx(BEGIN + YEAR * time[time >= 1.5][0])
+    worn = dict(damping=seen["damping"] * (1 - 0.12 * time), stddev=0.003)
+    assert prognosis.prognosis(dataclasses.replace(strut(time, **worn), former=former)).dated == "damping"
+
+
 def test_trend_begins_anew_after_a_repair():
     found = prognosis.prognosis(worn_and_renewed(60))
     assert found.wear["damping"].since == pytest.approx(BEGIN + YEAR)

@@ -41,7 +41,7 @@ def write_fleet(engine, folder):
             shares = {"left": 1 - 0.12 * wears, "right": 1 - 0.2 * wears if time < 1 else 1.0}
             load = random.uniform(1, 1.3)
             struts = [dict(
-                strut=name, estimator="iv", damping_to_mass=4 * share * np.exp(0.01 * random.normal()) / load,
+                strut=name, estimator="estimate", damping_to_mass=4 * share * np.exp(0.01 * random.normal()) / load,
                 damping_to_mass_stddev=0.04, stiffness_to_mass=60 / load, stiffness_to_mass_stddev=0.6, offset=0.0,
                 temperature=None, valid=True, reason=None) for name, share in shares.items()]
             last = k == drives - 1 and vehicle == HOSTILE
@@ -121,7 +121,7 @@ def test_wrong_clocks_change_nothing_but_are_named(fleet, tmp_path):
     shutil.copy(fleet.url[len("sqlite:///"):], str(copy))
     engine = database.connect(f"sqlite:///{copy}")
     for start in (3.0, 4e6):
-        struts = [dict(strut="left", estimator="iv", damping_to_mass=9.0, damping_to_mass_stddev=0.04, stiffness_to_mass=60.0,
+        struts = [dict(strut="left", estimator="estimate", damping_to_mass=9.0, damping_to_mass_stddev=0.04, stiffness_to_mass=60.0,
                        stiffness_to_mass_stddev=0.6, offset=0.0, temperature=None, valid=True, reason=None)]
         database.write(engine, database.Bag(str(start), f"{start}.bag", HOSTILE),
                        Drive(OK, start=start, duration=60.0, struts=struts))

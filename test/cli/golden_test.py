@@ -65,7 +65,8 @@ def test_csv_holds_the_measurement_and_what_the_model_leaves(program, tmp_path, 
     with_rows = identify(program, tmp_path, paper_bag)
     header = (tmp_path / "estimates.csv").read_text().split("\n", 1)[0]
     assert header == ("time,ls_damping_to_mass,ls_stiffness_to_mass,la_damping_to_mass,la_stiffness_to_mass,"
-                      "measured,predicted,residual")
+                      "measured,predicted,residual,estimate_damping_to_mass,estimate_stiffness_to_mass,"
+                      "estimate_damping_to_mass_stddev,estimate_stiffness_to_mass_stddev")
     _, sprung, _ = imu_bag.paper_drive()
     np.testing.assert_array_equal(with_rows["measured"], sprung[60:] + 9.81)  # the first row is at sample 2 L
     predicts = np.isfinite(with_rows["predicted"])

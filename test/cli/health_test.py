@@ -68,7 +68,8 @@ def test_wear_is_told_when_it_comes(worn):
     assert levels(worn) == ["STALE", "OK", "WARN", "ERROR"]
     times = [event["time"] - START for event in worn.result["events"]]
     assert times[0] == pytest.approx(0.0, abs=1e-6)
-    assert times[1] < 10.0
+    # Of a bounce of 0.6 Hz: 4 s until blocks of 2 s know it, then two blocks of 4 s and a reading or so that closes them.
+    assert times[1] < 4.0 + 8.0 + 1.0
     for time, truth in zip(times[2:], (WARN_TIME, ERROR_TIME)):
         assert truth - SLACK < time < truth + SLACK + LAG
     assert re.match(r"damping 3\d % below nominal", worn.result["events"][-1]["message"])
@@ -102,13 +103,17 @@ def test_table_has_every_second_and_the_events_of_the_result(worn):
 
 
 def test_estimates_are_those_of_the_drive(worn):
-    last, la = worn.rows[-1], worn.result["la"]
+    last, estimate = worn.rows[-1], worn.result["estimate"]
     assert float(last["b1"]) == pytest.approx(2.0, abs=0.4)
     assert float(last["b0"]) == pytest.approx(B0, rel=0.1)
-    assert la["damping_to_mass"] == pytest.approx(float(last["b1"]), abs=float(last["b1_stddev"]))
-    assert 0.0 < la["damping_to_mass_stddev"] < 1.0
-    b1, stddev = re.search(r"^LA: damping/mass (\S+) \+- (\S+) 1/s", worn.text, re.MULTILINE).groups()
-    assert (float(b1), float(stddev)) == pytest.approx((la["damping_to_mass"], la["damping_to_mass_stddev"]), abs=1e-4)
+    assert estimate["damping_to_mass"] == pytest.approx(float(last["b1"]), abs=float(last["b1_stddev"]))
+    assert 0.0 < estimate["damping_to_mass_stddev"] < 1.0
+    b1, stddev = re.search(r"^estimate: damping/mass (\S+) \+- (\S+) 1/s", worn.text, re.MULTILINE).groups()
+    assert (float(b1), float(stddev)) == pytest.approx(
+        (estimate["damping_to_mass"], estimate["damping_to_mass_stddev"]), abs=1e-4)
+    assert set(estimate["friction"]) == {"force", "stddev", "damping_gain"}
+    assert abs(estimate["delay"]) < 3 * estimate["delay_stddev"] and "late" not in worn.text
+    assert estimate["explained"] > 0.9 and 0 < estimate["age"] < estimate["window"] and estimate["reason"] == ""
 
 
 def test_offset_between_the_sensors_is_in_the_table(program, tmp_path):
@@ -154,28 +159,40 @@ def test_start_and_end_choose_a_part(program, worn_bag, tmp_path):
 
 
 BASELINE = f"damping_to_mass: {B1}\ndamping_to_mass_stddev: 0.03\nstiffness_to_mass: {B0}\nstiffness_to_mass_stddev: 0.1\n"
+BY_BLOCKS = "friction_damping_covariance: 0\n"  # what files of former estimators do not have
 
 
 def test_baseline_file_is_what_is_judged_by(program, worn_bag, tmp_path):
     path = tmp_path / "strut.yaml"
-    path.write_text(BASELINE)
+    path.write_text(BASELINE + BY_BLOCKS)
     said = health(program, tmp_path, [worn_bag], "--baseline", path)
     assert f"judged by the baseline of {path}: damping/mass 3 +- 0.03 1/s" in said.text
     assert levels(said)[-1] == "ERROR"
     assert re.match(r"damping 3\d % below baseline", said.result["events"][-1]["message"])
     assert health(program, tmp_path, [worn_bag], "--set", f"baseline_file={path}").result == said.result
-    assert path.read_text() == BASELINE
+    assert path.read_text() == BASELINE + BY_BLOCKS
+    path.write_text(BASELINE)
+    widened = np.hypot(0.03, 0.02 * B1)  # by 2 % between the estimators
+    assert f"damping/mass 3 +- {widened:.2g} 1/s" in health(program, tmp_path, [worn_bag], "--baseline", path).text
 
 
 def test_friction_that_the_baseline_had_on_a_smoother_road_is_taken_out_of_it(program, worn_bag, tmp_path):
-    def damping_lost(friction):
+    """Dampers are compared as they act on a road between the two: friction f as f m, m the mean of both gains."""
+    def worn(text):
         path = tmp_path / "strut.yaml"
-        path.write_text(BASELINE + friction)
-        said = health(program, tmp_path, [worn_bag], "--baseline", path)
-        return int(re.match(r"damping (\d+) % below baseline", said.result["end"]["message"])[1])
-    smooth = "dry_friction: 0.02\ndry_friction_stddev: 0.001\nfriction_damping_gain: 20\nfriction_stiffness_gain: 0\n"
-    # The gain is 5 to 10 here: b1 of the healthy strut is 2.7 to 2.8 instead of 3, and some 1.95 of it is left.
-    assert 3 <= damping_lost("") - damping_lost(smooth) <= 8
+        path.write_text(BASELINE + text)
+        result = health(program, tmp_path, [worn_bag], "--baseline", path).result
+        return int(re.match(r"damping (\d+) % below baseline", result["end"]["message"])[1]), result["estimate"]
+
+    force, gain = 0.02, 20.0
+    friction = f"dry_friction: {force}\ndry_friction_stddev: 0.001\nfriction_damping_gain: {gain}\n"
+    lost, now = worn(friction + BY_BLOCKS)
+    between = (gain + now["friction"]["damping_gain"]) / 2
+    acts = now["damping_to_mass"] + now["friction"]["force"] * between
+    assert lost == pytest.approx(100 * (1 - acts / (B1 + force * between)), abs=0.6)
+    former, _ = worn(friction + "friction_stiffness_gain: 0\n")  # its b1 has the friction's share in it
+    assert former == pytest.approx(100 * (1 - acts / (B1 - force * gain + force * between)), abs=0.6)
+    assert lost - former > 6
 
 
 @pytest.mark.parametrize("text, words", [
@@ -223,7 +240,7 @@ def test_silence_is_not_health(program, healthy_bag, tmp_path):
     silent = next(event for event in said.result["events"] if "no reading accepted for 15 s" in event["message"])
     assert silent["level"] == "STALE"
     assert silent["time"] - START == pytest.approx(60.0 + TIMEOUT, abs=0.021)
-    assert "before: damping at nominal" in silent["message"]
+    assert re.search(r"before: damping (at|[1-3] % below) nominal", silent["message"])  # known to 1.4 %
     assert sum(said.result["seconds"].values()) == pytest.approx(DURATION, abs=1e-6)
     assert said.result["seconds"]["STALE"] >= 15.0 - TIMEOUT
     assert levels(said)[-1] == "OK" and set(levels(said)) == {"STALE", "OK"}
@@ -240,7 +257,7 @@ def test_stamps_of_another_age_are_no_years(program, healthy_bag, tmp_path, chan
             bag.write(topic, message, time)
     said = health(program, tmp_path, [tmp_path / "years.bag"], *SETTINGS)
     assert sum(said.result["seconds"].values()) == pytest.approx(110.0, abs=0.1)
-    assert said.result["seconds"]["OK"] > 90.0
+    assert said.result["seconds"]["OK"] > 110.0 - 2 * 13.0  # each clock begins with what it does not know yet
     assert said.result["end"]["level"] == "OK"
 
 

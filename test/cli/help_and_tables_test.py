@@ -70,7 +70,7 @@ def flat(settings, prefix=""):
                                 else {prefix + name: nested}).items()}
 
 
-@pytest.mark.parametrize("of, count", [("monitor", 36), ("simulator", 31)])
+@pytest.mark.parametrize("of, count", [("monitor", 37), ("simulator", 31)])
 def test_shipped_settings_show_every_option_with_its_default(program, of, count):
     """The commented ones, too; of those that have no default an example."""
     lines = program.succeed("options", of).splitlines()
@@ -96,8 +96,8 @@ def test_identify_prints_a_table(program, paper_bag):
     assert 6 <= len(rows) <= 24
     times = [float(row[0]) for row in rows]
     assert times == sorted(times) and times[-1] - times[0] > 30
-    assert [float(value) for value in rows[-1][3:5]] == pytest.approx([13.8, 13.8], rel=0.1)
-    for name in ("LS", "LA"):
+    assert [float(value) for value in rows[-1][4:7]] == pytest.approx([13.8, 13.8, 13.8], rel=0.1)
+    for name in ("estimate", "LS", "LA"):
         numbers = re.search(rf"^{name}: damping/mass (\S+) \+- (\S+) 1/s, stiffness/mass (\S+) \+- (\S+) 1/s\^2, "
                             r"(\S+) Hz, damping ratio (\S+)", text, re.MULTILINE).groups()
         b1, _, b0, _, frequency, ratio = map(float, numbers)
@@ -108,8 +108,8 @@ def test_identify_prints_a_table(program, paper_bag):
 
 def test_mass_gives_damping_and_stiffness(program, paper_bag):
     text = program.succeed("identify", paper_bag, "--set", "sprung_mass=50")
-    b1, b0 = map(float, re.search(r"^LA: damping/mass (\S+) .*stiffness/mass (\S+) ", text, re.MULTILINE).groups())
-    damping, stiffness = map(float, re.search(r"^LA: .*\n +damping (\S+) N s/m, stiffness (\S+) N/m$", text,
+    b1, b0 = map(float, re.search(r"^estimate: damping/mass (\S+) .*stiffness/mass (\S+) ", text, re.MULTILINE).groups())
+    damping, stiffness = map(float, re.search(r"^estimate: .*\n +damping (\S+) N s/m, stiffness (\S+) N/m$", text,
                                               re.MULTILINE).groups())
     assert (damping, stiffness) == pytest.approx((50 * b1, 50 * b0), rel=1e-3)
 

@@ -17,7 +17,7 @@ def drive():
 
 
 def numbers(found):
-    return found.la.damping_to_mass, found.la.stiffness_to_mass, found.iv.damping_to_mass, found.rows
+    return found.la.damping_to_mass, found.la.stiffness_to_mass, found.estimate.damping_to_mass, found.rows
 
 
 def test_one_stamp_or_two_or_a_period_or_nanoseconds(drive):

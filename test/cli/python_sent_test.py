@@ -94,7 +94,7 @@ def judge(seed):
     return shm.identify(shm.simulate(seed=seed, duration=30.0, **{ROUGH!r}))
 if __name__ == "__main__":
     with multiprocessing.get_context("spawn").Pool(2) as pool:
-        print([round(each.iv.stiffness_to_mass) for each in pool.map(judge, [1, 2, 3])])
+        print([round(each.estimate.stiffness_to_mass) for each in pool.map(judge, [1, 2, 3])])
 """)
     result = subprocess.run([sys.executable, script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=600)
     assert result.stdout == "[40, 40, 40]\n", result.stderr

@@ -53,7 +53,7 @@ def test_a_vehicle_is_the_command_lines(program, tmp_path, model, settings):
     assert monitor.is_coupled and list(monitor.reports) == names
     for name, report in monitor.reports.items():
         for number in ("damping_to_mass", "stiffness_to_mass"):
-            assert getattr(report.la, number) == pytest.approx(expected[name]["la"][number], rel=1e-9), name
+            assert getattr(report.estimate, number) == pytest.approx(expected[name]["estimate"][number], rel=1e-9), name
 
 
 @pytest.fixture(scope="module")
@@ -77,16 +77,16 @@ def test_every_strut_of_a_bag_is_the_command_lines(program, tmp_path, half_car):
     for name in ("front", "rear"):
         identified, compared, searched, watched = (found[command][name] for command in expected)
         its = {command: struts[name] for command, struts in expected.items()}
-        for estimator in ("ls", "la", "iv"):
+        for estimator in ("estimate", "ls", "la"):
             for number in ("damping_to_mass", "stiffness_to_mass", "damping_to_mass_stddev"):
                 assert getattr(getattr(identified, estimator), number) == pytest.approx(
                     its["identify"][estimator][number], rel=1e-12)
-        assert identified.course.damping_to_mass[-1] == pytest.approx(identified.la.damping_to_mass, rel=0.02)
+        assert identified.course.damping_to_mass[-1] == pytest.approx(identified.now.damping_to_mass, rel=0.02)
         assert compared.free_run.rmse == pytest.approx(its["compare"]["free_run"]["rmse"], rel=1e-12)
         assert (searched.verdict, searched.selected) == (its["diagnose"]["verdict"], its["diagnose"]["selected"])
         assert searched.base.held_out_rmse == pytest.approx(its["diagnose"]["base"]["held_out_rmse"], rel=1e-12)
         assert [event.message for event in watched.events] == [event["message"] for event in its["health"]["events"]]
-        assert watched.la.stiffness_to_mass == pytest.approx(its["health"]["la"]["stiffness_to_mass"], rel=1e-12)
+        assert watched.estimate.stiffness_to_mass == pytest.approx(its["health"]["estimate"]["stiffness_to_mass"], rel=1e-12)
         assert len(watched.course.time) > 100
     assert found["diagnose"]["front"].selected == ["quadratic_damping"] and found["diagnose"]["rear"].selected == []
 

@@ -61,7 +61,7 @@ def test_health_table_has_the_events_of_every_strut(watched):
         changes = [row for row, before in zip(own, [{"level": None}, *own]) if row["level"] != before["level"]]
         assert [(row["level"], row["message"]) for row in changes] == [
             (event["level"], event["message"]) for event in strut["events"]]
-        assert float(own[-1]["b1"]) == pytest.approx(strut["la"]["damping_to_mass"], abs=0.1)
+        assert float(own[-1]["b1"]) == pytest.approx(strut["estimate"]["damping_to_mass"], abs=0.1)
 
 
 def test_health_page_has_a_timeline_per_strut(watched):

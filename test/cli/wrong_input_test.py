@@ -93,7 +93,7 @@ def test_rows_without_a_valid_estimate_are_shown_but_are_too_little(program, tmp
     bag = imu_bag.write_bag(tmp_path / "61.bag", [column[:61] for column in imu_bag.paper_drive()])
     result = program("identify", bag, *SETTINGS, "--csv", tmp_path / "rows.csv")
     assert result.returncode == 4
-    assert "no estimate was ever valid" in result.stderr
+    assert "there is no estimate: too short" in result.stderr
     assert "NOT VALID" in result.stdout
     assert len((tmp_path / "rows.csv").read_text().splitlines()) == 2  # the header and the one row that 2 L + 1 give
 

@@ -95,9 +95,14 @@ def test_a_relative_path_is_told_with_its_folder(program, paper_bag, tmp_path):
 
 
 def test_settings_that_contradict_each_other(program, paper_bag, tmp_path):
-    arguments = ["--set", "memory=1", "--set", "fastest_memory=2"]
+    arguments = ["--set", "memory=1", "--set", "sample_period=0.5"]
     program.refuse(2, ["identify", paper_bag, *arguments],
-                   ["fastest_memory = 2 [s]", "at most memory = 1 [s]"], tmp_path)
+                   ["memory = 1 [s]", "at least 5 [s]", "sample_period = 0.5 [s]"], tmp_path)
+
+
+def test_a_former_option_says_what_serves_instead(program, paper_bag, tmp_path):
+    program.refuse(2, ["identify", paper_bag, "--set", "fastest_memory=2"],
+                   ["fastest_memory is no option any more: the estimate follows a change of the strut by itself"], tmp_path)
 
 
 def test_set_overrides_the_file(program, paper_bag):

@@ -11,7 +11,7 @@ import sys
 import tempfile
 from typing import Optional, Tuple
 
-from .drive import CRASHED, OK, POOR, UNREADABLE, Drive
+from .drive import CRASHED, ESTIMATOR, OK, POOR, UNREADABLE, Drive
 from .errors import FleetError, UsageError
 
 ONLY_STRUT = "strut"  # the name of a strut that is judged alone
@@ -124,18 +124,18 @@ def _by_strut(result):
 
 
 def _strut_row(name, found):
-    """Of iv, over the whole drive, whose intervals are honest; where that is not valid of la at the end."""
-    estimator = next((each for each in ("iv", "la") if found[each]["valid"]), None)
-    estimate = found[estimator] if estimator else {}
+    """Of the estimate over the whole drive."""
+    estimate = found[ESTIMATOR]
+    valid = estimate["valid"]
     numbers = ("damping_to_mass", "damping_to_mass_stddev", "stiffness_to_mass", "stiffness_to_mass_stddev")
-    return dict(strut=name, estimator=estimator, **{number: estimate.get(number) for number in numbers},
-                damping_excitation=None, stiffness_excitation=None, offset=None, temperature=None,
-                valid=estimator is not None, reason=None if estimator else found["iv"].get("reason", "not valid"))
+    return dict(strut=name, estimator=ESTIMATOR if valid else None,
+                **{number: estimate[number] if valid else None for number in numbers}, offset=None, temperature=None,
+                valid=valid, reason=None if valid else estimate["reason"])
 
 
 def _add_health(row, said):
     if row is not None:
-        row.update((name, said["la"].get(name)) for name in ("offset", "damping_excitation", "stiffness_excitation"))
+        row["offset"] = said["la"]["offset"]
 
 
 def _finding(name, found, page):

@@ -51,7 +51,7 @@ def _bayes_factors(series, starts, season):
         place = bisect.bisect(starts, start)
         rates = [*layout.rates[:place], layout.rates[place - 1], *layout.rates[place:]]
         more = Layout([*starts[:place], start, *starts[place:]], rates)
-        grid_with, _ = scatter_grid(series, design(series, more), precision(more, season))
+        grid_with, _ = scatter_grid(series, design(series, more), precision(series, more, season))
         factors[start] = grid_with.log_integral - without
     return factors
 
@@ -79,7 +79,7 @@ def _likely(series, layout, season, grid, fits):
     added = np.stack([step, slope], axis=-1)  # (K, N, 2)
     crossed = np.einsum("np,n,knj->kpj", matrix, weight, added)
     own = np.einsum("kni,n,knj->kij", added, weight, added)
-    prior = np.diag(precision(layout, season))
+    prior = np.diag(precision(series, layout, season))
     known = np.linalg.inv((matrix.T * weight) @ matrix + prior)
     scores = np.einsum("n,knj->kj", score, added) - np.einsum("kpj,pq,q->kj", crossed, known, matrix.T @ score)
     information = own - np.einsum("kpi,pq,kqj->kij", crossed, known, crossed)

@@ -16,11 +16,12 @@ from sqlalchemy import (Boolean, Column, Float, ForeignKey, Integer, MetaData, S
 from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
 
 from . import wording
-from .drive import CRASHED, OK, UNREAD, UNREADABLE
+from .drive import CRASHED, ESTIMATOR, OK, UNREAD, UNREADABLE
 from .errors import FleetError, UsageError, naming
 from .history import Event, Finding, StrutHistory
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
+READABLE = (1, SCHEMA_VERSION)
 # A computer without a clock begins at 1970 or where its maker did, ROS is of 2007; simulated time begins at 0.
 EARLIEST = 946684800.0  # [s since 1970] 1 January 2000: what begins before is no date, or a clock of its own
 LOCK_TIMEOUT = 60  # [s] that a client waits while others write into the same SQLite file
@@ -49,9 +50,9 @@ def _of_drive():
 
 struts = Table(
     "struts", metadata, Column("id", Integer, primary_key=True), _of_drive(), Column("strut", Text, nullable=False),
-    Column("estimator", String(2)), Column("damping_to_mass", Float), Column("damping_to_mass_stddev", Float),
-    Column("stiffness_to_mass", Float), Column("stiffness_to_mass_stddev", Float), Column("damping_excitation", Float),
-    Column("stiffness_excitation", Float), Column("offset", Float), Column("temperature", Float),
+    Column("estimator", String(16)), Column("damping_to_mass", Float), Column("damping_to_mass_stddev", Float),
+    Column("stiffness_to_mass", Float), Column("stiffness_to_mass_stddev", Float), Column("offset", Float),
+    Column("temperature", Float),
     Column("valid", Boolean, nullable=False), Column("reason", Text))
 events = Table(
     "events", metadata, Column("id", Integer, primary_key=True), _of_drive(), Column("strut", Text, nullable=False),
@@ -65,7 +66,7 @@ findings = Table(
 def connect(url, create=False):
     """An engine of a database that has our tables.
 
-    :param create: make the tables, and a SQLite file, that are not there yet.
+    :param create: make the tables, and a SQLite file, that are not there yet; those of an older schema become ours.
     :raises FleetError: no such database, or one of a newer schema. UsageError: no URL.
     """
     try:
@@ -79,9 +80,11 @@ def connect(url, create=False):
         if create:
             _make_tables(engine)
         version = _version(engine)
+        if create and version == 1:
+            version = _migrate(engine)
     if version is None:
         raise FleetError(f"{shown(engine)} has no fleet in it: `suspension_fleet scan` makes one")
-    if version != SCHEMA_VERSION:
+    if version not in READABLE:
         raise FleetError(f"{shown(engine)} has schema version {version}, this program knows {SCHEMA_VERSION}: "
                          "use the suspension_fleet that has written it, or a newer one")
     return engine
@@ -127,6 +130,16 @@ def _try_to_make_tables(engine):
         if connection.execute(text("SELECT version FROM fleet_schema")).fetchone() is None:
             metadata.create_all(connection)
             connection.execute(schema.insert().values(version=SCHEMA_VERSION))
+
+
+def _migrate(engine):
+    """From schema 1: its rows stay, and so do the columns of the former estimators, which stay empty from now on. Clients
+    may do so at once. SQLite stores any length in any column."""
+    with engine.begin() as connection:
+        if engine.dialect.name != "sqlite":
+            connection.execute(text(f"ALTER TABLE struts ALTER COLUMN estimator TYPE {struts.c.estimator.type}"))
+        connection.execute(schema.update().values(version=SCHEMA_VERSION))
+    return SCHEMA_VERSION
 
 
 @dataclasses.dataclass(frozen=True)
@@ -205,7 +218,7 @@ def counts(engine):
 # What is read: vehicle and strut, by which it is put together, the time that it is of, and the rest.
 _ESTIMATES = (drives.c.vehicle, struts.c.strut, drives.c.start, struts.c.damping_to_mass,
               struts.c.damping_to_mass_stddev, struts.c.stiffness_to_mass, struts.c.stiffness_to_mass_stddev,
-              drives.c.path, struts.c.valid)
+              drives.c.path, struts.c.estimator, struts.c.valid)
 _EVENTS = (drives.c.vehicle, events.c.strut, events.c.time, events.c.level, events.c.message, drives.c.path)
 _FINDINGS = (drives.c.vehicle, findings.c.strut, drives.c.start, findings.c.verdict, findings.c.effects, drives.c.path,
              findings.c.page)
@@ -265,9 +278,10 @@ def histories(engine):
     for vehicle, strut in sorted({*estimates, *happened, *found, *wrong_clocks}):
         rows = [row for row in estimates[vehicle, strut] if row[-1]]
         numbers = np.array([row[:5] for row in rows], dtype=float).reshape(len(rows), 5).T
+        former = np.array([row[6] != ESTIMATOR for row in rows], dtype=bool)
         result.append(StrutHistory(vehicle, strut, *numbers, [row[5] for row in rows],
                                    [Event(*row) for row in happened[vehicle, strut]],
                                    [Finding(when, verdict, effects.split(), path, page)
                                     for when, verdict, effects, path, page in found[vehicle, strut]],
-                                   len(wrong_clocks[vehicle, strut])))
+                                   len(wrong_clocks[vehicle, strut]), former if former.any() and not former.all() else None))
     return result

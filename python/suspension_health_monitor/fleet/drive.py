@@ -5,6 +5,7 @@ from typing import Any, Dict, List, Optional
 # Of a drive: at least one strut is identified; none is; no bag, or none with what was asked for; the program was ended
 # by a signal or took too long; the file was not to be had or the worker was lost, which says nothing about the bag.
 OK, POOR, UNREADABLE, CRASHED, UNREAD = STATUSES = ("ok", "poor", "unreadable", "crashed", "unread")
+ESTIMATOR = "estimate"  # what suspension_bag identify knows of a whole drive
 
 
 @dataclasses.dataclass(frozen=True)

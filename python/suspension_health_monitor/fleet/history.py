@@ -42,6 +42,7 @@ class StrutHistory:
     events: List[Event] = dataclasses.field(default_factory=list)
     findings: List[Finding] = dataclasses.field(default_factory=list)
     wrong_clocks: int = 0  # drives that are left out, since their dates cannot be
+    former: Optional[np.ndarray] = None  # (N,) whether it was estimated otherwise than the others; None: all alike
 
     @property
     def last_event(self) -> Optional[Event]:
@@ -56,6 +57,7 @@ class Series:
     time: np.ndarray  # (N,) [s since 1970]
     value: np.ndarray
     stddev: np.ndarray
+    former: Optional[np.ndarray] = None  # as of StrutHistory
 
 
 @dataclasses.dataclass(frozen=True)
@@ -84,8 +86,9 @@ def series(history):
             history.damping_to_mass, history.damping_to_mass_stddev, history.stiffness_to_mass,
             history.stiffness_to_mass_stddev))
     of_damping, of_stiffness = damping_stddev / damping, stiffness_stddev / stiffness
-    return (Series(time, np.log(damping / stiffness), np.hypot(of_damping, of_stiffness)),
-            Series(time, np.log(damping), of_damping), Series(time, np.log(stiffness), of_stiffness))
+    former = None if history.former is None else history.former[known]
+    return (Series(time, np.log(damping / stiffness), np.hypot(of_damping, of_stiffness), former),
+            Series(time, np.log(damping), of_damping, former), Series(time, np.log(stiffness), of_stiffness, former))
 
 
 def effect_spans(findings):

@@ -13,6 +13,8 @@ LEAST_SCATTER, MOST_SCATTER = 1e-3, 1.0  # between drives, of a logarithm; nothi
 # month is fast wear. They say only how large a change is worth looking for.
 STEP_STDDEV = 0.3
 SLOPE_STDDEV = 0.05 * YEAR / MONTH  # [1/year]
+# What another estimator may make of the same drives, as of baselines: 2 % of b1 and of b0. Such a shift is no change.
+ESTIMATOR_STDDEV = 0.03
 MOST_WORN = 0.95  # of a part, where its logarithm is looked at
 _POINTS = 12
 _ROUNDS = 3  # from straight lines on: the second is right to a per cent of the bend
@@ -20,13 +22,9 @@ _ROUNDS = 3  # from straight lines on: the second is right to a per cent of the 
 
 @dataclasses.dataclass(frozen=True)
 class Layout:
-    """Where which coefficient stands: level, slope of every segment, step at every change, season."""
+    """Where which coefficient stands: level, slope of every segment, step at every change, season, former estimator."""
     starts: List[int]  # first drive of every segment; [0, ...]
     rates: List[float]  # [1/year] at which each wears, about: how far its slope is no straight line
-
-    @property
-    def size(self):
-        return 2 * len(self.starts) + 2
 
     def slope(self, segment):
         return 1 + segment
@@ -49,7 +47,8 @@ def design(series, layout):
               for begin, end, rate in zip(bounds, bounds[1:], layout.rates)]
     steps = [time >= time[start] for start in layout.starts[1:]]
     phase = 2 * np.pi * series.time / YEAR
-    return np.column_stack([np.ones_like(time), *slopes, *steps, np.cos(phase), np.sin(phase)])
+    former = [] if series.former is None else [series.former]
+    return np.column_stack([np.ones_like(time), *slopes, *steps, np.cos(phase), np.sin(phase), *former])
 
 
 def worn(elapsed, rate):
@@ -58,11 +57,11 @@ def worn(elapsed, rate):
     return elapsed if rate == 0 else -np.log1p(-share) / rate
 
 
-def precision(layout, season):
+def precision(series, layout, season):
     """Of the priors; season: standard deviation of either part, 0 for none."""
     segments = len(layout.starts)
     return np.array([0.0] + segments * [SLOPE_STDDEV ** -2] + (segments - 1) * [STEP_STDDEV ** -2]
-                    + 2 * [max(season, 1e-6) ** -2])
+                    + 2 * [max(season, 1e-6) ** -2] + (series.former is not None) * [ESTIMATOR_STDDEV ** -2])
 
 
 def scales(series, log_scatter):
@@ -86,7 +85,7 @@ def lay_out(series, starts, season):
     for _ in range(_ROUNDS):
         layout = Layout(starts, [*rates])
         matrix = design(series, layout)
-        grid, fits = scatter_grid(series, matrix, precision(layout, season))
+        grid, fits = scatter_grid(series, matrix, precision(series, layout, season))
         slopes = fits.coefficients[grid.log_density.argmax(), 1:1 + len(starts)]
         rates = -np.expm1(-np.abs(slopes) * matrix[-1, 1:1 + len(starts)]) / lengths  # of what each loses in all
     return layout, grid, fits

@@ -57,9 +57,9 @@ def posterior(series, starts, season, threshold, bent=False, seed=0):
     :param bent: look at wear that is not linear, too.
     """
     layout, _, _ = lay_out(series, starts, season)
-    matrix, prior = design(series, layout), precision(layout, season)
+    matrix, prior = design(series, layout), precision(series, layout, season)
     lengths = matrix[-1, 1:1 + len(starts)]
-    kept = np.arange(layout.size) != layout.slope(len(starts) - 1)
+    kept = np.arange(len(prior)) != layout.slope(len(starts) - 1)
     matrix, prior = matrix[:, kept], prior[kept]
     found = [[(0.0, scatter_grid(series, matrix, prior))],
              *([_of_wear(kind, False, series, starts, matrix, prior, threshold)] for kind in (1, 2))]
@@ -73,7 +73,7 @@ def posterior(series, starts, season, threshold, bent=False, seed=0):
     probability = weight / weight.sum()
     random = np.random.default_rng(seed)
     life, power, some = (np.concatenate(each) for each in zip(*(_draw(each, random) for each in found)))
-    coefficients = np.zeros((len(life), layout.size))
+    coefficients = np.zeros((len(life), len(kept)))
     coefficients[:, kept] = some
     return Posterior(dict(zip(KINDS, probability)), np.repeat(range(len(KINDS)), _DRAWS),
                      np.repeat(probability / _DRAWS, _DRAWS), life, power, coefficients, layout, lengths, threshold)

@@ -43,6 +43,7 @@ IdentifyResult DriveIdentification::result() {
   result.la = toIdentified(monitor().report().la);
   result.estimate = toIdentified(strut_.overTheDrive());
   result.now = toIdentified(monitor().report().estimate);
+  result.estimate.age = result.now.age;
   result.samples = monitor().input().samples;
   result.rows = monitor().input().rows;
   result.gaps = monitor().input().gaps;

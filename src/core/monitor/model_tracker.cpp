@@ -117,13 +117,14 @@ bool ModelTracker::addReading(Side side, Stamp stamp, double acceleration, Model
   return true;
 }
 
-void ModelTracker::add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report) {
+bool ModelTracker::add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report) {
   const std::optional<double> predicted = free_run_.push(newest.unsprung_acceleration, time);
   const bool plain = effects().empty();
   if (!plain && free_run_.runaways() != runaways_) fallBack();
   // Without a model of the travel there are no columns.
+  bool is_new = false;
   if (const CornerSample* of_row = plain ? &newest : predicted ? compared : nullptr)
-    addRow(*of_row, report);
+    is_new = addRow(*of_row, report);
   else
     identifier_.skip();
   report.has_row = identifier_.hasRow();
@@ -132,13 +133,15 @@ void ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
   if (compared != nullptr) compare(*compared, predicted, report);
   judge(report);
   if (model_due_() || !has_own_model_) takeModel(report);
+  return is_new;
 }
 
-void ModelTracker::addRow(const CornerSample& sample, ModelReport& report) {
+bool ModelTracker::addRow(const CornerSample& sample, ModelReport& report) {
   identifier_.add(sample, free_run_.effectForces());
-  if (effects().empty()) return;
-  if (const BlockEstimate* estimate = blocks_.pushForces(sample.stamp, free_run_.effectForces()))
-    describe(*estimate, effects().size(), report.estimate);
+  if (effects().empty()) return false;
+  const BlockEstimate* estimate = blocks_.pushForces(sample.stamp, free_run_.effectForces());
+  if (estimate != nullptr) describe(*estimate, effects().size(), report.estimate);
+  return estimate != nullptr;
 }
 
 void ModelTracker::judge(ModelReport& report) {

@@ -94,7 +94,7 @@ const CornerSample* SuspensionMonitor::track(const CornerSample& sample) {
   plain_.add(sample, series_.time(), compared, extended_ ? base_ : report_);
   if (extended_) {
     extended_->lead(base_.la);
-    extended_->add(sample, series_.time(), compared, report_);
+    has_new_estimate_ = extended_->add(sample, series_.time(), compared, report_) || has_new_estimate_;
     report_.comparison.base_rmse = base_.comparison.rmse;
     report_.comparison.base_fit_percent = base_.comparison.fit_percent;
   }

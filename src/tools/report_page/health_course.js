@@ -143,7 +143,7 @@ function courseFigures(findings) {
     ...(hasEstimates ?
             [
               legend(
-                  ['after', 'estimate (la)'], ['after', '95 % interval', 'band'], ['fine', 'healthy'],
+                  ['after', 'estimate'], ['after', '95 % interval', 'band'], ['fine', 'healthy'],
                   ['open', 'warning', 'dashed'], ['found', 'error', 'dashed']),
               figure('Damping / mass', hosts[1]), figure('Stiffness / mass', hosts[2])
             ] :

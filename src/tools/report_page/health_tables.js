@@ -21,25 +21,26 @@ function eventsSection({strut, events}, several) {
 function estimateRow(name, estimate) {
   const value = key => withDeviation(estimate[key], estimate[`${key}_stddev`]);
   return element(
-      'tr', {'data-estimator': name}, element('td', {}, element('b', {}, name)),
+      'tr', {'data-estimator': name},
+      element('td', {}, element('b', {}, name), estimate.valid ? null : element('small', {}, 'not valid')),
       element('td', {class: 'number'}, value('damping_to_mass')),
       element('td', {class: 'number'}, value('stiffness_to_mass')),
       element('td', {class: 'number minor'}, rounded(estimate.natural_frequency, 4)),
       element('td', {class: 'number minor'}, rounded(estimate.damping_ratio, 3)),
-      element('td', {class: 'number minor'}, rounded(estimate.offset, 3)),
-      element('td', {}, estimate.valid ? 'yes' : 'no'));
+      element('td', {class: 'number minor'}, rounded(estimate.offset, 3)));
 }
 
 function estimatesSection({strut, estimates}, several) {
   return section(
       idOf('estimates', strut, several), titleOf('Estimates at the end', strut, several),
-      'What the monitor’s two estimators know after the last reading, ± standard deviation: la, which outliers hardly ' +
-          'move, and ls, least squares.',
+      'What the monitor knows after the last reading, ± standard deviation. Trust “estimate”: health is judged by it. ' +
+          'The paper’s two estimators stand beside it: ls, least squares, and la, which outliers hardly move; their ' +
+          'deviation is that of their own scatter.',
       wideTable(
           [
             head(''), head('b₁ damping/mass [1/s]', 'number'), head('b₀ stiffness/mass [1/s²]', 'number'),
             head('frequency [Hz]', 'number minor'), head('damping ratio', 'number minor'),
-            head('offset [m/s²]', 'number minor'), head('valid')
+            head('offset [m/s²]', 'number minor')
           ],
           Object.entries(estimates).map(([name, each]) => estimateRow(name, each))));
 }

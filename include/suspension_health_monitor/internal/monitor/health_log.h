@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -18,7 +19,8 @@ struct HealthMoment {
   Stamp elapsed{};  ///< time that the recordings have covered until then, one after the other
   HealthLevel level = HealthLevel::kStale;
   std::string message;  ///< why, as ~health and /diagnostics say it
-  StrutEstimate la;
+  StrutEstimate estimate;
+  double offset = std::nan("");  ///< of the wheel carrier's reading against the body's, by LA [m/s^2]
 };
 
 /// Writes down what a monitor says over recordings that are read one after the other: every change of level, and how
@@ -74,7 +76,7 @@ class HealthLog {
   void write(const HealthMoment& moment);
   std::string silence(Stamp duration) const;
   HealthMoment momentOf(const std::string& message) const {
-    return {now_.stamp, elapsed(), times_.level(), message, newest_.la};
+    return {now_.stamp, elapsed(), times_.level(), message, newest_.estimate, newest_.la.offset};
   }
 
   struct Instant {

@@ -45,7 +45,8 @@ class ModelTracker {
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @param time  of the newest sample since the start of the drive [s]; of no effect on the plain model.
   /// @param compared  the sample FreeRun::kDelay before the newest; nullptr: the series is too short yet.
-  void add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report);
+  /// @return true if it brought a new block estimate, as the forces of effects do.
+  bool add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report);
 
   /// Of a model with effects, as long as it has no valid estimate of its own: sets b1, b0 of the free run, with the
   /// effects' start values.
@@ -74,7 +75,7 @@ class ModelTracker {
   double forgettingFactor() const { return identifier_.forgettingFactor(); }
 
  private:
-  void addRow(const CornerSample& sample, ModelReport& report);
+  bool addRow(const CornerSample& sample, ModelReport& report);
   void judge(ModelReport& report);
   void judgeBlocks(StrutEstimate& estimate) const;
   void takeModel(const ModelReport& report);
