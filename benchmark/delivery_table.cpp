@@ -54,7 +54,7 @@ class Driver {
 
 /// Of all vehicles.
 struct Found {
-  std::vector<double> off;  // of LA's b0
+  std::vector<double> off;  // of b0
   double inside = 0.0, valid = 0.0, ok = 0.0, reports = 0.0;
   int warn = 0, error = 0;
 };
@@ -93,7 +93,7 @@ void drive(const FieldDrive& road, const Delivery& delivery, double seconds, Fou
 
 void printTable(double seconds) {
   std::printf(
-      "| road, rate | messages | b0 of LA: median error | inside 95 %% | valid | OK | WARN | ERROR |\n"
+      "| road, rate | messages | b0: median error | inside 95 %% | valid | OK | WARN | ERROR |\n"
       "|---|---|---|---|---|---|---|---|\n");
   unsigned seed = 1;
   for (const FieldWay& way :
