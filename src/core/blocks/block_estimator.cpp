@@ -34,7 +34,9 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   first_.stddev[kBlockDelay] = options.delay_stddev;
   first_.mean[kBlockWheelShare] = kShareMean;
   first_.stddev[kBlockWheelShare] = kShareStddev;
-  slow_ = first_;
+  slow_ = scaled_ = first_;
+  factor_.setOnes(p);
+  factor_stddev_.setZero(p);
   theta_.setZero(p);
   pointers_.reserve(kMostBlocks);
   sorted_.reserve(kMostBlocks);
@@ -75,10 +77,12 @@ bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& re
 }
 
 const WindowEstimate* BlockEstimator::update() {
+  is_refused_ = false;
   if (has_theta_) equations_.linearise(theta_, block(0));
   if (count_ < kWindows.front() || !(has_theta_ || start())) return nullptr;
   if (++updates_ % kSlowEvery == 0 && count_ >= kStartBlocks) learnSlow();
-  const BlockPrior& prior = contradictsSlow() ? first_ : slow_;
+  scaleSlow();
+  const BlockPrior& prior = contradictsSlow() ? first_ : scaled_;
   int window = 0;
   for (const int m : kWindows) {
     if (m > count_) break;
@@ -95,7 +99,8 @@ const WindowEstimate* BlockEstimator::update() {
   }
   refine(window, prior);
   has_theta_ = best_.isUsable() && best_.worst() < kLost;
-  if (!has_theta_) return nullptr;
+  is_refused_ = !has_theta_;
+  if (is_refused_) return nullptr;
   theta_ = best_.theta;
   return &best_;
 }
@@ -103,19 +108,24 @@ const WindowEstimate* BlockEstimator::update() {
 // Linear least squares, which noise of the regressors biases, then some steps from there.
 bool BlockEstimator::start() {
   const int window = std::min(count_, kStartBlocks);
-  const Eigen::Vector2d linear = equations_.start(newest(window));
+  const Eigen::VectorXd linear = equations_.start(newest(window));
   // A strut that bounces a quarter as fast as the lowest bin, damped by a tenth, is the softest that the blocks can
   // see.
   const double slowest = equations_.band().omega(BlockBand::kFirst) / 8.0;
   theta_ = first_.mean;
   theta_[kBlockDamping] = std::max(linear[0], 0.2 * slowest);
   theta_[kBlockStiffness] = std::max(linear[1], slowest * slowest);
+  theta_.tail(linear.size() - 2) = linear.tail(linear.size() - 2);
   for (int i = 0; i < kStartSteps; ++i) {
     for (int age = 0; age < window; ++age) equations_.linearise(theta_, block(age));
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
   }
-  if (!(trial_.worst() < kLost)) return false;
+  if (!(trial_.worst() < kLost)) {
+    std::swap(best_, trial_);
+    is_refused_ = true;
+    return false;
+  }
   for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
   return true;
 }
@@ -140,15 +150,28 @@ void BlockEstimator::learnSlow() {
   of_all_ = trial_;
 }
 
+void BlockEstimator::scaleSlow(int parameter, double factor, double stddev) {
+  factor_[parameter] = factor;
+  factor_stddev_[parameter] = stddev;
+}
+
+void BlockEstimator::scaleSlow() {
+  scaled_.mean = slow_.mean.cwiseProduct(factor_);
+  scaled_.stddev = (slow_.stddev.cwiseProduct(factor_).array().square() +
+                    slow_.mean.cwiseProduct(factor_stddev_).array().square())
+                       .sqrt();
+}
+
 bool BlockEstimator::contradictsSlow() {
   if (usual_.size() == 0) return false;
-  BlockPrior open = slow_;
+  BlockPrior open = scaled_;
   open.stddev = first_.stddev;
   if (!fit(kWindows.front(), open, trial_)) return false;
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
-    if (!isSlow(i) || !std::isfinite(slow_.stddev[i])) continue;
-    const double apart = std::abs(trial_.theta[i] - slow_.mean[i]);
-    if (apart > kContradiction * std::sqrt(trial_.covariance(i, i) + slow_.stddev[i] * slow_.stddev[i])) return true;
+    if (!isSlow(i) || !std::isfinite(scaled_.stddev[i])) continue;
+    const double apart = std::abs(trial_.theta[i] - scaled_.mean[i]);
+    const double variance = trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i];
+    if (apart > kContradiction * std::sqrt(variance)) return true;
   }
   return false;
 }

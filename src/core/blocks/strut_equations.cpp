@@ -103,12 +103,18 @@ void StrutEquations::sumBands(StrutBlock& block) const {
     band.body_power = block.body.col(0).segment(first, size).abs2().sum();
     band.rate_power =
         ((x1_ - block.body.col(1)).segment(first, size).abs2() / s_.segment(first, size).abs2().square()).sum();
+    if (columns_.neighbours == 0) continue;
+    // Its wheel's noise is in the regressors s / A, 1 / A and, as far as travel follows the wheel, in the instruments:
+    // by s^2 / A, as if the neighbour were like this strut.
+    const auto s2 = s_.segment(first, size).abs2();
+    const auto a = a_.segment(first, size).abs();
+    band.noise_information = {(s2.square() / a.cube()).sum(), (s2 / a.cube()).sum()};
   }
 }
 
-Eigen::Vector2d StrutEquations::start(const std::vector<const StrutBlock*>& blocks) {
+Eigen::VectorXd StrutEquations::start(const std::vector<const StrutBlock*>& blocks) {
   const Eigen::Index n = s_.size();
-  Eigen::MatrixXcd rows(n * static_cast<Eigen::Index>(blocks.size()), 2);
+  Eigen::MatrixXcd rows(n * static_cast<Eigen::Index>(blocks.size()), 2 + columns_.neighbours);
   Eigen::MatrixXcd output(rows.rows(), 1);
   Eigen::Index at = 0;
   for (const StrutBlock* block : blocks) {
@@ -117,6 +123,8 @@ Eigen::Vector2d StrutEquations::start(const std::vector<const StrutBlock*>& bloc
     // Over s^2: displacements, which a bounce has most of.
     rows.col(0).segment(at, n).array() = (x1_ - block->body.col(1)) / (s_ * s_);
     rows.col(1).segment(at, n).array() = (x0_ - block->body.col(0)) / (s_ * s_);
+    for (int m = 0; m < columns_.neighbours; ++m)
+      rows.col(2 + m).segment(at, n).array() = block->neighbours.col(m) / (s_ * s_);
     output.col(0).segment(at, n).array() = block->body.col(2) / (s_ * s_);
     at += n;
   }

@@ -31,6 +31,18 @@ class BlockEstimator {
   /// @return the estimate; nullptr: none yet, or too little is known.
   const WindowEstimate* update();
 
+  /// @return what update() could not take; nullptr: it had nothing, or has an estimate.
+  const WindowEstimate* refused() const { return is_refused_ ? &best_ : nullptr; }
+
+  /// A block that is kept, 0 the newest, to have its instruments predicted again: then call linearise() with it.
+  StrutBlock& block(int age);
+  int count() const { return count_; }  ///< blocks kept
+  void linearise(StrutBlock& block) { equations_.linearise(theta_, block); }
+
+  /// What is known of a slow parameter from all blocks is so many times as large now, as a neighbour's coefficient is
+  /// that has changed with its strut.  @param stddev  of the factor.
+  void scaleSlow(int parameter, double factor, double stddev);
+
   /// @return of all blocks kept, with the data alone.
   const std::optional<WindowEstimate>& ofAllBlocks() const { return of_all_; }
 
@@ -47,7 +59,7 @@ class BlockEstimator {
 
  private:
   std::vector<const StrutBlock*>& newest(int count);
-  StrutBlock& block(int age);  // 0: the newest
+  void scaleSlow();
   bool start();
   void learnSlow();
   bool contradictsSlow();
@@ -61,11 +73,12 @@ class BlockEstimator {
   std::vector<StrutBlock> ring_;
   int count_ = 0, head_ = -1;
   int updates_ = 0;
-  BlockPrior first_, slow_;  // of nothing but the options; with what all blocks tell of slow parameters
+  BlockPrior first_, slow_, scaled_;  // of nothing but the options; with what all blocks tell of slow parameters
+  BlockVector factor_, factor_stddev_;
   Eigen::VectorXd usual_;
   double scatter_ = 1.0;
   BlockVector theta_;
-  bool has_theta_ = false;
+  bool has_theta_ = false, is_refused_ = false;
   WindowEstimate best_, trial_;
   std::optional<WindowEstimate> of_all_;
   std::vector<const StrutBlock*> pointers_;

@@ -32,6 +32,7 @@ struct BlockColumns {
   int numParameters() const { return kNumBlockParameters + forces + neighbours; }
   int firstForce() const { return kNumBlockParameters; }
   int firstNeighbour() const { return kNumBlockParameters + forces; }
+  bool isNeighbour(int i) const { return i >= firstNeighbour(); }
 };
 
 /// One block of one strut top: its spectra, and its equations linearised at `at`.
@@ -53,6 +54,8 @@ struct StrutBlock {
     double wheel_power = 0.0;     ///< |W^|^2
     double body_power = 0.0;      ///< |H_0(Y)|^2
     double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
+    /// What noise of power 1 of a neighbour's wheel adds to the information on its columns: rate, travel.
+    Eigen::Array2d noise_information = Eigen::Array2d::Zero();
   };
   BlockVector at;
   std::vector<Band> bands;
@@ -76,8 +79,8 @@ class StrutEquations {
   /// Computes the sums of a block's bands at theta. Cost: O(bins * parameters^2), no allocation.
   void linearise(const BlockVector& theta, StrutBlock& block);
 
-  /// @return b1, b0 of weighted least squares over blocks, as a start.
-  Eigen::Vector2d start(const std::vector<const StrutBlock*>& blocks);
+  /// @return b1, b0 and the neighbours' columns of weighted least squares over blocks, as a start.
+  Eigen::VectorXd start(const std::vector<const StrutBlock*>& blocks);
 
   const BlockBand& band() const { return band_; }
   const NoiseBands& noiseBands() const { return noise_bands_; }

@@ -20,6 +20,7 @@ struct WindowEstimate {
   BlockMatrix covariance;  ///< of theta
   double inflation = 1.0;  ///< of the covariance: cells scatter so much more than their noise explains
   double explained = 0.0;  ///< share of the body's power by b1 and b0 alone
+  double alike = 0.0;      ///< relative standard deviation of b1 or b0 by noise of neighbours' wheels, see WindowFit
   double rate = 0.0;       ///< rms of the travel rate [m/s]
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
   Eigen::VectorXd noise;   ///< power of e per bin of each band: the unexplained spectrum
@@ -37,7 +38,14 @@ struct WindowEstimate {
 /// A block that is unusual(ly noisy) counts less (BlockWeights). Covariance: bins under a Hann window are correlated,
 /// and so are blocks that overlap by half (kBinCorrelation, kBlockCorrelation), times the factor by which the scores of
 /// cells scatter more than that. Source: Pintelon, Schoukens (2012), ch. 9 and 11; sandwich covariance after P. J.
-/// Huber, The behavior of maximum likelihood estimates under nonstandard conditions (1967). Cost: O(blocks * bands *
+/// Huber, The behavior of maximum likelihood estimates under nonstandard conditions (1967).
+///
+/// A neighbour's wheel has noise that is in its regressors and in its instruments, and counts as information N of the
+/// sum I. It draws its coefficients to those of struts that move like it by I^-1 N theta: nothing, unless the struts
+/// move so much alike that noise tells them apart. theta is then not known, but for its size, that of the own b1 and b0:
+///     covariance + I^-1 N diag(size^2) N I^-1.
+/// Its power is taken for that of the band which has least of e: the body's sensor is in all of e, and like the wheel's.
+/// Cost: O(blocks * bands *
 /// parameters^2), no allocation after the construction.
 class WindowFit {
  public:
@@ -65,6 +73,7 @@ class WindowFit {
   bool solve(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, BlockVector& theta);
   void describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                 WindowEstimate& result);
+  void widenByAlike(WindowEstimate& result);
   void takeScore(const StrutBlock& block, int b, int i, const BlockVector& theta);
   double inflation(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta,
                    const Eigen::Matrix2d& covariance);
@@ -74,6 +83,8 @@ class WindowFit {
   int blocks_ = 0;
   Eigen::ArrayXXd power_;                // of e per bin, blocks by bands
   Eigen::ArrayXd weight_;                // of blocks
+  std::vector<Eigen::Array2d> noise_information_;  // that of the neighbours' wheels, by band
+  BlockVector size_;
   Eigen::VectorXd noise_, share_scale_;  // s2 and that of the column of r, by band
   BlockMatrix normal_, inverse_, prior_information_;
   Eigen::Matrix2Xd previous_;  // by band
