@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 constexpr double kShareMean = 0.5, kShareStddev = 0.29;  // of r: uniform in (0, 1)
+// Noise of all wheels of a vehicle is in e of every top, in proportions that change with frequency: no r is right, and
+// what is wrong by it counts where tracks are much alike. So instruments are those of the wheels as measured.
+constexpr double kNoShare = 0.02;
 constexpr int kSlowEvery = 4;                            // blocks: all blocks then have changed by a sixteenth
 constexpr double kSlowFactor = 1.5;  // standard deviations of what changes slowly count so much more for fewer blocks
 constexpr double kContradiction = 3.0;  // standard deviations
@@ -34,6 +37,10 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   first_.stddev[kBlockDelay] = options.delay_stddev;
   first_.mean[kBlockWheelShare] = kShareMean;
   first_.stddev[kBlockWheelShare] = kShareStddev;
+  if (columns.neighbours > 0) {
+    first_.mean[kBlockWheelShare] = kNoShare;
+    first_.stddev[kBlockWheelShare] = kNoShare / 2.0;
+  }
   slow_ = scaled_ = first_;
   factor_.setOnes(p);
   factor_stddev_.setZero(p);

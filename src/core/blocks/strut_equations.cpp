@@ -103,12 +103,6 @@ void StrutEquations::sumBands(StrutBlock& block) const {
     band.body_power = block.body.col(0).segment(first, size).abs2().sum();
     band.rate_power =
         ((x1_ - block.body.col(1)).segment(first, size).abs2() / s_.segment(first, size).abs2().square()).sum();
-    if (columns_.neighbours == 0) continue;
-    // Its wheel's noise is in the regressors s / A, 1 / A and, as far as travel follows the wheel, in the instruments:
-    // by s^2 / A, as if the neighbour were like this strut.
-    const auto s2 = s_.segment(first, size).abs2();
-    const auto a = a_.segment(first, size).abs();
-    band.noise_information = {(s2.square() / a.cube()).sum(), (s2 / a.cube()).sum()};
   }
 }
 

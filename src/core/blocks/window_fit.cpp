@@ -34,7 +34,6 @@ WindowFit::WindowFit(const NoiseBands& bands, const BlockColumns& columns, int m
   power_.setZero(most_blocks, bands.count());
   weight_.setOnes(most_blocks);
   noise_.setOnes(bands.count());
-  noise_information_.assign(static_cast<std::size_t>(bands.count()), Eigen::Array2d::Zero());
   share_scale_ = noise_;
   for (BlockMatrix* each : {&normal_, &inverse_, &prior_information_}) each->setZero(p, p);
   for (BlockVector* each : {&right_, &step_, &scale_, &size_}) each->setZero(p);
@@ -63,7 +62,6 @@ void WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
                       const Eigen::VectorXd& usual) {
   noise_.setZero();
   share_scale_.setZero();
-  for (auto& each : noise_information_) each.setZero();
   double weights = 0.0;
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
@@ -76,8 +74,6 @@ void WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
     weights += weight_[b];
     for (int i = 0; i < bands_.count(); ++i) {
       noise_[i] += weight_[b] * power_(b, i);
-      noise_information_[static_cast<std::size_t>(i)] +=
-          weight_[b] * block.bands[static_cast<std::size_t>(i)].noise_information;
       share_scale_[i] += weight_[b] * block.bands[static_cast<std::size_t>(i)].wheel_power / bands_.size(i);
     }
   }
@@ -146,7 +142,7 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   result.covariance *= result.inflation;
   result.noise = noise_;
   result.alike = 0.0;
-  if (columns_.neighbours > 0) widenByAlike(result);
+  if (!wheel_noise_.empty()) widenByAlike(result);
 
   double body = 0.0, unexplained = 0.0, rate = 0.0, weights = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero(), information = age;
@@ -175,13 +171,19 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
 }
 
 void WindowFit::widenByAlike(WindowEstimate& result) {
-  const double least = noise_.minCoeff();
-  Eigen::Array2d information = Eigen::Array2d::Zero();
-  for (int i = 0; i < bands_.count(); ++i) information += least / noise_[i] * noise_information_[static_cast<std::size_t>(i)];
+  normal_.setZero();
+  double power = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < bands_.count(); ++i) {
+    const WheelNoise& noise = wheel_noise_[static_cast<std::size_t>(i)];
+    normal_ += noise.information / noise_[i];
+    power = std::min(power, noise_[i] / (1.0 + noise.output));
+  }
+  normal_ *= power * weight_.head(blocks_).sum();
   size_.setZero();
-  for (int m = 0; m < columns_.neighbours; ++m)
-    size_[columns_.firstNeighbour() + m] = result.theta[m % 2] * information[m % 2];
-  normal_.noalias() = inverse_ * size_.asDiagonal();
+  size_.head<2>() = result.theta.head<2>();
+  for (int m = 0; m < columns_.neighbours; ++m) size_[columns_.firstNeighbour() + m] = result.theta[m % 2];
+  prior_information_.noalias() = inverse_ * normal_;
+  normal_.noalias() = prior_information_ * size_.asDiagonal();
   for (const int i : {kBlockDamping, kBlockStiffness})
     result.alike = std::max(result.alike, normal_.row(i).norm() / result.theta[i]);
   result.covariance.noalias() += normal_ * normal_.transpose();

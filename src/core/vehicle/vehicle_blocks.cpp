@@ -55,8 +55,8 @@ void VehicleBlocks::begin(double length) {
     if (!before.empty() && before[i].hasTheta()) estimators_[i].begin(before[i].theta(), before[i].slowPrior());
   }
   model_.emplace(band, tops_.size(), tops_.known_forces);
-  if (has_model_) model_->setRows(rows_);
   rows_ = model_->rows();
+  has_model_ = false;
   const auto n = static_cast<Eigen::Index>(tops_.size());
   motions_.setZero(band.size(), 2 * n);
   origin_.reset();
@@ -180,6 +180,10 @@ const TopEstimate* VehicleBlocks::update(std::size_t strut) {
   scaleNeighbours(strut);
   const WindowEstimate* found = estimator.update();
   doubts_[strut] = TopDoubt::kNone;
+  if (found != nullptr && !has_model_) {
+    doubts_[strut] = TopDoubt::kFewBlocks;
+    return nullptr;
+  }
   if (found == nullptr) {
     const WindowEstimate* refused = estimator.refused();
     const bool are_few = estimator.count() < BlockEstimator::kWindows.front();
@@ -239,6 +243,8 @@ void VehicleBlocks::finishRound() {
   if (is_stale) {
     model_->setRows(rows_);
     has_model_ = true;
+    for (std::size_t i = 0; i < n; ++i)
+      estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
     to_predict_ = estimators_.front().count();
   }
   follow();

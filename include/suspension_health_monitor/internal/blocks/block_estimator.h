@@ -34,6 +34,9 @@ class BlockEstimator {
   /// @return what update() could not take; nullptr: it had nothing, or has an estimate.
   const WindowEstimate* refused() const { return is_refused_ ? &best_ : nullptr; }
 
+  /// @param each  as WindowFit::setWheelNoise.
+  void setWheelNoise(const std::vector<WheelNoise>& each) { window_fit_.setWheelNoise(each); }
+
   /// A block that is kept, 0 the newest, to have its instruments predicted again: then call linearise() with it.
   StrutBlock& block(int age);
   int count() const { return count_; }  ///< blocks kept

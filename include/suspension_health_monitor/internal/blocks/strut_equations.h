@@ -54,8 +54,6 @@ struct StrutBlock {
     double wheel_power = 0.0;     ///< |W^|^2
     double body_power = 0.0;      ///< |H_0(Y)|^2
     double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
-    /// What noise of power 1 of a neighbour's wheel adds to the information on its columns: rate, travel.
-    Eigen::Array2d noise_information = Eigen::Array2d::Zero();
   };
   BlockVector at;
   std::vector<Band> bands;

@@ -30,6 +30,12 @@ struct WindowEstimate {
   double worst() const { return std::max(relativeStddev(kBlockDamping), relativeStddev(kBlockStiffness)); }
 };
 
+/// What noise of power 1 of every wheel of a vehicle does in one band of a strut top's equations.
+struct WheelNoise {
+  BlockMatrix information;  ///< that it adds to Z'R, per block
+  double output = 0.0;      ///< its power in e, per bin
+};
+
 /// Weighted least squares with instruments over a window of linearised blocks.
 ///
 /// The power s2 of e in each band is measured: the mean of the window's cells (block times band) at the estimate. It
@@ -40,11 +46,11 @@ struct WindowEstimate {
 /// cells scatter more than that. Source: Pintelon, Schoukens (2012), ch. 9 and 11; sandwich covariance after P. J.
 /// Huber, The behavior of maximum likelihood estimates under nonstandard conditions (1967).
 ///
-/// A neighbour's wheel has noise that is in its regressors and in its instruments, and counts as information N of the
-/// sum I. It draws its coefficients to those of struts that move like it by I^-1 N theta: nothing, unless the struts
-/// move so much alike that noise tells them apart. theta is then not known, but for its size, that of the own b1 and b0:
-///     covariance + I^-1 N diag(size^2) N I^-1.
-/// Its power is taken for that of the band which has least of e: the body's sensor is in all of e, and like the wheel's.
+/// Noise of the neighbours' wheels is in their regressors and in all instruments, and counts as information N of the sum
+/// I. It draws coefficients to those of struts that move like them by I^-1 N theta: nothing, unless the struts move so
+/// much alike that noise tells them apart. Then theta is not known, but for its size, that of the own b1 and b0:
+///     covariance + I^-1 N diag(size^2) N' I^-1'.
+/// Its power is what the band with least of it in e lets it have, if the body's sensor is as noisy as the wheels'.
 /// Cost: O(blocks * bands *
 /// parameters^2), no allocation after the construction.
 class WindowFit {
@@ -60,6 +66,9 @@ class WindowFit {
   /// @param least_inflation  that is known from other windows.
   void fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
            const Eigen::VectorXd& usual, double least_inflation, WindowEstimate& result);
+
+  /// @param each  by band; empty: a strut alone.
+  void setWheelNoise(const std::vector<WheelNoise>& each) { wheel_noise_ = each; }
 
   /// @return power of e per bin, blocks by bands, of the newest fit.
   auto power() const { return power_.topRows(blocks_); }
@@ -83,7 +92,7 @@ class WindowFit {
   int blocks_ = 0;
   Eigen::ArrayXXd power_;                // of e per bin, blocks by bands
   Eigen::ArrayXd weight_;                // of blocks
-  std::vector<Eigen::Array2d> noise_information_;  // that of the neighbours' wheels, by band
+  std::vector<WheelNoise> wheel_noise_;  // by band
   BlockVector size_;
   Eigen::VectorXd noise_, share_scale_;  // s2 and that of the column of r, by band
   BlockMatrix normal_, inverse_, prior_information_;

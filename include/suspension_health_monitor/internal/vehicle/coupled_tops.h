@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <vector>
 
-#include "suspension_health_monitor/internal/blocks/strut_equations.h"
+#include "suspension_health_monitor/internal/blocks/window_fit.h"
 
 namespace suspension_health_monitor {
 
@@ -30,11 +30,16 @@ class CoupledTops {
  public:
   CoupledTops(const BlockBand& band, std::size_t struts, std::size_t forces);
 
-  void setRows(const TopRows& rows) { rows_ = rows; }
+  void setRows(const TopRows& rows);
   const TopRows& rows() const { return rows_; }
 
   /// @param blocks  of all struts, of the same time.  @param first_force  among their force columns.
   void predict(const std::vector<const StrutBlock*>& blocks, int first_force);
+
+  /// @return by band what noise of power 1 of every wheel does in the equations of one strut top: that of wheel j is in
+  /// the regressors s / A, 1 / A of its own travel, by T = s^2 (s^2 I + Q)^-1 in the instruments of all struts, and by
+  /// I - T in the outputs.
+  const std::vector<WheelNoise>& wheelNoise(std::size_t strut, const StrutEquations& equations);
 
   /// @return H_0(w_j'' - z_j'') of the newest prediction, bins by struts.
   const Eigen::ArrayXXcd& travel() const { return travel_; }
@@ -48,6 +53,8 @@ class CoupledTops {
   TopRows rows_;
   Eigen::ArrayXXcd wheels_, forces_, travel_;
   Eigen::PartialPivLU<Small> lu_;
+  std::vector<Small> follows_;  // T by bin
+  std::vector<WheelNoise> noise_;
 };
 
 }  // namespace suspension_health_monitor
