@@ -57,6 +57,10 @@ class BlockEstimator {
   void begin(const BlockVector& theta, const BlockPrior& slow);
   const BlockPrior& slowPrior() const { return slow_; }
 
+  /// @return of some of the blocks kept, with the data alone; nothing if they do not tell. Not for the sample path.
+  /// @param newest  age of the newest block, 0: of all.  @param count  blocks.
+  std::optional<WindowEstimate> ofBlocks(int newest, int count);
+
   /// The blocks end here; what is known of slow parameters stays.
   void restart();
 
@@ -65,6 +69,7 @@ class BlockEstimator {
   void scaleSlow();
   bool start();
   void learnSlow();
+  void lookForDelay();
   bool contradictsSlow();
   void refine(int window, const BlockPrior& prior);
   bool isStale(const StrutBlock& block) const;

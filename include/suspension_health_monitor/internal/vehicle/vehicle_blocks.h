@@ -9,6 +9,7 @@
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/blocks/sliding_friction.h"
 #include "suspension_health_monitor/internal/blocks/strut_blocks.h"
+#include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_spectra.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_tops.h"
@@ -54,6 +55,12 @@ class VehicleBlocks {
   const TopEstimate* estimate(std::size_t strut) const { return has_[strut] ? &estimates_[strut] : nullptr; }
   TopDoubt doubt(std::size_t strut) const { return doubts_[strut]; }
 
+  /// @return what all blocks kept say of all tops, with the data alone; nothing if they do not. For BodyFit.
+  std::optional<BodyRows> rows() const;
+  /// @return the rows of the older and of the newer half of the blocks; empty if they do not tell. Not for the sample
+  /// path.
+  std::vector<BodyRows> rowsOfHalves();
+
   const BlockEstimator& estimator(std::size_t strut) const { return estimators_[strut]; }
   const VehicleTops& tops() const { return tops_; }
   double length() const { return length_; }  ///< T of the blocks [s]
@@ -71,6 +78,7 @@ class VehicleBlocks {
   const TopEstimate* update(std::size_t strut);
   void scaleNeighbours(std::size_t strut);
   void finishRound();
+  void addRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const;
   void follow();
 
   VehicleTops tops_;
