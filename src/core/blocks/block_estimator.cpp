@@ -88,6 +88,7 @@ std::optional<WindowEstimate> BlockEstimator::ofBlocks(int newest, int count) {
   pointers_.clear();
   for (int age = newest + count - 1; age >= newest; --age) pointers_.push_back(&block(age));
   WindowEstimate result;
+  window_fit_.newBlocks();
   window_fit_.fit(pointers_, first_, theta_, usual_, scatter_, result);
   if (!result.isUsable()) return std::nullopt;
   return result;
@@ -100,6 +101,7 @@ bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& re
 
 const WindowEstimate* BlockEstimator::update() {
   is_refused_ = false;
+  window_fit_.newBlocks();
   if (has_theta_) equations_.linearise(theta_, block(0));
   if (count_ < kWindows.front() || !(has_theta_ || start())) return nullptr;
   if (++updates_ % kSlowEvery == 0 && count_ >= kStartBlocks) learnSlow();
@@ -140,6 +142,7 @@ bool BlockEstimator::start() {
   theta_.tail(linear.size() - 2) = linear.tail(linear.size() - 2);
   for (int i = 0; i < kStartSteps; ++i) {
     for (int age = 0; age < window; ++age) equations_.linearise(theta_, block(age));
+    window_fit_.newBlocks();
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
   }
@@ -149,6 +152,7 @@ bool BlockEstimator::start() {
     return false;
   }
   for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
+  window_fit_.newBlocks();
   return true;
 }
 
@@ -224,6 +228,7 @@ void BlockEstimator::refine(int window, const BlockPrior& prior) {
     ++refined;
   }
   if (refined == 0) return;
+  window_fit_.newBlocks();
   trial_ = best_;
   window_fit_.fit(newest(window), prior, best_.theta, usual_, scatter_, trial_);
   if (trial_.isUsable()) std::swap(best_, trial_);

@@ -35,6 +35,7 @@ StrutBlock StrutEquations::makeBlock() const {
   for (StrutBlock::Band& each : block.bands) {
     each.information.setZero(p, p);
     each.score.setZero(p);
+    each.share.setZero(p);
     each.moments.setZero(p + 1, p + 1);
   }
   return block;
@@ -86,6 +87,8 @@ void StrutEquations::linearise(const BlockVector& theta, StrutBlock& block) {
   instruments_.col(kBlockWheelShare).array() = -rho_slope_ / gain_.conjugate() * wheel_;
   regressors_.col(kBlockWheelShare) = instruments_.col(kBlockWheelShare);
   block.at = theta;
+  for (Eigen::Index i = 0; i < p; ++i)
+    if (i != kBlockWheelShare) residual += theta[i] * regressors_.col(i).array();
   sumBands(block);
 }
 
@@ -98,6 +101,7 @@ void StrutEquations::sumBands(StrutBlock& block) const {
     const auto z_band = z.middleRows(2 * first, 2 * size), r_band = r.middleRows(2 * first, 2 * size);
     band.information.noalias() = z_band.transpose().lazyProduct(r_band.leftCols(p));
     band.score.noalias() = z_band.transpose().lazyProduct(r_band.col(p));
+    band.share = block.at[kBlockWheelShare] * band.information.col(kBlockWheelShare);
     band.moments.noalias() = r_band.transpose().lazyProduct(r_band);
     band.wheel_power = wheel_.segment(first, size).abs2().sum();
     band.body_power = block.body.col(0).segment(first, size).abs2().sum();

@@ -7,17 +7,20 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kIterations = 3;     // of weights and parameters
+constexpr int kIterations = 3;     // of the noise and parameters
+constexpr int kWeighings = 3;      // of blocks
+constexpr double kSameWeight = 0.1;
 constexpr double kUnusual = 10.0;  // times the usual power, from which a block counts less
 
-// Power of the residual in a band, by its expansion about the block's theta, on which it depends by b1, b0 and columns
-// linearly, but for the weight 1 / A.
-double powerAt(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta, BlockVector& step) {
+// Power of the residual in a band, or in a sum of bands; it does not depend on r. e is linear in the parameters but for
+// the weight 1 / A.
+double powerAt(const Eigen::MatrixXd& moments, const BlockVector& theta, BlockVector& linear) {
   const Eigen::Index p = theta.size();
-  step = theta - block.at;
-  step[kBlockWheelShare] = 0.0;  // e does not depend on it
-  const double power = band.moments(p, p) - 2.0 * step.dot(band.moments.col(p).head(p)) +
-                       step.dot(band.moments.topLeftCorner(p, p).selfadjointView<Eigen::Upper>() * step);
+  linear = theta;
+  linear[kBlockWheelShare] = 0.0;
+  double power = moments(p, p) - 2.0 * moments.col(p).head(p).dot(linear);
+  for (Eigen::Index i = 0; i < p; ++i)
+    power += linear[i] * (linear[i] * moments(i, i) + 2.0 * moments.col(i).head(i).dot(linear.head(i)));
   return std::max(power, 0.0);
 }
 
@@ -31,6 +34,13 @@ bool WindowEstimate::isUsable() const {
 WindowFit::WindowFit(const NoiseBands& bands, const BlockColumns& columns, int most_blocks)
     : bands_(bands), columns_(columns) {
   const Eigen::Index p = columns.numParameters();
+  sums_.resize(static_cast<std::size_t>(bands.count()));
+  for (Sum& each : sums_) {
+    each.information.setZero(p, p);
+    each.moments.setZero(p + 1, p + 1);
+    each.score.setZero(p);
+    each.share.setZero(p);
+  }
   power_.setZero(most_blocks, bands.count());
   weight_.setOnes(most_blocks);
   noise_.setOnes(bands.count());
@@ -49,61 +59,104 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
   blocks_ = static_cast<int>(blocks.size());
   result.blocks = blocks_;
   result.theta = start;
-  for (int i = 0; i < kIterations; ++i) {
-    weigh(blocks, result.theta, usual);
-    if (!solve(blocks, prior, result.theta)) break;
+  gather(blocks);
+  for (int i = 0; i < kWeighings; ++i) {
+    for (int k = 0; k < kIterations; ++k) {
+      measureNoise(result.theta);
+      if (!solve(prior, result.theta)) break;
+    }
+    if (!weigh(blocks, result.theta, usual)) break;
+    gathered_ = 0;
+    gather(blocks);
   }
-  weigh(blocks, result.theta, usual);
+  measureNoise(result.theta);
   describe(blocks, prior, least_inflation, result);
 }
 
-// The noise's spectrum, and how much a block counts.
-void WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta,
+void WindowFit::newBlocks() {
+  gathered_ = 0;
+  weight_.setOnes();
+}
+
+// Sums over the newest blocks; those of a smaller window before this one are there already.
+void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
+  if (gathered_ > blocks_) gathered_ = 0;
+  if (gathered_ == 0) {
+    weights_ = 0.0;
+    for (Sum& each : sums_) each.setZero();
+  }
+  for (; gathered_ < blocks_; ++gathered_) {
+    const StrutBlock& block = *blocks[static_cast<std::size_t>(blocks_ - 1 - gathered_)];
+    const double weight = weight_[gathered_];
+    weights_ += weight;
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].add(weight, block.bands[i]);
+  }
+}
+
+void WindowFit::Sum::setZero() {
+  information.setZero();
+  moments.setZero();
+  score.setZero();
+  share.setZero();
+  wheel_power = 0.0;
+}
+
+void WindowFit::Sum::add(double weight, const StrutBlock::Band& band) {
+  information.noalias() += weight * band.information;
+  moments.noalias() += weight * band.moments;
+  score += weight * band.score;
+  share += weight * band.share;
+  wheel_power += weight * band.wheel_power;
+}
+
+// How much each block counts.
+// @return true if that has changed.
+bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta,
                       const Eigen::VectorXd& usual) {
-  noise_.setZero();
-  share_scale_.setZero();
-  double weights = 0.0;
+  bool has_changed = false;
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     double times_usual = 0.0;
     for (int i = 0; i < bands_.count(); ++i) {
-      power_(b, i) = powerAt(block.bands[static_cast<std::size_t>(i)], block, theta, step_) / bands_.size(i);
+      power_(b, i) = powerAt(block.bands[static_cast<std::size_t>(i)].moments, theta, step_) / bands_.size(i);
       if (usual.size() > 0) times_usual += power_(b, i) / usual[i] / bands_.count();
     }
-    weight_[b] = times_usual > kUnusual ? kUnusual / times_usual : 1.0;
-    weights += weight_[b];
-    for (int i = 0; i < bands_.count(); ++i) {
-      noise_[i] += weight_[b] * power_(b, i);
-      share_scale_[i] += weight_[b] * block.bands[static_cast<std::size_t>(i)].wheel_power / bands_.size(i);
-    }
+    double& weight = weight_[blocks_ - 1 - b];
+    const double now = times_usual > kUnusual ? kUnusual / times_usual : 1.0;
+    has_changed = has_changed || std::abs(now - weight) > kSameWeight * weight;
+    weight = now;
   }
+  return has_changed;
+}
+
+// The noise's spectrum.
+void WindowFit::measureNoise(const BlockVector& theta) {
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
-    noise_[i] = std::max(noise_[i], least * share_scale_[i]) / weights;
-    share_scale_[i] = share_scale_[i] > 0.0 ? noise_[i] * weights / share_scale_[i] : 0.0;
+    const Sum& sum = sums_[static_cast<std::size_t>(i)];
+    const double wheel = sum.wheel_power / bands_.size(i);
+    noise_[i] = std::max(powerAt(sum.moments, theta, step_) / bands_.size(i), least * wheel) / weights_;
+    share_scale_[i] = wheel > 0.0 ? noise_[i] * weights_ / wheel : 0.0;
     if (!(noise_[i] > 0.0)) noise_[i] = 1.0;  // the sensors read constants
   }
 }
 
-bool WindowFit::solve(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, BlockVector& theta) {
+bool WindowFit::solve(const BlockPrior& prior, BlockVector& theta) {
   const Eigen::Index p = theta.size();
   prior_information_.setZero();
   prior_information_.diagonal() = prior.stddev.array().square().inverse();
   normal_ = prior_information_;
   right_ = prior_information_ * prior.mean;
-  for (int b = 0; b < blocks_; ++b) {
-    const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
-    for (int i = 0; i < bands_.count(); ++i) {
-      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      const double weight = weight_[b] / noise_[i];
-      scale_.setOnes();
-      scale_[kBlockWheelShare] = share_scale_[i];
-      inverse_.noalias() = weight * (scale_.asDiagonal() * band.information * scale_.asDiagonal());
-      normal_ += inverse_;
-      right_.noalias() += inverse_ * block.at;
-      right_ += weight * scale_.cwiseProduct(band.score);
-    }
+  for (int i = 0; i < bands_.count(); ++i) {
+    const Sum& sum = sums_[static_cast<std::size_t>(i)];
+    inverse_ = sum.information / noise_[i];
+    step_ = (sum.score + share_scale_[i] * sum.share) / noise_[i];
+    inverse_.col(kBlockWheelShare) *= share_scale_[i];
+    inverse_.row(kBlockWheelShare) *= share_scale_[i];
+    step_[kBlockWheelShare] *= share_scale_[i];
+    normal_ += inverse_;
+    right_ += step_;
   }
   // Units differ by orders of magnitude.
   scale_ = normal_.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
@@ -126,7 +179,7 @@ bool WindowFit::solve(const std::vector<const StrutBlock*>& blocks, const BlockP
 void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                          WindowEstimate& result) {
   BlockVector ignored = result.theta;
-  if (!solve(blocks, prior, ignored)) {
+  if (!solve(prior, ignored)) {
     result.covariance.setConstant(result.theta.size(), result.theta.size(), std::numeric_limits<double>::infinity());
     return;
   }
@@ -149,19 +202,20 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   BlockVector& linear = ignored;  // the strut without the columns
   linear = result.theta;
   linear.tail(columns_.forces + columns_.neighbours).head(columns_.forces).setZero();
+  for (const Sum& sum : sums_) unexplained += powerAt(sum.moments, linear, step_);
   const double now = blocks.back()->end;
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
+    const double weight = weight_[blocks_ - 1 - b];
     for (int i = 0; i < bands_.count(); ++i) {
       const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      body += weight_[b] * band.body_power;
-      unexplained += weight_[b] * powerAt(band, block, linear, step_);
-      rate += weight_[b] * band.rate_power;
-      const Eigen::Vector2d own = weight_[b] / noise_[i] * band.information.diagonal().head<2>();
+      body += weight * band.body_power;
+      rate += weight * band.rate_power;
+      const Eigen::Vector2d own = weight / noise_[i] * band.information.diagonal().head<2>();
       information += own;
       age += own * (now - block.end);
     }
-    weights += weight_[b];
+    weights += weight;
   }
   result.explained = body > 0.0 ? 1.0 - unexplained / body : 0.0;
   // Parseval: the mean square over a block is 2 sum |H|^2 / (T^2 mean(hann^2)), and mean(hann^2) = 3/8; T^2 by the
@@ -178,7 +232,7 @@ void WindowFit::widenByAlike(WindowEstimate& result) {
     normal_ += noise.information / noise_[i];
     power = std::min(power, noise_[i] / (1.0 + noise.output));
   }
-  normal_ *= power * weight_.head(blocks_).sum();
+  normal_ *= power * weights_;
   size_.setZero();
   size_.head<2>() = result.theta.head<2>();
   for (int m = 0; m < columns_.neighbours; ++m) size_[columns_.firstNeighbour() + m] = result.theta[m % 2];
@@ -189,12 +243,13 @@ void WindowFit::widenByAlike(WindowEstimate& result) {
   result.covariance.noalias() += normal_ * normal_.transpose();
 }
 
-// The score of a cell at theta, by its expansion about the block's, into right_.
+// The score of a cell at theta into right_.
 void WindowFit::takeScore(const StrutBlock& block, int b, int i, const BlockVector& theta) {
   const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-  step_ = theta - block.at;
+  step_ = theta;
   step_[kBlockWheelShare] *= share_scale_[i];
-  right_ = weight_[b] / noise_[i] * (band.score - band.information * step_);
+  right_ = band.score + share_scale_[i] * band.share - band.information.lazyProduct(step_);
+  right_ *= weight_[blocks_ - 1 - b] / noise_[i];
   right_[kBlockWheelShare] *= share_scale_[i];
 }
 
@@ -231,7 +286,7 @@ double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blo
       takeScore(block, b, i, theta);
       score += right_.head<2>();
       information +=
-          weight_[b] / noise_[i] * block.bands[static_cast<std::size_t>(i)].information.topLeftCorner<2, 2>();
+          weight_[blocks_ - 1 - b] / noise_[i] * block.bands[static_cast<std::size_t>(i)].information.topLeftCorner<2, 2>();
     }
     if (!(information.determinant() > 0.0)) continue;
     own_covariance_.push_back(information.inverse());

@@ -45,12 +45,14 @@ struct StrutBlock {
   Eigen::ArrayXXcd predicted_neighbours;  ///< the same as the model has them, driven by the wheels
   Eigen::ArrayXcd predicted_travel;       ///< H_0 of the own w'' - z'' likewise; empty: a strut alone
 
-  /// Sums over the bins of one band at theta = at. Re(a* b) of complex columns, Z instruments, R regressors, e
-  /// residual.
+  /// Sums over the bins of one band, Re(a* b) of complex columns: Z instruments, R regressors, both at theta = at, and
+  /// c = e + R at (but for r) what is left of the residual e at theta = 0. So blocks add up, whatever they were
+  /// linearised at: e = c - R theta.
   struct Band {
     Eigen::MatrixXd information;  ///< Z'R
-    Eigen::VectorXd score;        ///< Z'e
-    Eigen::MatrixXd moments;      ///< R'R with the residual as the last column
+    Eigen::VectorXd score;        ///< Z'c
+    Eigen::VectorXd share;        ///< Z'R of r, times r
+    Eigen::MatrixXd moments;      ///< R'R with c as the last column
     double wheel_power = 0.0;     ///< |W^|^2
     double body_power = 0.0;      ///< |H_0(Y)|^2
     double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4

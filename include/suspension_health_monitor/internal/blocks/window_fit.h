@@ -60,6 +60,10 @@ class WindowFit {
 
   WindowFit(const NoiseBands& bands, const BlockColumns& columns, int most_blocks);
 
+  /// Blocks are new, or have been linearised anew: to be called before the next fit(). Otherwise the blocks of each
+  /// fit() are those of the one before it, some of the newest of them, or these and older ones.
+  void newBlocks();
+
   /// @param blocks  linearised, the newest last.
   /// @param prior  as it is.  @param start  of the iteration over weights.
   /// @param usual  power of e per bin of each band of usual blocks; empty: not known yet.
@@ -78,8 +82,20 @@ class WindowFit {
   double scatterBetweenBlocks(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta);
 
  private:
-  void weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta, const Eigen::VectorXd& usual);
-  bool solve(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, BlockVector& theta);
+  /// Of blocks of a band, weighted.
+  struct Sum {
+    Eigen::MatrixXd information, moments;
+    Eigen::VectorXd score, share;
+    double wheel_power = 0.0;
+
+    void setZero();
+    void add(double weight, const StrutBlock::Band& band);
+  };
+
+  void gather(const std::vector<const StrutBlock*>& blocks);
+  bool weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta, const Eigen::VectorXd& usual);
+  void measureNoise(const BlockVector& theta);
+  bool solve(const BlockPrior& prior, BlockVector& theta);
   void describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                 WindowEstimate& result);
   void widenByAlike(WindowEstimate& result);
@@ -91,7 +107,10 @@ class WindowFit {
   BlockColumns columns_;
   int blocks_ = 0;
   Eigen::ArrayXXd power_;                // of e per bin, blocks by bands
-  Eigen::ArrayXd weight_;                // of blocks
+  Eigen::ArrayXd weight_;                // of blocks, the newest first
+  std::vector<Sum> sums_;                // by band, over the newest gathered_ blocks
+  int gathered_ = 0;
+  double weights_ = 0.0;
   std::vector<WheelNoise> wheel_noise_;  // by band
   BlockVector size_;
   Eigen::VectorXd noise_, share_scale_;  // s2 and that of the column of r, by band
