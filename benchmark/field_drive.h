@@ -38,6 +38,7 @@ struct FieldDrive {
   double road = 64e-6;  ///< Gd(0.1 cycles/m) [m^3]: 16e-6 is class A, each class four times as much
   double speed = 15.0;  ///< [m/s]
   int rate = 200;       ///< of both IMUs [Hz], a divisor of kFieldRate
+  int wheel_steps = 0;  ///< of the integration, from one reading of the wheel's IMU to the next; 0: it reads at `rate`
   bool anti_aliased = true;
   double noise = 0.03;                               ///< of both IMUs [m/s^2]
   double wheel_noise = 1.0;                          ///< that of the wheel's, of it
@@ -47,12 +48,16 @@ struct FieldDrive {
   double skew = 0.0;                                 ///< the wheel's readings are stamped so much late, up to 30 ms [s]
   double mass = 1.0;                                 ///< of the body, to that of the healthy vehicle
   bool potholes = false, washboard = false, stops = false;
-  double engine = 0.0;      ///< acceleration of the body by an engine that idles at 25 to 40 Hz [m/s^2]
-  double friction = 0.0;    ///< dry, between body and wheel, over the body's mass [m/s^2]
-  double digressive = 0.0;  ///< v0 of a damper b1 v / (1 + |v| / v0) [m/s]; 0: it is linear
-  double fade = 0.0;        ///< share of the damping that is lost while it is hot
+  double engine = 0.0;                      ///< acceleration of the body by an engine [m/s^2]
+  double idle_from = 25.0, idle_to = 40.0;  ///< that turns at this frequency, slowly up and down [Hz]
+  double friction = 0.0;                    ///< dry, between body and wheel, over the body's mass [m/s^2]
+  double digressive = 0.0;                  ///< v0 of a damper b1 v / (1 + |v| / v0) [m/s]; 0: it is linear
+  double asymmetry = 0.0;  ///< rebound is damped by so much more, compression by so much less than b1, as a share of it
+  double fade = 0.0;       ///< share of the damping that is lost while it is hot
   double change_at = 1e300, damping_left = 1.0, stiffness_left = 1.0;
-  double road_after = 0.0;  ///< the road from change_at on; 0: the same [m^3]
+  double change_over = 0.0;  ///< strut and load change along a ramp of this length, second by second [s]; 0: at once
+  double mass_after = 0.0;   ///< of the body in the end, to that of the healthy vehicle; 0: as it was
+  double road_after = 0.0;   ///< the road from change_at on; 0: the same [m^3]
   unsigned seed = 1;
 };
 
@@ -71,17 +76,31 @@ class FieldSimulator {
 
   /// @return the next sample of both IMUs.
   CornerSample next() {
-    const int steps = kFieldRate / drive_.rate;
-    double body = 0.0, wheel = 0.0;
-    for (int i = 0; i < steps; ++i) {
-      step();
-      body = filtered(0, body_), wheel = filtered(1, lateWheel());
-    }
-    if (!drive_.anti_aliased) body = body_, wheel = lateWheel();
-    const double offset = drive_.offset + drive_.offset_swing * std::sin(2 * M_PI * time_ / drive_.offset_period);
-    return {fromSeconds(time_), body + drive_.noise * gauss_(random_),
-            wheel + offset + drive_.tilt * braking_ + drive_.wheel_noise * drive_.noise * gauss_(random_)};
+    for (int i = 0; i < bodySteps(); ++i) advance();
+    const double body = readBody(), wheel = readWheel();
+    return {fromSeconds(time_), body, wheel};
   }
+
+  /// One step of the integration, for IMUs that are not read together.
+  void advance() {
+    step();
+    const std::array motion{body_, lateWheel()};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double passed = filtered(i, motion[i]);
+      sensed_[i] = drive_.anti_aliased ? passed : motion[i];
+    }
+  }
+
+  /// @return what an IMU reads now, with new noise.
+  double readBody() { return sensed_[0] + drive_.noise * gauss_(random_); }
+  double readWheel() {
+    const double offset = drive_.offset + drive_.offset_swing * std::sin(2 * M_PI * time_ / drive_.offset_period);
+    return sensed_[1] + offset + drive_.tilt * braking_ + drive_.wheel_noise * drive_.noise * gauss_(random_);
+  }
+
+  /// Steps from one reading to the next.
+  int bodySteps() const { return kFieldRate / drive_.rate; }
+  int wheelSteps() const { return drive_.wheel_steps > 0 ? drive_.wheel_steps : bodySteps(); }
 
   double time() const { return time_; }
 
@@ -89,12 +108,12 @@ class FieldSimulator {
   static constexpr double kStep = 1.0 / kFieldRate;
 
   void refresh() {
-    const bool changed = time_ >= drive_.change_at;
     damping_left_ =
-        (changed ? drive_.damping_left : 1.0) * (1.0 - drive_.fade * 0.5 * (1.0 - std::cos(2 * M_PI * time_ / 1800.0)));
+        changed(1.0, drive_.damping_left) * (1.0 - drive_.fade * 0.5 * (1.0 - std::cos(2 * M_PI * time_ / 1800.0)));
     const double b1 = drive_.vehicle.b1 * damping_left_;
-    const double b0 = drive_.vehicle.b0 * (changed ? drive_.stiffness_left : 1.0);
-    const double body = drive_.mass, wheel = drive_.vehicle.wheel_to_body, tyre = drive_.vehicle.tyre_to_body;
+    const double b0 = drive_.vehicle.b0 * changed(1.0, drive_.stiffness_left);
+    const double body = drive_.mass_after > 0.0 ? changed(drive_.mass, drive_.mass_after) : drive_.mass;
+    const double wheel = drive_.vehicle.wheel_to_body, tyre = drive_.vehicle.tyre_to_body;
     Eigen::Matrix<double, 7, 7> e = Eigen::Matrix<double, 7, 7>::Zero();  // z, w, z', w', road, force, road's rate
     e(0, 2) = e(1, 3) = 1.0;
     e.row(2) << -b0 / body, b0 / body, -b1 / body, b1 / body, 0.0, 1.0, 0.0;
@@ -103,6 +122,12 @@ class FieldSimulator {
     strut_ << 0.0, 0.0, 1.0 / body, -1.0 / wheel;
     derivative_ = e.block<2, 6>(2, 0);
     transition_ = (e * kStep).exp().topRows<4>();
+  }
+
+  double changed(double before, double after) const {
+    if (time_ < drive_.change_at) return before;
+    const double since = time_ - drive_.change_at;
+    return since < drive_.change_over ? before + (after - before) * since / drive_.change_over : after;
   }
 
   double speed() {
@@ -142,7 +167,8 @@ class FieldSimulator {
   void step() {
     if (++steps_ % kFieldRate == 0) refresh();
     time_ = static_cast<double>(steps_) * kStep;
-    const double idle = 25.0 + 15.0 * 0.5 * (1.0 + std::sin(2 * M_PI * time_ / 97.0));
+    const double idle =
+        drive_.idle_from + (drive_.idle_to - drive_.idle_from) * 0.5 * (1.0 + std::sin(2 * M_PI * time_ / 97.0));
     phase_ = std::fmod(phase_ + 2 * M_PI * idle * kStep, 2 * M_PI);
     const double height = roadHeight(), force = drive_.engine * std::sin(phase_);
     Eigen::Matrix<double, 7, 1> input;
@@ -163,7 +189,7 @@ class FieldSimulator {
     double force = drive_.friction == 0.0 ? 0.0 : drive_.friction * std::tanh(rate / kCreep);
     if (drive_.digressive > 0.0)
       force -= drive_.vehicle.b1 * damping_left_ * rate * std::abs(rate) / (drive_.digressive + std::abs(rate));
-    return force;
+    return force - drive_.asymmetry * drive_.vehicle.b1 * damping_left_ * std::abs(rate);  // compression is positive
   }
 
   // What the wheel did `skew` ago, by a straight line between steps.
@@ -174,19 +200,21 @@ class FieldSimulator {
     return (1.0 - share) * wheels_[place % wheels_.size()] + share * wheels_[(place - 1) % wheels_.size()];
   }
 
-  // Butterworth of fourth order at 0.35 of the rate, as two sections by the bilinear transform.
+  // Butterworth of fourth order at 0.35 of an IMU's rate, as two sections by the bilinear transform.
   void designFilter() {
-    const double k = std::tan(M_PI * 0.35 * drive_.rate / kFieldRate);
     const std::array q{0.54119610, 1.3065630};
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double norm = 1.0 / (1.0 + k / q[i] + k * k);
-      sections_[i] = {k * k * norm, 2.0 * (k * k - 1.0) * norm, (1.0 - k / q[i] + k * k) * norm};
+    for (std::size_t channel = 0; channel < 2; ++channel) {
+      const double k = std::tan(M_PI * 0.35 / (channel == 0 ? bodySteps() : wheelSteps()));
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double norm = 1.0 / (1.0 + k / q[i] + k * k);
+        sections_[channel][i] = {k * k * norm, 2.0 * (k * k - 1.0) * norm, (1.0 - k / q[i] + k * k) * norm};
+      }
     }
   }
 
   double filtered(std::size_t channel, double x) {
     for (std::size_t i = 0; i < 2; ++i) {
-      const auto& [gain, a1, a2] = sections_[i];
+      const auto& [gain, a1, a2] = sections_[channel][i];
       auto& [s1, s2] = memory_[channel][i];
       const double y = gain * x + s1;
       s1 = 2.0 * gain * x - a1 * y + s2;
@@ -205,8 +233,9 @@ class FieldSimulator {
   Eigen::Matrix<double, 4, 7> transition_;
   Eigen::Vector4d strut_ = Eigen::Vector4d::Zero();  // what a force of the strut does to the state
   Eigen::Vector4d state_ = Eigen::Vector4d::Zero();
-  std::array<std::array<double, 3>, 2> sections_{};
+  std::array<std::array<std::array<double, 3>, 2>, 2> sections_{};
   std::array<std::array<std::array<double, 2>, 2>, 2> memory_{};
+  std::array<double, 2> sensed_{};  // by body's and wheel's IMU, without noise
   std::array<double, 2> enveloped_{};
   std::array<double, 64> wheels_{};  // of the newest steps
   long steps_ = 0;

@@ -19,8 +19,9 @@ struct IdentifiedStrut {
   double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
   double damping_to_mass_stddev = std::nan("");    ///< [1/s]: 1.96 of it either way holds the truth 95 times of 100
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
-  double rows = 0.0;                               ///< regression rows that the estimate rests on
+  double rows = 0.0;                               ///< regression rows, or blocks, that the estimate rests on
   double explained = std::nan("");                 ///< share of the body's motion that the strut explains, at most 1
+  double age = std::nan("");                       ///< of the data [s]; of a block estimate at the end of the drive
   bool valid = false;
   std::string reason;  ///< why it is not valid; empty if it is
 
@@ -44,8 +45,8 @@ struct IdentifyResult {
   /// At the end of the drive, over the memory: least squares and least sum of absolute values, as the live monitor has
   /// them.
   IdentifiedStrut ls, la;
-  /// Over the whole drive, by instrumental variables: not biased by the sensors' noise, whatever the horizon.
-  IdentifiedStrut iv;
+  IdentifiedStrut estimate;                       ///< of the blocks over the whole drive: what to trust
+  IdentifiedStrut now;                            ///< of the blocks at the end of the drive, as the live monitor has it
   std::uint64_t samples = 0;                      ///< taken in
   std::uint64_t rows = 0;                         ///< regression rows that they gave
   std::uint64_t gaps = 0;                         ///< after each of which the filter filled anew
@@ -53,8 +54,8 @@ struct IdentifyResult {
   std::map<std::string, std::uint64_t> rejected;  ///< readings that were kept out, by reason; only those that occurred
   std::vector<std::string> warnings;              ///< of sensors, stamps and a strut that changes, in words
 
-  /// @return false if la at the end is another strut than iv over the whole drive, beyond doubt: it has changed, or no
-  /// strut without effects moves like that.
+  /// @return false if the strut at the end is another one than over the whole drive, beyond doubt: it has changed, or
+  /// no strut without effects moves like that.
   bool isSteady() const;
 };
 
@@ -62,7 +63,7 @@ struct IdentifyResult {
 ///
 ///     const Drive drive = makeDrive(0.01, body, wheel);       // accelerations [m/s^2], 100 Hz
 ///     const IdentifyResult result = identify({drive});
-///     if (result.iv.valid) use(result.iv.damping_to_mass, result.iv.stiffness_to_mass);
+///     if (result.estimate.valid) use(result.estimate.damping_to_mass, result.estimate.stiffness_to_mass);
 ///
 /// @param drives  of the same strut, taken one after the other.
 /// @throws std::invalid_argument  naming the option, its value and what is allowed; if no drive has two samples; or if

@@ -16,19 +16,15 @@ namespace suspension_health_monitor {
 enum class EstimateDoubt {
   kNone,                 ///< it is valid
   kWrongPeriod,          ///< samples do not come at the sample period
-  kNoRows,               ///< the integral filter fills, at the start and after a gap
-  kSensorStuck,          ///< the body's acceleration has not changed for a whole horizon
-  kFewRows,              ///< fewer rows than an estimate needs
-  kNotExcited,           ///< parked: the rows are the sensors' noise; the estimate is held
-  kDampingNotExcited,    ///< the same of the damping alone; the stiffness goes on
-  kStiffnessNotExcited,  ///< the same of the stiffness alone; the damping goes on
-  kWrongReadings,        ///< what the wheel's readings have that the body does not answer may be most of what they tell
-  kOutsideForce,         ///< something else than the wheel moves the body
-  kNotExplained,         ///< the model explains less than half of what was measured
-  kOffsetChanges,        ///< the offset between the sensors changes by more than the travel that is to be seen
+  kNoRows,               ///< the integral filter fills, or the first blocks do, at the start and after a gap
+  kFewRows,              ///< LS and LA have seen fewer rows than they need
+  kNotExcited,           ///< too little motion: neither damping nor stiffness is known to kMostRelativeStddev
+  kDampingNotExcited,    ///< the same of the damping alone
+  kStiffnessNotExcited,  ///< the same of the stiffness alone
+  kNotExplained,         ///< the strut explains less than half of the body's motion
   kNotAStrut,            ///< a parameter that has to be above 0 is not
-  kClockSkew,            ///< the clocks of the two IMUs differ by more than can be taken off
-  kNoSpread,             ///< no standard deviation can be told
+  kOldData,              ///< the vehicle has not moved for longer than health/oldest_data
+  kDisagrees,            ///< LS or LA is not what the block estimate says
   kFreeRunFails,         ///< the model, driven by the wheel, fits worse than a constant
 };
 
@@ -42,35 +38,40 @@ inline std::array<double, kMostEffects> unknownCoefficients() {
   return unknown;
 }
 
-/// Dry friction of the strut, beside which the linear one was estimated. The force does not depend on the road, what it
-/// makes of b1 and b0 does: the smoother the road, the more.
+/// Dry friction of the strut, which is estimated beside b1 and b0. The force does not depend on the road; what a linear
+/// strut without friction would have to add to b1 for it does: the smoother the road, the more.
 struct DryFriction {
-  double force = 0.0;  ///< over the body's mass [m/s^2]; a damper that is harder the faster it moves has a negative one
-  double stddev = 0.0;          ///< [m/s^2]
-  double damping_gain = 0.0;    ///< what 1 m/s^2 of it adds to b1 on this road [s/m]
-  double stiffness_gain = 0.0;  ///< to b0 [1/m]
+  double force = 0.0;         ///< f over the body's mass [m/s^2]; a damper that is harder the faster it moves has f < 0
+  double stddev = 0.0;        ///< [m/s^2]
+  double damping_gain = 0.0;  ///< g: 1 m/s^2 of friction acts as so much of b1 at the present travel rate [s/m]
+  double damping_covariance = 0.0;  ///< of the errors of b1 and f [m/s^3]
+
+  /// @return standard deviation of b1 since no damper has exactly this law [1/s]: a tenth of what friction acts as.
+  double lawStddev() const {
+    constexpr double kLawUnknown = 0.1;  // measured by friction_table
+    return kLawUnknown * std::abs(force) * damping_gain;
+  }
 };
 
-/// What one estimator knows of the strut. NaN: nothing yet; an infinite standard deviation: there is no telling.
+/// What one estimator knows of the strut. NaN: nothing yet; an infinite standard deviation: nobody knows.
 struct StrutEstimate {
   double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
   double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
-  double damping_to_mass_stddev = std::nan("");    ///< [1/s], with the residuals' correlation and the shift by noise in
-                                                   ///< the regressors; renewed every few rows
+  double damping_to_mass_stddev = std::nan("");    ///< [1/s]; that of LS and LA is of their own scatter only
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
-  bool scatter_is_known = false;                   ///< that correlation has been seen; else it is what is usual
+  double correlation = 0.0;                        ///< of the errors of b1 and b0 [-]; of the block estimate
   std::size_t num_effects = 0;                     ///< in the model
   std::array<double, kMostEffects> coefficients = unknownCoefficients();  ///< c_j [unit of the effect's coefficient]
   std::array<double, kMostEffects> coefficient_stddevs = unknownCoefficients();  ///< likewise
-  double offset = std::nan("");      ///< of the wheel carrier's reading against the body's [m/s^2]; NaN: not estimated
-  double clock_skew = std::nan("");  ///< by which the wheel carrier's readings are stamped late, or the body's early
-                                     ///< [s]; NaN: not estimated
-  std::optional<DryFriction> friction;  ///< that LS leaves; empty: nothing yet
-  double effective_rows = 0.0;          ///< rows in the estimator's memory
-  double explained = 0.0;               ///< 1 - mean|epsilon| / mean|psi| over the memory: 1 all explained, 0 nothing
+  double offset = std::nan("");         ///< of the wheel carrier's reading against the body's [m/s^2]; of LS and LA
+  double delay = std::nan("");          ///< by which the wheel carrier's readings are stamped late [s]; of the blocks
+  double delay_stddev = std::nan("");   ///< [s]
+  std::optional<DryFriction> friction;  ///< of the blocks; empty: other effects are in the model
+  double effective_rows = 0.0;          ///< rows in the memory of LS, LA; blocks of the window
+  double explained = 0.0;  ///< share of what was measured: of mean sizes of rows (LS, LA), of the body's power (blocks)
+  double age = std::nan("");                     ///< of what the block estimate rests on [s], on average
+  double window = std::nan("");                  ///< span of its blocks [s]
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
-  double damping_excitation = std::nan("");      ///< information of phi_1 of late over that of noise (Excitation) [-]
-  double stiffness_excitation = std::nan("");    ///< that of phi_0 likewise
 
   bool valid() const { return doubt == EstimateDoubt::kNone; }
   /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
@@ -118,8 +119,9 @@ struct ComparisonReport {
 
 /// What is known of one model after one sample.
 struct ModelReport {
-  bool has_row = false;  ///< the sample gave a regression row; false while the filter fills: the estimates then hold
-  StrutEstimate ls, la;
+  bool has_row = false;    ///< the sample gave a regression row; false while the filter fills: the estimates then hold
+  StrutEstimate estimate;  ///< of the blocks (internal/blocks): what to trust
+  StrutEstimate ls, la;    ///< the paper's, renewed with every row
   ComparisonReport comparison;
 };
 
@@ -181,7 +183,7 @@ struct HealthReport {
   double stiffness_significance = std::nan("");
   HealthLevel damping_level = HealthLevel::kOk;
   HealthLevel stiffness_level = HealthLevel::kOk;
-  bool estimate_valid = false;                   ///< of LA
+  bool estimate_valid = false;                   ///< that of the blocks
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not
   bool uncertain = false;       ///< valid, but a change as large as the error threshold would not be significant
   bool friction_doubt = false;  ///< mostly since dry friction makes so much of the estimates on this road
@@ -214,11 +216,7 @@ struct InputStatus {
   double mean_period = 0.0;    ///< of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
   bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
 
-  /// What the sprung and the unsprung sensor may have of motion that the sampling folds back, at most: rms of white
-  /// noise that is as dense [m/s^2], as of the newest judgement.
-  std::array<double, 2> folded{};
-  double wheel_at_limit = 0.0;  ///< rms of white noise as dense as the unsprung sensor reads at half the rate [m/s^2]
-  double beyond_strut = 0.0;    ///< share of the body's power above the strut's band, likewise, in [0, 1]
+  double beyond_strut = 0.0;        ///< share of the body's power above the strut's band, likewise, in [0, 1]
   double beyond_strut_level = 0.0;  ///< and its rms [m/s^2]
 
   static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e

@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/identify.h"
 
 #include <limits>
-#include <memory>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
@@ -26,9 +25,7 @@ IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions&
   monitor.integration_horizon = horizon * period;
   monitor.alignment = "paired";
   constexpr Stamp kLater(1);  // 0 is the stamp that a driver has not set; a drive may begin with it
-  MonitorSettings settings(monitor);
-  settings.estimators.noise = std::make_shared<const std::vector<CornerSample>>(drives.front().noise);
-  DriveIdentification identification(settings, [&](const MonitorReport& later) {
+  DriveIdentification identification(monitor, [&](const MonitorReport& later) {
     if (!options.report) return;
     MonitorReport report = later;
     report.stamp -= kLater;

@@ -12,7 +12,6 @@ namespace {
 constexpr double kDefaultHorizon = 0.6;          // [s], the paper's
 constexpr double kFewestSamplesOfMemory = 10.0;  // lambda = 0.9
 constexpr double kRounding = 1e-12;              // of 1 - T / memory
-constexpr int kUpdatesPerTwoHorizons = 3;        // of health: rows within a horizon share most of their samples
 
 }  // namespace
 
@@ -40,7 +39,6 @@ MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions
   if (preset != "paper") return;
   estimators.rule = IntegrationRule::kTrapezoid;  // Eq. (9)
   estimators.sensors = SensorColumns::kNone;
-  estimators.removes_noise_shift = false;
   estimators.forgets_unexcited = true;
   estimators.recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
   estimators.recursive.initial_variance_rule = InitialVariance::kAbsolute;
@@ -52,18 +50,10 @@ void MonitorSettings::validate() const {
   HealthOptions thresholds;
   static_cast<HealthThresholds&>(thresholds) = *this;
   thresholds.validate();
-  if (!forgetting_factor && fastest_memory && *fastest_memory > presentMemory())
-    throw std::invalid_argument("fastest_memory = " + numberText(*fastest_memory) +
-                                " [s], must be at most memory = " + numberText(presentMemory()) + " [s]");
   if (!sample_period) return;
   filter(*sample_period);
-  const double fastest = fastestForgettingFactor(*sample_period), slow = forgettingFactor(*sample_period);
-  if (fastest > slow + kRounding)
-    throw std::invalid_argument("fastest_memory = " + numberText(*fastest_memory) +
-                                " [s], must be at most that of forgetting_factor = " + numberText(slow));
-  if (fastest < 1.0 - 1.0 / kFewestSamplesOfMemory - kRounding)
-    throw std::invalid_argument(std::string(fastest_memory ? "fastest_memory" : "memory") + " = " +
-                                numberText(fastest_memory.value_or(presentMemory())) + " [s], must be at least " +
+  if (forgettingFactor(*sample_period) < 1.0 - 1.0 / kFewestSamplesOfMemory - kRounding)
+    throw std::invalid_argument("memory = " + numberText(presentMemory()) + " [s], must be at least " +
                                 numberText(kFewestSamplesOfMemory * *sample_period) +
                                 " [s], ten samples of sample_period = " + numberText(*sample_period) + " [s]");
 }
@@ -115,17 +105,13 @@ double MonitorSettings::presentMemory() const {
 
 double MonitorSettings::fewestRows(double horizons, double period) const {
   constexpr double kShare = 0.9;
-  const double forgotten = std::max(1.0 - fastestForgettingFactor(period), 1e-12);
+  const double forgotten = std::max(1.0 - forgettingFactor(period), 1e-12);
   return std::min(horizons * horizonSamples(period), kShare / forgotten);
 }
 
-HealthOptions MonitorSettings::health(double period) const {
+HealthOptions MonitorSettings::health() const {
   HealthOptions health;
   static_cast<HealthThresholds&>(health) = *this;
-  health.forgetting_factor = forgettingFactor(period);
-  health.horizon_samples = horizonSamples(period);
-  health.period = period;
-  health.rows_per_update = std::max(1, 2 * health.horizon_samples / kUpdatesPerTwoHorizons);
   return health;
 }
 

@@ -26,6 +26,7 @@ constexpr FormerOptions kFormerOptions[] = {
     {"horizon_samples", "integration_horizon gives the horizon in seconds"},
     {"tyre/integration_horizon", "it is an eighth of integration_horizon"},
     {"hardware_id", "it is the name of the node"},
+    {"fastest_memory", "the estimate follows a change of the strut by itself"},
     {"damping_ramp", "damping_end_fraction: 1 makes a healthy drive"},
     {"sprung_rate", "it is rate; that of the other sensor is unsprung_rate"},
     {"valid/min_rows valid/min_explained health/hysteresis health/min_significance health/early_change "

@@ -33,9 +33,12 @@ ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, co
     msg.effect_stddevs.push_back(estimate.coefficient_stddevs[j]);
   }
   msg.offset = estimate.offset;
-  msg.clock_skew = estimate.clock_skew;
+  msg.clock_skew = estimate.delay;
   msg.effective_rows = estimate.effective_rows;
   msg.valid = estimate.valid();
+  msg.explained = estimate.explained;
+  msg.age = estimate.age;
+  if (!msg.valid) msg.reason = describe(estimate.doubt);
   return msg;
 }
 
@@ -58,8 +61,8 @@ SuspensionHealth toMsg(const MonitorReport& report, const Baseline& baseline, co
   msg.header = header;
   msg.level = static_cast<SuspensionHealth::_level_type>(report.health.level);
   msg.reason = describe(report.health);
-  msg.damping_to_mass = report.la.damping_to_mass;
-  msg.stiffness_to_mass = report.la.stiffness_to_mass;
+  msg.damping_to_mass = report.estimate.damping_to_mass;
+  msg.stiffness_to_mass = report.estimate.stiffness_to_mass;
   msg.nominal_damping_to_mass = baseline.damping_to_mass.value_or(kUnknown);
   msg.nominal_stiffness_to_mass = baseline.stiffness_to_mass.value_or(kUnknown);
   msg.damping_change = report.health.damping_change.value_or(kUnknown);

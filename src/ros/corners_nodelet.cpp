@@ -50,7 +50,7 @@ void CornersNodelet::subscribe() {
   for (std::size_t i = 0; i < kNumCorners; ++i) {
     const std::string name(kCornerNames[i]);
     subscribers_.push_back(
-        node_.subscribe<ParameterEstimate>(name + "/la", 1, [this, i](const ParameterEstimateConstPtr& estimate) {
+        node_.subscribe<ParameterEstimate>(name + "/estimate", 1, [this, i](const ParameterEstimateConstPtr& estimate) {
           corners_[i].estimate = estimate;
           corners_[i].last = ros::WallTime::now();
         }));

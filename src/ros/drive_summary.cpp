@@ -68,7 +68,7 @@ void DriveSummary::tell(const char* until, void (*say)(const std::string& line))
   say(formatted("%s: driven for %.1f s%s, worst level %s (%s)", strut_.c_str(), toSeconds(times_.elapsed()), until,
                 nameOf(*worst), join(levels).c_str()));
   say(strut_ + ": at the end " + nameOf(newest_.health.level) + ", " + describe(newest_.health));
-  say(strut_ + ": " + describe("la", newest_.la));
+  say(strut_ + ": " + describe("estimate", newest_.estimate));
 }
 
 }  // namespace suspension_health_monitor

@@ -19,7 +19,8 @@ namespace {
 struct BaselineSettings {
   std::optional<double> damping_to_mass, stiffness_to_mass;
   std::optional<double> damping_to_mass_stddev, stiffness_to_mass_stddev;
-  std::optional<double> dry_friction, dry_friction_stddev, friction_damping_gain, friction_stiffness_gain;
+  std::optional<double> dry_friction, dry_friction_stddev, friction_damping_gain, friction_damping_covariance;
+  std::optional<double> friction_stiffness_gain;  // of files up to 1a5605d
   std::optional<double> integration_horizon, sample_period;
   std::optional<double> learned_from, learned_to;
 };
@@ -39,7 +40,9 @@ constexpr std::array kBaselineFields{
                   1e6},
     BaselineField{"friction_damping_gain", "s/m", "what 1 m/s^2 of it made of b1 on that road",
                   &BaselineSettings::friction_damping_gain, -1e9, 1e9},
-    BaselineField{"friction_stiffness_gain", "1/m", "what 1 m/s^2 of it made of b0",
+    BaselineField{"friction_damping_covariance", "m/s^3", "of the errors of b1 and the friction",
+                  &BaselineSettings::friction_damping_covariance, -1e9, 1e9},
+    BaselineField{"friction_stiffness_gain", "1/m", "of files whose b1 has the friction's share in it: not used",
                   &BaselineSettings::friction_stiffness_gain, -1e12, 1e12},
     BaselineField{"integration_horizon", "s", "of the filter that it was learned with",
                   &BaselineSettings::integration_horizon, 0.0, 1e9},
@@ -61,6 +64,17 @@ void checkStddev(double stddev, double value, const char* name) {
                                 name + " = " + numberText(value));
 }
 
+// Files without that covariance were learned by recursive least squares: friction is a part of their b1, and their
+// noise shifted them by what the blocks do not have.
+void widen(Baseline& baseline) {
+  constexpr double kOfEstimator = 0.02;  // of the value, measured by accuracy_table
+  baseline.damping_to_mass_stddev =
+      std::hypot(baseline.damping_to_mass_stddev, kOfEstimator * *baseline.damping_to_mass);
+  baseline.stiffness_to_mass_stddev =
+      std::hypot(baseline.stiffness_to_mass_stddev, kOfEstimator * *baseline.stiffness_to_mass);
+  if (baseline.friction) *baseline.damping_to_mass -= baseline.friction->force * baseline.friction->damping_gain;
+}
+
 Baseline toBaseline(const BaselineSettings& settings) {
   Baseline baseline;
   baseline.damping_to_mass = needed(settings.damping_to_mass, "damping_to_mass");
@@ -72,7 +86,8 @@ Baseline toBaseline(const BaselineSettings& settings) {
   if (settings.dry_friction)
     baseline.friction = DryFriction{*settings.dry_friction, needed(settings.dry_friction_stddev, "dry_friction_stddev"),
                                     needed(settings.friction_damping_gain, "friction_damping_gain"),
-                                    needed(settings.friction_stiffness_gain, "friction_stiffness_gain")};
+                                    settings.friction_damping_covariance.value_or(0.0)};
+  if (!settings.friction_damping_covariance) widen(baseline);
   baseline.learned = true;
   baseline.from = fromSeconds(settings.learned_from.value_or(0.0));
   baseline.to = fromSeconds(settings.learned_to.value_or(0.0));
@@ -100,7 +115,7 @@ std::string toYaml(const Baseline& baseline, double horizon, double sample_perio
     settings.dry_friction = baseline.friction->force;
     settings.dry_friction_stddev = baseline.friction->stddev;
     settings.friction_damping_gain = baseline.friction->damping_gain;
-    settings.friction_stiffness_gain = baseline.friction->stiffness_gain;
+    settings.friction_damping_covariance = baseline.friction->damping_covariance;
   }
   settings.integration_horizon = horizon;
   settings.sample_period = sample_period;
@@ -158,15 +173,15 @@ std::string LiveBaseline::keepLearned(const SuspensionMonitor& monitor) {
 }
 
 void LiveBaseline::save(const SuspensionMonitor* monitor) {
-  if (monitor == nullptr || !monitor->report().la.valid()) throw std::runtime_error(kNothingToSave);
+  if (monitor == nullptr || !monitor->report().estimate.valid()) throw std::runtime_error(kNothingToSave);
   if (path_.empty()) throw std::runtime_error("no file to write to: set the parameter baseline_file");
-  const StrutEstimate& la = monitor->report().la;
+  const StrutEstimate& estimate = monitor->report().estimate;
   const MonitorOptions& options = monitor->options();
-  checkCertain("damping_to_mass", la.damping_to_mass, la.damping_to_mass_stddev, options.damping_error,
+  checkCertain("damping_to_mass", estimate.damping_to_mass, estimate.damping_to_mass_stddev, options.damping_error,
                HealthOptions{}.min_significance);
-  checkCertain("stiffness_to_mass", la.stiffness_to_mass, la.stiffness_to_mass_stddev, options.stiffness_error,
-               HealthOptions{}.min_significance);
-  const Baseline present = baselineOf(la, monitor->report().stamp);
+  checkCertain("stiffness_to_mass", estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev,
+               options.stiffness_error, HealthOptions{}.min_significance);
+  const Baseline present = baselineOf(estimate, monitor->report().stamp);
   write(present, *monitor);
   known_ = present;
 }

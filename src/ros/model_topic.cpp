@@ -9,7 +9,7 @@ namespace suspension_health_monitor {
 
 void ModelTopic::change(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor,
                         const std::string& frame) {
-  has_estimate_ = monitor != nullptr && monitor->report().la.valid();
+  has_estimate_ = monitor != nullptr && monitor->modelEstimate().valid();
   auto message = boost::make_shared<ModelInUse>();
   message->header.frame_id = frame;
   if (monitor != nullptr) message->header.stamp = toRosTime(monitor->report().stamp);
@@ -23,10 +23,10 @@ void ModelTopic::change(const std::vector<ActiveEffect>& effects, const Suspensi
     }
   }
   if (has_estimate_) {
-    const StrutEstimate& la = monitor->report().la;
-    message->damping_to_mass = la.damping_to_mass;
-    message->stiffness_to_mass = la.stiffness_to_mass;
-    message->yaml = toYaml({la.damping_to_mass, la.stiffness_to_mass, effects, {}});
+    const StrutEstimate& estimate = monitor->modelEstimate();
+    message->damping_to_mass = estimate.damping_to_mass;
+    message->stiffness_to_mass = estimate.stiffness_to_mass;
+    message->yaml = toYaml({estimate.damping_to_mass, estimate.stiffness_to_mass, effects, {}});
   }
   publisher_.publish(message);
 }

@@ -23,7 +23,7 @@ class ModelTopic {
 
   /// To be called with every report: publishes the first valid estimate of a model.
   void note(const SuspensionMonitor& monitor, const std::string& frame) {
-    if (!has_estimate_ && monitor.report().la.valid()) change(monitor.effects(), &monitor, frame);
+    if (!has_estimate_ && monitor.modelEstimate().valid()) change(monitor.effects(), &monitor, frame);
   }
 
  private:

@@ -148,9 +148,9 @@ SearchTask MonitorNodelet::giveSamples(double window) const {
   task.options.sample_period = monitor->period();
   task.options.horizon_samples = monitor->horizonSamples();
   task.options.candidates = model_->library();
-  const StrutEstimate& la = monitor->report().la;
-  if (!model_->effects().empty() && la.valid())
-    task.options.model = StrutModel{la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}};
+  const StrutEstimate& estimate = monitor->modelEstimate();
+  if (!model_->effects().empty() && estimate.valid())
+    task.options.model = StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor->effects(), {}};
   return task;
 }
 

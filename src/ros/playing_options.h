@@ -14,7 +14,8 @@ struct PlayingOptions {
   bool publish_clock = false;
   bool shutdown_at_end = false;
   std::string record;
-  std::string record_topics = "/monitor/ls /monitor/la /monitor/comparison /monitor/health /simulator/truth";
+  std::string record_topics =
+      "/monitor/estimate /monitor/ls /monitor/la /monitor/comparison /monitor/health /simulator/truth";
 };
 
 using PlayingField = OptionField<PlayingOptions>;

@@ -19,6 +19,7 @@ void send(ros::Publisher& publisher, const Make& make) {
 
 ReportTopics::ReportTopics(ros::NodeHandle& private_node, const PipelineOptions& options)
     : sprung_mass_(options.monitor.sprung_mass),
+      estimate_(private_node.advertise<ParameterEstimate>("estimate", kQueueSize)),
       ls_(private_node.advertise<ParameterEstimate>("ls", kQueueSize)),
       la_(private_node.advertise<ParameterEstimate>("la", kQueueSize)),
       comparison_(private_node.advertise<ModelComparison>("comparison", kQueueSize)),
@@ -36,10 +37,11 @@ void ReportTopics::publish(const MonitorReport& report, const SuspensionMonitor&
   header.stamp = toRosTime(report.stamp);
   header.frame_id = frame;
   const std::vector<ActiveEffect>& effects = monitor.effects();
+  send(estimate_, [&] { return toMsg(report.estimate, "estimate", header, effects, sprung_mass_); });
   send(ls_, [&] { return toMsg(report.ls, "ls", header, effects, sprung_mass_); });
   send(la_, [&] { return toMsg(report.la, "la", header, effects, sprung_mass_); });
   if (report.comparison.has_sample) send(comparison_, [&] { return toMsg(report.comparison, frame); });
-  if (tyre_ && tyre != nullptr) tyre_->publish(*tyre, report.la, header);
+  if (tyre_ && tyre != nullptr) tyre_->publish(*tyre, report.estimate, header);
   send(health_, [&] { return toMsg(report, monitor.baseline(), header); });
 }
 

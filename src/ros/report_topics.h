@@ -12,7 +12,8 @@
 
 namespace suspension_health_monitor {
 
-/// What is told of every sample: ~ls, ~la, ~comparison, ~health and those of the tyre; and ~model, when it changes.
+/// What is told of every sample: ~estimate, ~ls, ~la, ~comparison, ~health and those of the tyre; and ~model, when it
+/// changes.
 class ReportTopics {
  public:
   static constexpr std::uint32_t kQueueSize = 100000;  // messages
@@ -32,7 +33,7 @@ class ReportTopics {
  private:
   std::uint64_t stride_ = 1, reports_ = 0;
   std::optional<double> sprung_mass_;  // [kg]
-  ros::Publisher ls_, la_, comparison_, health_;
+  ros::Publisher estimate_, ls_, la_, comparison_, health_;
   ModelTopic model_;
   std::optional<TyreOutput> tyre_;
 };

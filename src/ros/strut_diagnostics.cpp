@@ -56,16 +56,16 @@ void StrutDiagnostics::describeHealth(const SuspensionMonitor& monitor, Status& 
   describeSilence(monitor, status);
   log_.note(status);
   drive_.watchClock();
+  addEstimate(status, "estimate", report.estimate);
+  status.addf("estimate age [s]", "%.1f", report.estimate.age);
   addEstimate(status, "la", report.la);
   addEstimate(status, "ls", report.ls);
-  if (monitor.options().fastest_memory)
-    status.addf("memory [s]", "%.2f", monitor.period() / (1.0 - monitor.forgettingFactor()));
   const Baseline& baseline = monitor.baseline();
   addJudgement(status, "damping_to_mass", baseline.damping_to_mass, report.health.damping_change);
   addJudgement(status, "stiffness_to_mass", baseline.stiffness_to_mass, report.health.stiffness_change);
-  if (report.ls.friction) {
-    status.addf("dry friction [m/s^2]", "%.4f", report.ls.friction->force);
-    status.addf("dry friction stddev [m/s^2]", "%.4f", report.ls.friction->stddev);
+  if (const std::optional<DryFriction>& friction = report.estimate.friction) {
+    status.addf("dry friction [m/s^2]", "%.4f", friction->force);
+    status.addf("dry friction stddev [m/s^2]", "%.4f", friction->stddev);
   }
   if (report.health.payload_change) status.addf("body mass change [%]", "%+.1f", 100.0 * *report.health.payload_change);
   if (report.health.learning) status.addf("baseline learned [%]", "%.0f", 100.0 * *report.health.learning);

@@ -51,16 +51,16 @@ bool StrutServices::onSetEffects(SetEffectsRequest& request, SetEffectsResponse&
 std::optional<MotionScale> StrutServices::motionScaleNow() const {
   const SuspensionMonitor* monitor = strut_.monitor();
   if (monitor == nullptr) return std::nullopt;
-  const StrutEstimate& la = monitor->report().la;
-  return motionScale(strut_.newest_samples(), monitor->period(), la.damping_to_mass, la.stiffness_to_mass);
+  const StrutEstimate& estimate = monitor->modelEstimate();
+  return motionScale(strut_.newest_samples(), monitor->period(), estimate.damping_to_mass, estimate.stiffness_to_mass);
 }
 
 bool StrutServices::onSaveModel(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   const SuspensionMonitor* monitor = strut_.monitor();
   try {
-    if (monitor == nullptr || !monitor->report().la.valid()) throw std::runtime_error(kNothingToSave);
-    const StrutEstimate& la = monitor->report().la;
-    model_.save({la.damping_to_mass, la.stiffness_to_mass, monitor->effects(), {}});
+    if (monitor == nullptr || !monitor->modelEstimate().valid()) throw std::runtime_error(kNothingToSave);
+    const StrutEstimate& estimate = monitor->modelEstimate();
+    model_.save({estimate.damping_to_mass, estimate.stiffness_to_mass, monitor->effects(), {}});
     response.success = true;
     response.message = options_.model_file + ": " + model_.describe();
   } catch (const std::exception& error) {

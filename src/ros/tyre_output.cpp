@@ -54,7 +54,7 @@ void describeTyre(const ImuPipeline& pipeline, diagnostic_updater::DiagnosticSta
   status.addf("la stiffness_to_wheel_mass [1/s^2]", "%.5g", la.stiffness_to_wheel_mass);
   status.addf("la tyre_to_wheel_mass [1/s^2]", "%.5g", la.tyre_to_wheel_mass);
   status.addf("wheel hop [Hz]", "%.4g", la.wheelHopFrequency());
-  if (const auto ratio = massRatio(pipeline.monitor()->report().la, la))
+  if (const auto ratio = massRatio(pipeline.monitor()->report().estimate, la))
     status.addf("wheel mass / body mass", "%.4g", *ratio);
   status.addf("horizon_samples", "%d", pipeline.strut().tyre()->horizonSamples());
 }

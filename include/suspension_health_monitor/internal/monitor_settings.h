@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,12 +19,9 @@ namespace suspension_health_monitor {
 struct EstimatorOptions {
   IntegrationRule rule = IntegrationRule::kBandLimited;
   SensorColumns sensors = SensorColumns::kDriftingOffset;  ///< what of the sensors is estimated with the strut
-  bool removes_noise_shift =
-      true;                        ///< what the sensors' noise shifts the estimates by is taken off (regressor_noise.h)
-  bool forgets_unexcited = false;  ///< true: exponential forgetting, the paper's; false: directional (excitation.h)
+  bool forgets_unexcited = false;  ///< true: rows of a parked vehicle count, too, as in the paper
   RecursiveOptions recursive;      ///< whose forgetting factor and correlated rows are set for each estimator
   LeastAbsoluteOptions least_absolute;
-  std::shared_ptr<const std::vector<CornerSample>> noise;  ///< of the sensors, as in Drive; long, so that it is shared
 };
 
 /// Rows that an estimate needs before it is worth something, in horizons: noise of a tenth then makes an error of 1 or
@@ -75,17 +71,10 @@ struct MonitorSettings : MonitorOptions {
   double presentMemory() const;
 
   /// @param period  sampling time [s].
-  /// @return the smallest lambda that rows may be forgotten by.
-  double fastestForgettingFactor(double period) const {
-    return fastest_memory ? 1.0 - period / *fastest_memory : forgettingFactor(period);
-  }
-
-  /// @param period  sampling time [s].
   /// @return so many horizons of rows, or nine tenths of a shorter memory.
   double fewestRows(double horizons, double period) const;
   const LeastAbsoluteOptions& leastAbsolute() const { return estimators.least_absolute; }
-  /// @param period  sampling time [s].
-  HealthOptions health(double period) const;
+  HealthOptions health() const;
 };
 
 /// Takes the options that `values` names out of it; what is not among them is the preset's.
@@ -106,13 +95,14 @@ inline constexpr std::array kMonitorFields{
                  "horizon h of the integral filter, near one period of the body's bounce; left out: 0.6",
                  &MonitorOptions::integration_horizon, 1e-5, 1e6},
     MonitorField{
+        "estimation", "block_length", "s",
+        "of the first blocks that the estimate is made of; then it follows the body's bounce by factors of two",
+        &MonitorOptions::block_length, 1e-3, 1e3},
+    MonitorField{
         "estimation", "memory", "s",
-        "of the estimates: what is that old counts 1/e, 10 samples at least; left out: 2 or 10/3 of the horizon, the "
+        "of LS and LA: what is that old counts 1/e, 10 samples at least; left out: 2 or 10/3 of the horizon, the "
         "longer",
         &MonitorOptions::memory, 1e-4, 1e6},
-    MonitorField{"estimation", "fastest_memory", "s",
-                 "while damping or stiffness move, at most memory; left out: the memory stays",
-                 &MonitorOptions::fastest_memory, 1e-4, 1e6},
     MonitorField{"estimation", "forgetting_factor", "-",
                  "lambda, instead of memory: 1/(1 - lambda) samples, 1 never forgets; left out: as memory says",
                  &MonitorOptions::forgetting_factor, 0.9, 1.0},
@@ -138,6 +128,9 @@ inline constexpr std::array kMonitorFields{
     MonitorField{"health", "health/gravity_tolerance", "-",
                  "share of g by which a mean reading may be off, as of an inclined strut; 0: not judged",
                  &MonitorOptions::gravity_tolerance, 0.0, 0.5},
+    MonitorField{"health", "health/oldest_data", "s",
+                 "age of the data that an estimate may rest on, as of a parked vehicle; older: cannot tell",
+                 &MonitorOptions::oldest_data, 1e-3, 1e9},
     MonitorField{"health", "baseline/learn_time", "s",
                  "valid driving that a baseline is learned from; 0: none is learned", &MonitorOptions::learn_time, 0.0,
                  1e6},

@@ -33,7 +33,8 @@ bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
 BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options)
     : options_(options),
       equations_(band, columns),
-      window_fit_(equations_.noiseBands(), columns, kMostBlocks),
+      window_fit_(band, columns, kMostBlocks),
+      drive_(band, columns),
       ring_(kMostBlocks, equations_.makeBlock()) {
   const int p = columns.numParameters();
   first_.mean.setZero(p);
@@ -59,16 +60,11 @@ StrutBlock& BlockEstimator::block(int age) {
 }
 
 StrutBlock& BlockEstimator::next() {
+  if (count_ == kMostBlocks) retire(block(kMostBlocks - 1));
   head_ = (head_ + 1) % kMostBlocks;
   count_ = std::min(count_ + 1, kMostBlocks);
+  block(0).at.setZero();
   return block(0);
-}
-
-void BlockEstimator::restart() {
-  count_ = 0;
-  usual_.resize(0);
-  scatter_ = 1.0;
-  of_all_.reset();
 }
 
 void BlockEstimator::begin(const BlockVector& theta, const BlockPrior& slow) {
@@ -83,34 +79,37 @@ std::vector<const StrutBlock*>& BlockEstimator::newest(int count) {
   return pointers_;
 }
 
+bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result) {
+  window_fit_.fit(newest(window), prior, theta_, weights_.usual, scatter_, result);
+  return result.isUsable();
+}
+
 std::optional<WindowEstimate> BlockEstimator::ofBlocks(int newest, int count) {
   if (!has_theta_ || count < kWindows.front() || newest + count > count_) return std::nullopt;
   pointers_.clear();
   for (int age = newest + count - 1; age >= newest; --age) pointers_.push_back(&block(age));
   WindowEstimate result;
-  window_fit_.newBlocks();
-  window_fit_.fit(pointers_, first_, theta_, usual_, scatter_, result);
+  window_fit_.fit(pointers_, first_, theta_, weights_.usual, scatter_, result);
   if (!result.isUsable()) return std::nullopt;
   return result;
 }
 
-bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result) {
-  window_fit_.fit(newest(window), prior, theta_, usual_, scatter_, result);
-  return result.isUsable();
-}
-
 const WindowEstimate* BlockEstimator::update() {
   is_refused_ = false;
-  window_fit_.newBlocks();
   if (has_theta_) equations_.linearise(theta_, block(0));
-  if (count_ < kWindows.front() || !(has_theta_ || start())) return nullptr;
+  if (count_ < kWindows.front() || !(has_theta_ || start())) {
+    if (count_ >= kWindows.front()) newest_worst_ = kUnknown;
+    return nullptr;
+  }
   if (++updates_ % kSlowEvery == 0 && count_ >= kStartBlocks) learnSlow();
   scaleSlow();
   const BlockPrior& prior = contradictsSlow() ? first_ : scaled_;
   int window = 0;
   for (const int m : kWindows) {
     if (m > count_) break;
-    if (!fit(m, prior, trial_)) continue;
+    const bool is_usable = fit(m, prior, trial_);
+    if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : kUnknown;
+    if (!is_usable) continue;
     if (window == 0 || trial_.worst() < best_.worst()) {
       std::swap(best_, trial_);
       window = m;
@@ -142,7 +141,6 @@ bool BlockEstimator::start() {
   theta_.tail(linear.size() - 2) = linear.tail(linear.size() - 2);
   for (int i = 0; i < kStartSteps; ++i) {
     for (int age = 0; age < window; ++age) equations_.linearise(theta_, block(age));
-    window_fit_.newBlocks();
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
   }
@@ -152,29 +150,7 @@ bool BlockEstimator::start() {
     return false;
   }
   for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
-  window_fit_.newBlocks();
   return true;
-}
-
-void BlockEstimator::learnSlow() {
-  if (equations_.columns().neighbours > 0) lookForDelay();
-  if (!fit(count_, first_, trial_)) return;
-  slow_ = first_;
-  for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
-    if (!isSlow(i)) continue;
-    slow_.mean[i] = trial_.theta[i];
-    slow_.stddev[i] = std::min(kSlowFactor * std::sqrt(trial_.covariance(i, i)), first_.stddev[i]);
-  }
-  const auto& power = window_fit_.power();
-  usual_.resize(power.cols());
-  for (Eigen::Index i = 0; i < power.cols(); ++i) {
-    sorted_.assign(power.col(i).begin(), power.col(i).end());
-    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
-    std::nth_element(sorted_.begin(), middle, sorted_.end());
-    usual_[i] = std::max(*middle, std::numeric_limits<double>::min());
-  }
-  scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
-  of_all_ = trial_;
 }
 
 // Of a vehicle a delay is let in only if it turns the phase by more than a law's memory does, see kLeastPhase.
@@ -198,16 +174,67 @@ void BlockEstimator::scaleSlow() {
                        .sqrt();
 }
 
+void BlockEstimator::learnSlow() {
+  if (equations_.columns().neighbours > 0) lookForDelay();
+  if (!fit(count_, first_, trial_)) return;
+  slow_ = first_;
+  for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
+    if (!isSlow(i)) continue;
+    slow_.mean[i] = trial_.theta[i];
+    slow_.stddev[i] = std::min(kSlowFactor * std::sqrt(trial_.covariance(i, i)), first_.stddev[i]);
+  }
+  const auto& power = window_fit_.power();
+  weights_ = window_fit_.weights();
+  weights_.usual.resize(power.cols());
+  for (Eigen::Index i = 0; i < power.cols(); ++i) {
+    sorted_.assign(power.col(i).begin(), power.col(i).end());
+    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+    std::nth_element(sorted_.begin(), middle, sorted_.end());
+    weights_.usual[i] = std::max(*middle, std::numeric_limits<double>::min());
+  }
+  scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
+  of_all_ = trial_;
+}
+
+// Blocks that were never linearised, since no strut was known then, tell nothing.
+void BlockEstimator::retire(const StrutBlock& block) {
+  if (weights_.usual.size() > 0 && block.at[kBlockStiffness] > 0.0) drive_.add(block, weights_, block.at);
+}
+
+DriveFit BlockEstimator::takeDrive() {
+  if (has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_)) weights_ = window_fit_.weights();
+  for (int age = count_ - 1; age >= 0; --age) retire(block(age));
+  return drive_;
+}
+
+std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
+  constexpr int kMostSteps = 30;
+  constexpr double kStill = 1e-12;  // relative
+  if (drive_.blocks() > 0) {
+    BlockEstimator copy = *this;
+    return copy.takeDrive().estimate(first_);
+  }
+  if (count_ < kWindows.front() || !(has_theta_ || start())) return std::nullopt;
+  WindowEstimate result;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const BlockVector before = theta_;
+    for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
+    if (!fit(count_, first_, result)) return std::nullopt;
+    theta_ = result.theta;
+    if (((theta_ - before).array().abs() <= kStill * theta_.array().abs()).head<2>().all()) break;
+  }
+  return result;
+}
+
 bool BlockEstimator::contradictsSlow() {
-  if (usual_.size() == 0) return false;
+  if (weights_.usual.size() == 0) return false;
   BlockPrior open = scaled_;
   open.stddev = first_.stddev;
   if (!fit(kWindows.front(), open, trial_)) return false;
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
     if (!isSlow(i) || !std::isfinite(scaled_.stddev[i])) continue;
     const double apart = std::abs(trial_.theta[i] - scaled_.mean[i]);
-    const double variance = trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i];
-    if (apart > kContradiction * std::sqrt(variance)) return true;
+    if (apart > kContradiction * std::sqrt(trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i])) return true;
   }
   return false;
 }
@@ -228,9 +255,8 @@ void BlockEstimator::refine(int window, const BlockPrior& prior) {
     ++refined;
   }
   if (refined == 0) return;
-  window_fit_.newBlocks();
   trial_ = best_;
-  window_fit_.fit(newest(window), prior, best_.theta, usual_, scatter_, trial_);
+  window_fit_.fit(newest(window), prior, best_.theta, weights_.usual, scatter_, trial_);
   if (trial_.isUsable()) std::swap(best_, trial_);
 }
 

@@ -34,7 +34,22 @@ void StrutBlocks::begin(double length) {
   estimate_.length = length;
 }
 
-void StrutBlocks::restart() { begin(estimate_.length); }
+void StrutBlocks::restart() {
+  const double length = estimate_.length;
+  const DriveFit drive = estimator_->takeDrive();
+  estimator_.reset();
+  has_estimate_ = false;
+  begin(length);
+  estimator_->continueDrive(drive);
+}
+
+std::optional<BlockEstimate> StrutBlocks::overTheDrive() {
+  const std::optional<WindowEstimate> found = estimator_->overTheDrive();
+  if (!found) return std::nullopt;
+  BlockEstimate result = estimate_;
+  static_cast<WindowEstimate&>(result) = *found;
+  return result;
+}
 
 const BlockEstimate* StrutBlocks::push(Side side, Stamp stamp, double acceleration) {
   if (!origin_) origin_ = stamp;
@@ -83,7 +98,6 @@ const BlockEstimate* StrutBlocks::takeBlocks() {
     if (estimate == nullptr) continue;
     static_cast<WindowEstimate&>(estimate_) = *estimate;
     const double length = estimate_.length;
-    estimate_.rate /= length;
     estimate_.stamp = *origin_ + fromSeconds(static_cast<double>(half + 1) * length / 2.0);
     has_estimate_ = true;
     found = &estimate_;

@@ -87,6 +87,7 @@ void StrutEquations::linearise(const BlockVector& theta, StrutBlock& block) {
   instruments_.col(kBlockWheelShare).array() = -rho_slope_ / gain_.conjugate() * wheel_;
   regressors_.col(kBlockWheelShare) = instruments_.col(kBlockWheelShare);
   block.at = theta;
+  block.version = ++versions_;
   for (Eigen::Index i = 0; i < p; ++i)
     if (i != kBlockWheelShare) residual += theta[i] * regressors_.col(i).array();
   sumBands(block);

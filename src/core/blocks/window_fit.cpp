@@ -1,28 +1,18 @@
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kIterations = 3;     // of the noise and parameters
-constexpr int kWeighings = 3;      // of blocks
-constexpr double kSameWeight = 0.1;
-constexpr double kUnusual = 10.0;  // times the usual power, from which a block counts less
+constexpr int kIterations = 3;        // of the noise and parameters
+constexpr int kWeighings = 3;         // of blocks
+constexpr double kSameWeight = 0.1;   // relative
+constexpr double kLeastShare = 0.02;  // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
 
-// Power of the residual in a band, or in a sum of bands; it does not depend on r. e is linear in the parameters but for
-// the weight 1 / A.
-double powerAt(const Eigen::MatrixXd& moments, const BlockVector& theta, BlockVector& linear) {
-  const Eigen::Index p = theta.size();
-  linear = theta;
-  linear[kBlockWheelShare] = 0.0;
-  double power = moments(p, p) - 2.0 * moments.col(p).head(p).dot(linear);
-  for (Eigen::Index i = 0; i < p; ++i)
-    power += linear[i] * (linear[i] * moments(i, i) + 2.0 * moments.col(i).head(i).dot(linear.head(i)));
-  return std::max(power, 0.0);
-}
+// Within a factor of two of what it was, so that the model stays stable.
+double withinReach(double value, double before) { return std::clamp(value, 0.5 * before, 2.0 * before); }
 
 }  // namespace
 
@@ -31,41 +21,49 @@ bool WindowEstimate::isUsable() const {
          covariance(0, 0) > 0.0 && covariance.topLeftCorner<2, 2>().determinant() > 0.0;
 }
 
-WindowFit::WindowFit(const NoiseBands& bands, const BlockColumns& columns, int most_blocks)
-    : bands_(bands), columns_(columns) {
+WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int most_blocks)
+    : length_(band.length), bands_(band), columns_(columns) {
   const Eigen::Index p = columns.numParameters();
-  sums_.resize(static_cast<std::size_t>(bands.count()));
-  for (Sum& each : sums_) {
-    each.information.setZero(p, p);
-    each.moments.setZero(p + 1, p + 1);
-    each.score.setZero(p);
-    each.share.setZero(p);
-  }
-  power_.setZero(most_blocks, bands.count());
+  power_.setZero(most_blocks, bands_.count());
   weight_.setOnes(most_blocks);
-  noise_.setOnes(bands.count());
-  share_scale_ = noise_;
-  for (BlockMatrix* each : {&normal_, &inverse_, &prior_information_}) each->setZero(p, p);
-  for (BlockVector* each : {&right_, &step_, &scale_, &size_}) each->setZero(p);
-  previous_.setZero(2, bands.count());
-  lu_ = Eigen::PartialPivLU<BlockMatrix>(p);
-  medians_.reserve(static_cast<std::size_t>(most_blocks));
-  own_.reserve(medians_.capacity());
-  own_covariance_.reserve(medians_.capacity());
+  versions_.assign(static_cast<std::size_t>(most_blocks), 0);
+  sums_.resize(static_cast<std::size_t>(bands_.count()));
+  for (Sum& each : sums_) {
+    each.information.resize(p, p);
+    each.moments.resize(p + 1, p + 1);
+    each.score.resize(p);
+    each.share.resize(p);
+  }
+  weights_.noise.setOnes(bands_.count());
+  weights_.share_scale = weights_.noise;
+  normal_.setZero(p, p);
+  right_.setZero(p);
+  previous_.setZero(2, bands_.count());
+  distances_.reserve(static_cast<std::size_t>(most_blocks));
+  own_.reserve(distances_.capacity());
+  own_covariance_.reserve(distances_.capacity());
 }
 
 void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
                     const Eigen::VectorXd& usual, double least_inflation, WindowEstimate& result) {
   blocks_ = static_cast<int>(blocks.size());
+  weights_.usual = usual;
   result.blocks = blocks_;
   result.theta = start;
   gather(blocks);
-  for (int i = 0; i < kWeighings; ++i) {
-    for (int k = 0; k < kIterations; ++k) {
+  for (int w = 0; w < kWeighings; ++w) {
+    for (int i = 0; i < kIterations; ++i) {
       measureNoise(result.theta);
-      if (!solve(prior, result.theta)) break;
+      sum(prior);
+      const NormalEquations equations(normal_, right_);
+      if (!equations.is_solvable) break;
+      const double b1 = result.theta[kBlockDamping], b0 = result.theta[kBlockStiffness];
+      result.theta = equations.solution;
+      result.theta[kBlockDamping] = withinReach(result.theta[kBlockDamping], b1);
+      result.theta[kBlockStiffness] = withinReach(result.theta[kBlockStiffness], b0);
+      result.theta[kBlockWheelShare] = std::clamp(result.theta[kBlockWheelShare], kLeastShare, 1.0 - kLeastShare);
     }
-    if (!weigh(blocks, result.theta, usual)) break;
+    if (!weigh(blocks, result.theta)) break;
     gathered_ = 0;
     gather(blocks);
   }
@@ -73,23 +71,24 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
   describe(blocks, prior, least_inflation, result);
 }
 
-void WindowFit::newBlocks() {
-  gathered_ = 0;
-  weight_.setOnes();
-}
-
-// Sums over the newest blocks; those of a smaller window before this one are there already.
+// Sums over the newest blocks: those of a smaller window before this one are there already.
 void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
-  if (gathered_ > blocks_) gathered_ = 0;
+  const auto newest = [&](int i) -> const StrutBlock& { return *blocks[static_cast<std::size_t>(blocks_ - 1 - i)]; };
+  const auto version = [&](int i) -> long& { return versions_[static_cast<std::size_t>(i)]; };
+  bool is_known = gathered_ <= blocks_;
+  for (int i = 0; is_known && i < gathered_; ++i) is_known = version(i) == newest(i).version;
+  if (!is_known) {
+    gathered_ = 0;
+    weight_.setOnes();
+  }
   if (gathered_ == 0) {
-    weights_ = 0.0;
+    sum_of_weights_ = 0.0;
     for (Sum& each : sums_) each.setZero();
   }
   for (; gathered_ < blocks_; ++gathered_) {
-    const StrutBlock& block = *blocks[static_cast<std::size_t>(blocks_ - 1 - gathered_)];
-    const double weight = weight_[gathered_];
-    weights_ += weight;
-    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].add(weight, block.bands[i]);
+    version(gathered_) = newest(gathered_).version;
+    sum_of_weights_ += weight_[gathered_];
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].add(weight_[gathered_], newest(gathered_).bands[i]);
   }
 }
 
@@ -102,8 +101,8 @@ void WindowFit::Sum::setZero() {
 }
 
 void WindowFit::Sum::add(double weight, const StrutBlock::Band& band) {
-  information.noalias() += weight * band.information;
-  moments.noalias() += weight * band.moments;
+  information += weight * band.information;
+  moments += weight * band.moments;
   score += weight * band.score;
   share += weight * band.share;
   wheel_power += weight * band.wheel_power;
@@ -111,18 +110,14 @@ void WindowFit::Sum::add(double weight, const StrutBlock::Band& band) {
 
 // How much each block counts.
 // @return true if that has changed.
-bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta,
-                      const Eigen::VectorXd& usual) {
+bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {
   bool has_changed = false;
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
-    double times_usual = 0.0;
-    for (int i = 0; i < bands_.count(); ++i) {
-      power_(b, i) = powerAt(block.bands[static_cast<std::size_t>(i)].moments, theta, step_) / bands_.size(i);
-      if (usual.size() > 0) times_usual += power_(b, i) / usual[i] / bands_.count();
-    }
+    for (int i = 0; i < bands_.count(); ++i)
+      power_(b, i) = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands_.size(i);
     double& weight = weight_[blocks_ - 1 - b];
-    const double now = times_usual > kUnusual ? kUnusual / times_usual : 1.0;
+    const double now = weights_.of(power_.row(b).matrix());
     has_changed = has_changed || std::abs(now - weight) > kSameWeight * weight;
     weight = now;
   }
@@ -131,79 +126,54 @@ bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
 
 // The noise's spectrum.
 void WindowFit::measureNoise(const BlockVector& theta) {
+  Eigen::VectorXd &noise = weights_.noise, &scale = weights_.share_scale;
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
     const Sum& sum = sums_[static_cast<std::size_t>(i)];
-    const double wheel = sum.wheel_power / bands_.size(i);
-    noise_[i] = std::max(powerAt(sum.moments, theta, step_) / bands_.size(i), least * wheel) / weights_;
-    share_scale_[i] = wheel > 0.0 ? noise_[i] * weights_ / wheel : 0.0;
-    if (!(noise_[i] > 0.0)) noise_[i] = 1.0;  // the sensors read constants
+    const double wheel = sum.wheel_power / bands_.size(i), power = residualPower(sum.moments, theta) / bands_.size(i);
+    // From so many degrees of freedom the power is known to 1 +- sqrt(2 / degrees) only: by that weights are worse than
+    // the best ones, and their inverse is too large on average, each by 2 / degrees of the variance.
+    const double degrees = sum_of_weights_ * bands_.size(i) / kBinCorrelation;
+    noise[i] = (1.0 + 4.0 / degrees) * std::max(power, least * wheel) / sum_of_weights_;
+    scale[i] = wheel > 0.0 ? noise[i] * sum_of_weights_ / wheel : 0.0;
+    if (!(noise[i] > 0.0)) noise[i] = 1.0;  // the sensors read constants
   }
 }
 
-bool WindowFit::solve(const BlockPrior& prior, BlockVector& theta) {
-  const Eigen::Index p = theta.size();
-  prior_information_.setZero();
-  prior_information_.diagonal() = prior.stddev.array().square().inverse();
-  normal_ = prior_information_;
-  right_ = prior_information_ * prior.mean;
+void WindowFit::sum(const BlockPrior& prior) {
+  normal_.setZero();
+  normal_.diagonal() = prior.stddev.cwiseAbs2().cwiseInverse();
+  right_ = normal_.diagonal().cwiseProduct(prior.mean);
   for (int i = 0; i < bands_.count(); ++i) {
     const Sum& sum = sums_[static_cast<std::size_t>(i)];
-    inverse_ = sum.information / noise_[i];
-    step_ = (sum.score + share_scale_[i] * sum.share) / noise_[i];
-    inverse_.col(kBlockWheelShare) *= share_scale_[i];
-    inverse_.row(kBlockWheelShare) *= share_scale_[i];
-    step_[kBlockWheelShare] *= share_scale_[i];
-    normal_ += inverse_;
-    right_ += step_;
+    const double noise = weights_.noise[i], scale = weights_.share_scale[i];
+    BlockMatrix information = sum.information / noise;
+    information.row(kBlockWheelShare) *= scale;
+    information.col(kBlockWheelShare) *= scale;
+    BlockVector score = (sum.score + scale * sum.share) / noise;
+    score[kBlockWheelShare] *= scale;
+    normal_ += information;
+    right_ += score;
   }
-  // Units differ by orders of magnitude.
-  scale_ = normal_.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
-  if (!scale_.allFinite()) return false;
-  inverse_.noalias() = scale_.asDiagonal() * normal_ * scale_.asDiagonal();
-  lu_.compute(inverse_);
-  step_ = scale_.cwiseProduct(lu_.solve(scale_.cwiseProduct(right_)));
-  if (!step_.allFinite()) return false;
-  for (Eigen::Index i = 0; i < p; ++i) {
-    if (i == kBlockDamping || i == kBlockStiffness)
-      theta[i] = std::clamp(step_[i], 0.5 * theta[i], 2.0 * theta[i]);
-    else if (i == kBlockWheelShare)
-      theta[i] = std::clamp(step_[i], 0.02, 0.98);
-    else
-      theta[i] = step_[i];
-  }
-  return true;
 }
 
 void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                          WindowEstimate& result) {
-  BlockVector ignored = result.theta;
-  if (!solve(prior, ignored)) {
-    result.covariance.setConstant(result.theta.size(), result.theta.size(), std::numeric_limits<double>::infinity());
-    return;
-  }
-  // normal_ is now at the final weights.
-  inverse_ = lu_.inverse();
-  inverse_ = scale_.asDiagonal() * inverse_ * scale_.asDiagonal();
-  const double correlation = kBinCorrelation + kBlockCorrelation * (blocks_ - 1.0) / blocks_;
-  result.covariance.noalias() =
-      inverse_ * (correlation * (normal_ - prior_information_) + prior_information_) * inverse_.transpose();
-  result.covariance = 0.5 * (result.covariance + result.covariance.transpose()).eval();
-  result.inflation =
-      std::max(least_inflation, inflation(blocks, result.theta, result.covariance.topLeftCorner<2, 2>()));
+  sum(prior);
+  const NormalEquations equations(normal_, right_);
+  result.covariance = covarianceByNoise(normal_, equations.inverse, prior, blocks_);
+  if (!equations.is_solvable) result.covariance.setConstant(std::numeric_limits<double>::infinity());
+  result.inflation = std::max(least_inflation, inflation(blocks, result, equations.inverse, prior));
   result.covariance *= result.inflation;
-  result.noise = noise_;
+  result.noise = weights_.noise;
   result.alike = 0.0;
-  if (!wheel_noise_.empty()) widenByAlike(result);
+  if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
 
-  double body = 0.0, unexplained = 0.0, rate = 0.0, weights = 0.0;
+  double body = 0.0, unexplained = 0.0, rate = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero(), information = age;
-  BlockVector& linear = ignored;  // the strut without the columns
-  linear = result.theta;
-  linear.tail(columns_.forces + columns_.neighbours).head(columns_.forces).setZero();
-  for (const Sum& sum : sums_) unexplained += powerAt(sum.moments, linear, step_);
-  const double now = blocks.back()->end;
+  const BlockVector linear = linearPart(result.theta, columns_);
+  for (const Sum& each : sums_) unexplained += residualPower(each.moments, linear);
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     const double weight = weight_[blocks_ - 1 - b];
@@ -211,82 +181,70 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
       const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
       body += weight * band.body_power;
       rate += weight * band.rate_power;
-      const Eigen::Vector2d own = weight / noise_[i] * band.information.diagonal().head<2>();
+      const Eigen::Vector2d own = weight / weights_.noise[i] * band.information.diagonal().head<2>();
       information += own;
-      age += own * (now - block.end);
+      age += own * (blocks.back()->end - block.end);
     }
-    weights += weight;
   }
   result.explained = body > 0.0 ? 1.0 - unexplained / body : 0.0;
-  // Parseval: the mean square over a block is 2 sum |H|^2 / (T^2 mean(hann^2)), and mean(hann^2) = 3/8; T^2 by the
-  // user.
-  result.rate = std::sqrt(2.0 * rate / weights / 0.375);
+  result.setRate(rate / sum_of_weights_, length_);
   result.age = (age.array() / information.array()).maxCoeff();
 }
 
-void WindowFit::widenByAlike(WindowEstimate& result) {
-  normal_.setZero();
+void WindowFit::widenByAlike(const BlockMatrix& inverse, WindowEstimate& result) {
+  BlockMatrix information = BlockMatrix::Zero(inverse.rows(), inverse.cols());
   double power = std::numeric_limits<double>::infinity();
   for (int i = 0; i < bands_.count(); ++i) {
     const WheelNoise& noise = wheel_noise_[static_cast<std::size_t>(i)];
-    normal_ += noise.information / noise_[i];
-    power = std::min(power, noise_[i] / (1.0 + noise.output));
+    information += noise.information / weights_.noise[i];
+    power = std::min(power, weights_.noise[i] / (1.0 + noise.output));
   }
-  normal_ *= power * weights_;
-  size_.setZero();
-  size_.head<2>() = result.theta.head<2>();
-  for (int m = 0; m < columns_.neighbours; ++m) size_[columns_.firstNeighbour() + m] = result.theta[m % 2];
-  prior_information_.noalias() = inverse_ * normal_;
-  normal_.noalias() = prior_information_ * size_.asDiagonal();
+  BlockVector size = BlockVector::Zero(inverse.rows());
+  size.head<2>() = result.theta.head<2>();
+  for (int m = 0; m < columns_.neighbours; ++m) size[columns_.firstNeighbour() + m] = result.theta[m % 2];
+  BlockMatrix drawn = inverse * information;
+  drawn *= power * sum_of_weights_ * size.asDiagonal();
   for (const int i : {kBlockDamping, kBlockStiffness})
-    result.alike = std::max(result.alike, normal_.row(i).norm() / result.theta[i]);
-  result.covariance.noalias() += normal_ * normal_.transpose();
-}
-
-// The score of a cell at theta into right_.
-void WindowFit::takeScore(const StrutBlock& block, int b, int i, const BlockVector& theta) {
-  const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-  step_ = theta;
-  step_[kBlockWheelShare] *= share_scale_[i];
-  right_ = band.score + share_scale_[i] * band.share - band.information.lazyProduct(step_);
-  right_ *= weight_[blocks_ - 1 - b] / noise_[i];
-  right_[kBlockWheelShare] *= share_scale_[i];
+    result.alike = std::max(result.alike, drawn.row(i).norm() / result.theta[i]);
+  result.covariance.noalias() += drawn * drawn.transpose();
 }
 
 // The mean over b1 and b0 of how much more the estimate varies by the scatter of cells, and of neighbouring blocks
 // together, than by their noise.
-double WindowFit::inflation(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta,
-                            const Eigen::Matrix2d& covariance) {
-  Eigen::Matrix2d scattered = (inverse_ * prior_information_ * inverse_.transpose()).topLeftCorner<2, 2>();
+double WindowFit::inflation(const std::vector<const StrutBlock*>& blocks, const WindowEstimate& result,
+                            const BlockMatrix& inverse, const BlockPrior& prior) {
+  Eigen::Matrix2d scattered =
+      inverse.topRows<2>() * prior.stddev.cwiseAbs2().cwiseInverse().asDiagonal() * inverse.topRows<2>().transpose();
   previous_.setZero();
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     for (int i = 0; i < bands_.count(); ++i) {
-      takeScore(block, b, i, theta);
-      const Eigen::Vector2d moved = inverse_.topRows<2>() * right_;
+      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+      const Eigen::Vector2d moved = weight_[blocks_ - 1 - b] / weights_.noise[i] * inverse.topRows<2>() *
+                                    scoreOf(band, result.theta, weights_.share_scale[i]);
       const Eigen::Matrix2d with_previous = 0.5 * moved * previous_.col(i).transpose();
       scattered += moved * moved.transpose() + with_previous + with_previous.transpose();
       previous_.col(i) = moved;
     }
   }
-  const double determinant = covariance.determinant();
-  if (!(determinant > 0.0)) return std::numeric_limits<double>::infinity();
+  const Eigen::Matrix2d covariance = result.covariance.topLeftCorner<2, 2>();
+  if (!(covariance.determinant() > 0.0)) return std::numeric_limits<double>::infinity();
   return 0.5 * (covariance.inverse() * scattered).trace();
 }
 
 double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {
   own_.clear();
   own_covariance_.clear();
-  medians_.clear();
+  distances_.clear();
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     Eigen::Vector2d score = Eigen::Vector2d::Zero();
     for (int i = 0; i < bands_.count(); ++i) {
-      takeScore(block, b, i, theta);
-      score += right_.head<2>();
-      information +=
-          weight_[blocks_ - 1 - b] / noise_[i] * block.bands[static_cast<std::size_t>(i)].information.topLeftCorner<2, 2>();
+      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+      const double weight = weight_[blocks_ - 1 - b] / weights_.noise[i];
+      information += weight * band.information.topLeftCorner<2, 2>();
+      score += weight * scoreOf(band, theta, weights_.share_scale[i]).head<2>();
     }
     if (!(information.determinant() > 0.0)) continue;
     own_covariance_.push_back(information.inverse());
@@ -295,11 +253,11 @@ double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blo
   for (std::size_t b = 2; b < own_.size(); ++b) {
     const Eigen::Vector2d apart = own_[b] - own_[b - 2];
     const Eigen::Matrix2d covariance = kBinCorrelation * (own_covariance_[b] + own_covariance_[b - 2]);
-    medians_.push_back(apart.dot(covariance.inverse() * apart));
+    distances_.push_back(apart.dot(covariance.inverse() * apart));
   }
-  if (medians_.size() < 5) return 1.0;
-  const auto middle = medians_.begin() + static_cast<std::ptrdiff_t>(medians_.size() / 2);
-  std::nth_element(medians_.begin(), middle, medians_.end());
+  if (distances_.size() < 5) return 1.0;
+  const auto middle = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 2);
+  std::nth_element(distances_.begin(), middle, distances_.end());
   constexpr double kMedianOfChiSquare = 1.386;  // 2 ln 2, of two degrees of freedom
   return std::max(1.0, *middle / kMedianOfChiSquare);
 }

@@ -13,21 +13,11 @@ void checkThresholds(const char* parameter, double warn, double error) {
                                 ", must be at least health/" + parameter + "_warn = " + std::to_string(warn));
 }
 
-// Of the estimates, in updates; infinite for one that never forgets.
-double memoryOf(const HealthOptions& options) {
-  return 1.0 / (1.0 - options.forgetting_factor) / options.rows_per_update;
-}
-
-double horizonOf(const HealthOptions& options) {
-  return static_cast<double>(options.horizon_samples) / options.rows_per_update;
-}
-
-double spacingOfEarly(const HealthOptions& options) { return 2.0 * (memoryOf(options) + horizonOf(options)); }
+// A window of the fewest blocks of the usual length [s]; longer ones come at longer spacings.
+constexpr double kShortestWindow = 4.0;
 
 EarlyWarning earlyWarning(const HealthOptions& options) {
-  const double spacing = spacingOfEarly(options) * options.rows_per_update * options.period;  // [s]
-  return {options.early_change, std::max(2.0, options.false_alarm_interval / spacing),
-          FollowedParameter::varianceOfMeans(memoryOf(options), horizonOf(options), spacingOfEarly(options))};
+  return {options.early_change, std::max(2.0, options.false_alarm_interval / kShortestWindow)};
 }
 
 // |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.
@@ -43,11 +33,6 @@ struct PartChange {
   double blind;         ///< standard deviation that a change is proved against
   double warn, error;   ///< thresholds [-]
 };
-
-// Half of the change's variance and more.
-bool isMostlyFriction(const std::optional<HealthyValue>& healthy, const std::optional<LogChange>& change) {
-  return healthy && change && healthy->by_friction / healthy->value >= std::sqrt(0.5) * change->stddev;
-}
 
 // Level of one parameter. A level that holds already ends below its threshold less the hysteresis, or less a standard
 // deviation if that is more, or when the change has lost half of the significance that it began with.
@@ -73,31 +58,19 @@ void HealthOptions::validate() const {
 
 HealthAssessment::HealthAssessment(const HealthOptions& options)
     : options_(options),
-      memory_(memoryOf(options)),
       confirmation_(fromSeconds(options.confirm_time)),
-      damping_{FollowedParameter(memory_, horizonOf(options)), earlyWarning(options)},
+      damping_{earlyWarning(options)},
       stiffness_(damping_) {
   options.validate();
   baseline_.damping_to_mass = options.nominal_damping_to_mass;
   baseline_.stiffness_to_mass = options.nominal_stiffness_to_mass;
-  const double rows = options.learn_time / options.period;
-  if (baseline_.isEmpty() && rows > 0.0) learner_.emplace(rows, memory_ * options.rows_per_update);
+  if (baseline_.isEmpty() && options.learn_time > 0.0) learner_.emplace(options.learn_time);
 }
 
 void HealthAssessment::setOptions(const HealthOptions& options) {
   options.validate();
   options_ = options;
-  if (memoryOf(options) != memory_) {
-    memory_ = memoryOf(options);
-    damping_.course = stiffness_.course = FollowedParameter(memory_, horizonOf(options));
-  }
   confirmation_.setConfirmTime(fromSeconds(options.confirm_time));
-}
-
-void HealthAssessment::setMemory(double rows) {
-  const double memory = std::min(memory_, rows / options_.rows_per_update);
-  damping_.course.setMemory(memory, horizonOf(options_));
-  stiffness_.course.setMemory(memory, horizonOf(options_));
 }
 
 void HealthAssessment::setBaseline(const Baseline& baseline) {
@@ -110,24 +83,13 @@ void HealthAssessment::setBaseline(const Baseline& baseline) {
   }
 }
 
-const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& ls, const StrutEstimate& la) {
-  HealthReport now;
-  now.estimate_valid = la.valid();
-  now.doubt = la.doubt;
+const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& estimate, bool is_new) {
+  const bool judges = estimate.valid() && is_new;
+  if (judges) take(stamp, estimate);
+  HealthReport now = judged_;
+  now.estimate_valid = estimate.valid();
+  now.doubt = estimate.doubt;
   now.sensor = sensor_;
-  if (la.valid()) {
-    follow(ls, la);
-    if (learner_ && agreement_.holds())
-      if (const std::optional<Baseline> learned = learner_->add(stamp, ls, options_.rows_per_update))
-        setBaseline(*learned);
-    const HealthyValues healthy = onThisRoad(baseline_, la.friction, options_.min_significance);
-    const StrutChange changed = change(healthy);
-    judge(changed, now);
-    now.friction_doubt = now.uncertain && (isMostlyFriction(healthy.damping, changed.measured_damping) ||
-                                           isMostlyFriction(healthy.stiffness, changed.measured_stiffness));
-    noteLoad(changed);
-    warnEarly(changed);
-  }
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
   now.outliers = agreement_.fails();
   now.learned = baseline_.learned;
@@ -135,35 +97,43 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& l
     now.learning = learner_->progress();
     now.learning_restarted = learner_->restarts() > 0;
   }
-  const HealthLevel level = confirmation_.update(stamp, now.level);
-  if (la.valid() || level == HealthLevel::kStale) report_ = now;  // else the last judgement stands, with its reasons
-  report_.level = level;
+  if (!estimate.valid())
+    now.level = HealthLevel::kStale;
+  else if (sensor_.fault != SensorFault::kNone)
+    now.level = HealthLevel::kWarn;
+  // The same estimate twice is no confirmation of itself.
+  const bool is_judgement = estimate.valid() && sensor_.fault == SensorFault::kNone;
+  if (judges || !is_judgement || stamp < report_stamp_) level_ = confirmation_.update(stamp, now.level);
+  report_stamp_ = stamp;
+  if (estimate.valid() || level_ == HealthLevel::kStale) report_ = now;  // else the last judgement stands
+  report_.level = level_;
   return report_;
 }
 
-void HealthAssessment::follow(const StrutEstimate& ls, const StrutEstimate& la) {
-  agreement_.update(ls, la, memory_);
-  const auto if_valid = [&](double value, double stddev) {
-    return ls.valid() ? std::optional<UncertainValue>({value, stddev}) : std::nullopt;
-  };
-  damping_.course.follow(if_valid(ls.damping_to_mass, ls.damping_to_mass_stddev),
-                         {la.damping_to_mass, la.damping_to_mass_stddev});
-  stiffness_.course.follow(if_valid(ls.stiffness_to_mass, ls.stiffness_to_mass_stddev),
-                           {la.stiffness_to_mass, la.stiffness_to_mass_stddev});
+// What a new estimate says.
+void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
+  const double seconds = taken_ && stamp > *taken_ ? std::min(toSeconds(stamp - *taken_), estimate.window) : 0.0;
+  taken_ = stamp;
+  learn(stamp, estimate, seconds);
+  const ChangeFromBaseline changed = changeFrom(baseline_, estimate);
+  const StrutChange change = splitChange(changed.change, options_.payload_range, known_load_);
+  judged_ = HealthReport();
+  judge(change);
+  judged_.friction_doubt = judged_.uncertain && changed.is_mostly_friction;
+  noteLoad(change);
+  since_early_ += seconds;
+  warnEarly(change, estimate.window);
 }
 
-StrutChange HealthAssessment::change(const HealthyValues& healthy) const {
-  const auto from = [&](const std::optional<HealthyValue>& value, const FollowedParameter& parameter) {
-    return value ? parameter.changeFrom(*value, options_.min_significance) : std::nullopt;
-  };
-  return splitChange(from(healthy.damping, damping_.course), from(healthy.stiffness, stiffness_.course),
-                     options_.payload_range, known_load_);
+void HealthAssessment::learn(Stamp stamp, const StrutEstimate& estimate, double seconds) {
+  if (!learner_ || !(seconds > 0.0)) return;
+  if (const std::optional<Baseline> learned = learner_->add(stamp, estimate, seconds)) setBaseline(*learned);
 }
 
 // The load is known while nothing but it has changed, and that is certain enough to be no beginning of a damage.
 void HealthAssessment::noteLoad(const StrutChange& change) {
   if (!change.load_alone) return;
-  const double apart = std::abs(change.measured_damping->size - change.measured_stiffness->size);
+  const double apart = std::abs(change.measured.damping->size - change.measured.stiffness->size);
   if (apart + kLoadCertain * change.apartStddev() <
       kLoadShare * std::min(options_.damping_warn, options_.stiffness_warn))
     known_load_ = std::log1p(*change.payload);
@@ -182,7 +152,8 @@ LoadDoubt HealthAssessment::doubtOfLoad(const StrutChange& change) const {
   return is_loaded ? LoadDoubt::kLoadOrBoth : LoadDoubt::kNone;
 }
 
-void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
+void HealthAssessment::judge(const StrutChange& change) {
+  HealthReport& now = judged_;
   now.damping_change = change.damping;
   now.stiffness_change = change.stiffness;
   now.payload_change = change.payload;
@@ -198,13 +169,13 @@ void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
                       error};  // NaN: not known
   };
   if (change.damping) {
-    const PartChange damping = part(*change.damping, change.damping_stddev, *change.measured_damping,
+    const PartChange damping = part(*change.damping, change.damping_stddev, *change.measured.damping,
                                     options_.damping_warn, options_.damping_error);
     now.damping_significance = damping.significance;
     damping_.level = levelOf(damping, damping_.level, options_);
   }
   if (change.stiffness) {
-    const PartChange stiffness = part(*change.stiffness, change.stiffness_stddev, *change.measured_stiffness,
+    const PartChange stiffness = part(*change.stiffness, change.stiffness_stddev, *change.measured.stiffness,
                                       options_.stiffness_warn, options_.stiffness_error);
     now.stiffness_significance = stiffness.significance;
     stiffness_.level = levelOf(stiffness, stiffness_.level, options_);
@@ -215,12 +186,10 @@ void HealthAssessment::judge(const StrutChange& change, HealthReport& now) {
   now.level = std::max(known(damping_.level), known(stiffness_.level));
   now.uncertain = std::max(damping_.level, stiffness_.level) == HealthLevel::kStale;
   if (now.level == HealthLevel::kOk && now.uncertain) now.level = HealthLevel::kStale;
-  if (now.sensor.fault != SensorFault::kNone) now.level = HealthLevel::kWarn;
 }
 
-void HealthAssessment::warnEarly(const StrutChange& change) {
-  since_early_ += 1.0;
-  if (since_early_ < spacingOfEarly(options_)) return;
+void HealthAssessment::warnEarly(const StrutChange& change, double window) {
+  if (since_early_ < window) return;
   since_early_ = 0.0;
   if (change.damping) damping_.early.add(*change.damping, change.damping_stddev);
   if (change.stiffness) stiffness_.early.add(*change.stiffness, change.stiffness_stddev);

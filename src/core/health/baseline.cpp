@@ -2,97 +2,144 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace suspension_health_monitor {
 namespace {
 
-HealthyValue shifted(double value, double stddev, const DryFriction& friction, double gain_apart, double certain) {
-  const double shift = friction.force * gain_apart;
-  const double by_friction = std::hypot(shift / certain, friction.stddev * gain_apart);
-  constexpr double kNoTelling = std::numeric_limits<double>::infinity();
-  if (!(value + shift > by_friction)) return {{value, kNoTelling}, kNoTelling};  // nearly all of the value was friction
-  return {{value + shift, std::hypot(stddev, by_friction)}, by_friction};
+double square(double x) { return x * x; }
+
+struct ValueAndVariance {
+  double value, variance;
+};
+
+// b1 as it acts where friction has the gain m, without what is uncertain of friction's law.
+ValueAndVariance dampingAt(double m, double b1, double stddev, const DryFriction& friction) {
+  const double variance = std::max(0.0, square(stddev) - square(friction.lawStddev()));
+  return {b1 + friction.force * m,
+          std::max(0.0, variance + 2.0 * m * friction.damping_covariance + square(m * friction.stddev))};
+}
+
+std::optional<LogChange> logChange(const ValueAndVariance& now, const ValueAndVariance& healthy) {
+  if (!(now.value > 0.0 && healthy.value > 0.0)) return std::nullopt;
+  return LogChange{std::log(now.value / healthy.value),
+                   std::sqrt(now.variance / square(now.value) + healthy.variance / square(healthy.value))};
 }
 
 }  // namespace
 
-Baseline baselineOf(const StrutEstimate& la, Stamp stamp) {
-  return {la.damping_to_mass,
-          la.stiffness_to_mass,
-          la.damping_to_mass_stddev,
-          la.stiffness_to_mass_stddev,
-          la.friction,
+Baseline baselineOf(const StrutEstimate& estimate, Stamp stamp) {
+  return {estimate.damping_to_mass,
+          estimate.stiffness_to_mass,
+          estimate.damping_to_mass_stddev,
+          estimate.stiffness_to_mass_stddev,
+          estimate.friction,
           true,
           stamp,
           stamp};
 }
 
-HealthyValues onThisRoad(const Baseline& baseline, const std::optional<DryFriction>& now, double certain) {
-  HealthyValues healthy;
-  const DryFriction learned = baseline.friction.value_or(DryFriction{});
-  const DryFriction present = baseline.friction && now ? *now : learned;
-  const DryFriction between{(learned.force + present.force) / 2.0, std::hypot(learned.stddev, present.stddev) / 2.0};
-  if (baseline.damping_to_mass)
-    healthy.damping = shifted(*baseline.damping_to_mass, baseline.damping_to_mass_stddev, between,
-                              present.damping_gain - learned.damping_gain, certain);
-  if (baseline.stiffness_to_mass)
-    healthy.stiffness = shifted(*baseline.stiffness_to_mass, baseline.stiffness_to_mass_stddev, between,
-                                present.stiffness_gain - learned.stiffness_gain, certain);
-  return healthy;
+ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now) {
+  ChangeFromBaseline result;
+  MeasuredChange& change = result.change;
+  if (healthy.stiffness_to_mass)
+    change.stiffness = logChange({now.stiffness_to_mass, square(now.stiffness_to_mass_stddev)},
+                                 {*healthy.stiffness_to_mass, square(healthy.stiffness_to_mass_stddev)});
+  if (!healthy.damping_to_mass) return result;
+  ValueAndVariance damper{now.damping_to_mass, square(now.damping_to_mass_stddev)};
+  ValueAndVariance healthy_damper{*healthy.damping_to_mass, square(healthy.damping_to_mass_stddev)};
+  double by_law = 0.0;
+  if (healthy.friction && now.friction) {
+    const DryFriction &present = *now.friction, &learned = *healthy.friction;
+    const double between = (present.damping_gain + learned.damping_gain) / 2.0;
+    damper = dampingAt(between, now.damping_to_mass, now.damping_to_mass_stddev, present);
+    healthy_damper = dampingAt(between, *healthy.damping_to_mass, healthy.damping_to_mass_stddev, learned);
+    by_law = square((present.force - learned.force) * (present.damping_gain - learned.damping_gain) / 2.0);
+    damper.variance += by_law;
+  }
+  change.damping = logChange(damper, healthy_damper);
+  result.is_mostly_friction = by_law > 0.5 * damper.variance;
+  // The error of b1 that it shares with b0; what friction adds it does not share.
+  if (change.damping && change.stiffness && change.damping->stddev > 0.0 && change.stiffness->stddev > 0.0)
+    change.correlation = now.correlation * now.damping_to_mass_stddev / damper.value * now.stiffness_to_mass_stddev /
+                         now.stiffness_to_mass / (change.damping->stddev * change.stiffness->stddev);
+  change.correlation = std::clamp(change.correlation, -0.99, 0.99);
+  return result;
 }
 
-std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& estimate, double rows) {
+void BaselineLearner::Half::add(const StrutEstimate& estimate, double new_seconds) {
+  seconds += new_seconds;
+  const double gain = new_seconds / seconds;
+  const auto mix = [gain](double& mean, double value) { mean += gain * (value - mean); };
+  const auto mixStddev = [gain](double& mean, double value) {
+    mean = std::sqrt(square(mean) + gain * (square(value) - square(mean)));
+  };
+  if (mean.isEmpty()) mean = baselineOf(estimate, {});
+  mix(*mean.damping_to_mass, estimate.damping_to_mass);
+  mix(*mean.stiffness_to_mass, estimate.stiffness_to_mass);
+  mixStddev(mean.damping_to_mass_stddev, estimate.damping_to_mass_stddev);
+  mixStddev(mean.stiffness_to_mass_stddev, estimate.stiffness_to_mass_stddev);
+  mix(window, estimate.window);
+  if (!estimate.friction || !mean.friction) return mean.friction.reset();
+  mix(mean.friction->force, estimate.friction->force);
+  mix(mean.friction->damping_gain, estimate.friction->damping_gain);
+  mix(mean.friction->damping_covariance, estimate.friction->damping_covariance);
+  mixStddev(mean.friction->stddev, estimate.friction->stddev);
+}
+
+std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& estimate, double seconds) {
   if (progress() == 0.0 || stamp < newest_) {  // another drive
-    halves_[0] = halves_[1] = {};
+    halves_ = {};
     from_ = stamp;
   }
   newest_ = stamp;
-  Half& half = halves_[halves_[0].rows >= rows_ / 2.0 ? 1 : 0];
-  half.rows += rows;
-  const double gain = rows / half.rows;
-  const auto mix = [gain](double& mean, double value) { mean += gain * (value - mean); };
-  mix(half.damping, estimate.damping_to_mass);
-  mix(half.stiffness, estimate.stiffness_to_mass);
-  mix(half.damping_variance, std::pow(estimate.damping_to_mass_stddev, 2));
-  mix(half.stiffness_variance, std::pow(estimate.stiffness_to_mass_stddev, 2));
-  const DryFriction friction = estimate.friction.value_or(DryFriction{});
-  mix(half.friction.force, friction.force);
-  mix(half.friction.damping_gain, friction.damping_gain);
-  mix(half.friction.stiffness_gain, friction.stiffness_gain);
-  mix(half.friction_variance, std::pow(friction.stddev, 2));
+  halves_[halves_[0].seconds >= seconds_ / 2.0 ? 1 : 0].add(estimate, seconds);
   if (progress() < 1.0) return std::nullopt;
   std::optional<Baseline> learned;
-  if (drifts(&Half::damping, &DryFriction::damping_gain, &Half::damping_variance) ||
-      drifts(&Half::stiffness, &DryFriction::stiffness_gain, &Half::stiffness_variance))
+  if (drifts())
     ++restarts_;
   else
     learned = result(stamp);
-  halves_[0] = halves_[1] = {};
+  halves_ = {};
   return learned;
 }
 
-bool BaselineLearner::drifts(double Half::*mean, double DryFriction::*gain, double Half::*variance) const {
+bool BaselineLearner::drifts() const {
   const auto& [a, b] = halves_;
-  const auto withoutFriction = [&](const Half& half) { return half.*mean - friction() * half.friction.*gain; };
-  const double first = withoutFriction(a), second = withoutFriction(b);
-  const double difference = std::abs(second - first);
-  const double correlated = std::min(1.0, 4.0 * memory_ / rows_);  // of half the rows
-  return difference > kLeastDrift * std::abs(first) &&
-         difference > kDrift * std::sqrt((a.*variance + b.*variance) * correlated);
+  const auto apart = [&](double first, double first_stddev, double second, double second_stddev) {
+    const double difference = std::abs(second - first);
+    const double variance = square(first_stddev) * std::min(1.0, a.window / a.seconds) +
+                            square(second_stddev) * std::min(1.0, b.window / b.seconds);
+    return difference > kLeastDrift * std::abs(first) && difference > kDrift * std::sqrt(variance);
+  };
+  const double gain =
+      a.mean.friction && b.mean.friction ? (a.mean.friction->damping_gain + b.mean.friction->damping_gain) / 2.0 : 0.0;
+  const auto damping = [&](const Baseline& mean) {
+    return *mean.damping_to_mass + (mean.friction ? mean.friction->force * gain : 0.0);
+  };
+  return apart(damping(a.mean), a.mean.damping_to_mass_stddev, damping(b.mean), b.mean.damping_to_mass_stddev) ||
+         apart(*a.mean.stiffness_to_mass, a.mean.stiffness_to_mass_stddev, *b.mean.stiffness_to_mass,
+               b.mean.stiffness_to_mass_stddev);
 }
 
 Baseline BaselineLearner::result(Stamp to) const {
   const auto& [a, b] = halves_;
-  const double correlated = std::min(1.0, 2.0 * memory_ / rows_);
+  const auto middle = [](double first, double second) { return (first + second) / 2.0; };
+  // Overlapping windows share readings; what friction's law leaves unknown no time removes.
+  const double share = std::sqrt(std::min(1.0, middle(a.window, b.window) / seconds_));
+  const auto stddev = [&](double first, double second) {
+    return share * std::sqrt(middle(square(first), square(second)));
+  };
   Baseline baseline;
-  baseline.damping_to_mass = (a.damping + b.damping) / 2.0;
-  baseline.stiffness_to_mass = (a.stiffness + b.stiffness) / 2.0;
-  baseline.damping_to_mass_stddev = std::sqrt((a.damping_variance + b.damping_variance) / 2.0 * correlated);
-  baseline.stiffness_to_mass_stddev = std::sqrt((a.stiffness_variance + b.stiffness_variance) / 2.0 * correlated);
-  baseline.friction = DryFriction{friction(), std::sqrt((a.friction_variance + b.friction_variance) / 2.0 * correlated),
-                                  (a.friction.damping_gain + b.friction.damping_gain) / 2.0,
-                                  (a.friction.stiffness_gain + b.friction.stiffness_gain) / 2.0};
+  baseline.damping_to_mass = middle(*a.mean.damping_to_mass, *b.mean.damping_to_mass);
+  baseline.stiffness_to_mass = middle(*a.mean.stiffness_to_mass, *b.mean.stiffness_to_mass);
+  baseline.damping_to_mass_stddev = stddev(a.mean.damping_to_mass_stddev, b.mean.damping_to_mass_stddev);
+  baseline.stiffness_to_mass_stddev = stddev(a.mean.stiffness_to_mass_stddev, b.mean.stiffness_to_mass_stddev);
+  if (a.mean.friction && b.mean.friction)
+    baseline.friction =
+        DryFriction{middle(a.mean.friction->force, b.mean.friction->force),
+                    stddev(a.mean.friction->stddev, b.mean.friction->stddev),
+                    middle(a.mean.friction->damping_gain, b.mean.friction->damping_gain),
+                    square(share) * middle(a.mean.friction->damping_covariance, b.mean.friction->damping_covariance)};
   baseline.learned = true;
   baseline.from = from_;
   baseline.to = to;

@@ -61,12 +61,12 @@ void SensorCheck::add(const CornerSample& sample) {
   readings_[1].add(sample.unsprung_acceleration, quick);
 }
 
-const SensorReport& SensorCheck::judge(const StrutEstimate& la, bool la_tells) {
-  const SensorFault found = find(la, la_tells);
+const SensorReport& SensorCheck::judge(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells) {
+  const SensorFault found = find(la, la_tells && !estimate.valid());
   if (found != pending_) pending_since_ = samples_;
   pending_ = found;
   const bool stuck = found == SensorFault::kSprungStuck || found == SensorFault::kUnsprungStuck;
-  if (isOfMotion(report_.fault) && la.valid()) report_.fault = SensorFault::kNone;
+  if (isOfMotion(report_.fault) && estimate.valid()) report_.fault = SensorFault::kNone;
   if (stuck || samples_ - pending_since_ >= memory_) {
     report_.fault = found;
     report_.mean = {readings_[0].mean(), readings_[1].mean()};

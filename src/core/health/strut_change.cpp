@@ -1,5 +1,7 @@
 #include "suspension_health_monitor/internal/health/strut_change.h"
 
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -26,28 +28,37 @@ Load commonLoad(const LogChange& damping, const LogChange& stiffness, const Load
 
 }  // namespace
 
-LoadAlone explainByLoad(const LogChange& damping, const LogChange& stiffness, const LoadRange& range) {
-  const double of_damping = damping.stddev * damping.stddev, of_stiffness = stiffness.stddev * stiffness.stddev;
-  const double best = -(damping.size * of_stiffness + stiffness.size * of_damping) / (of_damping + of_stiffness);
+double StrutChange::apartStddev() const {
+  const double d = measured.damping->stddev, s = measured.stiffness->stddev;
+  return std::sqrt(std::max(0.0, d * d + s * s - 2.0 * measured.correlation * d * s));
+}
+
+LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
+  const double d = both.damping->stddev, s = both.stiffness->stddev, joint = both.correlation * d * s;
+  Eigen::Matrix2d covariance;
+  covariance << d * d, joint, joint, s * s;
+  const Eigen::Matrix2d information = covariance.inverse();
+  const Eigen::Vector2d measured(both.damping->size, both.stiffness->size), load_moves(-1.0, -1.0);
+  const Eigen::Vector2d weights = information * load_moves;
+  const double best = weights.dot(measured) / weights.dot(load_moves);
   LoadAlone load;
   load.log_mass = std::clamp(best, range.least, range.most);
   load.at_end = load.log_mass != best;
-  load.distance =
-      std::hypot((damping.size + load.log_mass) / damping.stddev, (stiffness.size + load.log_mass) / stiffness.stddev);
+  const Eigen::Vector2d left = measured - load.log_mass * load_moves;
+  load.distance = std::sqrt(std::max(0.0, left.dot(information * left)));
   return load;
 }
 
-StrutChange splitChange(const std::optional<LogChange>& damping, const std::optional<LogChange>& stiffness,
-                        double payload_range, double known_load) {
+StrutChange splitChange(const MeasuredChange& measured, double payload_range, double known_load) {
+  const auto& [damping, stiffness, correlation] = measured;
   StrutChange change{};
-  change.measured_damping = damping;
-  change.measured_stiffness = stiffness;
+  change.measured = measured;
   Load load{0.0, 0.0};
   if (damping && stiffness) {
     if (payload_range > 0.0) {
       const LoadRange range = logRange(payload_range);
       load = commonLoad(*damping, *stiffness, range, known_load);
-      change.load_alone = explainByLoad(*damping, *stiffness, range);
+      change.load_alone = explainByLoad(measured, range);
     }
     change.payload = std::expm1(load.log_mass);
   }

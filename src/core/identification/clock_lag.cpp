@@ -12,10 +12,10 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLargestLag = 0.05, kStep = 0.005;  // [s]
-constexpr std::size_t kMostSamples = 10000;          // of all drives; a lag shows in every one
-constexpr int kLongestHorizon = 512;                 // samples
-constexpr double kLongestStep = 1e6;                 // samples; no drive is sampled so densely
+constexpr double kLargestLag = 0.05, kLagStep = 0.005;  // [s]
+constexpr std::size_t kSamplesOfSurvey = 10000;         // of all drives; a lag shows in every one
+constexpr int kLongestHorizon = 512;                    // samples
+constexpr double kLongestStep = 1e6;                    // samples; no drive is sampled so densely
 
 /// Which of the readings is taken for the body's.
 enum class Roles { kAsGiven, kSwapped };
@@ -48,12 +48,13 @@ struct Found {
 };
 
 Found bestOver(const std::vector<Drive>& drives, Roles roles, double period) {
-  const int step = static_cast<int>(std::clamp(std::round(kStep / period), 1.0, kLongestStep));
-  const int most = static_cast<int>(std::min(kLargestLag / period + 0.5, kLargestLag / kStep * kLongestStep)) / step;
+  const int step = static_cast<int>(std::clamp(std::round(kLagStep / period), 1.0, kLongestStep));
+  const int most = static_cast<int>(std::min(kLargestLag / period + 0.5, kLargestLag / kLagStep * kLongestStep)) / step;
   Found best;
   for (int i = -most; i <= most; ++i) {
     HorizonSurvey horizons(period, IntegralFilterOptions{}.rule, kLongestHorizon);
-    for (const Drive& drive : drives) survey(drive, i * step, roles, kMostSamples / drives.size(), period, horizons);
+    for (const Drive& drive : drives)
+      survey(drive, i * step, roles, kSamplesOfSurvey / drives.size(), period, horizons);
     const std::optional<HorizonSurvey::Result> result = horizons.result();
     if (result && result->explained > best.strut.explained) best = {*result, i * step};
   }

@@ -8,14 +8,6 @@
 #include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-// Forgetting factor of the slope, which is a property of the noise and not of the strut; 1 % of it is chance then.
-constexpr double kSlopeMemory = 0.9998;
-constexpr double kNearZero = 0.2;  // mean absolute residuals
-constexpr double kFlattest = 0.02;
-
-}  // namespace
 
 void LeastAbsoluteOptions::validate() const {
   if (start_rows < 1)
@@ -26,10 +18,7 @@ void LeastAbsoluteOptions::validate() const {
 
 RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive,
                                                const LeastAbsoluteOptions& options)
-    : RecursiveEstimator(num_parameters, recursive),
-      absolute_(options),
-      weights_(recursive.forgetting_factor),
-      slopes_(kSlopeMemory) {
+    : RecursiveEstimator(num_parameters, recursive), absolute_(options), weights_(recursive.forgetting_factor) {
   options.validate();
 }
 
@@ -37,10 +26,10 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
   drift();
   const double innovation = innovate(row);
-  const RowWeight weight = weigh(innovation);
+  const double weight = weigh(innovation);
   if (!leads()) {
     releaseExcited(row, meanSquareResidual(), 1.0);
-    correct(row, innovation, {});
+    correct(row, innovation, 1.0);
     if (++rows_ == absolute_.start_rows) takeOver();
   } else {
     releaseExcited(row, meanAbsoluteResidual(), absolute_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
@@ -49,22 +38,14 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   return innovation;
 }
 
-// Also learns rho of ScoreCovariance: the weighted residual w epsilon is a straight line through 0 as far as the small
-// divisor reaches and a sign beyond, so the mean of its slope is the share of rows within, over the divisor. One that
-// is too small to be met in practice is replaced by a share of the scale: all that counts is the density of residuals
-// near 0.
-RowWeight RecursiveLeastAbsolute::weigh(double innovation) {
-  const double size = std::abs(innovation);
+double RecursiveLeastAbsolute::weigh(double innovation) {
   const double smallest =
       smallestDivisor(absolute_.small_divisor_rule, absolute_.small_divisor, meanAbsoluteResidual());
-  const RowWeight weight{1.0 / std::max(size, smallest), smallest};
-  if (!std::isfinite(weight.weight)) return weight;
-  const double score = weight.weight * innovation;
+  const double weight = 1.0 / std::max(std::abs(innovation), smallest);
+  if (!std::isfinite(weight)) return weight;
+  const double score = weight * innovation;
   weights_.setForgettingFactor(forgettingFactor());
-  weights_.add({score * score, weight.weight});
-  const double within = std::max(smallest, kNearZero * meanAbsoluteResidual());
-  slopes_.add({size < within ? 1.0 / within : 0.0, weight.weight});
-  if (leads()) scores_.setSlope(std::clamp(slopes_.mean(0) / slopes_.mean(1), kFlattest, 1.0));
+  weights_.add({score * score, weight});
   return weight;
 }
 
@@ -78,7 +59,7 @@ void RecursiveLeastAbsolute::beginAgain(const RecursiveLeastSquares& least_squar
 void RecursiveLeastAbsolute::takeOver() {
   // R(k) of LA sums phi phi' / |epsilon|, that of LS phi phi': without the factor the start depends on the unit of psi.
   if (absolute_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
-  scores_.restart();  // they are weighted from now on
+  scatter_.interrupt();  // rows are weighted from now on
 }
 
 }  // namespace suspension_health_monitor

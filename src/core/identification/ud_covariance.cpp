@@ -55,29 +55,6 @@ const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, do
   return gain_;
 }
 
-void UdCovariance::forgetAlong(const Eigen::VectorXd& regressor, double forgetting_factor) {
-  Eigen::VectorXd& rest = gain_;
-  rest = regressor;
-  double information = 0.0;  // phi' P^-1 phi by U^-1 phi
-  for (Eigen::Index j = size() - 1; j >= 0; --j) {
-    if (rest[j] == 0.0 || diagonal_[j] == 0.0) continue;
-    information += rest[j] * rest[j] / diagonal_[j];
-    rest.head(j) -= rest[j] * upper_.col(j).head(j);
-  }
-  if (!(information > 0.0)) return;
-  double weight = (1.0 - forgetting_factor) / (forgetting_factor * information);
-  rest = regressor;
-  for (Eigen::Index j = size() - 1; j >= 0; --j) {
-    const double before = diagonal_[j], entry = rest[j];
-    if (entry == 0.0 || before == 0.0) continue;
-    const double after = before + weight * entry * entry;
-    rest.head(j) -= entry * upper_.col(j).head(j);
-    upper_.col(j).head(j) += weight * entry / after * rest.head(j);
-    diagonal_[j] = std::min(after, ceiling_[j]);
-    weight *= before / after;
-  }
-}
-
 void UdCovariance::scale(double factor) {
   diagonal_ *= factor;
   ceiling_ *= factor;

@@ -25,12 +25,77 @@ std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const
 }
 
 // The free run follows estimates that are worth something, though it may fail by them for now.
-bool isModel(const StrutEstimate& la) { return la.valid() || la.doubt == EstimateDoubt::kFreeRunFails; }
+bool isModel(const StrutEstimate& estimate) {
+  return estimate.valid() || estimate.doubt == EstimateDoubt::kFreeRunFails ||
+         estimate.doubt == EstimateDoubt::kOldData;
+}
+
+// The newest blocks alone say nothing of the strut where they do not know it to half of itself.
+constexpr double kNothing = 0.5;
+
+BlockOptions blockOptions(const MonitorSettings& options) {
+  BlockOptions blocks;
+  blocks.length = options.block_length;
+  return blocks;
+}
+
+bool isLeading(EstimateFacts facts) { return doubtOf(facts) == EstimateDoubt::kNone; }
+
+void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimate& estimate) {
+  const auto stddev = [&](int i) { return std::sqrt(blocks.covariance(i, i)); };
+  estimate.damping_to_mass = blocks.theta[kBlockDamping];
+  estimate.stiffness_to_mass = blocks.theta[kBlockStiffness];
+  estimate.damping_to_mass_stddev = stddev(kBlockDamping);
+  estimate.stiffness_to_mass_stddev = stddev(kBlockStiffness);
+  estimate.correlation =
+      blocks.covariance(0, 1) / (estimate.damping_to_mass_stddev * estimate.stiffness_to_mass_stddev);
+  estimate.delay = blocks.theta[kBlockDelay];
+  estimate.delay_stddev = stddev(kBlockDelay);
+  estimate.num_effects = num_effects;
+  for (std::size_t j = 0; j < num_effects; ++j) {
+    const int i = kNumBlockParameters + static_cast<int>(j);
+    estimate.coefficients[j] = blocks.theta[i];
+    estimate.coefficient_stddevs[j] = stddev(i);
+  }
+  if (num_effects == 0) {
+    const int i = kNumBlockParameters;
+    // Of a normal distribution of the rate the least squares line through Coulomb's law has this slope.
+    const double gain = std::sqrt(2.0 / M_PI) / blocks.rate;
+    estimate.friction = DryFriction{blocks.theta[i], stddev(i), gain, blocks.covariance(0, i)};
+    estimate.damping_to_mass_stddev = std::hypot(estimate.damping_to_mass_stddev, estimate.friction->lawStddev());
+  }
+  estimate.effective_rows = blocks.blocks;
+  estimate.explained = blocks.explained;
+  estimate.window = (blocks.blocks + 1) * blocks.length / 2.0;
+}
+
+EstimateFacts blockFacts(const StrutEstimate& estimate) {
+  EstimateFacts facts;
+  facts.damping_stddev = estimate.damping_to_mass_stddev / estimate.damping_to_mass;
+  facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
+  facts.explained = estimate.explained;
+  return facts;
+}
+
+bool agree(double a, double a_stddev, double b, double b_stddev) {
+  const double apart = std::abs(a - b);
+  return apart <= kMostApart * std::abs(b) || apart <= kMostStddevsApart * std::hypot(a_stddev, b_stddev);
+}
+
+bool agree(const StrutEstimate& a, const StrutEstimate& b) {
+  return agree(a.damping_to_mass, a.damping_to_mass_stddev, b.damping_to_mass, b.damping_to_mass_stddev) &&
+         agree(a.stiffness_to_mass, a.stiffness_to_mass_stddev, b.stiffness_to_mass, b.stiffness_to_mass_stddev);
+}
 
 }  // namespace
 
 ModelTracker::ModelTracker(const MonitorSettings& options)
-    : identifier_(options),
+    : is_paper_(options.preset == "paper"),
+      block_options_(blockOptions(options)),
+      period_(*options.sample_period),
+      oldest_data_(options.oldest_data),
+      blocks_(block_options_, period_),
+      identifier_(options),
       free_run_(*options.sample_period),
       model_due_(kModelEvery),
       figures_due_(kFiguresEvery),
@@ -41,6 +106,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
   const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
   free_run_.setEffects(effects);  // may throw: first
   identifier_.changeEffects(columns);
+  blocks_ = StrutBlocks(block_options_, period_, effects.size());
   has_own_model_ = strut && free_run_.trySetModel(strut->damping_to_mass, strut->stiffness_to_mass);
   starts_.clear();
   for (std::size_t j = 0; j < effects.size(); ++j) {
@@ -51,13 +117,22 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
   judge(report);
 }
 
+bool ModelTracker::addReading(Side side, Stamp stamp, double acceleration, ModelReport& report) {
+  const BlockEstimate* estimate = blocks_.push(side, stamp, acceleration);
+  now_ = std::max(now_, stamp);
+  identifier_.hold(blocks_.estimate() != nullptr && blocks_.newestWorst() > kNothing);
+  if (estimate == nullptr) return false;
+  describe(*estimate, effects().size(), report.estimate);
+  return true;
+}
+
 void ModelTracker::add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report) {
   const std::optional<double> predicted = free_run_.push(newest.unsprung_acceleration, time);
   const bool plain = effects().empty();
   if (!plain && free_run_.runaways() != runaways_) fallBack();
   // Without a model of the travel there are no columns.
   if (const CornerSample* of_row = plain ? &newest : predicted ? compared : nullptr)
-    identifier_.add(*of_row, free_run_.effectForces());
+    addRow(*of_row, report);
   else
     identifier_.skip();
   report.has_row = identifier_.hasRow();
@@ -65,23 +140,58 @@ void ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
   report.comparison.has_sample = compared != nullptr;
   if (compared != nullptr) compare(*compared, predicted, report);
   judge(report);
-  if (isModel(report.la) && (model_due_() || !has_own_model_)) takeModel(report.la);
+  if (model_due_() || !has_own_model_) takeModel(report);
+}
+
+void ModelTracker::addRow(const CornerSample& sample, ModelReport& report) {
+  identifier_.add(sample, free_run_.effectForces());
+  if (effects().empty()) return;
+  if (const BlockEstimate* estimate = blocks_.pushForces(sample.stamp, free_run_.effectForces()))
+    describe(*estimate, effects().size(), report.estimate);
 }
 
 void ModelTracker::judge(ModelReport& report) {
+  judgeBlocks(report.estimate);
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
     EstimateFacts facts = identifier_.facts(*estimate);
     facts.period_fits = period_fits_;
-    facts.free_run_fails = estimate == &report.la && free_run_fails_;
+    facts.free_run_fails = estimate == &report.la && is_paper_ && free_run_fails_;
+    if (!is_paper_) facts.agrees = report.estimate.valid() && agree(*estimate, report.estimate);
     estimate->doubt = doubtOf(facts);
   }
-  identifier_.noteValidity(report.ls, report.la);
 }
 
-void ModelTracker::takeModel(const StrutEstimate& la) {
-  if (!free_run_.trySetModel(la.damping_to_mass, la.stiffness_to_mass)) return;
+void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
+  EstimateFacts facts = blockFacts(estimate);
+  if (const BlockEstimate* blocks = blocks_.estimate()) {
+    facts.has_row = true;
+    estimate.age = facts.age = blocks->age + toSeconds(now_ - blocks->stamp);
+    facts.oldest = oldest_data_;
+  }
+  estimate.doubt = doubtOf(facts);
+}
+
+StrutEstimate ModelTracker::overTheDrive() {
+  StrutEstimate estimate;
+  const std::optional<BlockEstimate> blocks = blocks_.overTheDrive();
+  if (blocks) describe(*blocks, effects().size(), estimate);
+  EstimateFacts facts = blockFacts(estimate);
+  facts.has_row = blocks.has_value();
+  estimate.doubt = doubtOf(facts);
+  return estimate;
+}
+
+void ModelTracker::takeModel(const ModelReport& report) {
+  const bool by_blocks = !is_paper_ && isModel(report.estimate);
+  const StrutEstimate& estimate = by_blocks ? report.estimate : report.la;
+  // Until the blocks know the strut LA leads, which needs no more than its own rows for that.
+  const bool leads =
+      !by_blocks &&
+      (is_paper_ ? isModel(report.la) : blocks_.estimate() == nullptr && isLeading(identifier_.facts(report.la)));
+  if (!by_blocks && !leads) return;
+  if (!free_run_.trySetModel(estimate.damping_to_mass, estimate.stiffness_to_mass)) return;
   has_own_model_ = true;
-  for (std::size_t j = 0; j < la.num_effects; ++j) free_run_.setCoefficient(j, la.coefficients[j]);
+  for (std::size_t j = 0; j < estimate.num_effects; ++j) free_run_.setCoefficient(j, estimate.coefficients[j]);
 }
 
 void ModelTracker::lead(const StrutEstimate& plain) {
@@ -111,10 +221,15 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
   free_run_fails_ = comparison_.isWorseThanConstant();
 }
 
-void ModelTracker::setInput(const InputStatus& input, ModelReport& report) {
+void ModelTracker::setInput(const InputStatus& input, Stamp now, ModelReport& report) {
   period_fits_ = input.period_fits;
-  identifier_.setWheelSpectrum(input.folded[1], input.wheel_at_limit);
+  now_ = std::max(now_, now);
   judge(report);
+}
+
+void ModelTracker::setOptions(const MonitorSettings& options) {
+  identifier_.setForgetting(options);
+  oldest_data_ = options.oldest_data;
 }
 
 void ModelTracker::startNewSeries(ModelReport& report) {
@@ -126,7 +241,8 @@ void ModelTracker::startNewSeries(ModelReport& report) {
 }
 
 void ModelTracker::startNewDrive(ModelReport& report) {
-  identifier_.startNewDrive();
+  blocks_.restart();
+  now_ = {};
   startNewSeries(report);
 }
 

@@ -30,10 +30,6 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
   last_ = sample.stamp;
   ++status_.samples;
   recent_[size_++ % recent_.size()] = sample;
-  if (how != Continuity::kContinues)
-    for (FoldedPower& folded : folded_) folded.interrupt();
-  folded_[0].add(sample.sprung_acceleration);
-  folded_[1].add(sample.unsprung_acceleration);
   return how;
 }
 
@@ -43,8 +39,6 @@ void SampleSeries::countSpacings() {
 }
 
 void SampleSeries::judge() {
-  status_.folded = {folded_[0].level(), folded_[1].level()};
-  status_.wheel_at_limit = folded_[1].levelAtLimit();
   countSpacings();
   if (spacing_.weight() < kSpacings) return;
   status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;

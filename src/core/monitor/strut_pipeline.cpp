@@ -89,13 +89,15 @@ void StrutPipeline::replayEarly() {
 }
 
 void StrutPipeline::take(Side side, Stamp stamp, double acceleration) {
-  for (auto sample = grid_->push(side, stamp, acceleration); sample; sample = grid_->next()) {
+  auto sample = grid_->push(side, stamp, acceleration);
+  if (const std::optional<Stamp> taken = grid_->taken(); taken && side != Side::kRoad)
+    monitor_->addReading(side, *taken, acceleration);
+  for (; sample; sample = grid_->next()) {
     if (tyre_) {
       tyre_->setPeriodFits(monitor_->input().period_fits);
       tyre_->add(*sample, grid_->roadAcceleration());
     }
-    monitor_->setResamplingErrors(grid_->resamplingErrors());
-    const MonitorReport* report = monitor_->addSample(*sample);
+    const MonitorReport* report = monitor_->addGridSample(*sample);
     if (sinks_.sample) sinks_.sample(*sample);
     if (report != nullptr && sinks_.report) sinks_.report(*report);
   }

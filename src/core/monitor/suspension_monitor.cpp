@@ -4,13 +4,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "suspension_health_monitor/internal/monitor/validity_gate.h"
-
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kHorizonsOfSensorCheck = 17.0;  // of rows that an estimate needs before it may accuse a sensor
-constexpr double kFewestUpdates = 25.0;  // of health, that readings are averaged over: of fewer nobody knows a mean
+constexpr double kChecksPerHorizon = 1.5;        // of the sensors: samples within a horizon say much the same
+constexpr double kFewestHorizonsOfMeans = 17.0;  // that readings are averaged over: of fewer nobody knows a mean
 
 const MonitorSettings& checked(const MonitorSettings& options) {
   if (!options.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
@@ -22,14 +21,14 @@ const MonitorSettings& checked(const MonitorSettings& options) {
 
 SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options)
     : options_(checked(options)),
+      horizon_samples_(options.horizonSamples(*options.sample_period)),
       series_(fromSeconds(*options.sample_period)),
       plain_(options),
-      health_(options.health(*options.sample_period)),
+      health_(options.health()),
       sensors_(options.gravity_tolerance,
-               std::max(options.comparison_window / *options.sample_period,
-                        kFewestUpdates * health_.options().rows_per_update),
-               health_.options().horizon_samples),
-      health_due_(health_.options().rows_per_update) {}
+               std::max(options.comparison_window / *options.sample_period, kFewestHorizonsOfMeans * horizon_samples_),
+               horizon_samples_),
+      sensors_due_(std::max(1, static_cast<int>(horizon_samples_ / kChecksPerHorizon))) {}
 
 // Of the plain model's tracker with its report, and of the extended one's.
 template <class Change>
@@ -57,20 +56,20 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects, con
 
 void SuspensionMonitor::reconfigure(const MonitorSettings& options) {
   options_ = checked(options);
-  health_.setOptions(options.health(period()));
+  health_.setOptions(options.health());
   sensors_.setTolerance(options.gravity_tolerance);
-  changeModels([&](ModelTracker& model, ModelReport&) { model.setForgetting(options); });
+  changeModels([&](ModelTracker& model, ModelReport&) { model.setOptions(options); });
 }
 
-void SuspensionMonitor::setInputStddevs(const Eigen::Vector2d& stddevs) {
-  changeModels([&](ModelTracker& model, ModelReport&) { model.setInputStddevs(stddevs); });
+void SuspensionMonitor::addReading(Side side, Stamp stamp, double acceleration) {
+  if (!isUsable(acceleration)) return;
+  changeModels([&](ModelTracker& model, ModelReport& report) {
+    const bool is_new = model.addReading(side, stamp, acceleration, report);
+    has_new_estimate_ = has_new_estimate_ || (is_new && &model == &tracker());
+  });
 }
 
-void SuspensionMonitor::setResamplingErrors(const ResamplingErrors& errors) {
-  changeModels([&](ModelTracker& model, ModelReport&) { model.setResamplingErrors(errors); });
-}
-
-const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
+const MonitorReport* SuspensionMonitor::addGridSample(const CornerSample& sample) {
   const std::optional<Continuity> how = series_.add(sample);
   if (!how) return nullptr;
   if (*how != Continuity::kContinues) {
@@ -84,7 +83,7 @@ const MonitorReport* SuspensionMonitor::addSample(const CornerSample& sample) {
   report_.stamp = of_row->stamp;
   report_.measured = of_row->sprung_acceleration;
   sensors_.add(sample);
-  if (health_due_()) judgeHealth();
+  if (sensors_due_()) judgeSensors();
   return &report_;
 }
 
@@ -103,15 +102,15 @@ const CornerSample* SuspensionMonitor::track(const CornerSample& sample) {
   return extended_ ? compared : &sample;
 }
 
-void SuspensionMonitor::judgeHealth() {
+void SuspensionMonitor::judgeSensors() {
   series_.noteBeyondStrut(sensors_.bodyBeyondStrut(), sensors_.bodyBeyondStrutLevel());
   series_.judge();
-  changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input(), report); });
-  if (options_.fastest_memory) health_.setMemory(report_.la.effective_rows);
+  changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input(), series_.newest(), report); });
   const bool la_tells =
       !tracker().holds() && report_.la.effective_rows >= options_.fewestRows(kHorizonsOfSensorCheck, period());
-  health_.setSensors(sensors_.judge(report_.la, la_tells));
-  report_.health = health_.update(report_.stamp, report_.ls, report_.la);
+  health_.setSensors(sensors_.judge(report_.estimate, report_.la, la_tells));
+  health_.compare(report_.ls, report_.la);
+  report_.health = health_.update(report_.stamp, report_.estimate, std::exchange(has_new_estimate_, false));
 }
 
 }  // namespace suspension_health_monitor

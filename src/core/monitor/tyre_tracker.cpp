@@ -81,18 +81,13 @@ void TyreTracker::judge() {
   for (WheelEstimate* estimate : {&report_.ls, &report_.la}) {
     EstimateFacts facts;
     facts.period_fits = period_fits_;
-    facts.has_row = report_.has_row;
-    facts.sensor_moves = silent_rows_.moves();
+    facts.has_row = report_.has_row && silent_rows_.moves();
     facts.rows = estimate->effective_rows;
     facts.fewest_rows = fewest_rows_;
     facts.explained = estimate->explained;
     facts.is_physical = isWheel(*estimate);
-    facts.has_stddev = std::isfinite(estimate->damping_to_wheel_mass_stddev + estimate->stiffness_to_wheel_mass_stddev +
-                                     estimate->tyre_to_wheel_mass_stddev);
     estimate->doubt = doubtOf(facts);
   }
-  least_squares_.learnScatter(report_.ls.valid() && report_.la.valid(), least_absolute_.parameters());
-  least_absolute_.learnScatter(report_.la.valid(), least_absolute_.parameters());
 }
 
 }  // namespace suspension_health_monitor

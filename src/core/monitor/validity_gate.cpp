@@ -6,6 +6,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+bool isKnown(double relative_stddev) { return relative_stddev <= kMostRelativeStddev; }
+
 struct Rule {
   EstimateDoubt doubt;
   bool (*applies)(const EstimateFacts&);
@@ -16,28 +18,21 @@ constexpr std::array kRules{
     Rule{EstimateDoubt::kWrongPeriod, [](const EstimateFacts& f) { return !f.period_fits; }},
     // After a start or a gap the filter still holds what was before: estimates are those of before.
     Rule{EstimateDoubt::kNoRows, [](const EstimateFacts& f) { return !f.has_row; }},
-    // Without any noise there is no motion but a stuck sensor or a simulated vehicle at rest.
-    Rule{EstimateDoubt::kSensorStuck, [](const EstimateFacts& f) { return !f.sensor_moves; }},
     // The start values still count, or the noise of a few rows.
     Rule{EstimateDoubt::kFewRows, [](const EstimateFacts& f) { return !(f.rows >= f.fewest_rows); }},
-    // Parked: rows are noise, the estimates are held as they were.
-    Rule{EstimateDoubt::kNotExcited, [](const EstimateFacts& f) { return !f.excites_damping && !f.excites_stiffness; }},
-    Rule{EstimateDoubt::kDampingNotExcited, [](const EstimateFacts& f) { return !f.excites_damping; }},
-    Rule{EstimateDoubt::kStiffnessNotExcited, [](const EstimateFacts& f) { return !f.excites_stiffness; }},
-    // Noise and what is folded back drive no strut, though the wheel seems to move like that.
-    Rule{EstimateDoubt::kWrongReadings, [](const EstimateFacts& f) { return !(f.wrong_share <= kMostWrongShare); }},
-    // The regression takes any motion of the body for the wheel's doing.
-    Rule{EstimateDoubt::kOutsideForce, [](const EstimateFacts& f) { return f.outside_force; }},
+    // Parked since the start, or a road too smooth for these sensors.
+    Rule{EstimateDoubt::kNotExcited,
+         [](const EstimateFacts& f) { return !isKnown(f.damping_stddev) && !isKnown(f.stiffness_stddev); }},
+    Rule{EstimateDoubt::kDampingNotExcited, [](const EstimateFacts& f) { return !isKnown(f.damping_stddev); }},
+    Rule{EstimateDoubt::kStiffnessNotExcited, [](const EstimateFacts& f) { return !isKnown(f.stiffness_stddev); }},
     // No strut between these two signals.
     Rule{EstimateDoubt::kNotExplained, [](const EstimateFacts& f) { return !(f.explained >= kLeastExplained); }},
-    // A level that changes looks like travel that no spring answers.
-    Rule{EstimateDoubt::kOffsetChanges, [](const EstimateFacts& f) { return !(f.level_share <= kMostWrongShare); }},
     // A spring and a damper have positive rates.
     Rule{EstimateDoubt::kNotAStrut, [](const EstimateFacts& f) { return !f.is_physical; }},
-    // A larger skew would explain more, and the strut would be another one.
-    Rule{EstimateDoubt::kClockSkew, [](const EstimateFacts& f) { return !f.skew_is_known; }},
-    // An estimate without a standard deviation cannot be judged.
-    Rule{EstimateDoubt::kNoSpread, [](const EstimateFacts& f) { return !f.has_stddev; }},
+    // Parked for long: the strut may have been mended meanwhile.
+    Rule{EstimateDoubt::kOldData, [](const EstimateFacts& f) { return !(f.age <= f.oldest); }},
+    // LS and LA know neither the noise of the regressors nor the clocks' difference.
+    Rule{EstimateDoubt::kDisagrees, [](const EstimateFacts& f) { return !f.agrees; }},
     // However small the rows' residuals: parameters whose free run is worse than a constant are not the strut's.
     Rule{EstimateDoubt::kFreeRunFails, [](const EstimateFacts& f) { return f.free_run_fails; }},
 };

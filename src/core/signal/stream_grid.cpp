@@ -40,12 +40,14 @@ const GridInstant* StreamGrid::push(std::size_t stream, Stamp stamp, double valu
   const StreamGate::Verdict verdict = its.gate.judge(stamp, value);
   if (verdict == StreamGate::Verdict::kRejected) {
     its.clock.passOver(stamp);
+    taken_.reset();
     return nullptr;
   }
   if (verdict == StreamGate::Verdict::kBeginsAnew) startNewSeries(stream);
   if (its.waiting.full()) dropOldest(its);
   its.is_silent = false;
-  its.waiting.push_back({stamp, its.clock.take(stamp, value), value, its.gate.isStill(), its.gate.timing().period()});
+  taken_ = its.clock.take(stamp, value);
+  its.waiting.push_back({stamp, *taken_, value, its.gate.isStill(), its.gate.timing().period()});
   return next();
 }
 
@@ -96,12 +98,6 @@ std::string StreamGrid::describeAlignment() const {
   if (!resamples_) return "paired";
   return why().empty() ? "resampled" : "resampled because " + why();
 }
-
-double StreamGrid::timeError(std::size_t stream) const {
-  return resamples_ ? std::sqrt(streams_[stream].clock.variance()) : 0.0;
-}
-
-double StreamGrid::lostShare(std::size_t stream) const { return resamples_ ? streams_[stream].clock.missing() : 0.0; }
 
 RejectCounts StreamGrid::rejected(std::size_t stream) const {
   RejectCounts counts = streams_[stream].gate.rejected();

@@ -30,10 +30,4 @@ std::optional<CornerSample> UniformGrid::take(const GridInstant* instant) {
   return CornerSample{instant->stamp, values[indexOf(Side::kSprung)], values[indexOf(Side::kUnsprung)]};
 }
 
-ResamplingErrors UniformGrid::resamplingErrors() const {
-  const std::size_t sprung = indexOf(Side::kSprung), unsprung = indexOf(Side::kUnsprung);
-  return {{streams_.timeError(sprung), streams_.timeError(unsprung)},
-          {streams_.lostShare(sprung), streams_.lostShare(unsprung)}};
-}
-
 }  // namespace suspension_health_monitor

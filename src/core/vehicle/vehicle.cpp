@@ -58,7 +58,7 @@ VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, c
     if (!strut.horizon_samples) strut.horizon_samples = horizonFor(separator.models()[i], separator.period());
     IdentifyResult& identified = result.struts.emplace_back(identify(separated[i], strut));
     const auto [damping, stiffness] = stddevs[i];
-    for (IdentifiedStrut* estimate : {&identified.ls, &identified.la, &identified.iv}) {
+    for (IdentifiedStrut* estimate : {&identified.ls, &identified.la, &identified.estimate, &identified.now}) {
       estimate->damping_to_mass_stddev = std::hypot(estimate->damping_to_mass_stddev, damping);
       estimate->stiffness_to_mass_stddev = std::hypot(estimate->stiffness_to_mass_stddev, stiffness);
     }

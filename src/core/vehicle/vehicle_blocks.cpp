@@ -196,7 +196,6 @@ const TopEstimate* VehicleBlocks::update(std::size_t strut) {
   TopEstimate& estimate = estimates_[strut];
   static_cast<WindowEstimate&>(estimate) = *found;
   estimate.length = length_;
-  estimate.rate /= length_;
   estimate.stamp = *origin_ + fromSeconds(static_cast<double>(newest_half_ + 1) * length_ / 2.0);
   has_[strut] = true;
   return &estimate;

@@ -104,13 +104,6 @@ void VehicleGrid::describe(VehicleDrive& drive) const {
   for (Drive& strut : drive.struts) strut.low_pass.taps = tops_.lowPass();
 }
 
-ResamplingErrors VehicleGrid::resamplingErrors(std::size_t strut) const {
-  const VehicleChannels::Strut& streams = vehicle_.struts[strut];
-  const std::size_t top = streams.sprung ? *streams.sprung : *vehicle_.body_imu;
-  return {{grid_.timeError(top), grid_.timeError(streams.unsprung)},
-          {grid_.lostShare(top), grid_.lostShare(streams.unsprung)}};
-}
-
 RejectCounts VehicleGrid::rejected(std::size_t sensor) const {
   RejectCounts all;
   for (std::size_t stream = channels_[sensor].first; stream < channels_[sensor].end; ++stream)

@@ -100,7 +100,6 @@ void VehicleMonitor::addSample(const VehicleSample& sample) {
 // The grid has heard the body's IMU for seconds when it gives the first sample.
 void VehicleMonitor::addSample(const VehicleGrid& grid, const VehicleSample& sample) {
   if (!last_ && grid.needsBodyImu()) setNoise(grid.noise());
-  for (std::size_t i = 0; i < struts_.size(); ++i) setResamplingErrors(i, grid.resamplingErrors(i));
   addSample(sample);
 }
 
@@ -110,19 +109,15 @@ void VehicleMonitor::learnCoupling() {
   if (!decoupler_) begin(estimate);
   decoupler_->setCoupling(estimate.coupling);
   coupling_ = estimate;
-  for (std::size_t i = 0; i < struts_.size(); ++i)
-    struts_[i].setInputStddevs(estimate.own_stddevs.row(static_cast<Eigen::Index>(i)).transpose());
 }
 
 void VehicleMonitor::begin(const CouplingEstimate& estimate) {
   const std::vector<StrutModel> models = estimate.models();
   decoupler_.emplace(toSeconds(period_), estimate.coupling, models);
-  StrutDrives noise = separateNoise(noise_, toSeconds(period_), estimate);
   for (std::size_t i = 0; i < starts_.size(); ++i) {
     MonitorSettings& settings = starts_[i].settings;
     if (!settings.integration_horizon)
       settings.integration_horizon = proposeHorizon(models[i].damping_to_mass, models[i].stiffness_to_mass).horizon;
-    settings.estimators.noise = std::make_shared<const std::vector<CornerSample>>(std::move(noise[i].samples));
   }
   beginStruts();
 }
@@ -130,8 +125,8 @@ void VehicleMonitor::begin(const CouplingEstimate& estimate) {
 // As long as a strut has no valid estimate it shows in others as the coupling was learned with it.
 void VehicleMonitor::takeModels() {
   for (std::size_t i = 0; i < struts_.size(); ++i) {
-    const StrutEstimate& la = struts_[i].report().la;
-    if (la.valid()) decoupler_->setModel(i, {la.damping_to_mass, la.stiffness_to_mass, struts_[i].effects(), {}});
+    const StrutEstimate& now = struts_[i].report().estimate;
+    if (now.valid()) decoupler_->setModel(i, {now.damping_to_mass, now.stiffness_to_mass, struts_[i].effects(), {}});
   }
 }
 

@@ -19,28 +19,19 @@ std::string describe(AlignmentJudge::Verdict verdict) {
 std::string describe(EstimateDoubt doubt) {
   switch (doubt) {
     case EstimateDoubt::kNone: return "valid";
-    case EstimateDoubt::kNoRows: return "the filter is filling after a start or a gap";
-    case EstimateDoubt::kSensorStuck: return "the body's acceleration does not change: sensor stuck, or nothing moves";
+    case EstimateDoubt::kNoRows: return "the first blocks fill after a start or a gap";
     case EstimateDoubt::kWrongPeriod: return "stamps do not fit sample_period";
     case EstimateDoubt::kFewRows: return "too few samples yet";
-    case EstimateDoubt::kNotExcited: return "parked: no excitation of damping and stiffness, estimates held";
-    case EstimateDoubt::kDampingNotExcited: return "no excitation of damping, its estimate is held";
-    case EstimateDoubt::kStiffnessNotExcited: return "no excitation of stiffness, its estimate is held";
-    case EstimateDoubt::kWrongReadings:
-      return "the unsprung IMU reads too much that the body does not answer: a noisy sensor, or shaking that the "
-             "sampling folds back; filter before sampling, or sample faster";
-    case EstimateDoubt::kOutsideForce:
-      return "something else than the wheel moves the body, or did so just now: wind, loading, a sensor that is not on "
-             "the wheel";
-    case EstimateDoubt::kNotExplained: return "the model does not explain the measured acceleration";
-    case EstimateDoubt::kOffsetChanges:
-      return "the offset between the IMUs changes: one that is tilted reads braking and bends, one that warms up "
-             "drifts";
+    case EstimateDoubt::kNotExcited:
+      return "too little motion to know damping and stiffness: drive, or on a rougher road";
+    case EstimateDoubt::kDampingNotExcited: return "too little motion to know damping: drive on, or on a rougher road";
+    case EstimateDoubt::kStiffnessNotExcited:
+      return "too little motion to know stiffness: drive on, or on a rougher road";
+    case EstimateDoubt::kNotExplained:
+      return "the strut explains less than half of the body's motion: other struts, other forces, or a sensor";
     case EstimateDoubt::kNotAStrut: return "the estimates are not those of a spring and a damper";
-    case EstimateDoubt::kClockSkew:
-      return "the clocks of the two IMUs differ by too much for the estimation: synchronise them, diagnose tells "
-             "by how much";
-    case EstimateDoubt::kNoSpread: return "the estimates' standard deviation cannot be told";
+    case EstimateDoubt::kOldData: return "parked: the newest data on the strut are older than health/oldest_data";
+    case EstimateDoubt::kDisagrees: return "not what the block estimate says";
     case EstimateDoubt::kFreeRunFails:
       return "the model, driven by the wheel, fits the body's motion worse than a constant";
   }
@@ -49,21 +40,9 @@ std::string describe(EstimateDoubt doubt) {
 
 std::string describeShaking(const InputStatus& input) {
   constexpr double kMostBeyond = 0.5, kLeastLevel = 0.3;  // of the power; [m/s^2]: more than a sensor's noise
-  constexpr double kMostFolded = 0.5;                     // [m/s^2], likewise
-  std::vector<std::string> found;
-  for (const Side side : {Side::kUnsprung, Side::kSprung}) {
-    const double folded = input.folded[static_cast<std::size_t>(side)];
-    if (folded > kMostFolded)
-      found.push_back(formatted(
-          "the %s IMU shakes near half the sampling rate (up to %.2g m/s^2 may be folded back): sample faster "
-          "or filter before sampling",
-          side == Side::kSprung ? "sprung" : "unsprung", folded));
-  }
-  if (input.beyond_strut > kMostBeyond && input.beyond_strut_level > kLeastLevel)
-    found.push_back(
-        formatted("the sprung IMU shakes above the strut's band (%.0f %% of its power, %.2g m/s^2): engine?",
-                  100.0 * input.beyond_strut, input.beyond_strut_level));
-  return join(found, "; ");
+  if (!(input.beyond_strut > kMostBeyond && input.beyond_strut_level > kLeastLevel)) return "";
+  return formatted("the sprung IMU shakes above the strut's band (%.0f %% of its power, %.2g m/s^2): engine?",
+                   100.0 * input.beyond_strut, input.beyond_strut_level);
 }
 
 std::string describe(const SensorReport& report) {

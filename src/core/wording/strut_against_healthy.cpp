@@ -17,10 +17,8 @@ std::optional<LogChange> changeOf(double value, double stddev, const std::option
 
 std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
   const double horizon = found.horizon_samples * found.sample_period;
-  if (found.iv.valid && found.isSteady())
-    return StrutOfDrive{found.iv, "over the whole drive, by instrumental variables", horizon};
-  if (found.la.valid) return StrutOfDrive{found.la, "at the end of the drive, by LA", horizon};
-  if (found.ls.valid) return StrutOfDrive{found.ls, "at the end of the drive, by LS", horizon};
+  if (found.estimate.valid && found.isSteady()) return StrutOfDrive{found.estimate, "over the whole drive", horizon};
+  if (found.now.valid) return StrutOfDrive{found.now, "at the end of the drive", horizon};
   return std::nullopt;
 }
 
@@ -33,11 +31,11 @@ Baseline nominalOf(const MonitorOptions& options) {
 
 std::string describeChange(const StrutOfDrive& found, const Baseline& healthy, const MonitorOptions& options) {
   const IdentifiedStrut& strut = found.strut;
-  const StrutChange change = splitChange(changeOf(strut.damping_to_mass, strut.damping_to_mass_stddev,
-                                                  healthy.damping_to_mass, healthy.damping_to_mass_stddev),
-                                         changeOf(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev,
-                                                  healthy.stiffness_to_mass, healthy.stiffness_to_mass_stddev),
-                                         options.payload_range, 0.0);
+  const MeasuredChange measured{changeOf(strut.damping_to_mass, strut.damping_to_mass_stddev, healthy.damping_to_mass,
+                                         healthy.damping_to_mass_stddev),
+                                changeOf(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev,
+                                         healthy.stiffness_to_mass, healthy.stiffness_to_mass_stddev)};
+  const StrutChange change = splitChange(measured, options.payload_range, 0.0);
   const std::string text = describe(change, healthy);
   return text.empty() ? "" : "the strut, " + found.by + ": " + text;
 }

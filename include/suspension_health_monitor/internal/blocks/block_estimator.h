@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/blocks/drive_fit.h"
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
 
 namespace suspension_health_monitor {
@@ -31,6 +32,13 @@ class BlockEstimator {
   /// @return the estimate; nullptr: none yet, or too little is known.
   const WindowEstimate* update();
 
+  /// @return of all blocks kept, with the data alone, up to kSlowEvery blocks ago.
+  const std::optional<WindowEstimate>& ofAllBlocks() const { return of_all_; }
+
+  /// @return of some of the blocks kept, with the data alone; nothing if they do not tell. Not for the sample path.
+  /// @param newest  age of the newest block, 0: of all.  @param count  blocks.
+  std::optional<WindowEstimate> ofBlocks(int newest, int count);
+
   /// @return what update() could not take; nullptr: it had nothing, or has an estimate.
   const WindowEstimate* refused() const { return is_refused_ ? &best_ : nullptr; }
 
@@ -46,23 +54,24 @@ class BlockEstimator {
   /// that has changed with its strut.  @param stddev  of the factor.
   void scaleSlow(int parameter, double factor, double stddev);
 
-  /// @return of all blocks kept, with the data alone.
-  const std::optional<WindowEstimate>& ofAllBlocks() const { return of_all_; }
+  /// @return the estimate over all blocks so far, those of `before` among them; empty: too little is known. Of no more
+  /// blocks than are kept it is iterated until it stands still. Not for the sample path.
+  std::optional<WindowEstimate> overTheDrive();
+
+  /// Hands over what blocks of the same length have told, to go on with after another start.
+  DriveFit takeDrive();
+  void continueDrive(const DriveFit& drive) { drive_ = drive; }
 
   const StrutEquations& equations() const { return equations_; }
   const BlockVector& theta() const { return theta_; }  ///< to linearise at, and for models
   bool hasTheta() const { return has_theta_; }
 
+  /// @return the larger relative standard deviation of b1 and b0 by the newest blocks alone, kWindows[0] of them [-].
+  double newestWorst() const { return newest_worst_; }
+
   /// Goes on with this estimate, as of blocks of another length.
   void begin(const BlockVector& theta, const BlockPrior& slow);
   const BlockPrior& slowPrior() const { return slow_; }
-
-  /// @return of some of the blocks kept, with the data alone; nothing if they do not tell. Not for the sample path.
-  /// @param newest  age of the newest block, 0: of all.  @param count  blocks.
-  std::optional<WindowEstimate> ofBlocks(int newest, int count);
-
-  /// The blocks end here; what is known of slow parameters stays.
-  void restart();
 
  private:
   std::vector<const StrutBlock*>& newest(int count);
@@ -71,6 +80,7 @@ class BlockEstimator {
   void learnSlow();
   void lookForDelay();
   bool contradictsSlow();
+  void retire(const StrutBlock& block);
   void refine(int window, const BlockPrior& prior);
   bool isStale(const StrutBlock& block) const;
   bool fit(int window, const BlockPrior& prior, WindowEstimate& result);
@@ -81,12 +91,14 @@ class BlockEstimator {
   std::vector<StrutBlock> ring_;
   int count_ = 0, head_ = -1;
   int updates_ = 0;
-  BlockPrior first_, slow_, scaled_;  // of nothing but the options; with what all blocks tell of slow parameters
+  BlockPrior first_, slow_, scaled_;  // of nothing but the options; with what all blocks tell of slow parameters; now
   BlockVector factor_, factor_stddev_;
-  Eigen::VectorXd usual_;
+  BlockWeights weights_;     // of all blocks; with what is usual
   double scatter_ = 1.0;
+  DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;
   bool has_theta_ = false, is_refused_ = false;
+  double newest_worst_ = 0.0;
   WindowEstimate best_, trial_;
   std::optional<WindowEstimate> of_all_;
   std::vector<const StrutBlock*> pointers_;

@@ -39,7 +39,13 @@ class StrutBlocks {
   const BlockEstimate* estimate() const { return has_estimate_ ? &estimate_ : nullptr; }
   const BlockEstimator& estimator() const { return *estimator_; }
 
-  /// Another drive: blocks are forgotten, the estimate stays until there is a new one.
+  /// @return as BlockEstimator::newestWorst(); infinite while the first blocks of a new length fill.
+  double newestWorst() const { return estimator_->newestWorst(); }
+
+  /// @return over all readings so far, before restart(), too; empty: too little is known. Not for the sample path.
+  std::optional<BlockEstimate> overTheDrive();
+
+  /// Another drive, perhaps of another vehicle: nothing is known any more, but to overTheDrive().
   void restart();
 
  private:

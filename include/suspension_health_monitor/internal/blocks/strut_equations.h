@@ -59,6 +59,7 @@ struct StrutBlock {
   };
   BlockVector at;
   std::vector<Band> bands;
+  long version = 0;  ///< of the linearisation: no two of an estimator are alike
 };
 
 /// The equations of a strut top in the bins of one block. With y = z'', x = w'' (delayed by tau), s = j w_k,
@@ -94,6 +95,7 @@ class StrutEquations {
   NoiseBands noise_bands_;
   BlockColumns columns_;
   Modulation undelayed_, delayed_;
+  long versions_ = 0;
   Eigen::ArrayXcd s_;
   Eigen::ArrayXcd a_, g_, gain_, x0_, x1_, x2_, wheel_, e_over_g_;
   Eigen::ArrayXd rho_, rho_slope_;

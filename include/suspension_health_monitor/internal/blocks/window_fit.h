@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"
@@ -26,9 +28,48 @@ struct WindowEstimate {
   Eigen::VectorXd noise;   ///< power of e per bin of each band: the unexplained spectrum
 
   double relativeStddev(int i) const { return std::sqrt(covariance(i, i)) / theta[i]; }
+  /// @param power  mean over blocks of the sum over bins of |H_1(X - Y)|^2 / |s|^4. By Parseval the mean square of a
+  /// signal over a block of length T is 2 / (T^2 mean(hann^2)) times that, mean(hann^2) = 3/8.
+  void setRate(double power, double length) { rate = std::sqrt(2.0 * power / 0.375) / length; }
   bool isUsable() const;  ///< finite, with b1, b0 above 0
   double worst() const { return std::max(relativeStddev(kBlockDamping), relativeStddev(kBlockStiffness)); }
 };
+
+/// What blocks are weighted by: the noise's spectrum and its share in the wheel's motion.
+struct BlockWeights {
+  Eigen::VectorXd noise;        ///< s2, by band
+  Eigen::VectorXd share_scale;  ///< s2 over the power of the wheel's motion: the scale of the column of r
+  Eigen::VectorXd usual;        ///< power of e per bin of usual blocks, by band; empty: not known yet
+
+  /// @return 1, or less for a block that is unusually noisy at theta.
+  double of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const;
+  /// @param power  of e per bin of a block, by band.
+  double of(const Eigen::RowVectorXd& power) const;
+};
+
+/// Power of the residual at theta in a band, or in a sum of bands. It is linear in the parameters, but for r, which it
+/// does not depend on, and for the weight 1 / A.
+double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta);
+
+/// The score Z'e of a band at theta, and its information, with the column of r scaled.
+BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, double share_scale);
+BlockMatrix informationOf(const StrutBlock::Band& band, double share_scale);
+
+/// Solves normal equations whose units differ by orders of magnitude.
+struct NormalEquations {
+  BlockMatrix inverse;
+  BlockVector solution;
+  bool is_solvable = false;
+  NormalEquations(const BlockMatrix& normal, const BlockVector& right);
+};
+
+/// @return the covariance of parameters by noise alone: bins under a Hann window are correlated, and so are blocks that
+/// overlap by half.
+BlockMatrix covarianceByNoise(const BlockMatrix& normal, const BlockMatrix& inverse, const BlockPrior& prior,
+                              int blocks);
+
+/// @return theta without the force columns: the linear strut.
+BlockVector linearPart(const BlockVector& theta, const BlockColumns& columns);
 
 /// What noise of power 1 of every wheel of a vehicle does in one band of a strut top's equations.
 struct WheelNoise {
@@ -51,21 +92,18 @@ struct WheelNoise {
 /// much alike that noise tells them apart. Then theta is not known, but for its size, that of the own b1 and b0:
 ///     covariance + I^-1 N diag(size^2) N' I^-1'.
 /// Its power is what the band with least of it in e lets it have, if the body's sensor is as noisy as the wheels'.
-/// Cost: O(blocks * bands *
+/// Windows that are nested share their sums. Cost: O(blocks * bands *
 /// parameters^2), no allocation after the construction.
 class WindowFit {
  public:
-  static constexpr double kBinCorrelation = 1.944;    ///< 1 + 2 ((2/3)^2 + (1/6)^2): squared correlations of Hann bins
-  static constexpr double kBlockCorrelation = 0.167;  ///< that of half overlapped blocks, summed likewise
+  /// A score is a real part, which has half of the power of complex noise: sums of squared correlations over two.
+  static constexpr double kBinCorrelation = 0.972;    ///< (1 + 2 ((2/3)^2 + (1/6)^2)) / 2, of Hann bins
+  static constexpr double kBlockCorrelation = 0.083;  ///< that of neighbouring blocks, which overlap by half
 
-  WindowFit(const NoiseBands& bands, const BlockColumns& columns, int most_blocks);
-
-  /// Blocks are new, or have been linearised anew: to be called before the next fit(). Otherwise the blocks of each
-  /// fit() are those of the one before it, some of the newest of them, or these and older ones.
-  void newBlocks();
+  WindowFit(const BlockBand& band, const BlockColumns& columns, int most_blocks);
 
   /// @param blocks  linearised, the newest last.
-  /// @param prior  as it is.  @param start  of the iteration over weights.
+  /// @param start  of the iteration over weights.
   /// @param usual  power of e per bin of each band of usual blocks; empty: not known yet.
   /// @param least_inflation  that is known from other windows.
   void fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
@@ -77,12 +115,15 @@ class WindowFit {
   /// @return power of e per bin, blocks by bands, of the newest fit.
   auto power() const { return power_.topRows(blocks_); }
 
+  /// @return those of the newest fit, without what is usual.
+  const BlockWeights& weights() const { return weights_; }
+
   /// @return median over blocks that share no reading of the squared distance between their own b1, b0, over what noise
   /// makes of it, at least 1; of the newest fit.
   double scatterBetweenBlocks(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta);
 
  private:
-  /// Of blocks of a band, weighted.
+  /// Of the same band over blocks, weighted.
   struct Sum {
     Eigen::MatrixXd information, moments;
     Eigen::VectorXd score, share;
@@ -93,32 +134,31 @@ class WindowFit {
   };
 
   void gather(const std::vector<const StrutBlock*>& blocks);
-  bool weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta, const Eigen::VectorXd& usual);
+  bool weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta);
   void measureNoise(const BlockVector& theta);
-  bool solve(const BlockPrior& prior, BlockVector& theta);
+  void sum(const BlockPrior& prior);
+  void widenByAlike(const BlockMatrix& inverse, WindowEstimate& result);
   void describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                 WindowEstimate& result);
-  void widenByAlike(WindowEstimate& result);
-  void takeScore(const StrutBlock& block, int b, int i, const BlockVector& theta);
-  double inflation(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta,
-                   const Eigen::Matrix2d& covariance);
+  double inflation(const std::vector<const StrutBlock*>& blocks, const WindowEstimate& result,
+                   const BlockMatrix& inverse, const BlockPrior& prior);
 
+  double length_;  // T [s]
   NoiseBands bands_;
   BlockColumns columns_;
   int blocks_ = 0;
-  Eigen::ArrayXXd power_;                // of e per bin, blocks by bands
-  Eigen::ArrayXd weight_;                // of blocks, the newest first
-  std::vector<Sum> sums_;                // by band, over the newest gathered_ blocks
+  Eigen::ArrayXXd power_;  // of e per bin, blocks by bands
+  Eigen::ArrayXd weight_;  // of blocks, the newest first
+  std::vector<Sum> sums_;  // by band, over the newest gathered_ blocks
+  std::vector<long> versions_;
   int gathered_ = 0;
-  double weights_ = 0.0;
+  double sum_of_weights_ = 0.0;
   std::vector<WheelNoise> wheel_noise_;  // by band
-  BlockVector size_;
-  Eigen::VectorXd noise_, share_scale_;  // s2 and that of the column of r, by band
-  BlockMatrix normal_, inverse_, prior_information_;
+  BlockWeights weights_;
+  BlockMatrix normal_;
+  BlockVector right_;
   Eigen::Matrix2Xd previous_;  // by band
-  BlockVector right_, step_, scale_;
-  Eigen::PartialPivLU<BlockMatrix> lu_;
-  std::vector<double> medians_;
+  std::vector<double> distances_;
   std::vector<Eigen::Vector2d> own_;
   std::vector<Eigen::Matrix2d> own_covariance_;
 };

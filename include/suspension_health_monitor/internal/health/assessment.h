@@ -7,7 +7,6 @@
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/early_warning.h"
 #include "suspension_health_monitor/internal/health/level_confirmation.h"
-#include "suspension_health_monitor/internal/health/parameter_trend.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/health/strut_change.h"
 #include "suspension_health_monitor/monitor_options.h"
@@ -20,10 +19,6 @@ struct HealthOptions : HealthThresholds {
   double min_significance = 4.0;      ///< standard deviations that a change must have to be one
   double early_change = 0.03;         ///< smaller changes need no early warning [-]
   double false_alarm_interval = 1e6;  ///< mean time between two early warnings of a healthy strut [s]
-  double forgetting_factor = 0.99;    ///< of the estimates that are judged
-  int horizon_samples = 30;           ///< L of their filter
-  double period = 0.02;               ///< of a row [s]
-  int rows_per_update = 1;            ///< rows from one update() to the next
 
   /// @throws std::invalid_argument  if an error threshold is below its warning threshold.
   void validate() const;
@@ -31,30 +26,32 @@ struct HealthOptions : HealthThresholds {
 
 /// Judges damping and stiffness by their change from the healthy strut: nominal values, or a baseline that it learns.
 ///
-/// - What is judged: the trend of LS or of LA, which have no lag behind a steady change (FollowedParameter).
-/// - A baseline is compared as it would be on the present road: dry friction makes more of b1 the smoother that is
-///   (onThisRoad()).
+/// - What is judged is the block estimate, whose standard deviations and correlation decide what is certain.
+/// - A baseline is compared as it would be on the present road (changeFrom()).
 /// - LS and LA that disagree for long (Agreement) are reported: there are outliers.
 /// - Payload moves both parameters, damage one (splitChange()).
-/// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation). It ends when
-///   the change is below the threshold by the hysteresis, or a standard deviation if that is more, or has lost half of
-///   the significance. A change that the error threshold could not prove is kStale, "cannot tell", as is an estimate
-///   that is not valid; never "healthy". A sensor that is at fault makes an error a warning: who knows.
-/// - Early warning: EarlyWarning over the changes, one every two memories and horizons.
+/// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation), of one
+/// estimate
+///   to the next at least. It ends when the change is below the threshold by the hysteresis, or a standard deviation if
+///   that is more, or has lost half of the significance. A change that the error threshold could not prove is kStale,
+///   "cannot tell", as is an estimate that is not valid; never "healthy". A sensor that is at fault makes an error a
+///   warning: who knows.
+/// - Early warning: EarlyWarning over the changes of windows that share no reading.
 /// Cost per update: O(1), no allocation.
 class HealthAssessment {
  public:
   explicit HealthAssessment(const HealthOptions& options);
 
-  /// @param stamp  of the sample that the estimates include; stamps that go back restart the confirmation.
-  const HealthReport& update(Stamp stamp, const StrutEstimate& ls, const StrutEstimate& la);
+  /// @param stamp  now; stamps that go back restart the confirmation.
+  /// @param estimate  of the blocks.
+  /// @param is_new  it has come since the last update: else only its validity is judged.
+  const HealthReport& update(Stamp stamp, const StrutEstimate& estimate, bool is_new);
 
   /// @param sensor  what is known of the sensors; counts from the next update().
   void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
 
-  /// For estimators that forget faster than forgetting_factor for the time being.
-  /// @param rows  that the estimates to come rest on; no more than forgetting_factor says count.
-  void setMemory(double rows);
+  /// LS and LA as they are now, to be called for each check of the sensors.
+  void compare(const StrutEstimate& ls, const StrutEstimate& la) { agreement_.update(ls, la); }
 
   /// Judges by this from now on; learning ends.
   void setBaseline(const Baseline& baseline);
@@ -72,27 +69,29 @@ class HealthAssessment {
 
   /// What is followed of damping or of stiffness.
   struct Parameter {
-    FollowedParameter course;
     EarlyWarning early;
     HealthLevel level = HealthLevel::kOk;  // before it is confirmed
   };
 
-  void follow(const StrutEstimate& ls, const StrutEstimate& la);
-  StrutChange change(const HealthyValues& healthy) const;
+  void take(Stamp stamp, const StrutEstimate& estimate);
+  void learn(Stamp stamp, const StrutEstimate& estimate, double seconds);
   void noteLoad(const StrutChange& change);
   LoadDoubt doubtOfLoad(const StrutChange& change) const;
-  void judge(const StrutChange& change, HealthReport& now);
-  void warnEarly(const StrutChange& change);
+  void judge(const StrutChange& change);
+  void warnEarly(const StrutChange& change, double window);
 
   HealthOptions options_;
-  double memory_;  // of the estimates, in updates
   LevelConfirmation confirmation_;
   Baseline baseline_;
   std::optional<BaselineLearner> learner_;
   Parameter damping_, stiffness_;
-  Agreement agreement_;       // of LS and LA
-  double known_load_ = 0.0;   // ln of the body's mass over the healthy vehicle's, when last nothing else had changed
-  double since_early_ = 0.0;  // updates since the early warning saw the newest change
+  Agreement agreement_;         // of LS and LA
+  double known_load_ = 0.0;     // ln of the body's mass over the healthy vehicle's, when last nothing else had changed
+  double since_early_ = 0.0;    // seconds since the early warning saw the newest change
+  std::optional<Stamp> taken_;  // when the newest estimate came
+  HealthReport judged_;         // what that estimate says
+  HealthLevel level_ = HealthLevel::kStale;
+  Stamp report_stamp_{};
   SensorReport sensor_;
   HealthReport report_;
 };

@@ -1,71 +1,62 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
-#include "suspension_health_monitor/internal/health/parameter_trend.h"
+#include "suspension_health_monitor/internal/health/strut_change.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
-/// @return the strut as LA estimates it at `stamp`, as healthy: after a service.
-Baseline baselineOf(const StrutEstimate& la, Stamp stamp);
+/// @return the strut as it is estimated at `stamp`, as healthy: after a service.
+Baseline baselineOf(const StrutEstimate& estimate, Stamp stamp);
 
-/// A parameter of the healthy strut.
-struct HealthyValue : UncertainValue {
-  double by_friction = 0.0;  ///< what friction makes uncertain of it, a part of stddev
+/// What the present strut has changed by, wherever it drives.
+struct ChangeFromBaseline {
+  MeasuredChange change;
+  bool is_mostly_friction = false;  ///< its damping is uncertain mostly by what friction makes of another road
 };
 
-/// The healthy strut's parameters; empty: not known.
-struct HealthyValues {
-  std::optional<HealthyValue> damping, stiffness;  ///< b1 [1/s], b0 [1/s^2]
-};
+/// The change from the healthy strut, each with its standard deviation. Dampers are compared as they act on a road
+/// between the present one and the baseline's: friction f counts as f m, m the mean of the gains g of both. Where the
+/// law is not Coulomb's, f changes with the road, and what lies between both is not known to (f - f_n) (g - g_n) / 2.
+/// Empty parts: no healthy value, no estimate, or one that is not above 0.
+ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now);
 
-/// @param now  of the present estimates; empty: as when the baseline was learned.
-/// @param certain  standard deviations that a change must have to be one: what friction does is as uncertain as it is
-/// large (doc/health.md, Another road), so that no change is certain within that.
-/// @return as what the healthy strut would be estimated on the present road. Its dry friction f is the same, but not
-/// what that makes of b1 and b0, f g: along g b1 has the slope f. Of a damper that is digressive or progressive that
-/// slope is not the same on every road; the mean of those at both ends takes b1 from one to the other (the trapezoid
-/// rule).
-HealthyValues onThisRoad(const Baseline& baseline, const std::optional<DryFriction>& now, double certain);
-
-/// Learns the baseline from a stretch of estimates of LS that LA agrees with: their mean, over halves that must agree.
+/// Learns the baseline from a stretch of valid estimates: their mean, over halves that must agree.
 ///
 /// A strut that changes while it is learned is not taken as healthy: if the means of the two halves differ by more than
-/// kDrift standard deviations and 3 % beyond what dry friction makes of another road, learning begins anew. So it does
-/// when the clock goes back: that is another drive, perhaps of another vehicle. Standard deviation of a mean over n
-/// rows: that of one estimate times sqrt(2 m / n), with m the estimator's memory: exponential forgetting correlates
-/// estimates over 2 m rows. Cost per estimate: O(1), no allocation.
+/// kDrift standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another
+/// drive, perhaps of another vehicle. Estimates whose windows overlap share their errors: those of a mean over t
+/// seconds have window / t of the variance of one. Cost per estimate: O(1), no allocation.
 class BaselineLearner {
  public:
-  /// @param rows  to learn from, > 0.  @param memory  m of the estimator in rows.
-  BaselineLearner(double rows, double memory) : rows_(rows), memory_(memory) {}
+  /// @param seconds  to learn from, > 0.
+  explicit BaselineLearner(double seconds) : seconds_(seconds) {}
 
-  /// @param rows  that have passed since the last call.
+  /// @param seconds  of new data since the last call.
   /// @return the baseline, once it is learned; learning then begins anew.
-  std::optional<Baseline> add(Stamp stamp, const StrutEstimate& estimate, double rows);
+  std::optional<Baseline> add(Stamp stamp, const StrutEstimate& estimate, double seconds);
 
-  double progress() const { return (halves_[0].rows + halves_[1].rows) / rows_; }  ///< 0..1
-  int restarts() const { return restarts_; }                                       ///< because the strut was changing
+  double progress() const { return (halves_[0].seconds + halves_[1].seconds) / seconds_; }  ///< 0..1
+  int restarts() const { return restarts_; }  ///< because the strut was changing
 
  private:
   struct Half {
-    double rows = 0.0;
-    double damping = 0.0, stiffness = 0.0;                    // means
-    double damping_variance = 0.0, stiffness_variance = 0.0;  // means of an estimate's variance
-    DryFriction friction;                                     // mean
-    double friction_variance = 0.0;                           // likewise
+    double seconds = 0.0;
+    Baseline mean;        // standard deviations: those of one estimate, as root mean squares
+    double window = 0.0;  // mean span of an estimate's window [s]
+    void add(const StrutEstimate& estimate, double seconds);
   };
 
   static constexpr double kDrift = 3.0;
   static constexpr double kLeastDrift = 0.03;  // of the value: less is what another road does
 
-  double friction() const { return (halves_[0].friction.force + halves_[1].friction.force) / 2.0; }
-  bool drifts(double Half::*mean, double DryFriction::*gain, double Half::*variance) const;
+  bool drifts() const;
   Baseline result(Stamp to) const;
 
-  double rows_, memory_;
-  Half halves_[2];
+  double seconds_;
+  std::array<Half, 2> halves_;
   Stamp from_{}, newest_{};
   int restarts_ = 0;
 };

@@ -35,9 +35,10 @@ class SensorCheck {
 
   void add(const CornerSample& sample);
 
-  /// @param la  the estimate at the newest sample.
+  /// @param estimate  of the blocks: a valid one is that of a strut.
+  /// @param la  at the newest sample.
   /// @param la_tells  it rests on enough rows of the present motion to tell what the sensors do.
-  const SensorReport& judge(const StrutEstimate& la, bool la_tells);
+  const SensorReport& judge(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells);
 
   const SensorReport& report() const { return report_; }
 

@@ -11,6 +11,12 @@ struct LogChange {
   double stddev;  ///< of size; NaN: not known
 };
 
+/// Both parameters against those of the healthy strut.
+struct MeasuredChange {
+  std::optional<LogChange> damping, stiffness;  ///< x1, x0, of whatever cause; empty: cannot be judged
+  double correlation = 0.0;                     ///< of the errors of x1 and x0 [-]
+};
+
 /// ln of the body's mass over that of the healthy vehicle, from the lightest to the heaviest that payload makes it.
 struct LoadRange {
   double least, most;
@@ -25,19 +31,19 @@ struct LoadAlone {
 
 /// What has changed: body mass, damping, stiffness, each relative to the healthy strut (0: not at all).
 struct StrutChange {
-  std::optional<LogChange> measured_damping, measured_stiffness;  ///< x1, x0, of whatever cause
+  MeasuredChange measured;
   std::optional<double> damping, stiffness;
   std::optional<double> payload;            ///< of the body's mass; empty: only one of the two parameters can be judged
   double damping_stddev, stiffness_stddev;  ///< of ln(1 + change); NaN: not known
   std::optional<LoadAlone> load_alone;      ///< the rival of any damage; empty: there is none
 
   /// @return standard deviation of x1 - x0, of two that are measured.
-  double apartStddev() const { return std::hypot(measured_damping->stddev, measured_stiffness->stddev); }
+  double apartStddev() const;
 };
 
-/// @param damping, stiffness  their errors are taken as independent.
-/// @return by weighted least squares over the range.
-LoadAlone explainByLoad(const LogChange& damping, const LogChange& stiffness, const LoadRange& range);
+/// @param both  two that are measured.
+/// @return by weighted least squares over the range, with the joint covariance.
+LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range);
 
 /// Tells payload from damage. b1 = beta/M and b0 = K/M: a mass that is m times as large (ln m = p) moves both by -p,
 /// damage moves one:  x1 = ln(b1/b1n) = d - p,  x0 = ln(b0/b0n) = s - p.
@@ -49,10 +55,8 @@ LoadAlone explainByLoad(const LogChange& damping, const LogChange& stiffness, co
 /// damage. Payload alone is the rival of every damage (explainByLoad()): a damage is no more significant than it is
 /// certain that no payload explains the same. So a damping that is certainly lower is not yet the damper's fault as
 /// long as the stiffness may be as much lower.
-/// @param damping, stiffness  x1, x0; empty: cannot be judged.
 /// @param payload_range  largest relative change of mass that can be payload; what is beyond is damage. 0: none is.
 /// @param known_load  q.
-StrutChange splitChange(const std::optional<LogChange>& damping, const std::optional<LogChange>& stiffness,
-                        double payload_range, double known_load);
+StrutChange splitChange(const MeasuredChange& measured, double payload_range, double known_load);
 
 }  // namespace suspension_health_monitor

@@ -39,21 +39,20 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
   void beginAgain(const RecursiveLeastSquares& least_squares);
 
   /// @return variance of theta_i: P_ii times the mean square of the bounded scores over the mean weight, which outliers
-  /// hardly touch, times what the residuals' correlation and LA's slower convergence make of it (ScoreCovariance).
+  /// hardly touch, times the scatter of batches.
   /// During the first k0 rows that of LS.
   double parameterVariance(int i) const { return varianceAt(i, leads() ? scale() : meanSquareResidual()); }
 
  private:
   double scale() const { return weights_.mean(kSquareScore) / weights_.mean(kWeight); }
   bool leads() const { return rows_ == absolute_.start_rows; }  // else LS does
-  RowWeight weigh(double innovation);
+  double weigh(double innovation);
   void takeOver();
 
   enum Mean : std::size_t { kSquareScore, kWeight, kNumMeans };
 
   LeastAbsoluteOptions absolute_;
   RunningMeans<kNumMeans> weights_;  // (w epsilon)^2, w
-  RunningMeans<2> slopes_;           // of the weighted residual at 0; of the weight
   int rows_ = 0;                     // counts up to k0 and stays there
 };
 

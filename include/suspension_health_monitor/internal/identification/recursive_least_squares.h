@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/identification/batch_scatter.h"
 #include "suspension_health_monitor/internal/identification/regression_row.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
-#include "suspension_health_monitor/internal/identification/score_covariance.h"
 #include "suspension_health_monitor/internal/identification/ud_covariance.h"
 
 namespace suspension_health_monitor {
@@ -57,31 +57,8 @@ class RecursiveEstimator {
   /// @throws std::invalid_argument  as RecursiveOptions::validate().
   void setForgettingFactor(double forgetting_factor);
 
-  /// Forgets by another factor for the time being, at most that of setForgettingFactor(). Variances are meant for that
-  /// one: while the present one is below, they are up to twice too large, standard deviations up to 1.41 times.
-  /// @param forgetting_factor  lambda in (0, 1].
-  void setPresentFactor(double forgetting_factor) {
-    options_.forgetting_factor = forgetting_factor;
-    means_.setForgettingFactor(forgetting_factor);
-  }
-
   /// The next row does not follow the one before: residuals of both are not correlated.
-  void interrupt() { scores_.interrupt(); }
-
-  /// How the estimate scatters is learned only while it is worth something, and has been for some memories: rows of a
-  /// vehicle that stands, or those that bring the estimate from its start, would teach something else.
-  /// @param best  the best estimate that there is of the same parameters, (p): residuals are counted against its
-  /// course.
-  void learnScatter(bool estimate_is_valid, const Eigen::VectorXd& best);
-
-  /// Holds parameter i from the next row on, or no longer: rows then say nothing of it, and what is known of it is not
-  /// forgotten (UdCovariance::forgetAlong()). It moves only as far as it is correlated with those that are not held.
-  void hold(int i, bool held);
-
-  bool holds(int i) const { return held_[static_cast<std::size_t>(i)]; }  ///< parameter i
-
-  /// @return true if some parameter is held: P is not that of the rows beside it.
-  bool holdsAny() const { return std::find(held_.begin(), held_.end(), true) != held_.end(); }
+  void interrupt() { scatter_.interrupt(); }
 
   /// Takes a row into the running means only: neither does the estimate move nor is anything forgotten.
   /// @return the innovation psi - phi' theta, in the unit of psi.
@@ -89,7 +66,6 @@ class RecursiveEstimator {
 
   /// @return sum of lambda^(k-i): the number of rows that the estimate rests on.
   double effectiveRows() const { return means_.weight(); }
-  bool knowsScatter() const { return scores_.isKnown(); }  ///< else what is usual is assumed
 
   double meanAbsoluteResidual() const { return means_.mean(kAbsoluteResidual); }  ///< running mean of |epsilon|
   double meanSquareResidual() const { return means_.mean(kSquareResidual); }      ///< running mean of epsilon^2
@@ -100,15 +76,11 @@ class RecursiveEstimator {
     return meanAbsoluteOutput() > 0.0 ? 1.0 - meanAbsoluteResidual() / meanAbsoluteOutput() : 0.0;
   }
 
-  /// @return running mean of |epsilon|, of which rows that stand out count no more than those that just do not.
-  double usualResidual() const { return means_.mean(kUsualResidual); }
-
  protected:
-  /// To be called before each row that is not only observed: what drifts has moved since the one before. While it is
-  /// held nobody knows.
+  /// To be called before each row that is not only observed: what drifts has moved since the one before.
   void drift() {
+    if (!options_.drifting) return;
     const int rate = numParameters() - 1;
-    if (!options_.drifting || holds(rate)) return;
     theta_[rate - 1] += theta_[rate];
     covariance_.addTo(rate - 1, rate);
   }
@@ -124,33 +96,23 @@ class RecursiveEstimator {
   }
 
   /// theta <- theta + gain epsilon.
-  void correct(const RegressionRow& row, double innovation, const RowWeight& weight);
+  /// @param weight  w: as many rows of an LS problem.
+  void correct(const RegressionRow& row, double innovation, double weight);
 
-  /// @return variance of theta_i; `scale` as in ScoreCovariance::inflation().
-  double varianceAt(int i, double scale) const {
-    return scale * covariance_.variance(i) * scores_.inflation(i, effectiveRows());
-  }
+  /// @return variance of theta_i.  @param scale  what turns P_ii into that of independent rows.
+  double varianceAt(int i, double scale) const { return scale * covariance_.variance(i) * scatter_.inflation(); }
 
   RecursiveOptions options_;
   Eigen::VectorXd theta_;
   UdCovariance covariance_;
-  ScoreCovariance scores_;
+  BatchScatter scatter_;
 
  private:
   void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
-  const Eigen::VectorXd& correctPartly(const RegressionRow& row, double weight);
-  bool learn(const RegressionRow& row, double innovation, const RowWeight& weight);
-  int numScores() const { return numParameters() - int{options_.drifting.has_value()}; }
 
-  enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kUsualResidual, kNumMeans };
+  enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kNumMeans };
 
   int num_released_ = 0;
-  std::vector<bool> held_;
-  Eigen::VectorXd excited_;  // the regressor without what is held
-  double valid_rows_ = 0.0;  // in a row
-  Eigen::VectorXd best_;     // estimate of the parameters
-  RegressionRow drifted_;    // a row without the offset
-  Eigen::VectorXd course_;   // the best estimate, likewise
   RunningMeans<kNumMeans> means_;
 };
 
@@ -169,15 +131,8 @@ class RecursiveLeastSquares : public RecursiveEstimator {
   /// @return the innovation psi - phi' theta before the update, in the unit of psi.
   double update(const RegressionRow& row);
 
-  /// @return variance of theta_i: mean(epsilon^2) P_ii times what the residuals' correlation makes of it
-  /// (ScoreCovariance).
+  /// @return variance of theta_i: mean(epsilon^2) P_ii times the scatter of batches.
   double parameterVariance(int i) const { return varianceAt(i, meanSquareResidual()); }
-
-  /// @param moment  E[phi e] of a row.
-  /// @return what it shifts theta_i by; p >= 2.
-  double parameterShift(int i, const Eigen::Vector2d& moment) const {
-    return effectiveRows() * (covariance_.entry(i, 0) * moment[0] + covariance_.entry(i, 1) * moment[1]);
-  }
 };
 
 }  // namespace suspension_health_monitor

@@ -39,14 +39,6 @@ class UdCovariance {
   /// @return the gain P phi / alpha (P before the update), valid until the next call.
   const Eigen::VectorXd& update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor);
 
-  /// Forgets only along the regressor phi, before update() of such a row with the forgetting factor 1:
-  ///   P <- P + (1 - lambda) / lambda phi phi' / (phi' P^-1 phi),
-  /// so that what phi does not reach is neither forgotten nor less certain. If phi is the i-th unit vector times a
-  /// number, the information on parameter i fades by lambda, as do its correlations.
-  /// Source: L. Cao, H. Schwartz, Automatica 36 (2000), 1725-1731; by the triangular update of Agee and Turner
-  /// (Bierman, ch. III.3).
-  void forgetAlong(const Eigen::VectorXd& regressor, double forgetting_factor);
-
   /// What P is once parameter i is the sum of itself and parameter j: P <- F P F', F = I + e_i e_j'. Parameter i counts
   /// before j.
   void addTo(int i, int j) { upper_.row(i) += upper_.row(j); }
@@ -71,7 +63,7 @@ class UdCovariance {
   Eigen::MatrixXd upper_;     // U, unit diagonal
   Eigen::VectorXd diagonal_;  // D
   Eigen::VectorXd ceiling_;
-  Eigen::VectorXd gain_;  // also the working vector of forgetAlong()
+  Eigen::VectorXd gain_;
 };
 
 }  // namespace suspension_health_monitor

@@ -3,11 +3,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/identification/instrumental_variables.h"
-#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
 
 namespace suspension_health_monitor {
@@ -15,12 +14,12 @@ namespace suspension_health_monitor {
 /// @return what is wrong with the stamps for the sample period that was given, in words; nothing: they fit.
 std::optional<std::string> periodWarning(const SuspensionMonitor& monitor);
 
-/// @return the strut as an estimator of the live monitor knows it at the end of a drive.
-IdentifiedStrut atTheEnd(const StrutEstimate& estimate);
+/// @return what an estimator of the live monitor knows of the strut, for results.
+IdentifiedStrut toIdentified(const StrutEstimate& estimate);
 
 /// Identifies the strut of a recorded drive reading by reading: what identify() does with arrays and `suspension_bag
-/// identify` with bags of any length. LS, LA and the tyre are those of a StrutPipeline, as live; instrumental variables
-/// run over the whole drive beside them. Cost per reading: O(1) amortised; memory does not grow with the drive.
+/// identify` with bags of any length. LS, LA and the tyre are those of a StrutPipeline, as live; its blocks
+/// give the estimate over the whole drive. Cost per reading: O(1) amortised; memory does not grow with the drive.
 class DriveIdentification {
  public:
   using Sink = std::function<void(const MonitorReport&)>;
@@ -28,19 +27,17 @@ class DriveIdentification {
   /// @param settings  with sample_period given.
   /// @param sink  called with the monitor's report after every sample that was taken in.
   /// @throws std::invalid_argument  as MonitorOptions::validate().
-  explicit DriveIdentification(const MonitorSettings& settings, Sink sink = {});
-  DriveIdentification(const DriveIdentification&) = delete;  // its strut's sinks refer to it
-  DriveIdentification& operator=(const DriveIdentification&) = delete;
+  explicit DriveIdentification(const MonitorSettings& settings, Sink sink = {})
+      : strut_(settings, {std::move(sink), {}}) {}
 
-  /// Has these effects in the model of LS and LA; the instrumental variables know the plain strut only, and rest.
   /// @throws std::invalid_argument  as SuspensionMonitor::setEffects().
-  void setEffects(const std::vector<ActiveEffect>& effects);
+  void setEffects(const std::vector<ActiveEffect>& effects) { strut_.setEffects(effects); }
 
   /// As StrutPipeline::push().
   void push(Side side, Stamp stamp, double acceleration) { strut_.push(side, stamp, acceleration); }
 
   /// @return what is known so far.
-  IdentifyResult result() const;
+  IdentifyResult result();
 
   /// @return readings that were kept out so far.
   RejectCounts rejected() const { return strut_.rejected(); }
@@ -50,19 +47,7 @@ class DriveIdentification {
   const TyreTracker* tyre() const { return strut_.tyre(); }
 
  private:
-  /// What the estimate over the whole drive is made of, and doubted by.
-  struct WholeDrive {
-    explicit WholeDrive(const MonitorSettings& settings, int rows_late);
-    InstrumentalVariables strut;
-    RunningMean wrong_variance;  // as InstrumentalVariables::RowErrors, by the live estimation
-  };
-
-  void take(const CornerSample& sample);
-  IdentifiedStrut overTheDrive() const;
-
   StrutPipeline strut_;
-  InputStatus seen_;                       // of the monitor, before the newest sample
-  std::optional<WholeDrive> whole_drive_;  // none: there are effects in the model
 };
 
 }  // namespace suspension_health_monitor

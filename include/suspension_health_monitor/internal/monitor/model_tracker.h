@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/blocks/strut_blocks.h"
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/identification/running_comparison.h"
@@ -14,8 +15,9 @@
 
 namespace suspension_health_monitor {
 
-/// One model of the strut, plain or with effects, followed through a drive: the estimation (StrutIdentifier), the
-/// decision whether its estimates are valid (doubtOf()), and the free run with LA's parameters against the measurement.
+/// One model of the strut, plain or with effects, followed through a drive: the estimates of its blocks (StrutBlocks)
+/// and of its rows (StrutIdentifier), the decision whether they are valid (doubtOf()), and the free run against the
+/// measurement: with the block estimate, or LA's where there is none, as with `preset: paper`.
 ///
 /// Rows of the plain model are those of the newest sample. The columns of effects need travel and travel rate, which
 /// the free run tells FreeRun::kDelay samples late; so does a model with effects give its rows.
@@ -36,6 +38,10 @@ class ModelTracker {
 
   const std::vector<ActiveEffect>& effects() const { return free_run_.model().effects; }
 
+  /// Takes in one reading of one sensor, on its own stamp, for the blocks.
+  /// @return true if it brought a new block estimate.
+  bool addReading(Side side, Stamp stamp, double acceleration, ModelReport& report);
+
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @param time  of the newest sample since the start of the drive [s]; of no effect on the plain model.
   /// @param compared  the sample FreeRun::kDelay before the newest; nullptr: the series is too short yet.
@@ -50,37 +56,41 @@ class ModelTracker {
   /// Another drive begins, perhaps of another vehicle: nothing is held any more.
   void startNewDrive(ModelReport& report);
 
-  /// @param input  from now on no estimate is valid while samples come at another period than that of the options.
-  void setInput(const InputStatus& input, ModelReport& report);
+  /// @param input  from now on LS and LA are not valid while samples come at another period than that of the options.
+  /// @param now  that the age of the estimate counts to.
+  void setInput(const InputStatus& input, Stamp now, ModelReport& report);
 
-  /// As StrutIdentifier::setForgetting().
-  void setForgetting(const MonitorSettings& options) { identifier_.setForgetting(options); }
+  /// As StrutIdentifier::setForgetting(), and health/oldest_data.
+  void setOptions(const MonitorSettings& options);
 
-  /// As StrutIdentifier::setInputStddevs().
-  void setInputStddevs(const Eigen::Vector2d& stddevs) { identifier_.setInputStddevs(stddevs); }
+  /// @return true while what is measured tells nothing of the strut, and LS and LA stay as they are.
+  bool holds() const { return identifier_.holds(); }
 
-  /// As StrutIdentifier::setResamplingErrors().
-  void setResamplingErrors(const ResamplingErrors& errors) { identifier_.setResamplingErrors(errors); }
+  /// @return the estimate over all readings so far, as StrutBlocks::overTheDrive(); with NaN: too little is known. Not
+  /// for the sample path.
+  StrutEstimate overTheDrive();
 
-  /// @return true while what is measured tells nothing of the strut, and the estimates stay as they are.
-  bool holds() const { return identifier_.holdsAll(); }
-
-  const StrutIdentifier& identifier() const { return identifier_; }
-
-  /// @return the factor that rows are forgotten by now.
+  /// @return the factor that rows are forgotten by.
   double forgettingFactor() const { return identifier_.forgettingFactor(); }
 
  private:
+  void addRow(const CornerSample& sample, ModelReport& report);
   void judge(ModelReport& report);
-  void takeModel(const StrutEstimate& la);
+  void judgeBlocks(StrutEstimate& estimate) const;
+  void takeModel(const ModelReport& report);
   void fallBack();
   void compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report);
 
+  bool is_paper_;
+  BlockOptions block_options_;
+  double period_, oldest_data_;  // [s]
+  StrutBlocks blocks_;
   StrutIdentifier identifier_;
+  Stamp now_{};
   bool period_fits_ = true;
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
-  bool has_own_model_ = false;  // the free run has had parameters of LA, or those that belong to the start values
+  bool has_own_model_ = false;  // the free run has had estimated parameters, or those that belong to the start values
   std::uint64_t runaways_ = 0;
   EveryN model_due_, figures_due_;
   RunningComparison comparison_;

@@ -8,7 +8,6 @@
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
-#include "suspension_health_monitor/internal/signal/folded_power.h"
 #include "suspension_health_monitor/internal/signal/mean_spacing.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/monitor_report.h"
@@ -19,10 +18,7 @@ namespace suspension_health_monitor {
 /// one that was said. Cost per sample: O(1), no allocation.
 class SampleSeries {
  public:
-  explicit SampleSeries(Stamp period)
-      : period_(period),
-        folded_{FoldedPower(std::exp(-toSeconds(period) / kFoldedMemory)),
-                FoldedPower(std::exp(-toSeconds(period) / kFoldedMemory))} {}
+  explicit SampleSeries(Stamp period) : period_(period) {}
 
   /// Takes in the next sample if it can be.
   /// @return how it follows the one before, kGap and kClockJumped beginning a new series; empty: it was rejected.
@@ -30,7 +26,7 @@ class SampleSeries {
 
   void countRow() { ++status_.rows; }
 
-  /// Judges the spacings up to now, and how the sensors shake.
+  /// Judges the spacings up to now.
   void judge();
 
   /// @param share, level  of the body's motion above the strut's band.
@@ -53,8 +49,6 @@ class SampleSeries {
   const RejectCounts& rejected() const { return rejected_; }
 
  private:
-  static constexpr double kFoldedMemory = 10.0;  // [s]: what is said of a sensor does not come and go with the road
-
   const CornerSample& at(std::size_t number) const { return recent_[number % recent_.size()]; }
   void countSpacings();
 
@@ -63,7 +57,6 @@ class SampleSeries {
   std::array<CornerSample, FreeRun::kDelay + 1> recent_{};  // by their number in the series, modulo
   std::size_t size_ = 0;                                    // of the series
   MeanSpacing spacing_;
-  std::array<FoldedPower, 2> folded_;  // of the sprung and the unsprung sensor
   InputStatus status_;
   RejectCounts rejected_;
 };

@@ -44,6 +44,9 @@ class StrutPipeline {
   /// As SuspensionMonitor::reconfigure().
   void reconfigure(const MonitorSettings& settings);
 
+  /// @return as SuspensionMonitor::overTheDrive().
+  StrutEstimate overTheDrive() { return monitor_ ? monitor_->overTheDrive() : StrutEstimate(); }
+
   /// @return nullptr while the sample period is being measured; so with the next two.
   const SuspensionMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
   const UniformGrid* grid() const { return grid_ ? &*grid_ : nullptr; }

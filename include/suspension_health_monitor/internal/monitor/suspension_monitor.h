@@ -14,11 +14,12 @@ namespace suspension_health_monitor {
 
 /// Identifies one strut from a series of samples: the facade that the nodelet, the command line and the tests share.
 ///
-/// Per sample, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then
-/// the free run with LA's parameters against the measurement. Health is judged three times per two horizons.
-/// While samples come at another period than that of the options no estimate is valid (InputStatus::period_fits).
-/// With effects in the model (ModelTracker) the plain one runs along, with LS and LA of its own, to be compared with.
-/// Cost per sample: O(1) whatever the horizon; no allocation, no lock.
+/// Per reading: the blocks of both sensors (StrutBlocks), whose estimate comes after every half block. Per sample of
+/// the grid, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then
+/// the free run against the measurement. Health is judged with every block estimate. While samples come at another
+/// period than that of the options no estimate is valid (InputStatus::period_fits). With effects in the model
+/// (ModelTracker) the plain one runs along, with LS and LA of its own, to be compared with. Cost per sample: O(1)
+/// whatever the horizon; no allocation, no lock.
 class SuspensionMonitor {
  public:
   /// @param options  with sample_period given.
@@ -40,50 +41,59 @@ class SuspensionMonitor {
   /// @throws std::invalid_argument  naming the option, its value and what is allowed; all then stays as it was.
   void reconfigure(const MonitorSettings& options);
 
-  /// As StrutIdentifier::setInputStddevs(), from the next sample on.
-  void setInputStddevs(const Eigen::Vector2d& stddevs);
+  /// Takes in one reading of one sensor on its own stamp, for the block estimate. Stamps of a sensor increase.
+  void addReading(Side side, Stamp stamp, double acceleration);
 
-  /// As StrutIdentifier::setResamplingErrors(), from the next sample on.
-  void setResamplingErrors(const ResamplingErrors& errors);
+  /// Both readings of an instant, then the sample: for sensors that are in step.
+  const MonitorReport* addSample(const CornerSample& sample) {
+    addReading(Side::kSprung, sample.stamp, sample.sprung_acceleration);
+    addReading(Side::kUnsprung, sample.stamp, sample.unsprung_acceleration);
+    return addGridSample(sample);
+  }
 
   /// Takes in the next sample. A gap or a clock that goes back empties the filter (no rows follow until it is full);
   /// estimates hold meanwhile, marked as not valid.
   /// @return the report, owned by this object and valid until the next call; nullptr if the sample was rejected, and,
   ///         with effects in the model, for the first FreeRun::kDelay samples of a series and after setEffects(): so
   ///         late are its reports, and no stamp comes twice.
-  const MonitorReport* addSample(const CornerSample& sample);
+  const MonitorReport* addGridSample(const CornerSample& sample);
 
   /// Judges health by this from now on.
   void setBaseline(const Baseline& baseline) { health_.setBaseline(baseline); }
   const Baseline& baseline() const { return health_.baseline(); }
 
-  /// @return the plain model's estimation, as the newest sample has left it.
-  const StrutIdentifier& identifier() const { return plain_.identifier(); }
+  /// @return as ModelTracker::overTheDrive(), of the model with effects if there is one.
+  StrutEstimate overTheDrive() { return (extended_ ? *extended_ : plain_).overTheDrive(); }
+
+  /// @return what models are made of: the block estimate, or, with `preset: paper`, LA.
+  const StrutEstimate& modelEstimate() const { return options_.preset == "paper" ? report_.la : report_.estimate; }
 
   const MonitorReport& report() const { return report_; }
   const InputStatus& input() const { return series_.status(); }
   const RejectCounts& rejected() const { return series_.rejected(); }
   const MonitorSettings& options() const { return options_; }
-  /// @return lambda for the rows to come, between that of fastest_memory and that of memory.
+  /// @return lambda of LS and LA.
   double forgettingFactor() const { return tracker().forgettingFactor(); }
   double period() const { return toSeconds(series_.period()); }
-  int horizonSamples() const { return health_.options().horizon_samples; }
+  int horizonSamples() const { return horizon_samples_; }
 
  private:
   const CornerSample* track(const CornerSample& sample);
-  void judgeHealth();
+  void judgeSensors();
   template <class Change>
   void changeModels(const Change& change);
   const ModelTracker& tracker() const { return extended_ ? *extended_ : plain_; }
 
   MonitorSettings options_;
+  int horizon_samples_;
   SampleSeries series_;
   ModelTracker plain_;
   std::optional<ModelTracker> extended_;  // with effects
   ModelReport base_;                      // of the plain model while there is an extended one
   HealthAssessment health_;
   SensorCheck sensors_;
-  EveryN health_due_;
+  EveryN sensors_due_;
+  bool has_new_estimate_ = false;        // that health has not seen
   std::optional<Stamp> reported_until_;  // by the model before the effects were set
   MonitorReport report_;
 };

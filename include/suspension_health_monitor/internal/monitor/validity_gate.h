@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -7,26 +9,27 @@ namespace suspension_health_monitor {
 /// Share of the measured signal that a model has to explain to be that of the strut.
 inline constexpr double kLeastExplained = 0.5;
 
-/// By that share of itself wrong readings may shift a parameter: of more, most of what the rows tell may be theirs.
-inline constexpr double kMostWrongShare = 0.5;
+/// Relative standard deviation from which a parameter is not known: twice that would be the change that is an error.
+inline constexpr double kMostRelativeStddev = 0.15;
 
-/// All that decides whether an estimate is valid.
+/// LS and LA may be so far from the block estimate, by either measure, and be valid.
+inline constexpr double kMostApart = 0.05;        ///< of the block estimate
+inline constexpr double kMostStddevsApart = 4.0;  ///< standard deviations of both
+
+/// All that decides whether an estimate is valid. What does not concern an estimator stays as it is here.
 struct EstimateFacts {
   bool period_fits = true;        ///< samples come at the sample period of the options
-  bool has_row = false;           ///< the newest sample gave a regression row: the filter is full
-  bool sensor_moves = true;       ///< the body's reading has changed within a horizon
+  bool has_row = false;           ///< the newest sample gave a regression row; the blocks gave an estimate
   double rows = 0.0;              ///< that the estimate rests on, of the model's present columns
   double fewest_rows = 0.0;       ///< that it needs
-  bool excites_damping = true;    ///< the rows tell of it (Excitation)
-  bool excites_stiffness = true;  ///< likewise
-  double wrong_share = 0.0;       ///< by which share of itself wrong readings may have shifted a parameter
-  double level_share = 0.0;       ///< likewise, if most of it is by an offset that changes, instead of wrong_share
-  bool outside_force = false;     ///< something else moves the body, or did within the memory
-  double explained = 0.0;         ///< share of the output's size
-  bool is_physical = false;       ///< all parameters that have to be above 0 are
-  bool skew_is_known = true;      ///< the clocks' skew is one of those that are looked for
-  bool has_stddev = false;        ///< the standard deviations are numbers
-  bool free_run_fails = false;    ///< the free run fits the body's motion worse than a constant does
+  double damping_stddev = 0.0;    ///< relative [-]
+  double stiffness_stddev = 0.0;  ///< likewise
+  double explained = 1.0;         ///< share of the output's size
+  bool is_physical = true;        ///< all parameters that have to be above 0 are
+  double age = 0.0;               ///< of the data [s]
+  double oldest = std::numeric_limits<double>::infinity();  ///< that may still count [s]
+  bool agrees = true;           ///< with the block estimate, as kMostApart or kMostStddevsApart say
+  bool free_run_fails = false;  ///< the free run fits the body's motion worse than a constant does
 };
 
 /// The one place that decides whether an estimate may be trusted.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ class StreamGrid {
   /// @return the next instant that the readings so far complete, likewise.
   const GridInstant* next();
 
+  /// @return when the newest reading was taken (ReadingClock); empty if it was kept out.
+  const std::optional<Stamp>& taken() const { return taken_; }
+
   /// @return true if the streams are resampled; why() tells the reason in words, if it was found out.
   bool resamples() const { return resamples_; }
   std::string why() const;
@@ -59,14 +63,6 @@ class StreamGrid {
   /// @return readings of other streams and instants that were lost for want of a reading of this stream.
   std::uint64_t missed(std::size_t stream) const { return streams_[stream].missed; }
 
-  /// @return standard deviation of what the times are off by at which a stream's readings are taken to be [s]
-  /// (ReadingClock); 0 while readings are paired, which needs no times.
-  double timeError(std::size_t stream) const;
-
-  /// @return the share of a stream's readings that were lost of late, and interpolated [-]; 0 while readings are
-  /// paired.
-  double lostShare(std::size_t stream) const;
-
   /// @return lost readings that were interpolated over, of one stream, and of all.
   std::uint64_t bridged(std::size_t stream) const { return resampled_.bridged(stream); }
   std::uint64_t bridged() const;
@@ -81,6 +77,7 @@ class StreamGrid {
   PairedGrid paired_;
   ResampledGrid resampled_;
   GridInstant instant_;
+  std::optional<Stamp> taken_;
 };
 
 }  // namespace suspension_health_monitor

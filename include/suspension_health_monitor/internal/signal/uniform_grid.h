@@ -7,7 +7,6 @@
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
-#include "suspension_health_monitor/internal/signal/resampling_errors.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 namespace suspension_health_monitor {
@@ -39,8 +38,7 @@ class UniformGrid {
   std::string describeAlignment() const { return streams_.describeAlignment(); }
   std::uint64_t bridged() const { return streams_.bridged(); }
   RejectCounts rejected() const { return streams_.rejected(); }
-  /// @return StreamGrid::timeError() and StreamGrid::lostShare().
-  ResamplingErrors resamplingErrors() const;
+  const std::optional<Stamp>& taken() const { return streams_.taken(); }
   const StreamGate& gate(Side side) const { return streams_.gate(indexOf(side)); }
 
  private:

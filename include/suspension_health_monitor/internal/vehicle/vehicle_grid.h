@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/signal/alignment.h"
-#include "suspension_health_monitor/internal/signal/resampling_errors.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 #include "suspension_health_monitor/internal/signal/white_level.h"
 #include "suspension_health_monitor/internal/vehicle/body_level.h"
@@ -47,10 +46,6 @@ class VehicleGrid {
 
   /// @return what timing and losses of a sensor are judged by: all of its streams share their stamps.
   const StreamGate& gate(std::size_t sensor) const { return grid_.gate(channels_[sensor].first); }
-
-  /// @return StreamGrid::timeError() and StreamGrid::lostShare() of what measures a strut's top, and of its unsprung
-  /// IMU.
-  ResamplingErrors resamplingErrors(std::size_t strut) const;
 
   /// @return readings of a sensor that were kept out, and what was lost for want of its readings.
   RejectCounts rejected(std::size_t sensor) const;

@@ -37,11 +37,6 @@ class VehicleMonitor {
   /// As more is known of the noise. Allocates.
   void setNoise(const SensorNoise& noise);
 
-  /// As SuspensionMonitor::setResamplingErrors(); lost while there is no monitor.
-  void setResamplingErrors(std::size_t strut, const ResamplingErrors& errors) {
-    if (isCoupled()) struts_[strut].setResamplingErrors(errors);
-  }
-
   /// Takes in the next sample; gaps and clocks that go back begin a new series.
   void addSample(const VehicleSample& sample);
 

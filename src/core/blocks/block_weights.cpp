@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/blocks/window_fit.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kUnusual = 10.0;  // times the usual power, from which a block counts less
+
+}  // namespace
+
+double BlockWeights::of(const Eigen::RowVectorXd& power) const {
+  if (usual.size() == 0) return 1.0;
+  return std::min(1.0, kUnusual * static_cast<double>(usual.size()) / (power.array() / usual.transpose().array()).sum());
+}
+
+double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {
+  Eigen::RowVectorXd power(bands.count());
+  for (int i = 0; i < bands.count(); ++i)
+    power[i] = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands.size(i);
+  return of(power);
+}
+
+double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta) {
+  const Eigen::Index p = theta.size();
+  BlockVector linear = theta;
+  linear[kBlockWheelShare] = 0.0;  // e does not depend on it
+  double power = moments(p, p) - 2.0 * moments.col(p).head(p).dot(linear);
+  for (Eigen::Index j = 0; j < p; ++j)
+    power += linear[j] * (linear[j] * moments(j, j) + 2.0 * moments.col(j).head(j).dot(linear.head(j)));
+  return std::max(power, 0.0);
+}
+
+BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, double share_scale) {
+  BlockVector scaled = theta;
+  scaled[kBlockWheelShare] *= share_scale;
+  BlockVector score = band.score + share_scale * band.share - band.information.lazyProduct(scaled);
+  score[kBlockWheelShare] *= share_scale;
+  return score;
+}
+
+BlockMatrix informationOf(const StrutBlock::Band& band, double share_scale) {
+  BlockMatrix information = band.information;
+  information.row(kBlockWheelShare) *= share_scale;
+  information.col(kBlockWheelShare) *= share_scale;
+  return information;
+}
+
+NormalEquations::NormalEquations(const BlockMatrix& normal, const BlockVector& right)
+    : inverse(normal), solution(right) {
+  const BlockVector scale = normal.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+  if (!scale.allFinite()) return;
+  const BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+  inverse = Eigen::PartialPivLU<BlockMatrix>(scaled).inverse();
+  inverse = scale.asDiagonal() * inverse * scale.asDiagonal();
+  solution.noalias() = inverse * right;
+  is_solvable = solution.allFinite();
+}
+
+BlockMatrix covarianceByNoise(const BlockMatrix& normal, const BlockMatrix& inverse, const BlockPrior& prior,
+                              int blocks) {
+  const double correlation = WindowFit::kBinCorrelation + WindowFit::kBlockCorrelation * (blocks - 1.0) / blocks;
+  BlockMatrix middle = correlation * normal;
+  middle.diagonal() += (1.0 - correlation) * prior.stddev.cwiseAbs2().cwiseInverse();
+  BlockMatrix covariance = inverse * middle * inverse.transpose();
+  middle = covariance.transpose();
+  covariance = 0.5 * (covariance + middle);
+  return covariance;
+}
+
+BlockVector linearPart(const BlockVector& theta, const BlockColumns& columns) {
+  BlockVector linear = theta;
+  linear.segment(columns.firstForce(), columns.forces).setZero();
+  return linear;
+}
+
+}  // namespace suspension_health_monitor
