@@ -103,6 +103,15 @@ std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitRes
   return best;
 }
 
+bool BodyFit::hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars) const {
+  const auto count = static_cast<Eigen::Index>(pairs_.size());
+  const Eigen::Index bar_parameters =
+      bars == BodyFitResult::Bars::kNone ? 0 : bars == BodyFitResult::Bars::kStiffness ? count : 2 * count;
+  for (Eigen::Index i = solution.parameters.size() - bar_parameters; i < solution.parameters.size(); ++i)
+    if (solution.parameters[i] < -kProven * std::sqrt(solution.covariance(i, i))) return true;
+  return false;
+}
+
 bool BodyFit::isNamed(const Solution& without, const Solution& with, BodyFitResult::Bars bars,
                       const std::vector<BodyRows>& halves) const {
   if (halves.size() < 2 || !(with.phi < kLeastLeft) || !(without.phi > kFall * with.phi)) return false;
@@ -113,14 +122,14 @@ bool BodyFit::isNamed(const Solution& without, const Solution& with, BodyFitResu
     if (!part) return false;
     parts.push_back(*part);
   }
+  for (const Solution& part : parts)
+    if (hasNegativeBar(part, bars)) return false;
   bool is_any_proven = false;
   for (const int kind : {0, 1})
     for (int p = 0; p < functor.numBars(kind); ++p) {
       const int at = functor.firstBar(kind) + p;
       const auto value = [&](std::size_t i) { return parts[i].parameters[at]; };
       const auto variance = [&](std::size_t i) { return parts[i].covariance(at, at); };
-      for (std::size_t i = 0; i < parts.size(); ++i)
-        if (value(i) < -kProven * std::sqrt(variance(i))) return false;
       if (std::abs(value(1) - value(2)) > kProven * std::sqrt(variance(1) + variance(2))) return false;
       if (kind == 1) is_any_proven = is_any_proven || value(0) > kProven * std::sqrt(variance(0));
     }
@@ -141,8 +150,21 @@ std::optional<BodyFitResult> BodyFit::fit(const BodyRows& rows, const std::vecto
     phi_of[static_cast<std::size_t>(bars)] = with->phi;
     if (result.bars != Bars::kNone && !(result.phi > kFall * with->phi)) break;
     if (isNamed(*without, *with, bars, halves)) result = describe(*with, bars);
+    // Bars that damp, too, are many numbers, which fit what is no bar: of a vehicle that has them the stiffnesses alone
+    // leave more, but are not negative.
+    if (hasNegativeBar(*with, bars)) break;
   }
   result.phi_of = phi_of;
+  return result;
+}
+
+Eigen::Matrix2d BodyFitResult::absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own,
+                                                  const Eigen::Matrix2d& covariance, double friction_damping) const {
+  const Measured &rate = b1[strut], &travel = b0[strut];
+  Eigen::Matrix2d result = covariance;
+  // Uniform between nothing and all of it: the mean square from one end is a third.
+  result(0, 0) += std::pow(rate.stddev / rate.value * own[0], 2) + friction_damping * friction_damping / 3.0;
+  result(1, 1) += std::pow(travel.stddev / travel.value * own[1], 2);
   return result;
 }
 

@@ -196,6 +196,7 @@ const TopEstimate* VehicleBlocks::update(std::size_t strut) {
   TopEstimate& estimate = estimates_[strut];
   static_cast<WindowEstimate&>(estimate) = *found;
   estimate.length = length_;
+  if (tops_.looks_for_friction) estimate.friction = found->theta[columns_.firstForce()];
   estimate.stamp = *origin_ + fromSeconds(static_cast<double>(newest_half_ + 1) * length_ / 2.0);
   has_[strut] = true;
   return &estimate;
@@ -247,6 +248,11 @@ void VehicleBlocks::finishRound() {
     to_predict_ = estimators_.front().count();
   }
   follow();
+}
+
+std::optional<WindowEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
+  if (!has_model_ || doubts_[strut] != TopDoubt::kNone) return std::nullopt;
+  return estimators_[strut].overTheDrive();
 }
 
 void VehicleBlocks::addRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const {

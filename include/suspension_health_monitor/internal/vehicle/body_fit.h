@@ -38,6 +38,16 @@ struct BodyFitResult {
   Bars bars = Bars::kNone;                      ///< that are named
   std::vector<Bar> found;                       ///< these
   std::vector<Measured> b1, b0;  ///< by strut, its own column at its own top with its share of bars [1/s], [1/s^2]
+
+  /// @param covariance  of b1 and b0 of a strut by noise and scatter, as its estimate has it.
+  /// @param own  b1, b0 of the estimate.
+  /// @param friction_damping  what friction counts as in b1, TopEstimate::frictionDamping(): a damper that is not linear
+  /// looks like friction, in part or as a whole.
+  /// @return that of their absolute values: with the model's error, as far as the rows of all tops leave it in the
+  /// strut's own column. A change has none of it.
+  Eigen::Matrix2d absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own, const Eigen::Matrix2d& covariance,
+                                     double friction_damping) const;
+
   Measured mass_to_pitch_inertia{}, mass_to_roll_inertia{};  ///< M/Iyy, M/Ixx [1/m^2]; infinite stddev: not seen
   Measured product{};                                        ///< their common term, M (I^-1)_xy [1/m^2]
   Measured x{}, y{};                                         ///< of the centre of gravity [m]
@@ -71,6 +81,7 @@ class BodyFit {
   std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
                                 const Eigen::VectorXd& start) const;
   std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars) const;
+  bool hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars) const;
   bool isNamed(const Solution& without, const Solution& with, BodyFitResult::Bars bars,
                const std::vector<BodyRows>& halves) const;
   BodyFitResult describe(const Solution& solution, BodyFitResult::Bars bars) const;

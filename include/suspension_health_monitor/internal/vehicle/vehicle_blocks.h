@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -21,6 +22,10 @@ namespace suspension_health_monitor {
 /// it. That of absolute values has the model's error as well (BodyFit).
 struct TopEstimate : BlockEstimate {
   std::size_t strut = 0;
+  double friction = 0.0;  ///< over the body's mass [m/s^2]
+
+  /// @return the damping that takes as much power as friction does, of a normal travel rate [1/s].
+  double frictionDamping() const { return rate > 0.0 ? std::sqrt(2.0 / M_PI) * friction / rate : 0.0; }
 };
 
 /// Why there is no estimate of a strut.
@@ -54,6 +59,10 @@ class VehicleBlocks {
   /// @return the newest estimate of a strut; nullptr: none yet.
   const TopEstimate* estimate(std::size_t strut) const { return has_[strut] ? &estimates_[strut] : nullptr; }
   TopDoubt doubt(std::size_t strut) const { return doubts_[strut]; }
+
+  /// @return the estimate of a strut over all blocks since restart(); nothing if they do not tell, or if tracks are too
+  /// much alike. Not for the sample path.
+  std::optional<WindowEstimate> overTheDrive(std::size_t strut);
 
   /// @return what all blocks kept say of all tops, with the data alone; nothing if they do not. For BodyFit.
   std::optional<BodyRows> rows() const;
