@@ -1,10 +1,11 @@
-// What the block estimates of a vehicle's struts are worth: linear half and full cars and six wheels of vehicle_drive.h,
-// with own accelerometers at the tops or one body IMU; and records of others, as CSV.
+// What the block estimates of a vehicle's struts are worth: linear half and full cars and six wheels of
+// vehicle_drive.h, with own accelerometers at the tops or one body IMU; and records of others, as CSV.
 //   vehicle_blocks_table [seeds]            the linear vehicles
 //   vehicle_blocks_table FILE.csv ... [-b]  records; -b: by their body IMU
 // A record begins with a line "# NAME x y z b1 b0" for every strut, its top's position from the body's IMU [m] and the
-// truth; then lines of time [s], the body's acceleration (3) and angular rate (3), and by strut the vertical acceleration
-// of the tops, then of the wheels. A strut "wears" at 205 s in such a record (column `seen`), if it is that long.
+// truth; then lines of time [s], the body's acceleration (3) and angular rate (3), and by strut the vertical
+// acceleration of the tops, then of the wheels. A strut "wears" at 205 s in such a record (column `seen`), if it is
+// that long.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,10 +24,10 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kInterval = 1.96;   // standard deviations
-constexpr double kWarns = 0.15;      // relative change
-constexpr double kSettled = 30.0;    // [s] from which healthy windows count
-constexpr double kWornAt = 205.0;    // [s] of a record
+constexpr double kInterval = 1.96;  // standard deviations
+constexpr double kWarns = 0.15;     // relative change
+constexpr double kSettled = 30.0;   // [s] from which healthy windows count
+constexpr double kWornAt = 205.0;   // [s] of a record
 
 /// One instant of all sensors.
 struct Instant {
@@ -84,8 +85,8 @@ Run run(const Case& test) {
     ++result.readings;
     if (estimate == nullptr) return;
     const auto stddev = [&](int i) { return std::sqrt(estimate->covariance(i, i)); };
-    result.told[estimate->strut].push_back({time, {estimate->theta[0], estimate->theta[1]}, {stddev(0), stddev(1)},
-                                           estimate->frictionDamping()});
+    result.told[estimate->strut].push_back(
+        {time, {estimate->theta[0], estimate->theta[1]}, {stddev(0), stddev(1)}, estimate->frictionDamping()});
   };
   bool has_body = false;
   for (const Instant& now : test.instants) {
@@ -126,7 +127,8 @@ double seenAfter(const Run& run, const Case& test, std::size_t strut, double& la
     if (each.time < test.change_at) continue;
     const double change = each.value[0] / base - 1.0, stddev = each.stddev[0] / base;
     largest = std::max(largest, std::max(0.0, std::abs(change) - kInterval * stddev));
-    if (seen < 0.0 && change < -kWarns && change + kInterval * stddev < -kWarns / 2.0) seen = each.time - test.change_at;
+    if (seen < 0.0 && change < -kWarns && change + kInterval * stddev < -kWarns / 2.0)
+      seen = each.time - test.change_at;
   }
   return seen;
 }
@@ -147,7 +149,8 @@ void print(const Case& test, const Run& run) {
       }
       ++count;
       Eigen::Matrix2d covariance = Eigen::Vector2d(each.stddev[0], each.stddev[1]).cwiseAbs2().asDiagonal();
-      if (run.body) covariance = run.body->absoluteCovariance(i, {each.value[0], each.value[1]}, covariance, each.friction_damping);
+      if (run.body)
+        covariance = run.body->absoluteCovariance(i, {each.value[0], each.value[1]}, covariance, each.friction_damping);
       for (std::size_t p : {0, 1}) {
         const double off = each.value[p] - test.truth[i][p];
         const double stddev = std::sqrt(covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(p)));

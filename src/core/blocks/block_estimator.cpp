@@ -12,19 +12,20 @@ constexpr double kShareMean = 0.5, kShareStddev = 0.29;  // of r: uniform in (0,
 // Noise of all wheels of a vehicle is in e of every top, in proportions that change with frequency: no r is right, and
 // what is wrong by it counts where tracks are much alike. So instruments are those of the wheels as measured.
 constexpr double kNoShare = 0.02;
-// Links, rubber and tyres' side forces turn the phase of a vehicle's struts as a delay does, by up to 0.07 rad at 20 Hz on
-// recorded multibody vehicles. What a delay then takes from b0 at high frequencies is as much as 17 % of it.
+// Links, rubber and tyres' side forces turn the phase of a vehicle's struts as a delay does, by up to 0.07 rad at 20 Hz
+// on recorded multibody vehicles. What a delay then takes from b0 at high frequencies is as much as 17 % of it.
 constexpr double kLeastPhase = 0.15;  // in the last bin [rad]
 constexpr double kNoDelay = 1e-6;     // [s]
-constexpr int kSlowEvery = 4;                            // blocks: all blocks then have changed by a sixteenth
-constexpr double kSlowFactor = 1.5;  // standard deviations of what changes slowly count so much more for fewer blocks
+constexpr int kSlowEvery = 4;         // blocks: all blocks then have changed by a sixteenth
+constexpr double kSlowFactor = 1.5;   // standard deviations of what changes slowly count so much more for fewer blocks
 constexpr double kContradiction = 3.0;  // standard deviations
 constexpr double kLost = 0.3;           // relative standard deviation from which there is no estimate to linearise at
 constexpr int kStartBlocks = 8, kStartSteps = 8;
-constexpr int kRefined = 8;          // blocks that are linearised anew per update
-constexpr double kStale = 0.02;      // relative change of b1 or b0 since the linearisation
-constexpr double kStalePhase = 0.1;  // of the phase that the delay makes in the last bin [rad]
-constexpr double kStaleShare = 0.2;  // of r
+constexpr int kVehicleStartSteps = 3;  // all that one reading has time for; the blocks after it go on
+constexpr int kRefined = 8;            // blocks that are linearised anew per update
+constexpr double kStale = 0.02;        // relative change of b1 or b0 since the linearisation
+constexpr double kStalePhase = 0.1;    // of the phase that the delay makes in the last bin [rad]
+constexpr double kStaleShare = 0.2;    // of r
 
 bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
 
@@ -51,6 +52,7 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   factor_.setOnes(p);
   factor_stddev_.setZero(p);
   theta_.setZero(p);
+  shorter_.reserve(kWindows.size());
   pointers_.reserve(kMostBlocks);
   sorted_.reserve(kMostBlocks);
 }
@@ -95,6 +97,10 @@ std::optional<WindowEstimate> BlockEstimator::ofBlocks(int newest, int count) {
 }
 
 const WindowEstimate* BlockEstimator::update() {
+  if (!has_theta_ && waits_ > 0) {
+    --waits_;
+    return nullptr;
+  }
   is_refused_ = false;
   if (has_theta_) equations_.linearise(theta_, block(0));
   if (count_ < kWindows.front() || !(has_theta_ || start())) {
@@ -105,11 +111,13 @@ const WindowEstimate* BlockEstimator::update() {
   scaleSlow();
   const BlockPrior& prior = contradictsSlow() ? first_ : scaled_;
   int window = 0;
+  shorter_.clear();
   for (const int m : kWindows) {
     if (m > count_) break;
     const bool is_usable = fit(m, prior, trial_);
     if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : kUnknown;
     if (!is_usable) continue;
+    if (equations_.columns().neighbours > 0 && contradictsShorter(trial_)) break;
     if (window == 0 || trial_.worst() < best_.worst()) {
       std::swap(best_, trial_);
       window = m;
@@ -139,7 +147,8 @@ bool BlockEstimator::start() {
   theta_[kBlockDamping] = std::max(linear[0], 0.2 * slowest);
   theta_[kBlockStiffness] = std::max(linear[1], slowest * slowest);
   theta_.tail(linear.size() - 2) = linear.tail(linear.size() - 2);
-  for (int i = 0; i < kStartSteps; ++i) {
+  const int steps = equations_.columns().neighbours > 0 ? kVehicleStartSteps : kStartSteps;
+  for (int i = 0; i < steps; ++i) {
     for (int age = 0; age < window; ++age) equations_.linearise(theta_, block(age));
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
@@ -147,6 +156,7 @@ bool BlockEstimator::start() {
   if (!(trial_.worst() < kLost)) {
     std::swap(best_, trial_);
     is_refused_ = true;
+    if (equations_.columns().neighbours > 0) waits_ = kSlowEvery - 1;
     return false;
   }
   for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
@@ -169,9 +179,9 @@ void BlockEstimator::scaleSlow(int parameter, double factor, double stddev) {
 
 void BlockEstimator::scaleSlow() {
   scaled_.mean = slow_.mean.cwiseProduct(factor_);
-  scaled_.stddev = (slow_.stddev.cwiseProduct(factor_).array().square() +
-                    slow_.mean.cwiseProduct(factor_stddev_).array().square())
-                       .sqrt();
+  scaled_.stddev =
+      (slow_.stddev.cwiseProduct(factor_).array().square() + slow_.mean.cwiseProduct(factor_stddev_).array().square())
+          .sqrt();
 }
 
 void BlockEstimator::learnSlow() {
@@ -234,8 +244,18 @@ bool BlockEstimator::contradictsSlow() {
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
     if (!isSlow(i) || !std::isfinite(scaled_.stddev[i])) continue;
     const double apart = std::abs(trial_.theta[i] - scaled_.mean[i]);
-    if (apart > kContradiction * std::sqrt(trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i])) return true;
+    if (apart > kContradiction * std::sqrt(trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i]))
+      return true;
   }
+  return false;
+}
+
+// Windows of a vehicle are long where one IMU tells of all tops: they end where shorter ones say that a strut was another
+// one. Source: O. V. Lepskii, On a problem of adaptive estimation in Gaussian white noise (1991).
+bool BlockEstimator::contradictsShorter(const WindowEstimate& estimate) {
+  for (const Shorter& each : shorter_)
+    if (((estimate.theta.head<2>() - each.theta).array().abs() > kContradiction * each.stddev.array()).any()) return true;
+  shorter_.push_back({estimate.theta.head<2>(), estimate.covariance.diagonal().head<2>().cwiseSqrt()});
   return false;
 }
 

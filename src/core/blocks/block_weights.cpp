@@ -12,7 +12,8 @@ constexpr double kUnusual = 10.0;  // times the usual power, from which a block 
 
 double BlockWeights::of(const Eigen::RowVectorXd& power) const {
   if (usual.size() == 0) return 1.0;
-  return std::min(1.0, kUnusual * static_cast<double>(usual.size()) / (power.array() / usual.transpose().array()).sum());
+  return std::min(1.0,
+                  kUnusual * static_cast<double>(usual.size()) / (power.array() / usual.transpose().array()).sum());
 }
 
 double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {

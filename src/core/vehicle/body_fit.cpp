@@ -16,8 +16,8 @@ constexpr int kHalvings = 14;        // of the logarithm of phi: to 0.06 %
 constexpr double kSideBySide = 0.1;  // of the wheelbase
 // Multibody vehicles without bars kept more than 2.5 % with false ones in the model, those with bars 1.1 % with them.
 constexpr double kLeastLeft = 0.02;
-constexpr double kFall = 3.0;     // phi without bars over that with them
-constexpr double kProven = 3.0;   // standard deviations
+constexpr double kFall = 3.0;    // phi without bars over that with them
+constexpr double kProven = 3.0;  // standard deviations
 constexpr double kSmallest = 1e-6;
 
 /// @return x or y less its middle, over its mean size; zero where all are alike.
@@ -70,7 +70,7 @@ BodyFit::BodyFit(const StrutPlaces& places, const std::vector<StrutPair>& pairs)
 std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
                                                 const Eigen::VectorXd& start) const {
   RigidBodyRows functor(q_, pairs_, bars, rows, phi);
-  if (functor.degreesOfFreedom() <= 0) return std::nullopt;
+  if (!(functor.degreesOfFreedom() > 0.0)) return std::nullopt;
   Solution solution;
   solution.phi = phi;
   solution.parameters = start.size() == functor.inputs() ? start : functor.start(rows);
@@ -105,8 +105,9 @@ std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitRes
 
 bool BodyFit::hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars) const {
   const auto count = static_cast<Eigen::Index>(pairs_.size());
-  const Eigen::Index bar_parameters =
-      bars == BodyFitResult::Bars::kNone ? 0 : bars == BodyFitResult::Bars::kStiffness ? count : 2 * count;
+  const Eigen::Index bar_parameters = bars == BodyFitResult::Bars::kNone        ? 0
+                                      : bars == BodyFitResult::Bars::kStiffness ? count
+                                                                                : 2 * count;
   for (Eigen::Index i = solution.parameters.size() - bar_parameters; i < solution.parameters.size(); ++i)
     if (solution.parameters[i] < -kProven * std::sqrt(solution.covariance(i, i))) return true;
   return false;
@@ -170,8 +171,9 @@ Eigen::Matrix2d BodyFitResult::absoluteCovariance(std::size_t strut, const Eigen
 
 BodyFitResult BodyFit::describe(const Solution& solution, BodyFitResult::Bars bars) const {
   const auto n = q_.rows();
-  const BodyRows none{Eigen::MatrixXd::Ones(n, n), Eigen::MatrixXd::Ones(n, n),
-                      std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(n), Eigen::MatrixXd::Identity(2 * n, 2 * n))};
+  const BodyRows none{
+      Eigen::MatrixXd::Ones(n, n), Eigen::MatrixXd::Ones(n, n),
+      std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(n), Eigen::MatrixXd::Identity(2 * n, 2 * n)), false};
   const RigidBodyRows functor(q_, pairs_, bars, none, 0.0);
   BodyFitResult result;
   result.phi = solution.phi;
@@ -205,19 +207,20 @@ BodyFitResult BodyFit::describe(const Solution& solution, BodyFitResult::Bars ba
       const Eigen::MatrixXd a = mobility(p);
       return (a(i, i) - a(i, j)) * p[functor.firstBar(kind) + static_cast<int>(b)];
     };
-    result.found.push_back({pairs_[b], measured([&](const Eigen::VectorXd& p) { return share(p, 1); }),
-                            measured([&](const Eigen::VectorXd& p) { return share(p, 0); })});
+    const BodyFitResult::Bar bar{pairs_[b], measured([&](const Eigen::VectorXd& p) { return share(p, 1); }),
+                                 measured([&](const Eigen::VectorXd& p) { return share(p, 0); })};
+    if (bar.stiffness.value > kProven * bar.stiffness.stddev) result.found.push_back(bar);
   }
-  // S about the middle of the struts is 1/M (1 and inertia about the centre of gravity, x_c off): S_00 = 1 + x_c J x_c',
-  // S_0x = -x_c J, with J the inverse of the inertia; S is over its own S_00.
+  // S about the middle of the struts is 1/M (1 and inertia about the centre of gravity, x_c off): S_00 = 1 + x_c J
+  // x_c', S_0x = -x_c J, with J the inverse of the inertia; S is over its own S_00.
   const auto about = [&](const Eigen::VectorXd& p) {
     const Eigen::MatrixXd s = functor.body(p);
     const Eigen::Index m = s.rows() - 1;
     Eigen::VectorXd lengths(m);
     if (sees_pitch_) lengths[0] = scale_[0];
     if (sees_roll_) lengths[m - 1] = scale_[1];
-    const Eigen::MatrixXd j = lengths.cwiseInverse().asDiagonal() * s.bottomRightCorner(m, m) *
-                              lengths.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd j =
+        lengths.cwiseInverse().asDiagonal() * s.bottomRightCorner(m, m) * lengths.cwiseInverse().asDiagonal();
     const Eigen::VectorXd first = lengths.cwiseInverse().asDiagonal() * s.col(0).tail(m);
     const Eigen::VectorXd centre = -j.ldlt().solve(first);
     const double share = 1.0 - centre.dot(j * centre);  // 1/M over S_00

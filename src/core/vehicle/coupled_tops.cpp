@@ -47,8 +47,7 @@ const std::vector<WheelNoise>& CoupledTops::wheelNoise(std::size_t strut, const 
         noise.output += std::norm((j == i ? 1.0 : 0.0) - follows(i, j)) / bands.size(band);
       for (std::size_t k = 0; k < n; ++k)
         for (std::size_t j = 0; j < n; ++j) {
-          const std::complex<double> z =
-              std::conj(follows(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)));
+          const std::complex<double> z = std::conj(follows(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)));
           const int row = columnOf(k), column = columnOf(j);
           sum(row, column) += std::real(z) * std::norm(s) / a2;
           sum(row + 1, column + 1) += std::real(z) / a2;
@@ -62,8 +61,7 @@ const std::vector<WheelNoise>& CoupledTops::wheelNoise(std::size_t strut, const 
 
 void CoupledTops::predict(const std::vector<const StrutBlock*>& blocks, int first_force) {
   const auto n = wheels_.cols();
-  for (Eigen::Index j = 0; j < n; ++j)
-    modulation_.apply(0, blocks[static_cast<std::size_t>(j)]->wheel, wheels_.col(j));
+  for (Eigen::Index j = 0; j < n; ++j) modulation_.apply(0, blocks[static_cast<std::size_t>(j)]->wheel, wheels_.col(j));
   for (Eigen::Index k = 0; k < forces_.cols(); ++k)
     modulation_.apply(2, blocks.front()->forces.col(first_force + k), forces_.col(k));
   Small q(n, n);

@@ -14,7 +14,12 @@ const double kLogInertia = 0.0, kLogInertiaStddev = 2.0 * std::log(2.0);
 
 RigidBodyRows::RigidBodyRows(const Eigen::MatrixXd& q, const std::vector<StrutPair>& pairs, BodyFitResult::Bars bars,
                              const BodyRows& rows, double phi)
-    : n_(q.rows()), m_(static_cast<int>(q.cols())), num_body_(m_ * (m_ + 1) / 2 - 1), q_(q), pairs_(pairs) {
+    : n_(q.rows()),
+      m_(static_cast<int>(q.cols())),
+      num_body_(m_ * (m_ + 1) / 2 - 1),
+      share_(rows.is_by_body ? static_cast<double>(m_) / static_cast<double>(n_) : 1.0),
+      q_(q),
+      pairs_(pairs) {
   const int count = static_cast<int>(pairs.size());
   num_bar_stiffnesses_ = bars == BodyFitResult::Bars::kNone ? 0 : count;
   num_bar_dampings_ = bars == BodyFitResult::Bars::kStiffnessAndDamping ? count : 0;
@@ -29,7 +34,7 @@ RigidBodyRows::RigidBodyRows(const Eigen::MatrixXd& q, const std::vector<StrutPa
     covariance.diagonal().head(n_).array() += rate * rate;
     covariance.diagonal().tail(n_).array() += travel * travel;
     const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-    whitening_.push_back(llt.matrixL().solve(Eigen::MatrixXd::Identity(2 * n_, 2 * n_)));
+    whitening_.push_back(std::sqrt(share_) * llt.matrixL().solve(Eigen::MatrixXd::Identity(2 * n_, 2 * n_)));
   }
 }
 

@@ -27,7 +27,7 @@ class RigidBodyRows {
   int inputs() const { return first_bar_damping_ + num_bar_dampings_; }
   int values() const { return static_cast<int>(2 * n_ * n_) + m_ - 1; }
   /// Coefficients beyond parameters.
-  int degreesOfFreedom() const { return values() - inputs(); }
+  double degreesOfFreedom() const { return share_ * 2.0 * static_cast<double>(n_ * n_) + m_ - 1 - inputs(); }
 
   int operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& distance) const;
   int df(const Eigen::VectorXd& parameters, Eigen::MatrixXd& jacobian) const;
@@ -46,10 +46,11 @@ class RigidBodyRows {
  private:
   Eigen::Index n_;
   int m_, num_body_;
+  double share_;  // of the rows that are independent
   int num_bar_stiffnesses_, num_bar_dampings_, first_bar_stiffness_, first_bar_damping_;
   Eigen::MatrixXd q_;
   std::vector<StrutPair> pairs_;
-  Eigen::MatrixXd measured_;               // tops by rates and travels
+  Eigen::MatrixXd measured_;                // tops by rates and travels
   std::vector<Eigen::MatrixXd> whitening_;  // by top
 };
 

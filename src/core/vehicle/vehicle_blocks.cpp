@@ -8,14 +8,14 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kStepsOfFriction = 4096.0;                  // per block: a thousand and more per bounce
-constexpr double kBlocksOfMean = 2.0;                        // memory of the wheel's slow mean
-constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;   // of the bounce in a block, as in StrutBlocks
+constexpr double kStepsOfFriction = 4096.0;                 // per block: a thousand and more per bounce
+constexpr double kBlocksOfMean = 2.0;                       // memory of the wheel's slow mean
+constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;  // of the bounce in a block, as in StrutBlocks
 // Instruments need not be exact: a model that is wrong by this share of a row's largest coefficient costs its square of
 // the information.
 constexpr double kStaleRows = 0.1;
-constexpr double kChanged = 2.0;     // standard deviations from which a neighbour counts as changed
-constexpr double kMostlyAlike = 0.5; // of the variance
+constexpr double kChanged = 2.0;      // standard deviations from which a neighbour counts as changed
+constexpr double kMostlyAlike = 0.5;  // of the variance
 
 std::size_t checked(const VehicleTops& tops) {
   if (tops.size() < 2 || tops.size() > kMostStruts) throw std::invalid_argument("2 to 8 struts are a vehicle");
@@ -243,8 +243,7 @@ void VehicleBlocks::finishRound() {
   if (is_stale) {
     model_->setRows(rows_);
     has_model_ = true;
-    for (std::size_t i = 0; i < n; ++i)
-      estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
+    for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
     to_predict_ = estimators_.front().count();
   }
   follow();
@@ -252,12 +251,20 @@ void VehicleBlocks::finishRound() {
 
 std::optional<WindowEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
   if (!has_model_ || doubts_[strut] != TopDoubt::kNone) return std::nullopt;
-  return estimators_[strut].overTheDrive();
+  std::optional<WindowEstimate> result = estimators_[strut].overTheDrive();
+  const auto& all = estimators_[strut].ofAllBlocks();
+  if (!result || !all) return std::nullopt;
+  // Noise of wheels that move alike draws every block the same way: more blocks do not help.
+  result->alike = std::max(result->alike, all->alike);
+  for (const int i : {kBlockDamping, kBlockStiffness})
+    result->covariance(i, i) += std::pow(all->alike * result->theta[i], 2);
+  return result;
 }
 
 void VehicleBlocks::addRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const {
   const auto n = static_cast<Eigen::Index>(tops_.size()), i = static_cast<Eigen::Index>(strut);
   if (rows.size() == 0) {
+    rows.is_by_body = std::none_of(tops_.tops.begin(), tops_.tops.end(), [](const auto& top) { return top.has_own; });
     rows.rate.resize(n, n);
     rows.travel.resize(n, n);
   }

@@ -81,8 +81,7 @@ void VehicleSpectra::fill(std::size_t strut, long half, StrutBlock& block) {
   for (const FourierIntegrals& force : forces_) fillForce(force, 0);
   if (!tops_.tops[strut].has_own) return fillByBody(*tops_.tops[strut].position, half, block);
   whole(own_[own_of_[strut]], 0, half, channel_);
-  for (std::size_t p = 0; p < 3; ++p)
-    modulation_.apply(p, channel_, block.body.col(static_cast<Eigen::Index>(p)));
+  for (std::size_t p = 0; p < 3; ++p) modulation_.apply(p, channel_, block.body.col(static_cast<Eigen::Index>(p)));
 }
 
 void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block) {

@@ -80,6 +80,7 @@ class BlockEstimator {
   void learnSlow();
   void lookForDelay();
   bool contradictsSlow();
+  bool contradictsShorter(const WindowEstimate& estimate);
   void retire(const StrutBlock& block);
   void refine(int window, const BlockPrior& prior);
   bool isStale(const StrutBlock& block) const;
@@ -90,10 +91,10 @@ class BlockEstimator {
   WindowFit window_fit_;
   std::vector<StrutBlock> ring_;
   int count_ = 0, head_ = -1;
-  int updates_ = 0;
+  int updates_ = 0, waits_ = 0;       // blocks until another start
   BlockPrior first_, slow_, scaled_;  // of nothing but the options; with what all blocks tell of slow parameters; now
   BlockVector factor_, factor_stddev_;
-  BlockWeights weights_;     // of all blocks; with what is usual
+  BlockWeights weights_;  // of all blocks; with what is usual
   double scatter_ = 1.0;
   DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;
@@ -101,6 +102,10 @@ class BlockEstimator {
   double newest_worst_ = 0.0;
   WindowEstimate best_, trial_;
   std::optional<WindowEstimate> of_all_;
+  struct Shorter {
+    Eigen::Vector2d theta, stddev;
+  };
+  std::vector<Shorter> shorter_;  // windows of the newest update
   std::vector<const StrutBlock*> pointers_;
   std::vector<double> sorted_;
 };

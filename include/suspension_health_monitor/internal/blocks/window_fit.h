@@ -87,9 +87,9 @@ struct WheelNoise {
 /// cells scatter more than that. Source: Pintelon, Schoukens (2012), ch. 9 and 11; sandwich covariance after P. J.
 /// Huber, The behavior of maximum likelihood estimates under nonstandard conditions (1967).
 ///
-/// Noise of the neighbours' wheels is in their regressors and in all instruments, and counts as information N of the sum
-/// I. It draws coefficients to those of struts that move like them by I^-1 N theta: nothing, unless the struts move so
-/// much alike that noise tells them apart. Then theta is not known, but for its size, that of the own b1 and b0:
+/// Noise of the neighbours' wheels is in their regressors and in all instruments, and counts as information N of the
+/// sum I. It draws coefficients to those of struts that move like them by I^-1 N theta: nothing, unless the struts move
+/// so much alike that noise tells them apart. Then theta is not known, but for its size, that of the own b1 and b0:
 ///     covariance + I^-1 N diag(size^2) N' I^-1'.
 /// Its power is what the band with least of it in e lets it have, if the body's sensor is as noisy as the wheels'.
 /// Windows that are nested share their sums. Cost: O(blocks * bands *

@@ -15,6 +15,7 @@ namespace suspension_health_monitor {
 struct BodyRows {
   Eigen::MatrixXd rate, travel;             ///< b1_ij [1/s], b0_ij [1/s^2], tops by struts
   std::vector<Eigen::MatrixXd> covariance;  ///< by top that of its rates, then its travels
+  bool is_by_body = false;  ///< one IMU of the body tells of all tops: no more rows are independent than it has motions
 
   Eigen::Index size() const { return rate.rows(); }
 };
@@ -41,8 +42,8 @@ struct BodyFitResult {
 
   /// @param covariance  of b1 and b0 of a strut by noise and scatter, as its estimate has it.
   /// @param own  b1, b0 of the estimate.
-  /// @param friction_damping  what friction counts as in b1, TopEstimate::frictionDamping(): a damper that is not linear
-  /// looks like friction, in part or as a whole.
+  /// @param friction_damping  what friction counts as in b1, TopEstimate::frictionDamping(): a damper that is not
+  /// linear looks like friction, in part or as a whole.
   /// @return that of their absolute values: with the model's error, as far as the rows of all tops leave it in the
   /// strut's own column. A change has none of it.
   Eigen::Matrix2d absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own, const Eigen::Matrix2d& covariance,
@@ -55,12 +56,13 @@ struct BodyFitResult {
 
 /// Minimum-distance fit of a rigid body on linear struts and anti-roll bars to the rows of its tops:
 ///     B1 = Q S Q' (diag(c) + sum of c_p L_p),  B0 = Q S Q' (diag(k) + sum of k_p L_p),
-/// where row i of Q is (1, x_i, y_i), S (symmetric, S_11 = 1) is what the body's mass and inertia make of a force, c and
-/// k are over its mass, and L_p is the difference that a bar resists. Rows have noise, and a model error of phi times
-/// the largest coefficient of their kind: links, side forces of tyres and laws that are not linear are not in the model,
-/// and neither blocks nor bands disagree about them, but no rigid body has such rows. phi is what makes chi2 equal to
-/// its degrees of freedom. Sources: minimum distance: G. Chamberlain, Panel data, Handbook of Econometrics 2 (1984), 3.;
-/// a common error that chi2 tells: R. T. Birge, The calculation of errors by the method of least squares (1932).
+/// where row i of Q is (1, x_i, y_i), S (symmetric, S_11 = 1) is what the body's mass and inertia make of a force, c
+/// and k are over its mass, and L_p is the difference that a bar resists. Rows have noise, and a model error of phi
+/// times the largest coefficient of their kind: links, side forces of tyres and laws that are not linear are not in the
+/// model, and neither blocks nor bands disagree about them, but no rigid body has such rows. phi is what makes chi2
+/// equal to its degrees of freedom. Sources: minimum distance: G. Chamberlain, Panel data, Handbook of Econometrics 2
+/// (1984), 3.; a common error that chi2 tells: R. T. Birge, The calculation of errors by the method of least squares
+/// (1932).
 class BodyFit {
  public:
   /// @param places  by strut, from any point of the body.  @param pairs  that a bar may join.

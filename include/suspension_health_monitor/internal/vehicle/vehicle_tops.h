@@ -14,9 +14,9 @@ struct VehicleTops {
     std::optional<Eigen::Vector3d> position;  ///< from the body's IMU, x ahead, y to the left, z up [m]
   };
 
-  std::vector<Top> tops;          ///< by strut, two or more
-  std::size_t known_forces = 0;   ///< that are measured
-  bool looks_for_friction = true; ///< of every strut; else it has no such column
+  std::vector<Top> tops;           ///< by strut, two or more
+  std::size_t known_forces = 0;    ///< that are measured
+  bool looks_for_friction = true;  ///< of every strut; else it has no such column
 
   std::size_t size() const { return tops.size(); }
   bool needsBody() const {
