@@ -1,6 +1,8 @@
 // What the block estimates of a vehicle's struts are worth: linear half and full cars and six wheels of
 // vehicle_drive.h, with own accelerometers at the tops or one body IMU; and records of others, as CSV.
 //   vehicle_blocks_table [seeds]            the linear vehicles
+// `seen`: seconds until the worn strut is seen, how many others are, too, and by how much any other moves beyond its
+// interval.
 //   vehicle_blocks_table FILE.csv ... [-b]  records; -b: by their body IMU
 // A record begins with a line "# NAME x y z b1 b0" for every strut, its top's position from the body's IMU [m] and the
 // truth; then lines of time [s], the body's acceleration (3) and angular rate (3), and by strut the vertical
@@ -176,14 +178,15 @@ void print(const Case& test, const Run& run) {
   if (test.change_at < test.instants.back().time) {
     double largest = 0.0, others = 0.0;
     const double seen = seenAfter(run, test, 1, largest);
+    int falsely = 0;
     for (std::size_t i = 0; i < n; ++i) {
       if (i == 1) continue;
-      seenAfter(run, test, i, largest);
+      falsely += seenAfter(run, test, i, largest) >= 0.0 ? 1 : 0;
       others = std::max(others, largest);
     }
-    std::printf(" %4.1f %4.1f |", seen, 100.0 * others);
+    std::printf(" %4.1f %d %4.1f |", seen, falsely, 100.0 * others);
   } else {
-    std::printf("    -    - |");
+    std::printf("    - -    - |");
   }
   int alike = 0;
   for (const TopDoubt doubt : run.doubts) alike += doubt == TopDoubt::kTracksAlike ? 1 : 0;
@@ -279,7 +282,7 @@ Case record(const std::string& file, bool by_body) {
 void printHead() {
   std::printf(
       "                       valid wide | drive: worst | windows: rms |  in 95 | phi bars |abs. in | abs. sd   |"
-      " seen others | alike | us, worst us\n");
+      " seen others  | alike | us, worst us\n");
 }
 
 void linearTables(unsigned seeds) {

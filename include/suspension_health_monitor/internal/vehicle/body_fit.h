@@ -86,6 +86,8 @@ class BodyFit {
   bool hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars) const;
   bool isNamed(const Solution& without, const Solution& with, BodyFitResult::Bars bars,
                const std::vector<BodyRows>& halves) const;
+  /// @return M/Iyy, M/Ixx, their common term, x and y of the centre of gravity.
+  Eigen::VectorXd inertia(const Eigen::MatrixXd& s) const;
   BodyFitResult describe(const Solution& solution, BodyFitResult::Bars bars) const;
 
   Eigen::MatrixXd q_;               // struts by motions, scaled
