@@ -176,6 +176,11 @@ void BlockEstimator::lookForDelay() {
   if (!is_delayed) stddev = kNoDelay;
 }
 
+void BlockEstimator::forgetSlow() {
+  slow_ = first_;
+  of_all_.reset();
+}
+
 void BlockEstimator::scaleSlow(int parameter, double factor, double stddev) {
   factor_[parameter] = factor;
   factor_stddev_[parameter] = stddev;

@@ -242,6 +242,8 @@ void VehicleBlocks::finishRound() {
   }
   if (is_stale) {
     model_->setRows(rows_);
+    if (!has_model_)
+      for (BlockEstimator& each : estimators_) each.forgetSlow();
     has_model_ = true;
     for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
     to_predict_ = estimators_.front().count();
