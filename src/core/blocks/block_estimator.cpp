@@ -156,7 +156,11 @@ bool BlockEstimator::start() {
   if (!(trial_.worst() < kLost)) {
     std::swap(best_, trial_);
     is_refused_ = true;
-    if (equations_.columns().neighbours > 0) waits_ = kSlowEvery - 1;
+    if (equations_.columns().neighbours > 0) {
+      waits_ = kSlowEvery - 1;
+      double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
+      stddev = stddev == kNoDelay ? options_.delay_stddev : kNoDelay;
+    }
     return false;
   }
   for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
