@@ -160,7 +160,11 @@ bool BlockEstimator::start() {
   if (!(trial_.worst() < kLost && trial_.explained >= kLeastTold)) {
     std::swap(best_, trial_);
     is_refused_ = true;
-    if (equations_.columns().neighbours > 0) waits_ = kSlowEvery - 1;
+    if (equations_.columns().neighbours > 0) {
+      waits_ = kSlowEvery - 1;
+      double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
+      stddev = stddev == kNoDelay ? options_.delay_stddev : kNoDelay;
+    }
     return false;
   }
   for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
@@ -174,6 +178,11 @@ void BlockEstimator::lookForDelay() {
   stddev = options_.delay_stddev;
   const bool is_delayed = fit(count_, first_, trial_) && std::abs(trial_.theta[kBlockDelay]) * omega > kLeastPhase;
   if (!is_delayed) stddev = kNoDelay;
+}
+
+void BlockEstimator::forgetSlow() {
+  slow_ = first_;
+  of_all_.reset();
 }
 
 void BlockEstimator::scaleSlow(int parameter, double factor, double stddev) {
@@ -254,11 +263,12 @@ bool BlockEstimator::contradictsSlow() {
   return false;
 }
 
-// Windows of a vehicle are long where one IMU tells of all tops: they end where shorter ones say that a strut was another
-// one. Source: O. V. Lepskii, On a problem of adaptive estimation in Gaussian white noise (1991).
+// Windows of a vehicle are long where one IMU tells of all tops: they end where shorter ones say that a strut was
+// another one. Source: O. V. Lepskii, On a problem of adaptive estimation in Gaussian white noise (1991).
 bool BlockEstimator::contradictsShorter(const WindowEstimate& estimate) {
   for (const Shorter& each : shorter_)
-    if (((estimate.theta.head<2>() - each.theta).array().abs() > kContradiction * each.stddev.array()).any()) return true;
+    if (((estimate.theta.head<2>() - each.theta).array().abs() > kContradiction * each.stddev.array()).any())
+      return true;
   shorter_.push_back({estimate.theta.head<2>(), estimate.covariance.diagonal().head<2>().cwiseSqrt()});
   return false;
 }

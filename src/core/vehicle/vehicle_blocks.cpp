@@ -157,7 +157,7 @@ void VehicleBlocks::fillNeighbours() {
 // Without a model what was measured is all there is.
 void VehicleBlocks::predict(int age) {
   for (std::size_t i = 0; i < tops_.size(); ++i) blocks_[i] = &estimators_[i].block(age);
-  if (has_model_) model_->predict(blocks_, columns_.firstForce() + (tops_.looks_for_friction ? 1 : 0));
+  if (has_model_) model_->predict(blocks_, tops_.looks_for_friction ? 1 : 0);
   for (std::size_t i = 0; i < tops_.size(); ++i) {
     StrutBlock& block = estimators_[i].block(age);
     if (!has_model_) {
@@ -242,6 +242,8 @@ void VehicleBlocks::finishRound() {
   }
   if (is_stale) {
     model_->setRows(rows_);
+    if (!has_model_)
+      for (BlockEstimator& each : estimators_) each.forgetSlow();
     has_model_ = true;
     for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
     to_predict_ = estimators_.front().count();

@@ -50,6 +50,9 @@ class BlockEstimator {
   int count() const { return count_; }  ///< blocks kept
   void linearise(StrutBlock& block) { equations_.linearise(theta_, block); }
 
+  /// What all blocks told of slow parameters is not believed: it was told without the wheels' noise.
+  void forgetSlow();
+
   /// What is known of a slow parameter from all blocks is so many times as large now, as a neighbour's coefficient is
   /// that has changed with its strut.  @param stddev  of the factor.
   void scaleSlow(int parameter, double factor, double stddev);
