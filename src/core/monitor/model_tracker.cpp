@@ -61,8 +61,11 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
     const int i = kNumBlockParameters;
     // Of a normal distribution of the rate the least squares line through Coulomb's law has this slope.
     const double gain = std::sqrt(2.0 / M_PI) / blocks.rate;
-    estimate.friction = DryFriction{blocks.theta[i], stddev(i), gain, blocks.covariance(0, i)};
+    estimate.friction =
+        DryFriction{blocks.theta[i], stddev(i), gain, blocks.covariance(0, i), gain * blocks.rate / blocks.travel};
     estimate.damping_to_mass_stddev = std::hypot(estimate.damping_to_mass_stddev, estimate.friction->lawStddev());
+    estimate.stiffness_to_mass_stddev =
+        std::hypot(estimate.stiffness_to_mass_stddev, estimate.friction->stiffnessLawStddev());
   }
   estimate.effective_rows = blocks.blocks;
   estimate.explained = blocks.explained;
@@ -157,6 +160,7 @@ void ModelTracker::judge(ModelReport& report) {
 
 void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
   EstimateFacts facts = blockFacts(estimate);
+  facts.has_row = blocks_.estimator().hasBlocks();
   if (const BlockEstimate* blocks = blocks_.estimate()) {
     facts.has_row = true;
     estimate.age = facts.age = blocks->age + toSeconds(now_ - blocks->stamp);
