@@ -1,5 +1,5 @@
-// Prints the tables of doc/uncertainty.md on vehicles that nobody had in mind, and on clocks that differ: how far LS
-// and LA are off, and how often their intervals hold the truth.
+// Prints the tables of doc/uncertainty.md on vehicles that nobody had in mind, and on clocks that differ: how far the
+// block estimate and LA are off, and how often their intervals hold the truth.
 //   accuracy_table offset|skew [MEMORY]     memory in seconds
 #include <array>
 #include <cmath>
@@ -40,13 +40,12 @@ std::string accuracyOf(const FieldDrive& drive, std::optional<double> memory) {
   std::array<Errors, 4> errors;
   double next = 20.0, valid = 0.0, samples = 0.0;
   follow(drive, memory, 600.0, [&](double time, const MonitorReport& report) {
-    const bool both = report.ls.valid() && report.la.valid();
     samples += 1.0;
-    valid += both ? 1.0 : 0.0;
-    if (time < next || !both) return;
+    valid += report.estimate.valid() ? 1.0 : 0.0;
+    if (time < next || !report.estimate.valid()) return;
     next = time + 2.0;
     for (std::size_t e = 0; e < 2; ++e) {
-      const StrutEstimate& estimate = e == 0 ? report.ls : report.la;
+      const StrutEstimate& estimate = e == 0 ? report.estimate : report.la;
       errors[2 * e].add(estimate.damping_to_mass, estimate.damping_to_mass_stddev, drive.vehicle.b1);
       errors[2 * e + 1].add(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev, drive.vehicle.b0);
     }
@@ -68,7 +67,7 @@ struct Variant {
 void printTable(const char* what, const std::vector<int>& rates, const std::vector<Variant>& variants,
                 std::optional<double> memory) {
   std::printf(
-      "| road, rate | vehicle | %s | b1 of LS: median error, inside 95 %% | b0 of LS | b1 of LA | b0 of LA | valid |\n"
+      "| road, rate | vehicle | %s | b1: median error, inside 95 %% | b0 | b1 of LA | b0 of LA | valid |\n"
       "|---|---|---|---|---|---|---|---|\n",
       what);
   unsigned seed = 1;

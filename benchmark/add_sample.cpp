@@ -1,12 +1,10 @@
 // Cost of SuspensionMonitor::addSample with LS, LA, free run and health.
 //   add_sample                        Google Benchmark, ns per sample at L = 30, 300, 3000
-//   add_sample --loop HORIZON COUNT [EFFECT | FACTOR]   feeds COUNT samples and ends, for counting instructions
-//                                                       (scripts/benchmark), with an effect that has no shapes in the
-//                                                       model, or with this fastest_memory
+//   add_sample --loop HORIZON COUNT [EFFECT]   feeds COUNT samples and ends, for counting instructions
+//                                              (scripts/benchmark), with an effect that has no shapes in the model
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -28,8 +26,7 @@ std::vector<CornerSample> drive() {
 /// Feeds the drive again and again, the clock going on.
 class Feeder {
  public:
-  explicit Feeder(int horizon_samples, std::optional<double> fastest = std::nullopt)
-      : samples_(drive()), monitor_(options(horizon_samples, fastest)) {}
+  explicit Feeder(int horizon_samples) : samples_(drive()), monitor_(options(horizon_samples)) {}
 
   void addEffect(std::string_view name) { monitor_.setEffects({{findEffect(forceEffects(), name), 0.0, {}}}); }
 
@@ -42,11 +39,10 @@ class Feeder {
   }
 
  private:
-  static MonitorSettings options(int horizon_samples, std::optional<double> fastest) {
+  static MonitorSettings options(int horizon_samples) {
     MonitorSettings options;
     options.sample_period = 0.01;
     options.integration_horizon = horizon_samples * *options.sample_period;
-    options.fastest_memory = fastest;
     return options;
   }
 
@@ -71,10 +67,9 @@ void addSampleWithEffect(benchmark::State& state) {
 }
 BENCHMARK(addSampleWithEffect);
 
-int loop(int horizon_samples, long count, const char* with) {
-  const bool varies = with != nullptr && std::atof(with) > 0.0;
-  Feeder feeder(horizon_samples, varies ? std::optional(std::atof(with)) : std::nullopt);
-  if (with != nullptr && !varies) feeder.addEffect(with);
+int loop(int horizon_samples, long count, const char* effect) {
+  Feeder feeder(horizon_samples);
+  if (effect != nullptr) feeder.addEffect(effect);
   for (long i = 0; i < count; ++i) feeder.feed();
   return EXIT_SUCCESS;
 }

@@ -26,7 +26,7 @@ void print(const char* name, int seeds, const SimulationOptions& sensors, Alignm
     ideal.duration = sensors.duration;
     ideal.rate = sensors.rate;
     const MeanEstimates found = identify(real, alignment), reference = identify(ideal, Alignment::kPaired);
-    off.row(seed) << found.la_damping / reference.la_damping - 1.0, found.la_stiffness / reference.la_stiffness - 1.0;
+    off.row(seed) << found.damping / reference.damping - 1.0, found.stiffness / reference.stiffness - 1.0;
     valid += found.valid / seeds;
   }
   off *= 100.0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,22 +14,16 @@ namespace {
 
 constexpr int kFirstSeed = 101, kNumSeeds = 30;
 
-struct Setting {
-  double slow;
-  std::optional<double> fastest;
-};
-
 struct Point {
   double time;
   double b1_change;     // of the strut [1/s]
   double b1[2], b0[2];  // errors of LS, LA
 };
 
-std::vector<Point> follow(const std::vector<DriveSample>& drive, const Setting& setting) {
+std::vector<Point> follow(const std::vector<DriveSample>& drive, double forgetting_factor) {
   MonitorSettings options;
   options.sample_period = 0.02;
-  options.forgetting_factor = setting.slow;
-  if (setting.fastest) options.fastest_memory = 0.02 / (1.0 - *setting.fastest);
+  options.forgetting_factor = forgetting_factor;
   SuspensionMonitor monitor(options);
   std::vector<Point> points;
   for (const DriveSample& sample : drive) {
@@ -110,11 +103,11 @@ Drives simulateAll() {
 }
 
 // One row for LS, one for LA.
-std::vector<std::string> rowsOf(const Setting& setting, const Drives& drives) {
+std::vector<std::string> rowsOf(double forgetting_factor, const Drives& drives) {
   std::vector<double> lag[2], scatter1[2], scatter0[2], step[2], loss1[2], loss0[2], stops1[2], stops0[2];
   for (std::size_t k = 0; k < drives.ramp.size(); ++k) {
-    const auto ramp = follow(drives.ramp[k], setting), stepped = follow(drives.step[k], setting);
-    const auto lost = follow(drives.loss[k], setting), stopped = follow(drives.stops[k], setting);
+    const auto ramp = follow(drives.ramp[k], forgetting_factor), stepped = follow(drives.step[k], forgetting_factor);
+    const auto lost = follow(drives.loss[k], forgetting_factor), stopped = follow(drives.stops[k], forgetting_factor);
     for (const int i : {0, 1}) {
       lag[i].push_back(lagOnRamp(ramp, i));
       scatter1[i].push_back(rms(ramp, 10.0, 40.0, &Point::b1, i));
@@ -128,11 +121,9 @@ std::vector<std::string> rowsOf(const Setting& setting, const Drives& drives) {
   }
   std::vector<std::string> rows;
   for (const int i : {0, 1}) {
-    char factors[32], row[256];
-    std::snprintf(factors, sizeof factors, setting.fastest ? "%g to %g" : "%g", setting.slow,
-                  setting.fastest.value_or(0.0));
-    std::snprintf(row, sizeof row, "| %s, %s | %.1f | %.1f | %.3f, %.3f | %.3f, %.3f | %.3f, %.3f |",
-                  i == 0 ? "LS" : "LA", factors, medianOf(lag[i]), medianOf(step[i]), medianOf(scatter1[i]),
+    char row[256];
+    std::snprintf(row, sizeof row, "| %s, %g | %.1f | %.1f | %.3f, %.3f | %.3f, %.3f | %.3f, %.3f |",
+                  i == 0 ? "LS" : "LA", forgetting_factor, medianOf(lag[i]), medianOf(step[i]), medianOf(scatter1[i]),
                   medianOf(scatter0[i]), medianOf(loss1[i]), medianOf(loss0[i]), medianOf(stops1[i]),
                   medianOf(stops0[i]));
     rows.push_back(row);
@@ -146,16 +137,8 @@ void printTable() {
       "changes | data loss | end stops |\n|---|---|---|---|---|---|\n");
   const Drives drives = simulateAll();
   std::vector<std::string> of_la;
-  for (const Setting& setting : std::vector<Setting>{{0.97, {}},
-                                                     {0.98, {}},
-                                                     {0.985, {}},
-                                                     {0.99, {}},
-                                                     {0.995, {}},
-                                                     {0.99, 0.98},
-                                                     {0.99, 0.97},
-                                                     {0.995, 0.98},
-                                                     {0.995, 0.97}}) {
-    const std::vector<std::string> rows = rowsOf(setting, drives);
+  for (const double forgetting_factor : {0.97, 0.98, 0.985, 0.99, 0.995}) {
+    const std::vector<std::string> rows = rowsOf(forgetting_factor, drives);
     std::printf("%s\n", rows[0].c_str());
     std::fflush(stdout);
     of_la.push_back(rows[1]);

@@ -42,18 +42,17 @@ class Corner {
   }
 
   bool isRight() const {
-    const StrutEstimate& la = monitor_.report().la;
-    std::printf("  b1 %.4f of %.1f 1/s, b0 %.3f of %.0f 1/s^2, %llu samples\n", la.damping_to_mass, damping_,
-                la.stiffness_to_mass, stiffness_, static_cast<unsigned long long>(monitor_.input().samples));
-    return la.valid() && std::abs(la.damping_to_mass / damping_ - 1.0) < 0.1 &&
-           std::abs(la.stiffness_to_mass / stiffness_ - 1.0) < 0.1;
+    const StrutEstimate& estimate = monitor_.report().estimate;
+    std::printf("  b1 %.4f of %.1f 1/s, b0 %.3f of %.0f 1/s^2, %llu samples\n", estimate.damping_to_mass, damping_,
+                estimate.stiffness_to_mass, stiffness_, static_cast<unsigned long long>(monitor_.input().samples));
+    return estimate.valid() && std::abs(estimate.damping_to_mass / damping_ - 1.0) < 0.1 &&
+           std::abs(estimate.stiffness_to_mass / stiffness_ - 1.0) < 0.1;
   }
 
  private:
   static MonitorSettings options() {
     MonitorSettings options;
     options.sample_period = kPeriod;
-    options.forgetting_factor = 0.9998;
     return options;
   }
 

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     monitor.push(shm::Side::kUnsprung, stamp, read.wheel[at]);
   }
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  std::printf("%.9g %.9g %llu\n", static_cast<double>(samples) / seconds, monitor.report().la.stiffness_to_mass,
+  std::printf("%.9g %.9g %llu\n", static_cast<double>(samples) / seconds, monitor.report().estimate.stiffness_to_mass,
               static_cast<unsigned long long>(monitor.input().samples));
   return 0;
 }

@@ -48,9 +48,9 @@ void printLinear(const char* kind, unsigned seed, const Measured& how) {
   std::vector<std::array<Course, 2>> courses(driven.size());
   const VehicleIdentification found =
       identifyVehicle(drives, driven.names, {}, [&](std::size_t i, const MonitorReport& report) {
-        if (!report.la.valid() || report.stamp < half) return;
-        courses[i][0].add(report.la.damping_to_mass, report.la.damping_to_mass_stddev, driven.vehicle.b1(i));
-        courses[i][1].add(report.la.stiffness_to_mass, report.la.stiffness_to_mass_stddev, driven.vehicle.b0(i));
+        if (!report.estimate.valid() || report.stamp < half) return;
+        courses[i][0].add(report.estimate.damping_to_mass, report.estimate.damping_to_mass_stddev, driven.vehicle.b1(i));
+        courses[i][1].add(report.estimate.stiffness_to_mass, report.estimate.stiffness_to_mass_stddev, driven.vehicle.b0(i));
       });
   if (!found) {
     std::printf("%-6s %3u   the drives %s\n", kind, seed, found.coupling.reason.c_str());
@@ -58,16 +58,16 @@ void printLinear(const char* kind, unsigned seed, const Measured& how) {
   }
   const VehicleDiagnosis diagnosis = diagnoseVehicle(drives, driven.names);
   double most[2] = {0.0, 0.0}, inside = 0.0, count = 0.0, floor = 0.0;
-  int whole = 0;  // parameters that the interval of iv holds
+  int whole = 0;  // parameters that the interval of the estimate holds
   for (std::size_t i = 0; i < driven.size(); ++i) {
     for (std::size_t j = 0; j < 2; ++j) {
       most[j] = std::max(most[j], courses[i][j].medianOff());
       inside += courses[i][j].inside;
       count += static_cast<double>(courses[i][j].off.size());
     }
-    const IdentifiedStrut& iv = found.struts[i].iv;
-    whole += std::abs(iv.damping_to_mass - driven.vehicle.b1(i)) < kInterval * iv.damping_to_mass_stddev ? 1 : 0;
-    whole += std::abs(iv.stiffness_to_mass - driven.vehicle.b0(i)) < kInterval * iv.stiffness_to_mass_stddev ? 1 : 0;
+    const IdentifiedStrut& whole_drive = found.struts[i].estimate;
+    whole += std::abs(whole_drive.damping_to_mass - driven.vehicle.b1(i)) < kInterval * whole_drive.damping_to_mass_stddev ? 1 : 0;
+    whole += std::abs(whole_drive.stiffness_to_mass - driven.vehicle.b0(i)) < kInterval * whole_drive.stiffness_to_mass_stddev ? 1 : 0;
     floor = std::max(floor, diagnosis.struts[i].base.held_out_rmse / diagnosis.struts[i].noise_floor);
   }
   std::printf("%-6s %3u  %8.2f  %8.2f  %6.0f   %d of %zu  %8.3f   %s\n", kind, seed, most[0], most[1],
@@ -124,8 +124,8 @@ void printEffect(const char* kind, unsigned seed, const Measured& how) {
 double worstError(const Driven& driven, const VehicleIdentification& found) {
   double worst = found ? 0.0 : std::nan("");
   for (std::size_t i = 0; i < found.struts.size(); ++i) {
-    worst = std::max(worst, std::abs(percent(found.struts[i].la.damping_to_mass, driven.vehicle.b1(i))));
-    worst = std::max(worst, std::abs(percent(found.struts[i].la.stiffness_to_mass, driven.vehicle.b0(i))));
+    worst = std::max(worst, std::abs(percent(found.struts[i].estimate.damping_to_mass, driven.vehicle.b1(i))));
+    worst = std::max(worst, std::abs(percent(found.struts[i].estimate.stiffness_to_mass, driven.vehicle.b0(i))));
   }
   return worst;
 }
@@ -227,10 +227,10 @@ void printHealth(const char* kind, unsigned seed, const Measured& how) {
     if (report.health.level == HealthLevel::kOk) its.ok += 1.0;
     if (report.health.level == HealthLevel::kWarn && its.warn < 0.0) its.warn = now;
     if (report.health.level == HealthLevel::kError && its.error < 0.0) its.error = now;
-    if (!report.la.valid() || (i == at && now > kLoss)) return;
+    if (!report.estimate.valid() || (i == at && now > kLoss)) return;
     its.valid += 1.0;
-    const double off = report.la.damping_to_mass - driven.vehicle.b1(i);
-    its.inside += std::abs(off) < kInterval * report.la.damping_to_mass_stddev ? 1.0 : 0.0;
+    const double off = report.estimate.damping_to_mass - driven.vehicle.b1(i);
+    its.inside += std::abs(off) < kInterval * report.estimate.damping_to_mass_stddev ? 1.0 : 0.0;
   };
   const VehicleDrive drive = driven.asMeasured();
   VehicleMonitor monitor(std::vector<MonitorSettings>(n, settings), hear, 0, drive.noise);

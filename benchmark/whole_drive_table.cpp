@@ -1,16 +1,14 @@
-// Prints the tables of doc/uncertainty.md for instrumental variables: error of a whole drive's b1 and b0 by least
-// squares over all rows and by instrumental variables, and how often the latter's 95 % interval holds the truth; then
-// the latter in the field, as identify() gives it (field_drive.h).
+// Prints the tables of doc/uncertainty.md for whole drives: error of b1 and b0 by least squares over all rows and by
+// the estimate of identify(), and how often the latter's 95 % interval holds the truth; then the latter in the field
+// (field_drive.h).
 //   whole_drive_table [SEEDS [SECONDS]]      measurements of each drive, default 20, and its length, default 120
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <set>
 
 #include "../test/core/interval_coverage.h"
 #include "field_drive.h"
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/identification/instrumental_variables.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 
 namespace suspension_health_monitor {
@@ -46,9 +44,9 @@ void print(const Errors& errors, int num) {
   std::printf(" %+.2f, %.0f, %.2f |", 100.0 * errors.sum / num, 100.0 * errors.coverage.share(), errors.coverage.rms());
 }
 
-void printRow(const char* name, const std::string& horizon, const std::array<double, 2>& least_squares,
-              const std::array<Errors, 2>& errors, int seeds) {
-  std::printf("| %s | %s |", name, horizon.c_str());
+void printRow(const char* name, const std::array<double, 2>& least_squares, const std::array<Errors, 2>& errors,
+              int seeds) {
+  std::printf("| %s |", name);
   for (const double error : least_squares) std::printf(" %+.2f |", 100.0 * error / seeds);
   for (const Errors& each : errors) print(each, seeds);
   std::printf("\n");
@@ -57,8 +55,8 @@ void printRow(const char* name, const std::string& horizon, const std::array<dou
 
 void printTable(int seeds, double seconds) {
   std::printf(
-      "| drive | L | LS b1: mean error [%%] | LS b0 | IV b1: mean error [%%], interval holds [%%], rms z | IV b0 |\n"
-      "|---|---|---|---|---|---|\n");
+      "| drive | LS b1: mean error [%%] | LS b0 | estimate's b1: mean error [%%], interval holds [%%], rms z | b0 |\n"
+      "|---|---|---|---|---|\n");
   std::array<Coverage, 2> all;
   for (const Case& drive : kCases) {
     SimulationOptions simulation;
@@ -68,36 +66,32 @@ void printTable(int seeds, double seconds) {
     simulation.rate = drive.rate;
     simulation.duration = seconds;
     const CleanDrive clean = cleanDrive(simulation);
-    const int proposed = proposedHorizon(clean, kNoise);
-    for (const int horizon : std::set<int>{5, 10, 30, proposed}) {
-      std::array<double, 2> least_squares{};
-      std::array<Errors, 2> errors;
-      for (int seed = 1; seed <= seeds; ++seed) {
-        const IntegralFilterOptions filter{horizon, clean.period, IntegrationRule::kBandLimited};
-        RecursiveOptions never_forgets;
-        never_forgets.forgetting_factor = 1.0;
-        SuspensionRegression regression(filter);
-        RecursiveLeastSquares ls(kNumStrutParameters, never_forgets);
-        InstrumentalVariables iv(filter, 0);
-        measure(clean, kNoise, static_cast<unsigned>(7000 + seed), [&](const CornerSample& sample) {
-          const RegressionRow* row = regression.push(sample);
-          if (row != nullptr) ls.update(*row);
-          iv.push(sample, row, {});
-        });
-        const double truth[] = {clean.damping_to_mass, clean.stiffness_to_mass};
-        const std::optional<BlockSolution> solution = iv.solution({});
-        for (std::size_t i = 0; i < 2 && solution; ++i) {
-          const auto k = static_cast<Eigen::Index>(i);
-          least_squares[i] += ls.parameters()[k] / truth[i] - 1.0;
-          errors[i].add(solution->theta[k], solution->stddev[k], truth[i]);
-        }
-      }
-      printRow(drive.name, std::to_string(horizon) + (horizon == proposed ? ", proposed" : ""), least_squares, errors,
-               seeds);
-      for (std::size_t i = 0; i < 2; ++i) all[i] += errors[i].coverage;
+    const int horizon = proposedHorizon(clean, kNoise);
+    const IntegralFilterOptions filter{horizon, clean.period, IntegrationRule::kBandLimited};
+    std::array<double, 2> least_squares{};
+    std::array<Errors, 2> errors;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      RecursiveOptions never_forgets;
+      never_forgets.forgetting_factor = 1.0;
+      SuspensionRegression regression(filter);
+      RecursiveLeastSquares ls(kNumStrutParameters, never_forgets);
+      Drive readings;
+      measure(clean, kNoise, static_cast<unsigned>(7000 + seed), [&](const CornerSample& sample) {
+        if (const RegressionRow* row = regression.push(sample)) ls.update(*row);
+        readings.samples.push_back(sample);
+      });
+      IdentifyOptions options;
+      options.horizon_samples = horizon;
+      const IdentifiedStrut found = identify({readings}, options).estimate;
+      least_squares[0] += ls.parameters()[0] / clean.damping_to_mass - 1.0;
+      least_squares[1] += ls.parameters()[1] / clean.stiffness_to_mass - 1.0;
+      errors[0].add(found.damping_to_mass, found.damping_to_mass_stddev, clean.damping_to_mass);
+      errors[1].add(found.stiffness_to_mass, found.stiffness_to_mass_stddev, clean.stiffness_to_mass);
     }
+    printRow(drive.name, least_squares, errors, seeds);
+    for (std::size_t i = 0; i < 2; ++i) all[i] += errors[i].coverage;
   }
-  std::printf("| **all** | | | | %.1f %%, %.2f | %.1f %%, %.2f |\n", 100.0 * all[0].share(), all[0].rms(),
+  std::printf("| **all** | | | %.1f %%, %.2f | %.1f %%, %.2f |\n", 100.0 * all[0].share(), all[0].rms(),
               100.0 * all[1].share(), all[1].rms());
 }
 
@@ -133,11 +127,11 @@ void printField(int seeds, double seconds) {
           FieldSimulator simulator(drive);
           Drive readings;
           while (simulator.time() < seconds) readings.samples.push_back(simulator.next());
-          const IdentifiedStrut iv = identify({readings}).iv;
-          if (!iv.valid) continue;
+          const IdentifiedStrut found = identify({readings}).estimate;
+          if (!found.valid) continue;
           ++valid;
-          errors[0].add(iv.damping_to_mass, iv.damping_to_mass_stddev, vehicle.b1);
-          errors[1].add(iv.stiffness_to_mass, iv.stiffness_to_mass_stddev, vehicle.b0);
+          errors[0].add(found.damping_to_mass, found.damping_to_mass_stddev, vehicle.b1);
+          errors[1].add(found.stiffness_to_mass, found.stiffness_to_mass_stddev, vehicle.b0);
         }
         std::printf("| %s | %s | %s | %d of %d |", way.name, field.name, vehicle.name, valid, seeds);
         for (const Errors& each : errors) print(each, valid);

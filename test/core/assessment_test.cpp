@@ -32,7 +32,7 @@ StrutEstimate estimate(double damping_change, double stiffness_change) {
 Stamp at(double seconds) { return fromSeconds(seconds); }
 
 const HealthReport& update(HealthAssessment& assessment, Stamp stamp, const StrutEstimate& both) {
-  return assessment.update(stamp, both, both);
+  return assessment.update(stamp, both, true);
 }
 
 // The report once the estimate has lasted: for ten memories, after which a trend is as certain as its estimates.
@@ -262,7 +262,7 @@ TEST(HealthReport, SaysInOneSentenceWhatChanged) {
   HealthOptions nothing;
   nothing.learn_time = 0.0;
   EXPECT_EQ(describe(judged(estimate(0.0, 0.0), nothing)), "estimates valid; no nominal values given to judge them by");
-  EXPECT_EQ(describe(HealthReport{}), "cannot tell: the filter is filling after a start or a gap");
+  EXPECT_EQ(describe(HealthReport{}), "cannot tell: the first blocks fill after a start or a gap");
 }
 
 TEST(HealthReport, SaysThatANewLevelIsBeingConfirmed) {

@@ -138,27 +138,6 @@ TEST(VehicleGrid, TakesNoPullingAwayForALean) {
   for (std::size_t k = 0; k < upright.size(); ++k) ASSERT_NEAR(always[k].sprung[0], upright[k].sprung[0], 0.01) << k;
 }
 
-// The body's IMU, which stands still and whose stamps come late by chance, tells the top; the wheel's come as they
-// should.
-TEST(VehicleGrid, TellsWhatIsWrongWithTheReadingsOfTopAndWheel) {
-  std::mt19937 random(3);
-  constexpr double kLatest = 0.004;
-  std::uniform_real_distribution<double> late(0.0, kLatest);
-  GridOptions options;
-  options.alignment = Alignment::kResampled;
-  VehicleGrid grid(kPeriod, streamsAt({1.0, 0.0, 0.0}), options, [](const VehicleSample&) {});
-  for (int k = 0; k < 4000; ++k) {
-    const double t = 100.0 + kPeriod * k;
-    grid.push(0, fromSeconds(t + late(random)), {0.0, 0.0, 9.81, 0.0, 0.0, 0.0});
-    if (k % 20 != 0) grid.push(1, fromSeconds(t), {std::sin(20.0 * t)});
-  }
-  const ResamplingErrors errors = grid.resamplingErrors(0);
-  EXPECT_NEAR(errors.times[0], kLatest / std::sqrt(12.0), 0.1 * kLatest / std::sqrt(12.0));
-  EXPECT_LT(errors.times[1], 1e-6);
-  EXPECT_EQ(errors.lost[0], 0.0);
-  EXPECT_NEAR(errors.lost[1], 1.0 / 19.0, 0.005);
-}
-
 // A drive that ends before gravity is known well is not lost.
 TEST(VehicleGrid, LeadsOnWhatWaitsAtTheEnd) {
   EXPECT_GT(topOf(turn(40.0, {0.0, 1.0, 0.0}), {1.0, 0.0, 0.0}, 500).size(), 400U);

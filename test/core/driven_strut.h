@@ -23,11 +23,9 @@ class DrivenStrut {
   double b1 = kB1, b0 = kB0, noise = 0.024;
 
   /// @param height  w(t) [m].
-  /// @return rows at which LA was held, wholly or in part.
-  int drive(int samples, const std::function<double(double)>& height) {
+  void drive(int samples, const std::function<double(double)>& height) {
     constexpr int kSteps = 10;
     constexpr double h = kPeriod / kSteps;
-    int held = 0;
     for (int k = 0; k < samples; ++k) {
       double wheel = 0.0, body = 0.0;
       for (int step = 0; step < kSteps; ++step) {
@@ -37,32 +35,28 @@ class DrivenStrut {
         if (step + 1 == kSteps) break;
         advance(body, h);
       }
-      held += add(body, wheel) ? 1 : 0;
+      add(body, wheel);
       advance(body, h);
     }
-    return held;
   }
 
   /// At rest: nothing but noise.
-  int park(int samples) {
-    int held = 0;
-    for (int k = 0; k < samples; ++k) held += add(0.0, 0.0) ? 1 : 0;
-    return held;
+  void park(int samples) {
+    for (int k = 0; k < samples; ++k) add(0.0, 0.0);
   }
 
   /// At rest, but for a reading.
   void read(double body, double wheel) { add(body, wheel); }
 
   /// At rest, with a body that the engine shakes.
-  int idle(int samples, double amplitude, double frequency) {
-    int held = 0;
-    for (int k = 0; k < samples; ++k)
-      held += add(amplitude * std::sin(2.0 * kPi * frequency * kPeriod * k), 0.0) ? 1 : 0;
-    return held;
+  void idle(int samples, double amplitude, double frequency) {
+    for (int k = 0; k < samples; ++k) add(amplitude * std::sin(2.0 * kPi * frequency * kPeriod * k), 0.0);
   }
 
+  const StrutEstimate& estimate() const { return monitor_.report().estimate; }
   const StrutEstimate& la() const { return monitor_.report().la; }
   const StrutEstimate& ls() const { return monitor_.report().ls; }
+  const HealthReport& health() const { return monitor_.report().health; }
   double time() const { return t_; }
 
  private:
@@ -72,12 +66,9 @@ class DrivenStrut {
     t_ += h;
   }
 
-  bool add(double body, double wheel) {
+  void add(double body, double wheel) {
     stamp_ += std::chrono::milliseconds(20);
     monitor_.addSample({stamp_, 9.81 + body + noise * normal_(engine_), 9.81 + wheel + noise * normal_(engine_)});
-    const EstimateDoubt doubt = monitor_.report().la.doubt;
-    return doubt == EstimateDoubt::kNotExcited || doubt == EstimateDoubt::kDampingNotExcited ||
-           doubt == EstimateDoubt::kStiffnessNotExcited;
   }
 
   SuspensionMonitor monitor_;

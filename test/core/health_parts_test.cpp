@@ -1,12 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/early_warning.h"
-#include "suspension_health_monitor/internal/health/parameter_trend.h"
 #include "suspension_health_monitor/internal/health/strut_change.h"
 
 namespace suspension_health_monitor {
@@ -15,7 +13,7 @@ namespace {
 constexpr double kSharp = 1e-4;  // standard deviation so small that nothing counts as noise
 
 StrutChange split(double damping, double stiffness, double mass, double range = 0.35, double stddev = kSharp) {
-  return splitChange(LogChange{std::log(damping / mass), stddev}, LogChange{std::log(stiffness / mass), stddev}, range,
+  return splitChange({LogChange{std::log(damping / mass), stddev}, LogChange{std::log(stiffness / mass), stddev}}, range,
                      0.0);
 }
 
@@ -46,18 +44,18 @@ TEST(SplitChange, WhatIsBeyondThePayloadRangeIsDamage) {
 }
 
 TEST(SplitChange, ADamageIsAsCertainAsItIsThatNoLoadDidIt) {
-  const StrutChange unloaded = splitChange(LogChange{-0.2, 0.01}, LogChange{0.0, 0.02}, 0.35, 0.0);
+  const StrutChange unloaded = splitChange({LogChange{-0.2, 0.01}, LogChange{0.0, 0.02}}, 0.35, 0.0);
   EXPECT_NEAR(std::log1p(*unloaded.damping), -0.2, 1e-12);
   EXPECT_NEAR(unloaded.damping_stddev, 0.01, 1e-12);  // the noise of stiffness does not enter the size
   EXPECT_NEAR(unloaded.load_alone->distance, 0.2 / std::hypot(0.01, 0.02), 1e-9);
   // No load of the range takes more than ln(1.35) = 0.3 away: the rest is as certain as the damping is.
-  const StrutChange beyond = splitChange(LogChange{-0.7, 0.01}, LogChange{0.0, 0.5}, 0.35, 0.0);
+  const StrutChange beyond = splitChange({LogChange{-0.7, 0.01}, LogChange{0.0, 0.5}}, 0.35, 0.0);
   EXPECT_TRUE(beyond.load_alone->at_end);
   EXPECT_GT(beyond.load_alone->distance, 0.39 / 0.01);
-  const StrutChange loaded = splitChange(LogChange{-0.2, 0.01}, LogChange{-0.1, 0.02}, 0.35, 0.0);
+  const StrutChange loaded = splitChange({LogChange{-0.2, 0.01}, LogChange{-0.1, 0.02}}, 0.35, 0.0);
   EXPECT_NEAR(loaded.damping_stddev, std::hypot(0.01, 0.02), 1e-12);
   EXPECT_NEAR(std::log1p(*loaded.payload), 0.1 * (1.0 - 0.16), 1e-12);  // (2 * 0.02 / 0.1)^2
-  const StrutChange alone = splitChange(LogChange{-0.2, 0.01}, std::nullopt, 0.35, 0.0);
+  const StrutChange alone = splitChange({LogChange{-0.2, 0.01}, std::nullopt}, 0.35, 0.0);
   EXPECT_FALSE(alone.payload);
   EXPECT_EQ(alone.damping_stddev, 0.01);
   EXPECT_FALSE(split(0.8, 1.0, 1.0, 0.0).load_alone);  // none may be
@@ -67,51 +65,31 @@ TEST(SplitChange, ADamageIsAsCertainAsItIsThatNoLoadDidIt) {
 // stiffer.
 TEST(SplitChange, CountsTheLoadFromTheOneThatWasThere) {
   const LogChange damping{std::log(0.7 / 0.7), kSharp}, stiffness{std::log(1.0 / 0.7), kSharp};
-  const StrutChange change = splitChange(damping, stiffness, 0.35, std::log(0.7));
+  const StrutChange change = splitChange({damping, stiffness}, 0.35, std::log(0.7));
   EXPECT_NEAR(*change.damping, -0.3, 1e-9);
   EXPECT_NEAR(*change.stiffness, 0.0, 1e-9);
   EXPECT_NEAR(*change.payload, -0.3, 1e-9);
-  EXPECT_NEAR(*splitChange(damping, stiffness, 0.35, 0.0).stiffness, 1.0 / 0.7 - 1.0, 1e-9);
+  EXPECT_NEAR(*splitChange({damping, stiffness}, 0.35, 0.0).stiffness, 1.0 / 0.7 - 1.0, 1e-9);
 }
 
 TEST(LoadAlone, IsTheWeightedMeanWithinItsRange) {
-  const LoadAlone load = explainByLoad({-0.2, 0.01}, {-0.1, 0.02}, {-0.4, 0.3});
+  const LoadAlone load = explainByLoad({LogChange{-0.2, 0.01}, LogChange{-0.1, 0.02}}, {-0.4, 0.3});
   EXPECT_NEAR(load.log_mass, (0.2 * 4.0 + 0.1) / 5.0, 1e-12);
   EXPECT_FALSE(load.at_end);
   EXPECT_NEAR(load.distance, 0.1 / std::hypot(0.01, 0.02), 1e-9);  // of two values from their common mean
-  EXPECT_EQ(explainByLoad({-0.7, 0.01}, {-0.5, 0.01}, {-0.4, 0.3}).log_mass, 0.3);
-  EXPECT_EQ(explainByLoad({0.7, 0.01}, {0.5, 0.01}, {-0.4, 0.3}).log_mass, -0.4);
+  EXPECT_EQ(explainByLoad({LogChange{-0.7, 0.01}, LogChange{-0.5, 0.01}}, {-0.4, 0.3}).log_mass, 0.3);
+  EXPECT_EQ(explainByLoad({LogChange{0.7, 0.01}, LogChange{0.5, 0.01}}, {-0.4, 0.3}).log_mass, -0.4);
 }
 
-TEST(FollowedParameter, TakesTheEstimatorThatKnowsItBetter) {
-  constexpr UncertainValue kHealthy{3.0, 0.0};
-  FollowedParameter outliers(10.0, 2.0);
-  EXPECT_FALSE(outliers.changeFrom(kHealthy, 4.0));
-  for (int k = 0; k < 200; ++k) outliers.follow(UncertainValue{2.0, 1.0}, {2.7, 0.01});
-  EXPECT_NEAR(outliers.changeFrom(kHealthy, 4.0)->size, std::log(0.9), 0.01);
-  FollowedParameter clean(10.0, 2.0);
-  for (int k = 0; k < 200; ++k) clean.follow(UncertainValue{2.7, 0.01}, {2.7, 0.1});
-  const LogChange change = *clean.changeFrom(kHealthy, 4.0);
-  EXPECT_NEAR(change.size, std::log(0.9), 1e-3);
-  EXPECT_LT(change.stddev, 0.01);
-  EXPECT_GT(clean.changeFrom({3.0, 0.3}, 4.0)->stddev, 0.1);  // of the healthy value
-}
-
-TEST(FollowedParameter, OfTwoCertainChangesTakesTheLarger) {
-  FollowedParameter parameter(10.0, 2.0);
-  for (int k = 0; k < 200; ++k) parameter.follow(UncertainValue{2.97, 0.001}, {2.4, 0.02});
-  EXPECT_NEAR(parameter.changeFrom({3.0, 0.0}, 4.0)->size, std::log(0.8), 0.01);
-}
-
-// Also while they forget for the time being.
-TEST(FollowedParameter, OfEstimatorsThatNeverForgetIsLa) {
-  for (const bool forgets_meanwhile : {false, true}) {
-    FollowedParameter parameter(std::numeric_limits<double>::infinity(), 2.0);
-    if (forgets_meanwhile) parameter.setMemory(10.0, 2.0);
-    for (int k = 0; k < 200; ++k) parameter.follow(UncertainValue{2.0, 0.001}, {3.0 - 0.001 * k, 0.1});
-    const LogChange change = *parameter.changeFrom({3.0, 0.0}, 4.0);
-    EXPECT_DOUBLE_EQ(change.size, std::log(2.801 / 3.0));
-    EXPECT_DOUBLE_EQ(change.stddev, 0.1 / 2.801);
+// Errors that both share are no distance: of x1 - x0, which no load moves, the variance is d^2 + s^2 - 2 c d s.
+TEST(LoadAlone, KnowsThatErrorsOfBothAreCorrelated) {
+  constexpr double kDamping = 0.03, kStiffness = 0.01;
+  for (const double correlation : {-0.8, 0.0, 0.8}) {
+    const MeasuredChange both{LogChange{-0.2, kDamping}, LogChange{-0.1, kStiffness}, correlation};
+    const double apart = std::sqrt(kDamping * kDamping + kStiffness * kStiffness -
+                                   2.0 * correlation * kDamping * kStiffness);
+    EXPECT_NEAR(explainByLoad(both, {-0.4, 0.4}).distance, 0.1 / apart, 1e-9) << correlation;
+    EXPECT_NEAR(splitChange(both, 0.35, 0.0).apartStddev(), apart, 1e-12) << correlation;
   }
 }
 
@@ -177,46 +155,55 @@ StrutEstimate estimate(double b1, double b0) {
   result.stiffness_to_mass = b0;
   result.damping_to_mass_stddev = 0.02;
   result.stiffness_to_mass_stddev = 0.1;
+  result.window = 4.0;
   result.doubt = EstimateDoubt::kNone;
   return result;
 }
 
+// Windows that overlap: of 100 s there are 25 that share no reading.
 TEST(BaselineLearner, IsTheMeanOfTheStretchWithItsUncertainty) {
-  BaselineLearner learner(4000.0, 100.0);
+  BaselineLearner learner(100.0);
   std::optional<Baseline> learned;
   int calls = 0;
   for (; !learned; ++calls) {
-    EXPECT_NEAR(learner.progress(), calls / 400.0, 1e-9);
-    learned = learner.add(fromSeconds(5.0 + calls), estimate(calls % 2 ? 3.02 : 2.98, 13.8), 10.0);
+    EXPECT_NEAR(learner.progress(), calls / 100.0, 1e-9);
+    learned = learner.add(fromSeconds(5.0 + calls), estimate(calls % 2 ? 3.02 : 2.98, 13.8), 1.0);
   }
-  EXPECT_EQ(calls, 400);
+  EXPECT_EQ(calls, 100);
   EXPECT_NEAR(*learned->damping_to_mass, 3.0, 1e-9);
   EXPECT_NEAR(*learned->stiffness_to_mass, 13.8, 1e-9);
-  EXPECT_NEAR(learned->damping_to_mass_stddev, 0.02 * std::sqrt(2.0 * 100.0 / 4000.0), 1e-9);
-  EXPECT_NEAR(learned->stiffness_to_mass_stddev, 0.1 * std::sqrt(2.0 * 100.0 / 4000.0), 1e-9);
+  EXPECT_NEAR(learned->damping_to_mass_stddev, 0.02 / 5.0, 1e-9);
+  EXPECT_NEAR(learned->stiffness_to_mass_stddev, 0.1 / 5.0, 1e-9);
   EXPECT_TRUE(learned->learned);
   EXPECT_EQ(learned->from, fromSeconds(5.0));
-  EXPECT_EQ(learned->to, fromSeconds(404.0));
+  EXPECT_EQ(learned->to, fromSeconds(104.0));
+}
+
+TEST(BaselineLearner, OfLessThanAWindowIsNoSurerThanAnEstimate) {
+  BaselineLearner learner(2.0);
+  learner.add(fromSeconds(1.0), estimate(3.0, 13.8), 1.0);
+  const std::optional<Baseline> learned = learner.add(fromSeconds(2.0), estimate(3.0, 13.8), 1.0);
+  ASSERT_TRUE(learned);
+  EXPECT_NEAR(learned->damping_to_mass_stddev, 0.02, 1e-12);
 }
 
 TEST(BaselineLearner, TakesNoTwoDrivesForOne) {
-  BaselineLearner learner(4000.0, 100.0);
-  for (int k = 0; k < 300; ++k) ASSERT_FALSE(learner.add(fromSeconds(k), estimate(3.0, 13.8), 10.0));
+  BaselineLearner learner(100.0);
+  for (int k = 0; k < 75; ++k) ASSERT_FALSE(learner.add(fromSeconds(k), estimate(3.0, 13.8), 1.0));
   std::optional<Baseline> learned;
-  for (int k = 100; !learned; ++k) learned = learner.add(fromSeconds(k), estimate(2.0, 20.0), 10.0);
+  for (int k = 25; !learned; ++k) learned = learner.add(fromSeconds(k), estimate(2.0, 20.0), 1.0);
   EXPECT_NEAR(*learned->damping_to_mass, 2.0, 1e-9);
-  EXPECT_EQ(learned->from, fromSeconds(100.0));
-  EXPECT_EQ(learned->to, fromSeconds(499.0));
+  EXPECT_EQ(learned->from, fromSeconds(25.0));
+  EXPECT_EQ(learned->to, fromSeconds(124.0));
 }
 
 TEST(BaselineLearner, DoesNotTakeAChangingStrutAsHealthy) {
   for (const bool stiffness : {false, true}) {
-    BaselineLearner learner(4000.0, 100.0);
-    for (int k = 0; k < 400; ++k) {
-      const double share = 1.0 - 0.2 * k / 400.0;
-      const auto learned =
-          learner.add(fromSeconds(k), stiffness ? estimate(3.0, 13.8 * share) : estimate(3.0 * share, 13.8), 10.0);
-      ASSERT_FALSE(learned);
+    BaselineLearner learner(100.0);
+    for (int k = 0; k < 100; ++k) {
+      const double share = 1.0 - 0.2 * k / 100.0;
+      ASSERT_FALSE(
+          learner.add(fromSeconds(k), stiffness ? estimate(3.0, 13.8 * share) : estimate(3.0 * share, 13.8), 1.0));
     }
     EXPECT_EQ(learner.restarts(), 1);
     EXPECT_EQ(learner.progress(), 0.0);

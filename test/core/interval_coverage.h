@@ -32,12 +32,11 @@ struct Coverage {
   double rms() const { return std::sqrt(squares / intervals); }
 };
 
-/// By estimator (LS, LA) and parameter (b1, b0).
-using Coverages = std::array<std::array<Coverage, 2>, 2>;
+/// Of the block estimate: b1, b0.
+using Coverages = std::array<Coverage, 2>;
 
 inline Coverages& operator+=(Coverages& sum, const Coverages& other) {
-  for (std::size_t e = 0; e < 2; ++e)
-    for (std::size_t i = 0; i < 2; ++i) sum[e][i] += other[e][i];
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += other[i];
   return sum;
 }
 
@@ -78,24 +77,24 @@ inline int proposedHorizon(const CleanDrive& drive, double noise) {
   return survey.horizonSamples().value();
 }
 
+/// Valid estimates whose windows share no reading.
 /// @param options  without a sample_period.  @param seeds  number of times that the drive is measured.
-/// The intervals are looked at every three memories of LS, from the tenth memory on.
 inline Coverages coverageOf(const CleanDrive& drive, double noise, MonitorSettings options, int seeds) {
   options.sample_period = drive.period;
-  const double memory = 1.0 / (1.0 - options.forgettingFactor(*options.sample_period));
-  const auto every = static_cast<std::uint64_t>(3.0 * memory), first = static_cast<std::uint64_t>(10.0 * memory);
   Coverages coverages;
   for (int seed = 1; seed <= seeds; ++seed) {
     SuspensionMonitor monitor(options);
+    double next = 0.0;
     measure(drive, noise, static_cast<unsigned>(1000 + seed), [&](const CornerSample& sample) {
       const MonitorReport* report = monitor.addSample(sample);
-      const std::uint64_t rows = monitor.input().rows;
-      if (report == nullptr || !report->has_row || rows < first || rows % every != 0) return;
-      for (std::size_t e = 0; e < 2; ++e) {
-        const StrutEstimate& estimate = e == 0 ? report->ls : report->la;
-        coverages[e][0].add(estimate.damping_to_mass - drive.damping_to_mass, estimate.damping_to_mass_stddev);
-        coverages[e][1].add(estimate.stiffness_to_mass - drive.stiffness_to_mass, estimate.stiffness_to_mass_stddev);
+      const double time = toSeconds(sample.stamp);
+      if (report == nullptr || !report->estimate.valid() || time < next) return;
+      const StrutEstimate& estimate = report->estimate;
+      if (next > 0.0) {
+        coverages[0].add(estimate.damping_to_mass - drive.damping_to_mass, estimate.damping_to_mass_stddev);
+        coverages[1].add(estimate.stiffness_to_mass - drive.stiffness_to_mass, estimate.stiffness_to_mass_stddev);
       }
+      next = time + estimate.window;
     });
   }
   return coverages;

@@ -17,9 +17,8 @@ namespace {
 constexpr double kCarB1 = 6.0, kCarB0 = 63.3;  // golden_car
 constexpr double kNoise = 0.03;                // [m/s^2]
 constexpr std::size_t kDelay = FreeRun::kDelay;
-// Samples of the first row: it needs the wheel's of 15 ms before it and after it, and one more each.
-const auto kRow =
-    static_cast<std::size_t>(LinearIntegralFilter::window(2, {60, 0.01, IntegrationRule::kBandLimited}) + 6);
+// Samples of the first row.
+const auto kRow = static_cast<std::size_t>(LinearIntegralFilter::window(2, {60, 0.01, IntegrationRule::kBandLimited}));
 
 MonitorSettings carMonitor(double forgetting_factor) {
   MonitorSettings options;
@@ -145,9 +144,7 @@ TEST(LiveEffects, ErrorFallsNearTheFloorWhileThatOfThePlainModelStays) {
 
 TEST(LiveEffects, EstimatesCarryOver) {
   const HiddenDrive drive("quadratic_damping", {}, 30.0);
-  MonitorSettings settings = carMonitor(0.99);
-  settings.estimators.removes_noise_shift = false;  // which is found anew for the new columns
-  SuspensionMonitor monitor(settings), plain(settings);
+  SuspensionMonitor monitor(carMonitor(0.99)), plain(carMonitor(0.99));
   addAll(monitor, drive.samples);
   addAll(plain, drive.samples);
   const StrutEstimate before = monitor.report().la;
@@ -261,7 +258,7 @@ TEST(LiveEffects, ParkedVehicleIsSurvived) {
     stamp += std::chrono::milliseconds(10);
     const MonitorReport& report = *monitor.addSample({stamp, 9.81 + noise(engine), 9.81 + noise(engine)});
     ASSERT_TRUE(std::isfinite(report.la.coefficients[0]) && std::isfinite(report.la.coefficient_stddevs[1])) << k;
-    ASSERT_FALSE(k > 1000 && report.la.valid()) << k;
+    ASSERT_FALSE(k > 8000 && (report.la.valid() || report.estimate.valid())) << k;
   }
   addAll(monitor, drive.samples, stamp + std::chrono::milliseconds(10), 9.81);
   EXPECT_TRUE(monitor.report().la.valid());

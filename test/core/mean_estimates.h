@@ -12,9 +12,9 @@ inline constexpr double kAlignedPeriod = 0.005;  ///< [s] of the grid that the r
 
 /// Means over a drive from 20 s on, when the estimates have settled.
 struct MeanEstimates {
-  double la_damping = 0.0, la_stiffness = 0.0, ls_damping = 0.0, ls_stiffness = 0.0;
-  double la_stiffness_stddev = 0.0;
-  double valid = 0.0;  ///< share of the samples
+  double damping = 0.0, stiffness = 0.0, la_damping = 0.0, la_stiffness = 0.0, ls_damping = 0.0, ls_stiffness = 0.0;
+  double stiffness_stddev = 0.0;  ///< that of the estimate
+  double valid = 0.0;             ///< share of the samples, likewise
   bool resampled = false;
 };
 
@@ -32,16 +32,19 @@ inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignmen
   const auto push = [&](Side side, const std::optional<AccelerometerReading>& reading) {
     if (!reading) return;
     const double measured = reading->acceleration + kGravity;
-    for (auto sample = grid.push(side, reading->stamp, measured); sample; sample = grid.next()) {
-      monitor.setResamplingErrors(grid.resamplingErrors());
-      const MonitorReport* report = monitor.addSample(*sample);
+    auto sample = grid.push(side, reading->stamp, measured);
+    if (grid.taken()) monitor.addReading(side, *grid.taken(), measured);
+    for (; sample; sample = grid.next()) {
+      const MonitorReport* report = monitor.addGridSample(*sample);
       if (report == nullptr || toSeconds(sample->stamp) < kSettled) continue;
+      mean.damping += report->estimate.damping_to_mass;
+      mean.stiffness += report->estimate.stiffness_to_mass;
       mean.la_damping += report->la.damping_to_mass;
       mean.la_stiffness += report->la.stiffness_to_mass;
       mean.ls_damping += report->ls.damping_to_mass;
       mean.ls_stiffness += report->ls.stiffness_to_mass;
-      mean.la_stiffness_stddev += report->la.stiffness_to_mass_stddev;
-      mean.valid += report->la.valid() ? 1.0 : 0.0;
+      mean.stiffness_stddev += report->estimate.stiffness_to_mass_stddev;
+      mean.valid += report->estimate.valid() ? 1.0 : 0.0;
       count += 1.0;
     }
   };
@@ -49,8 +52,8 @@ inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignmen
     push(Side::kSprung, sample->sprung);
     push(Side::kUnsprung, sample->unsprung);
   }
-  for (double* value : {&mean.la_damping, &mean.la_stiffness, &mean.ls_damping, &mean.ls_stiffness,
-                        &mean.la_stiffness_stddev, &mean.valid})
+  for (double* value : {&mean.damping, &mean.stiffness, &mean.la_damping, &mean.la_stiffness, &mean.ls_damping,
+                        &mean.ls_stiffness, &mean.stiffness_stddev, &mean.valid})
     *value /= count;
   mean.resampled = grid.resamples();
   return mean;

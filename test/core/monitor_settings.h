@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "suspension_health_monitor/internal/monitor_settings.h"
 
 namespace suspension_health_monitor {
@@ -10,17 +8,6 @@ namespace suspension_health_monitor {
 inline MonitorSettings liveOptions() {
   MonitorSettings options;
   options.sample_period = 0.02;
-  return options;
-}
-
-/// @return the memory at the paper's sampling time that forgets by this factor [s].
-inline double memoryOf(double forgetting_factor) { return 0.02 / (1.0 - forgetting_factor); }
-
-/// The defaults with other forgetting factors.
-inline MonitorSettings optionsWith(double slow, std::optional<double> fastest) {
-  MonitorSettings options = liveOptions();
-  options.forgetting_factor = slow;
-  if (fastest) options.fastest_memory = memoryOf(*fastest);
   return options;
 }
 

@@ -98,16 +98,14 @@ TEST(Identify, TakesTheFirstSampleOfDrivesThatBeginAtZero) {
   EXPECT_EQ(result.clock_jumps, 1u);
 }
 
-TEST(Identify, SaysOfTooFewRowsThatThereAreTooFew) {
+TEST(Identify, SaysOfTooFewSamplesThatThereAreTooFew) {
   Drive drive = paperDrive(Stamp{});
-  drive.samples.resize(114);  // thirty rows
+  drive.samples.resize(200);  // 4 s, of which three blocks need 4 s and a reading
   IdentifyOptions options;
   options.horizon_samples = 30;
   const IdentifyResult result = identify({drive}, options);
-  EXPECT_FALSE(result.iv.valid);
-  // 85 samples at 50 Hz fill the filter, and a row waits for four more of the wheel; as many rows eight times for a
-  // model, and eight times for the blocks.
-  EXPECT_EQ(result.iv.reason, "too few samples yet (29 s in one piece are enough)");
+  EXPECT_FALSE(result.estimate.valid);
+  EXPECT_EQ(result.estimate.reason, describe(EstimateDoubt::kNoRows));
 }
 
 }  // namespace

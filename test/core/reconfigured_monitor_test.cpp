@@ -62,6 +62,22 @@ TEST(ReconfiguredMonitor, EstimatesGoOnFromWhereTheyAre) {
   EXPECT_NEAR(monitor.report().la.damping_to_mass, kPaperB1, 0.1);
 }
 
+// A memory that was longer counts for a while.
+TEST(ReconfiguredMonitor, StandardDeviationsAreNumbersAfterAShorterMemoryIsSet) {
+  const std::vector<CornerSample> samples = healthyPaperDrive(60.0, 0.024);
+  MonitorSettings options = liveOptions();
+  options.forgetting_factor = 0.998;
+  SuspensionMonitor monitor(options);
+  feed(monitor, samples, 0, 2500);
+  options.forgetting_factor = 0.98;
+  monitor.reconfigure(options);
+  for (std::size_t k = 2500; k < samples.size(); ++k) {
+    monitor.addSample(samples[k]);
+    ASSERT_TRUE(monitor.report().la.valid()) << toSeconds(samples[k].stamp);
+    ASSERT_GT(monitor.report().ls.damping_to_mass_stddev, 0.0);
+  }
+}
+
 TEST(ReconfiguredMonitor, TheSameOptionsChangeNothing) {
   const std::vector<CornerSample> samples = healthyPaperDrive(20.0, 0.024);
   SuspensionMonitor left_alone(liveOptions()), reconfigured(liveOptions());

@@ -15,7 +15,6 @@
 #include "paper_drive.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/blocks/strut_blocks.h"
-#include "suspension_health_monitor/internal/identification/instrumental_variables.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
@@ -134,25 +133,6 @@ TEST(SamplePath, AllocatesNothingInTheTyreTrackerWhateverTheInput) {
             }),
             0);
   EXPECT_GT(tracker.report().la.effective_rows, 40.0);
-}
-
-TEST(SamplePath, AllocatesNothingWithAVariableForgettingFactor) {
-  MonitorSettings options;
-  options.sample_period = 0.02;
-  options.fastest_memory = 0.65;
-  options.nominal_damping_to_mass = kPaperB1;
-  SuspensionMonitor monitor(options);
-  Stamp stamp{};
-  double least = options.forgettingFactor(*options.sample_period);
-  // A vehicle that becomes stiffer and softer again every few seconds.
-  EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
-              stamp += std::chrono::milliseconds(20);
-              const double scale = monitor.input().samples % 600 < 300 ? 1.0 : 1.5;
-              monitor.addSample({stamp, scale * sample.sprung_acceleration, sample.unsprung_acceleration});
-              least = std::min(least, monitor.forgettingFactor());
-            }),
-            0);
-  EXPECT_LT(least, 0.98);
 }
 
 TEST(SamplePath, AllocatesNothingInAGridThatTurnsToResampling) {

@@ -77,13 +77,13 @@ Said listen(const std::vector<double>& body, const std::vector<double>& wheel, d
     said.warned += level == HealthLevel::kWarn || level == HealthLevel::kError ? 1 : 0;
     if (toSeconds(report.stamp) < 20.0) return;
     ++said.samples;
-    said.valid += report.la.valid() ? 1 : 0;
+    said.valid += report.estimate.valid() ? 1 : 0;
     said.accused += report.health.sensor.fault != SensorFault::kNone ? 1 : 0;
-    if (!report.la.valid()) return;
-    const double off = report.la.stiffness_to_mass - kGoldenB0;
-    said.beyond += std::abs(off) > 3.0 * report.la.stiffness_to_mass_stddev ? 1 : 0;
-    said.worst = std::max({said.worst, std::abs(report.la.damping_to_mass / kGoldenB1 - 1.0),
-                           std::abs(report.la.stiffness_to_mass / kGoldenB0 - 1.0)});
+    if (!report.estimate.valid()) return;
+    const double off = report.estimate.stiffness_to_mass - kGoldenB0;
+    said.beyond += std::abs(off) > 3.0 * report.estimate.stiffness_to_mass_stddev ? 1 : 0;
+    said.worst = std::max({said.worst, std::abs(report.estimate.damping_to_mass / kGoldenB1 - 1.0),
+                           std::abs(report.estimate.stiffness_to_mass / kGoldenB0 - 1.0)});
   });
   std::mt19937_64 random(5);
   std::normal_distribution<double> noise(0.0, 0.024), noise_of_wheel(0.0, wheel_noise);
@@ -113,29 +113,32 @@ TEST(Sampling, OfFilteredReadingsIsNeverDoubted) {
 
 // At 20 m/s what is folded back lies above the strut's band and does no harm; from 36 m/s on it drives a strut that is
 // not there.
-TEST(Sampling, WithoutAFilterIsSaidAndDoubtedWhereItDoesHarm) {
+TEST(Sampling, WithoutAFilterIsDoubtedWhereItDoesHarm) {
   for (const double speed : {20.0, 36.0, 45.0}) {
     SCOPED_TRACE(speed);
     const Motion motion = goldenCar("C", speed, 120.0);
     const Said said = listen(decimated(motion.body, false), decimated(motion.wheel, false), kSampled);
-    EXPECT_NE(said.of_input.find("the unsprung IMU shakes near half the sampling rate"), std::string::npos)
-        << said.of_input;
     EXPECT_EQ(said.warned, 0);
-    EXPECT_EQ(said.valid > 0, speed < 30.0);
-    EXPECT_LT(said.worst, 0.6);
+    EXPECT_LE(said.beyond, 0.05 * said.samples);
+    if (speed < 30.0) {
+      EXPECT_GT(said.valid, 0.9 * said.samples);
+    }
   }
 }
 
-TEST(Sampling, WithoutAFilterDoubtsTheEstimateOverTheWholeDrive) {
+TEST(Sampling, WithoutAFilterTheEstimateOverTheWholeDriveIsDoubtedOrRight) {
   const Motion motion = goldenCar("C", 45.0, 120.0);
   for (const bool filtered : {true, false}) {
+    SCOPED_TRACE(filtered);
     const std::vector<double> body = decimated(motion.body, filtered), wheel = decimated(motion.wheel, filtered);
     Drive drive;
     for (std::size_t k = 0; k < body.size(); ++k)
       drive.samples.push_back({fromSeconds(static_cast<double>(k) / kSampled), body[k], wheel[k]});
-    const IdentifiedStrut whole = identify({drive}).iv;
-    EXPECT_EQ(whole.reason, filtered ? "" : describe(EstimateDoubt::kWrongReadings));
-    EXPECT_EQ(whole.valid, filtered);
+    const IdentifiedStrut whole = identify({drive}).estimate;
+    EXPECT_TRUE(whole.valid || !filtered) << whole.reason;
+    if (!whole.valid) continue;
+    EXPECT_LT(std::abs(whole.damping_to_mass - 6.0), 3.0 * whole.damping_to_mass_stddev);
+    EXPECT_LT(std::abs(whole.stiffness_to_mass - 63.3), 3.0 * whole.stiffness_to_mass_stddev);
   }
 }
 

@@ -56,6 +56,10 @@ TEST(SensorOffset, ChangesNoEstimate) {
       const StrutEstimate &expected = reference.report().la, &found = monitor.report().la;
       SCOPED_TRACE(std::string(road.vehicle) + road.iso_class + std::to_string(offset));
       EXPECT_TRUE(found.valid());
+      const StrutEstimate &blocks_expected = reference.report().estimate, &blocks = monitor.report().estimate;
+      EXPECT_TRUE(blocks.valid());
+      EXPECT_NEAR(blocks.damping_to_mass, blocks_expected.damping_to_mass, 1e-6 * blocks_expected.damping_to_mass);
+      EXPECT_NEAR(blocks.stiffness_to_mass, blocks_expected.stiffness_to_mass, 1e-6 * blocks_expected.stiffness_to_mass);
       // What remains is the start, from which another offset was learned.
       EXPECT_NEAR(found.damping_to_mass, expected.damping_to_mass, 1e-3 * expected.damping_to_mass);
       EXPECT_NEAR(found.stiffness_to_mass, expected.stiffness_to_mass, 1e-3 * expected.stiffness_to_mass);
@@ -73,11 +77,11 @@ TEST(SensorOffset, ChangesNeitherHorizonNorRecordedDrives) {
     for (CornerSample& sample : drive.samples) sample.unsprung_acceleration += 0.5;
     EXPECT_EQ(surveyHorizon({drive}, 1.0 / road.rate, std::numeric_limits<std::size_t>::max()), horizon);
     const IdentifyResult found = identify({drive});
-    EXPECT_NEAR(found.iv.stiffness_to_mass, expected.iv.stiffness_to_mass, 1e-3 * expected.iv.stiffness_to_mass);
+    EXPECT_NEAR(found.estimate.stiffness_to_mass, expected.estimate.stiffness_to_mass, 1e-3 * expected.estimate.stiffness_to_mass);
     EXPECT_NEAR(found.ls.damping_to_mass, expected.ls.damping_to_mass, 1e-3 * expected.ls.damping_to_mass);
     const IntegralFilterOptions filter{horizon, 1.0 / road.rate, IntegrationRule::kBandLimited};
-    EXPECT_NEAR(roughModel({drive}, filter).stiffness_to_mass, expected.iv.stiffness_to_mass,
-                0.1 * expected.iv.stiffness_to_mass);
+    EXPECT_NEAR(roughModel({drive}, filter).stiffness_to_mass, expected.estimate.stiffness_to_mass,
+                0.1 * expected.estimate.stiffness_to_mass);
   }
 }
 
@@ -90,8 +94,8 @@ TEST(SensorOffset, MayDrift) {
       reference.addSample(sample);
       sample.unsprung_acceleration += 0.3 * std::sin(2 * M_PI * toSeconds(sample.stamp) / 3600.0);  // as it warms up
       const MonitorReport* report = monitor.addSample(sample);
-      if (report == nullptr || !report->la.valid() || !reference.report().la.valid()) continue;
-      const StrutEstimate &expected = reference.report().la, &found = report->la;
+      if (report == nullptr || !report->estimate.valid() || !reference.report().estimate.valid()) continue;
+      const StrutEstimate &expected = reference.report().estimate, &found = report->estimate;
       worst = std::max(worst, std::abs(found.stiffness_to_mass - expected.stiffness_to_mass) /
                                   std::hypot(0.01 * expected.stiffness_to_mass, found.stiffness_to_mass_stddev));
     }
@@ -139,8 +143,8 @@ TEST(SensorOffset, ParkingIsRecognisedWithIt) {
     };
     for (const CornerSample& sample : drive) add(sample.sprung_acceleration, sample.unsprung_acceleration);
     ASSERT_TRUE(monitor.report().la.valid());
-    for (int k = 0; k < 60 * kRoads[3].rate; ++k) add(noise(engine), noise(engine));
-    EXPECT_EQ(monitor.report().la.doubt, EstimateDoubt::kNotExcited) << offset;
+    for (int k = 0; k < 90 * kRoads[3].rate; ++k) add(noise(engine), noise(engine));
+    EXPECT_EQ(monitor.report().estimate.doubt, EstimateDoubt::kOldData) << offset;
     if (offset == 0.0) held = monitor.report().la.stiffness_to_mass;
     EXPECT_NEAR(monitor.report().la.stiffness_to_mass, held, 1e-3 * held) << offset;
     for (std::size_t k = 0; k < drive.size() / 4; ++k)

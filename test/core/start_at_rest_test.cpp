@@ -40,6 +40,9 @@ TEST(StartAtRest, LeavesSpreadsAndHealthAsTheyAreWithoutIt) {
     EXPECT_LT(report.ls.stiffness_to_mass_stddev, 1.5 * drive.ls.stiffness_to_mass_stddev) << seconds;
     EXPECT_LT(report.la.damping_to_mass_stddev, 1.5 * drive.la.damping_to_mass_stddev) << seconds;
     EXPECT_LT(report.la.stiffness_to_mass_stddev, 1.5 * drive.la.stiffness_to_mass_stddev) << seconds;
+    EXPECT_TRUE(report.estimate.valid()) << seconds;
+    EXPECT_LT(report.estimate.damping_to_mass_stddev, 1.5 * drive.estimate.damping_to_mass_stddev) << seconds;
+    EXPECT_LT(report.estimate.stiffness_to_mass_stddev, 1.5 * drive.estimate.stiffness_to_mass_stddev) << seconds;
     EXPECT_FALSE(report.health.outliers) << seconds;
     EXPECT_TRUE(report.health.learned) << seconds;
   }

@@ -171,41 +171,6 @@ TEST_F(StreamGridTest, TurnsToResamplingForOneStreamThatIsOutOfStep) {
   }
 }
 
-// Of stamps that are late by 0 .. J with equal probability the standard deviation is J / sqrt(12).
-// As regularly as they are stamped; stamped as irregularly as they are taken; stamped irregularly; at rest, so that
-// nobody knows. The scatter of a thousand stamps is known within 3 %.
-TEST_F(StreamGridTest, TellsByHowMuchTheTimesOfAStreamMayBeWrong) {
-  constexpr double kJitter = 0.004;
-  const double unknown = kJitter / std::sqrt(12.0);
-  Streams streams{readings(0, 60.0, {}), readings(1, 60.0, {kJitter}), readings(2, 60.0, {}),
-                  readings(3, 60.0, {kJitter})};
-  for (Message& reading : streams[2]) reading.stamp += fromSeconds(kJitter * uniform());
-  for (Message& reading : streams[3]) reading.value = 9.81;
-  const std::vector<Message> messages = interleaved(streams, 0.1);
-  StreamGrid grid(kPeriod, sensors(4), Alignment::kResampled, kFill),
-      pairs(kPeriod, sensors(4), Alignment::kPaired, kFill);
-  feed(grid, messages);
-  feed(pairs, messages);
-  EXPECT_LT(grid.timeError(0), 1e-9);
-  EXPECT_LT(grid.timeError(1), 0.4 * unknown);
-  EXPECT_LT(grid.timeError(2), 0.2 * unknown);
-  EXPECT_NEAR(grid.timeError(3), unknown, 0.1 * unknown);
-  for (std::size_t i = 0; i < streams.size(); ++i) EXPECT_EQ(pairs.timeError(i), 0.0) << i;
-}
-
-// The share of the last thousand is known within 15 %.
-TEST_F(StreamGridTest, TellsTheShareOfReadingsThatAreInterpolated) {
-  constexpr double kLost = 0.05;
-  const std::vector<Message> messages = interleaved({readings(0, 60.0, {}), readings(1, 60.0, {0.0, kLost})}, 0.1);
-  StreamGrid grid(kPeriod, sensors(2), Alignment::kResampled, kFill),
-      pairs(kPeriod, sensors(2), Alignment::kPaired, kFill);
-  feed(grid, messages);
-  feed(pairs, messages);
-  EXPECT_EQ(grid.lostShare(0), 0.0);
-  EXPECT_NEAR(grid.lostShare(1), kLost, 0.3 * kLost);
-  EXPECT_EQ(pairs.lostShare(1), 0.0);
-}
-
 TEST_F(StreamGridTest, TellsWhichSensorLosesReadings) {
   for (const std::size_t failing : {0, 2}) {
     Streams streams;

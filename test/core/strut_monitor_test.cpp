@@ -54,7 +54,7 @@ TEST(StrutMonitor, KnowsNoErrorOfWhatItDoesNotKnow) {
   for (const CornerSample& sample : drive(1500)) {
     push(monitor, sample);
     rows += monitor.report().has_row;
-    for (const StrutEstimate& estimate : {monitor.report().ls, monitor.report().la})
+    for (const StrutEstimate& estimate : {monitor.report().estimate, monitor.report().ls, monitor.report().la})
       for (const auto& [value, stddev] : {std::pair(estimate.damping_to_mass, estimate.damping_to_mass_stddev),
                                           std::pair(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev)}) {
         ASSERT_TRUE(std::isnan(stddev) || (std::isfinite(value) && stddev > 0.0)) << value << " +- " << stddev;
@@ -74,7 +74,8 @@ TEST(StrutMonitor, ReportsWhatItsPartsReport) {
     parts.addSample(sample);
   }
   EXPECT_EQ(reports, 3000);
-  EXPECT_TRUE(monitor.report().la.valid());
+  EXPECT_TRUE(monitor.report().estimate.valid());
+  EXPECT_EQ(monitor.report().estimate.damping_to_mass, parts.report().estimate.damping_to_mass);
   EXPECT_EQ(monitor.report().la.damping_to_mass, parts.report().la.damping_to_mass);
   EXPECT_EQ(monitor.report().ls.stiffness_to_mass, parts.report().ls.stiffness_to_mass);
   EXPECT_EQ(monitor.input().rows, parts.input().rows);
@@ -92,6 +93,7 @@ TEST(StrutMonitor, MeasuresTheSamplePeriodAndMoves) {
   EXPECT_NEAR(*monitor.samplePeriod(), kPeriod, 1e-9);
   EXPECT_EQ(monitor.input().samples, 3000U);
   EXPECT_NEAR(monitor.report().la.damping_to_mass, kDamping, 0.1 * kDamping);
+  EXPECT_NEAR(monitor.report().estimate.damping_to_mass, kDamping, 0.1 * kDamping);
   EXPECT_TRUE(monitor.rejected().empty());
 }
 

@@ -150,36 +150,6 @@ TEST(UdCovariance, ScalesTheCeilingWithTheCovariance) {
   EXPECT_DOUBLE_EQ(covariance.variance(0), 2.0);
 }
 
-// R <- R - (1 - lambda) R q q' R / (q' R q), inverted.
-TEST(UdCovariance, ForgetsAlongARegressorWhatTheInformationHoldsOfIt) {
-  for (const int size : {1, 2, 5}) {
-    UdCovariance covariance = released(size, 1e3);
-    std::mt19937_64 engine(11);
-    for (int k = 0; k < 30; ++k) covariance.update(randomRegressor(size, engine), 0.95, 0.95);
-    const Eigen::MatrixXd information = covariance.matrix().inverse();
-    Eigen::VectorXd q = randomRegressor(size, engine);
-    if (size == 2) q[0] = 0.0;
-    const Eigen::VectorXd along = information * q;
-    covariance.forgetAlong(q, 0.9);
-    const Eigen::MatrixXd left = information - 0.1 / q.dot(along) * along * along.transpose();
-    EXPECT_LT((covariance.matrix() - left.inverse()).norm(), 1e-10 * covariance.matrix().norm()) << size;
-  }
-}
-
-TEST(UdCovariance, ForgettingAlongOneParameterLeavesTheOtherAsCertainAsItWas) {
-  UdCovariance covariance = released(2, 50.0);
-  std::mt19937_64 engine(12);
-  for (int k = 0; k < 30; ++k) covariance.update(randomRegressor(2, engine), 0.95, 0.95);
-  const double before = covariance.variance(0);
-  for (int k = 0; k < 100'000; ++k) {
-    covariance.forgetAlong(Eigen::VectorXd::Unit(2, 1), 0.95);
-    covariance.update(Eigen::VectorXd::Unit(2, 1), 1.0, 1.0);
-  }
-  EXPECT_NEAR(covariance.variance(1), 0.05, 1e-9);
-  EXPECT_LE(covariance.variance(0), before * (1.0 + 1e-9));
-  EXPECT_GT(covariance.variance(0), 0.5 * before);
-}
-
 TEST(UdCovariance, OfOtherParametersKeepsWhatIsKnownOfThoseThatStay) {
   UdCovariance before = released(4, 1e5);
   std::mt19937_64 engine(5);

@@ -15,9 +15,11 @@ namespace {
 
 EstimateFacts nothingAgainstIt() {
   EstimateFacts facts;
-  facts.has_row = facts.is_physical = facts.has_stddev = true;
+  facts.has_row = true;
   facts.rows = facts.fewest_rows = 50.0;
-  facts.explained = kLeastExplained;  // enough but for shaking sensors
+  facts.damping_stddev = facts.stiffness_stddev = kMostRelativeStddev;
+  facts.explained = kLeastExplained;
+  facts.age = facts.oldest = 60.0;
   return facts;
 }
 
@@ -30,18 +32,14 @@ struct Flaw {
 const std::vector<Flaw> kFlaws{
     {EstimateDoubt::kWrongPeriod, [](EstimateFacts& f) { f.period_fits = false; }},
     {EstimateDoubt::kNoRows, [](EstimateFacts& f) { f.has_row = false; }},
-    {EstimateDoubt::kSensorStuck, [](EstimateFacts& f) { f.sensor_moves = false; }},
     {EstimateDoubt::kFewRows, [](EstimateFacts& f) { f.rows = 49.9; }},
-    {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.excites_damping = f.excites_stiffness = false; }},
-    {EstimateDoubt::kDampingNotExcited, [](EstimateFacts& f) { f.excites_damping = false; }},
-    {EstimateDoubt::kStiffnessNotExcited, [](EstimateFacts& f) { f.excites_stiffness = false; }},
-    {EstimateDoubt::kWrongReadings, [](EstimateFacts& f) { f.wrong_share = 0.51; }},
-    {EstimateDoubt::kOutsideForce, [](EstimateFacts& f) { f.outside_force = true; }},
+    {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.damping_stddev = f.stiffness_stddev = 0.151; }},
+    {EstimateDoubt::kDampingNotExcited, [](EstimateFacts& f) { f.damping_stddev = 0.151; }},
+    {EstimateDoubt::kStiffnessNotExcited, [](EstimateFacts& f) { f.stiffness_stddev = 0.151; }},
     {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
-    {EstimateDoubt::kOffsetChanges, [](EstimateFacts& f) { f.level_share = 0.51; }},
     {EstimateDoubt::kNotAStrut, [](EstimateFacts& f) { f.is_physical = false; }},
-    {EstimateDoubt::kClockSkew, [](EstimateFacts& f) { f.skew_is_known = false; }},
-    {EstimateDoubt::kNoSpread, [](EstimateFacts& f) { f.has_stddev = false; }},
+    {EstimateDoubt::kOldData, [](EstimateFacts& f) { f.age = 60.1; }},
+    {EstimateDoubt::kDisagrees, [](EstimateFacts& f) { f.agrees = false; }},
     {EstimateDoubt::kFreeRunFails, [](EstimateFacts& f) { f.free_run_fails = true; }},
 };
 
@@ -73,10 +71,12 @@ TEST(ValidityGate, NamesTheFirstOfSeveralFlaws) {
 
 TEST(ValidityGate, NumbersThatAreNoneAreFlaws) {
   EstimateFacts facts = nothingAgainstIt();
+  facts.age = std::nan("");
+  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kOldData);
   facts.explained = std::nan("");
   EXPECT_EQ(doubtOf(facts), EstimateDoubt::kNotExplained);
-  facts.wrong_share = std::nan("");
-  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kWrongReadings);
+  facts.stiffness_stddev = std::nan("");
+  EXPECT_EQ(doubtOf(facts), EstimateDoubt::kStiffnessNotExcited);
   facts.rows = std::nan("");
   EXPECT_EQ(doubtOf(facts), EstimateDoubt::kFewRows);
 }

@@ -68,23 +68,6 @@ TEST(VehicleMonitor, OfOneStrutIsASuspensionMonitor) {
     EXPECT_TRUE(of_vehicle[k] == of_strut[k] || std::isnan(of_strut[k])) << k;
 }
 
-// Times that may be wrong widen the interval of the strut that they are of, and no other.
-TEST(VehicleMonitor, HasTheErrorsOfAStrutsTimesInItsStandardDeviations) {
-  const StrutDrives drive = strutDrives(namedVehicle("half_sedan"), vehicleDrive(90.0));
-  const auto stddevs = [&](double error_of_front) {
-    VehicleMonitor monitor(std::vector<MonitorSettings>(2, settingsAt(0.01)), {});
-    for (std::size_t k = 0; k < drive.front().samples.size(); ++k) {
-      monitor.setResamplingErrors(0, {Eigen::Vector2d::Constant(error_of_front)});
-      monitor.addSample(sampleOf(drive, k));
-    }
-    return std::array{monitor.strut(0)->report().la.stiffness_to_mass_stddev,
-                      monitor.strut(1)->report().la.stiffness_to_mass_stddev};
-  };
-  const auto regular = stddevs(0.0), irregular = stddevs(1e-3);
-  EXPECT_GT(irregular[0], 2.0 * regular[0]);
-  EXPECT_NEAR(irregular[1], regular[1], 0.01 * regular[1]);
-}
-
 TEST(VehicleMonitor, SaysNothingOfStrutsThatTheRoadCannotTellApart) {
   const Vehicle vehicle = namedVehicle("sedan");
   VehicleDriveOptions options = vehicleDrive(120.0);

@@ -1,4 +1,4 @@
-// What sensors as they are do to the estimate over a whole drive, by instrumental variables.
+// What sensors as they are do to the estimate over a whole drive, by blocks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kB1 = 6.0, kB0 = 63.3;  // [1/s], [1/s^2]
 
-/// A car on a class B road at 100 Hz, in which a horizon of 0.4 s lets skews of 10 ms be found.
+/// A car on a class B road at 100 Hz.
 class CarDrive {
  public:
   CarDrive() {
@@ -56,25 +56,21 @@ void expectTruth(const IdentifiedStrut& strut) {
   EXPECT_TRUE(strut.valid) << strut.reason;
   EXPECT_LT(std::abs(strut.damping_to_mass - kB1), 3.0 * strut.damping_to_mass_stddev);
   EXPECT_LT(std::abs(strut.stiffness_to_mass - kB0), 3.0 * strut.stiffness_to_mass_stddev);
-  EXPECT_NEAR(strut.damping_to_mass, kB1, 0.03 * kB1);
-  EXPECT_NEAR(strut.stiffness_to_mass, kB0, 0.03 * kB0);
+  EXPECT_NEAR(strut.damping_to_mass, kB1, 0.01 * kB1);
+  EXPECT_NEAR(strut.stiffness_to_mass, kB0, 0.01 * kB0);
 }
 
 TEST(WholeDrive, IsThatOfReadingsThatBelongTogether) {
   const CarDrive car;
-  for (const std::size_t late : {0u, 2u, 6u}) {
+  for (const std::size_t late : {0u, 2u, 6u, 11u, 13u, 16u}) {
+    SCOPED_TRACE(late);
     const IdentifyResult found = car.identified(late, 0.0);
-    expectTruth(found.iv);
-    EXPECT_TRUE(found.isSteady()) << late;
+    expectTruth(found.estimate);
+    EXPECT_TRUE(found.isSteady());
   }
 }
 
-TEST(WholeDrive, IsNotValidWithASkewBeyondThoseThatAreLookedFor) {
-  const CarDrive car;
-  for (const std::size_t late : {11u, 13u, 16u}) EXPECT_FALSE(car.identified(late, 0.0).iv.valid) << late;
-}
-
-TEST(WholeDrive, DoesNotFeelAnOffsetThatDrifts) { expectTruth(CarDrive().identified(0, 0.3).iv); }
+TEST(WholeDrive, DoesNotFeelAnOffsetThatDrifts) { expectTruth(CarDrive().identified(0, 0.3).estimate); }
 
 // A vehicle's struts are taken apart by all sensors, so that body and wheel of a strut have noise in common.
 TEST(WholeDrive, IsFreeOfTheNoiseThatStrutsHaveInCommon) {
@@ -94,9 +90,9 @@ TEST(WholeDrive, IsFreeOfTheNoiseThatStrutsHaveInCommon) {
       for (std::size_t i = 0; i < found.struts.size(); ++i) {
         const VehicleStrut& strut = vehicle.struts[i];
         const double own = vehicle.mobility(strut, strut);
-        const IdentifiedStrut& iv = found.struts[i].iv;
-        squares[0] += std::pow((iv.damping_to_mass - own * strut.damping) / iv.damping_to_mass_stddev, 2);
-        squares[1] += std::pow((iv.stiffness_to_mass - own * strut.stiffness) / iv.stiffness_to_mass_stddev, 2);
+        const IdentifiedStrut& estimate = found.struts[i].estimate;
+        squares[0] += std::pow((estimate.damping_to_mass - own * strut.damping) / estimate.damping_to_mass_stddev, 2);
+        squares[1] += std::pow((estimate.stiffness_to_mass - own * strut.stiffness) / estimate.stiffness_to_mass_stddev, 2);
         count += 1.0;
       }
     }

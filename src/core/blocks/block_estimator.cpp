@@ -13,6 +13,9 @@ constexpr int kSlowEvery = 4;                            // blocks: all blocks t
 constexpr double kSlowFactor = 1.5;  // standard deviations of what changes slowly count so much more for fewer blocks
 constexpr double kContradiction = 3.0;  // standard deviations
 constexpr double kLost = 0.3;           // relative standard deviation from which there is no estimate to linearise at
+// Share of the body's power below which what was found is noise's, in which some strut is found now and then: half of
+// what a valid estimate explains.
+constexpr double kLeastTold = 0.25;
 constexpr int kStartBlocks = 8, kStartSteps = 8;
 constexpr int kRefined = 8;          // blocks that are linearised anew per update
 constexpr double kStale = 0.02;      // relative change of b1 or b0 since the linearisation
@@ -27,8 +30,8 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
     : options_(options),
       equations_(band, columns),
       window_fit_(band, columns, kMostBlocks),
-      drive_(band, columns),
-      ring_(kMostBlocks, equations_.makeBlock()) {
+      ring_(kMostBlocks, equations_.makeBlock()),
+      drive_(band, columns) {
   const int p = columns.numParameters();
   first_.mean.setZero(p);
   first_.stddev.setConstant(p, kUnknown);
@@ -82,9 +85,11 @@ const WindowEstimate* BlockEstimator::update() {
   int window = 0;
   for (const int m : kWindows) {
     if (m > count_) break;
-    const bool is_usable = fit(m, prior, trial_);
+    const bool is_usable = fit(m, prior, trial_) && trial_.explained >= kLeastTold;
     if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : kUnknown;
     if (!is_usable) continue;
+    // What is older is of another strut.
+    if (window > 0 && window_fit_.isContradicted(newest(m), kWindows.front(), prior, trial_)) break;
     if (window == 0 || trial_.worst() < best_.worst()) {
       std::swap(best_, trial_);
       window = m;
@@ -117,7 +122,7 @@ bool BlockEstimator::start() {
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
   }
-  if (!(trial_.worst() < kLost)) return false;
+  if (!(trial_.worst() < kLost && trial_.explained >= kLeastTold)) return false;
   for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
   return true;
 }

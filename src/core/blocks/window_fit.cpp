@@ -7,6 +7,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kIterations = 3;        // of weights and parameters
+constexpr double kContradicted = 4.0;  // standard deviations: by chance once in an hour
 constexpr double kLeastShare = 0.02;  // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
 
 // Within a factor of two of what it was, so that the model stays stable.
@@ -53,6 +54,30 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
   }
   weigh(blocks, result.theta);
   describe(blocks, prior, least_inflation, result);
+}
+
+bool WindowFit::isContradicted(const std::vector<const StrutBlock*>& blocks, int count, const BlockPrior& prior,
+                               const WindowEstimate& estimate) const {
+  BlockMatrix normal = BlockMatrix::Zero(normal_.rows(), normal_.cols());
+  normal.diagonal() = prior.stddev.cwiseAbs2().cwiseInverse();
+  BlockVector right = normal.diagonal().cwiseProduct(prior.mean - estimate.theta);
+  double power = 0.0;  // of e, over that of the noise
+  for (int b = blocks_ - count; b < blocks_; ++b) {
+    const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
+    for (int i = 0; i < bands_.count(); ++i) {
+      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+      const double weight = weight_[b] / weights_.noise[i], scale = weights_.share_scale[i];
+      normal += weight * informationOf(band, scale);
+      right += weight * scoreOf(band, block, estimate.theta, scale);
+      power += weight_[b] * power_(b, i) / (weights_.noise[i] * count * bands_.count());
+    }
+  }
+  const NormalEquations equations(normal, right);
+  if (!equations.is_solvable) return false;
+  const Eigen::Vector2d step = equations.solution.head<2>();
+  const Eigen::Matrix2d covariance = std::max(1.0, power) * estimate.inflation *
+                                     covarianceByNoise(normal, equations.inverse, prior, count).topLeftCorner<2, 2>();
+  return step.dot(covariance.inverse() * step) > kContradicted * kContradicted;
 }
 
 // The noise's spectrum, and how much a block counts.

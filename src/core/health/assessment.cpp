@@ -87,7 +87,7 @@ void HealthAssessment::setBaseline(const Baseline& baseline) {
 const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& estimate, bool is_new) {
   const bool judges = estimate.valid() && is_new;
   if (judges) take(stamp, estimate);
-  HealthReport now = judged_;
+  HealthReport now = estimate.valid() ? judged_ : HealthReport();
   now.estimate_valid = estimate.valid();
   now.doubt = estimate.doubt;
   now.sensor = sensor_;

@@ -69,9 +69,9 @@ ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now)
 void BaselineLearner::Half::add(const StrutEstimate& estimate, double new_seconds) {
   seconds += new_seconds;
   const double gain = new_seconds / seconds;
-  const auto mix = [gain](double& mean, double value) { mean += gain * (value - mean); };
-  const auto mixStddev = [gain](double& mean, double value) {
-    mean = std::sqrt(square(mean) + gain * (square(value) - square(mean)));
+  const auto mix = [gain](double& of, double value) { of += gain * (value - of); };
+  const auto mixStddev = [gain](double& of, double value) {
+    of = std::sqrt(square(of) + gain * (square(value) - square(of)));
   };
   if (mean.isEmpty()) mean = baselineOf(estimate, {});
   mix(*mean.damping_to_mass, estimate.damping_to_mass);

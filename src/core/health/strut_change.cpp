@@ -30,7 +30,7 @@ Load commonLoad(const LogChange& damping, const LogChange& stiffness, const Load
 
 double StrutChange::apartStddev() const {
   const double d = measured.damping->stddev, s = measured.stiffness->stddev;
-  return std::sqrt(std::max(0.0, d * d + s * s - 2.0 * measured.correlation * d * s));
+  return std::sqrt(std::max(d * d + s * s - 2.0 * measured.correlation * d * s, 0.0));  // likewise
 }
 
 LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
@@ -45,7 +45,7 @@ LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
   load.log_mass = std::clamp(best, range.least, range.most);
   load.at_end = load.log_mass != best;
   const Eigen::Vector2d left = measured - load.log_mass * load_moves;
-  load.distance = std::sqrt(std::max(0.0, left.dot(information * left)));
+  load.distance = std::sqrt(std::max(left.dot(information * left), 0.0));  // of NaN, which is not known, NaN
   return load;
 }
 

@@ -68,7 +68,7 @@ void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns)
     sources.push_back(column.before);
   }
   covariance_ = UdCovariance(covariance_, sources);
-  scatter_ = BatchScatter(numParameters(), std::max(0, options_.correlated_rows));
+  scatter_ = BatchScatter(scatter_, sources);
   num_released_ = 0;
   for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;
 }

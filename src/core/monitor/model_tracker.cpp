@@ -71,20 +71,11 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
 
 EstimateFacts blockFacts(const StrutEstimate& estimate) {
   EstimateFacts facts;
-  facts.damping_stddev = estimate.damping_to_mass_stddev / estimate.damping_to_mass;
+  facts.damping_stddev =
+      estimate.damping_to_mass_stddev / leastDamping(estimate.damping_to_mass, estimate.stiffness_to_mass);
   facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
   facts.explained = estimate.explained;
   return facts;
-}
-
-bool agree(double a, double a_stddev, double b, double b_stddev) {
-  const double apart = std::abs(a - b);
-  return apart <= kMostApart * std::abs(b) || apart <= kMostStddevsApart * std::hypot(a_stddev, b_stddev);
-}
-
-bool agree(const StrutEstimate& a, const StrutEstimate& b) {
-  return agree(a.damping_to_mass, a.damping_to_mass_stddev, b.damping_to_mass, b.damping_to_mass_stddev) &&
-         agree(a.stiffness_to_mass, a.stiffness_to_mass_stddev, b.stiffness_to_mass, b.stiffness_to_mass_stddev);
 }
 
 }  // namespace

@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace suspension_health_monitor {
 namespace {
+
+bool agree(double a, double a_stddev, double b, double b_stddev) {
+  const double apart = std::abs(a - b);
+  return apart <= kMostApart * std::abs(b) || apart <= kMostStddevsApart * std::hypot(a_stddev, b_stddev);
+}
 
 bool isKnown(double relative_stddev) { return relative_stddev <= kMostRelativeStddev; }
 
@@ -38,6 +44,11 @@ constexpr std::array kRules{
 };
 
 }  // namespace
+
+bool agree(const StrutEstimate& a, const StrutEstimate& b) {
+  return agree(a.damping_to_mass, a.damping_to_mass_stddev, b.damping_to_mass, b.damping_to_mass_stddev) &&
+         agree(a.stiffness_to_mass, a.stiffness_to_mass_stddev, b.stiffness_to_mass, b.stiffness_to_mass_stddev);
+}
 
 EstimateDoubt doubtOf(const EstimateFacts& facts) {
   const auto rule = std::find_if(kRules.begin(), kRules.end(), [&](const Rule& r) { return r.applies(facts); });

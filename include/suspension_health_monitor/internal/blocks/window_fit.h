@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -9,6 +10,12 @@
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"
 
 namespace suspension_health_monitor {
+
+/// Damping ratio below which a damper is as good as none [-]; that of a healthy strut is 0.2 to 0.5.
+inline constexpr double kLeastDamping = 0.1;
+
+/// @return b1 [1/s], at least that of kLeastDamping.
+inline double leastDamping(double b1, double b0) { return std::max(b1, 2.0 * kLeastDamping * std::sqrt(b0)); }
 
 /// What is known of the parameters before the data of a window: independent normal distributions.
 struct BlockPrior {
@@ -26,7 +33,11 @@ struct WindowEstimate {
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
   Eigen::VectorXd noise;   ///< power of e per bin of each band: the unexplained spectrum
 
-  double relativeStddev(int i) const { return std::sqrt(covariance(i, i)) / theta[i]; }
+  /// @param i  b1 or b0. A damping below kLeastDamping is known as well as that one is: a strut without a damper is
+  /// one, too.
+  double relativeStddev(int i) const {
+    return std::sqrt(covariance(i, i)) / (i == kBlockDamping ? leastDamping(theta[0], theta[1]) : theta[i]);
+  }
   /// @param power  mean over blocks of the sum over bins of |H_1(X - Y)|^2 / |s|^4. By Parseval the mean square of a
   /// signal over a block of length T is 2 / (T^2 mean(hann^2)) times that, mean(hann^2) = 3/8.
   void setRate(double power, double length) { rate = std::sqrt(2.0 * power / 0.375) / length; }
@@ -94,6 +105,12 @@ class WindowFit {
   /// @param least_inflation  that is known from other windows.
   void fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
            const Eigen::VectorXd& usual, double least_inflation, WindowEstimate& result);
+
+  /// @return whether the last `count` blocks of the newest fit alone would make another strut of its estimate: by the
+  /// step of Gauss-Newton from there, against its covariance by what these blocks leave unexplained (C. R. Rao's score
+  /// test, 1948).
+  bool isContradicted(const std::vector<const StrutBlock*>& blocks, int count, const BlockPrior& prior,
+                      const WindowEstimate& estimate) const;
 
   /// @return power of e per bin, blocks by bands, of the newest fit.
   auto power() const { return power_.topRows(blocks_); }

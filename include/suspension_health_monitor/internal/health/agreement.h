@@ -4,8 +4,8 @@
 
 namespace suspension_health_monitor {
 
-/// Whether LS and LA say the same. If they are more than kMostApart standard deviations of LA apart, or LS is more than
-/// kTails times as uncertain, there are outliers, or was a step. Cost per update: O(1), no allocation.
+/// Whether LS and LA say the same (agree()). If they do not for long, there are outliers, or was a step. Cost per update:
+/// O(1), no allocation.
 class Agreement {
  public:
   void update(const StrutEstimate& ls, const StrutEstimate& la);
@@ -14,7 +14,6 @@ class Agreement {
   bool fails() const { return failing_ > kOften; }
 
  private:
-  static constexpr double kMostApart = 3.0, kTails = 2.5;
   static constexpr double kOften = 0.4, kMemory = 50.0;  // updates: ten memories of LS and LA
 
   double failing_ = 0.0;  // share of the updates

@@ -100,7 +100,7 @@ class RecursiveEstimator {
   void correct(const RegressionRow& row, double innovation, double weight);
 
   /// @return variance of theta_i.  @param scale  what turns P_ii into that of independent rows.
-  double varianceAt(int i, double scale) const { return scale * covariance_.variance(i) * scatter_.inflation(); }
+  double varianceAt(int i, double scale) const { return scale * covariance_.variance(i) * scatter_.inflation(i); }
 
   RecursiveOptions options_;
   Eigen::VectorXd theta_;

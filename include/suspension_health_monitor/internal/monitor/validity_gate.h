@@ -12,9 +12,12 @@ inline constexpr double kLeastExplained = 0.5;
 /// Relative standard deviation from which a parameter is not known: twice that would be the change that is an error.
 inline constexpr double kMostRelativeStddev = 0.15;
 
-/// LS and LA may be so far from the block estimate, by either measure, and be valid.
-inline constexpr double kMostApart = 0.05;        ///< of the block estimate
+/// Estimators that are so far apart at most, by either measure, say the same.
+inline constexpr double kMostApart = 0.05;        ///< of the second
 inline constexpr double kMostStddevsApart = 4.0;  ///< standard deviations of both
+
+/// @return true if two estimators say the same of b1 and b0, by either measure.
+bool agree(const StrutEstimate& a, const StrutEstimate& b);
 
 /// All that decides whether an estimate is valid. What does not concern an estimator stays as it is here.
 struct EstimateFacts {
@@ -28,7 +31,7 @@ struct EstimateFacts {
   bool is_physical = true;        ///< all parameters that have to be above 0 are
   double age = 0.0;               ///< of the data [s]
   double oldest = std::numeric_limits<double>::infinity();  ///< that may still count [s]
-  bool agrees = true;           ///< with the block estimate, as kMostApart or kMostStddevsApart say
+  bool agrees = true;           ///< with the block estimate, as agree() says
   bool free_run_fails = false;  ///< the free run fits the body's motion worse than a constant does
 };
 
