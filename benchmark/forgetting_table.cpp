@@ -1,4 +1,4 @@
-// Prints the tables of doc/forgetting.md: how late LS and LA follow the paper's ramp of the damping and a step of it,
+// Prints the tables of doc/defaults.md: how late LS and LA follow the paper's ramp of the damping and a step of it,
 // how much they scatter, and what faults do to them, against the forgetting factors.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Prints the table of doc/forgetting.md about rest: what a day parked does to the estimates.
+// Prints the table of doc/uncertainty.md about rest: what a day parked does to the estimates.
 #include <chrono>
 #include <cmath>
 #include <cstdio>

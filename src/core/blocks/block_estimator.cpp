@@ -9,18 +9,26 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 constexpr double kShareMean = 0.5, kShareStddev = 0.29;  // of r: uniform in (0, 1)
-constexpr int kSlowEvery = 4;                            // blocks: all blocks then have changed by a sixteenth
-constexpr double kSlowFactor = 1.5;  // standard deviations of what changes slowly count so much more for fewer blocks
+// Noise of all wheels of a vehicle is in e of every top, in proportions that change with frequency: no r is right, and
+// what is wrong by it counts where tracks are much alike. So instruments are those of the wheels as measured.
+constexpr double kNoShare = 0.02;
+// Links, rubber and tyres' side forces turn the phase of a vehicle's struts as a delay does, by up to 0.07 rad at 20 Hz
+// on recorded multibody vehicles. What a delay then takes from b0 at high frequencies is as much as 17 % of it.
+constexpr double kLeastPhase = 0.15;  // in the last bin [rad]
+constexpr double kNoDelay = 1e-6;     // [s]
+constexpr int kSlowEvery = 4;         // blocks: all blocks then have changed by a sixteenth
+constexpr double kSlowFactor = 1.5;   // standard deviations of what changes slowly count so much more for fewer blocks
 constexpr double kContradiction = 3.0;  // standard deviations
 constexpr double kLost = 0.3;           // relative standard deviation from which there is no estimate to linearise at
 // Share of the body's power below which what was found is noise's, in which some strut is found now and then: half of
 // what a valid estimate explains.
 constexpr double kLeastTold = 0.25;
 constexpr int kStartBlocks = 8, kStartSteps = 8;
-constexpr int kRefined = 8;          // blocks that are linearised anew per update
-constexpr double kStale = 0.02;      // relative change of b1 or b0 since the linearisation
-constexpr double kStalePhase = 0.1;  // of the phase that the delay makes in the last bin [rad]
-constexpr double kStaleShare = 0.2;  // of r
+constexpr int kVehicleStartSteps = 3;  // all that one reading has time for; the blocks after it go on
+constexpr int kRefined = 8;            // blocks that are linearised anew per update
+constexpr double kStale = 0.02;        // relative change of b1 or b0 since the linearisation
+constexpr double kStalePhase = 0.1;    // of the phase that the delay makes in the last bin [rad]
+constexpr double kStaleShare = 0.2;    // of r
 
 bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
 
@@ -39,8 +47,16 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   if (columns.has_friction) first_.stddev[columns.firstForce()] = options.friction_stddev;
   first_.mean[kBlockWheelShare] = kShareMean;
   first_.stddev[kBlockWheelShare] = kShareStddev;
-  slow_ = first_;
+  if (columns.neighbours > 0) {
+    first_.mean[kBlockWheelShare] = kNoShare;
+    first_.stddev[kBlockWheelShare] = kNoShare / 2.0;
+    first_.stddev[kBlockDelay] = kNoDelay;
+  }
+  slow_ = scaled_ = first_;
+  factor_.setOnes(p);
+  factor_stddev_.setZero(p);
   theta_.setZero(p);
+  shorter_.reserve(kWindows.size());
   pointers_.reserve(kMostBlocks);
   sorted_.reserve(kMostBlocks);
 }
@@ -74,22 +90,38 @@ bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& re
   return result.isUsable();
 }
 
+std::optional<WindowEstimate> BlockEstimator::ofBlocks(int newest, int count) {
+  if (!has_theta_ || count < kWindows.front() || newest + count > count_) return std::nullopt;
+  pointers_.clear();
+  for (int age = newest + count - 1; age >= newest; --age) pointers_.push_back(&block(age));
+  WindowEstimate result;
+  window_fit_.fit(pointers_, first_, theta_, weights_.usual, scatter_, result);
+  if (!result.isUsable()) return std::nullopt;
+  return result;
+}
+
 const WindowEstimate* BlockEstimator::update() {
+  if (!has_theta_ && waits_ > 0) {
+    --waits_;
+    return nullptr;
+  }
+  is_refused_ = false;
   if (has_theta_) equations_.linearise(theta_, block(0));
   if (count_ < kWindows.front() || !(has_theta_ || start())) {
     if (count_ >= kWindows.front()) newest_worst_ = kUnknown;
     return nullptr;
   }
   if (++updates_ % kSlowEvery == 0 && count_ >= kStartBlocks) learnSlow();
-  const BlockPrior& prior = contradictsSlow() ? first_ : slow_;
+  scaleSlow();
+  const BlockPrior& prior = contradictsSlow() ? first_ : scaled_;
   int window = 0;
+  shorter_.clear();
   for (const int m : kWindows) {
     if (m > count_) break;
     const bool is_usable = fit(m, prior, trial_) && trial_.explained >= kLeastTold;
     if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : kUnknown;
     if (!is_usable) continue;
-    // What is older is of another strut.
-    if (window > 0 && window_fit_.isContradicted(newest(m), kWindows.front(), prior, trial_)) break;
+    if (contradictsShorter(trial_)) break;  // what is older is of another strut
     if (window == 0 || trial_.worst() < best_.worst()) {
       std::swap(best_, trial_);
       window = m;
@@ -102,7 +134,8 @@ const WindowEstimate* BlockEstimator::update() {
   }
   refine(window, prior);
   has_theta_ = best_.isUsable() && best_.worst() < kLost;
-  if (!has_theta_) return nullptr;
+  is_refused_ = !has_theta_;
+  if (is_refused_) return nullptr;
   theta_ = best_.theta;
   return &best_;
 }
@@ -110,24 +143,62 @@ const WindowEstimate* BlockEstimator::update() {
 // Linear least squares, which noise of the regressors biases, then some steps from there.
 bool BlockEstimator::start() {
   const int window = std::min(count_, kStartBlocks);
-  const Eigen::Vector2d linear = equations_.start(newest(window));
+  const Eigen::VectorXd linear = equations_.start(newest(window));
   // A strut that bounces a quarter as fast as the lowest bin, damped by a tenth, is the softest that the blocks can
   // see.
   const double slowest = equations_.band().omega(BlockBand::kFirst) / 8.0;
   theta_ = first_.mean;
   theta_[kBlockDamping] = std::max(linear[0], 0.2 * slowest);
   theta_[kBlockStiffness] = std::max(linear[1], slowest * slowest);
-  for (int i = 0; i < kStartSteps; ++i) {
+  theta_.tail(linear.size() - 2) = linear.tail(linear.size() - 2);
+  const int steps = equations_.columns().neighbours > 0 ? kVehicleStartSteps : kStartSteps;
+  for (int i = 0; i < steps; ++i) {
     for (int age = 0; age < window; ++age) equations_.linearise(theta_, block(age));
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
   }
-  if (!(trial_.worst() < kLost && trial_.explained >= kLeastTold)) return false;
+  if (!(trial_.worst() < kLost && trial_.explained >= kLeastTold)) {
+    std::swap(best_, trial_);
+    is_refused_ = true;
+    if (equations_.columns().neighbours > 0) {
+      waits_ = kSlowEvery - 1;
+      double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
+      stddev = stddev == kNoDelay ? options_.delay_stddev : kNoDelay;
+    }
+    return false;
+  }
   for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
   return true;
 }
 
+// Of a vehicle a delay is let in only if it turns the phase by more than a law's memory does, see kLeastPhase.
+void BlockEstimator::lookForDelay() {
+  const double omega = equations_.band().omega(equations_.band().last);
+  double& stddev = first_.stddev[kBlockDelay];
+  stddev = options_.delay_stddev;
+  const bool is_delayed = fit(count_, first_, trial_) && std::abs(trial_.theta[kBlockDelay]) * omega > kLeastPhase;
+  if (!is_delayed) stddev = kNoDelay;
+}
+
+void BlockEstimator::forgetSlow() {
+  slow_ = first_;
+  of_all_.reset();
+}
+
+void BlockEstimator::scaleSlow(int parameter, double factor, double stddev) {
+  factor_[parameter] = factor;
+  factor_stddev_[parameter] = stddev;
+}
+
+void BlockEstimator::scaleSlow() {
+  scaled_.mean = slow_.mean.cwiseProduct(factor_);
+  scaled_.stddev =
+      (slow_.stddev.cwiseProduct(factor_).array().square() + slow_.mean.cwiseProduct(factor_stddev_).array().square())
+          .sqrt();
+}
+
 void BlockEstimator::learnSlow() {
+  if (equations_.columns().neighbours > 0) lookForDelay();
   if (!fit(count_, first_, trial_)) return;
   slow_ = first_;
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
@@ -145,6 +216,7 @@ void BlockEstimator::learnSlow() {
     weights_.usual[i] = std::max(*middle, std::numeric_limits<double>::min());
   }
   scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
+  of_all_ = trial_;
 }
 
 // Blocks that were never linearised, since no strut was known then, tell nothing.
@@ -179,14 +251,25 @@ std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
 
 bool BlockEstimator::contradictsSlow() {
   if (weights_.usual.size() == 0) return false;
-  BlockPrior open = slow_;
+  BlockPrior open = scaled_;
   open.stddev = first_.stddev;
   if (!fit(kWindows.front(), open, trial_)) return false;
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
-    if (!isSlow(i) || !std::isfinite(slow_.stddev[i])) continue;
-    const double apart = std::abs(trial_.theta[i] - slow_.mean[i]);
-    if (apart > kContradiction * std::sqrt(trial_.covariance(i, i) + slow_.stddev[i] * slow_.stddev[i])) return true;
+    if (!isSlow(i) || !std::isfinite(scaled_.stddev[i])) continue;
+    const double apart = std::abs(trial_.theta[i] - scaled_.mean[i]);
+    if (apart > kContradiction * std::sqrt(trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i]))
+      return true;
   }
+  return false;
+}
+
+// Windows of a vehicle are long where one IMU tells of all tops: they end where shorter ones say that a strut was
+// another one. Source: O. V. Lepskii, On a problem of adaptive estimation in Gaussian white noise (1991).
+bool BlockEstimator::contradictsShorter(const WindowEstimate& estimate) {
+  for (const Shorter& each : shorter_)
+    if (((estimate.theta.head<2>() - each.theta).array().abs() > kContradiction * each.stddev.array()).any())
+      return true;
+  shorter_.push_back({estimate.theta.head<2>(), estimate.covariance.diagonal().head<2>().cwiseSqrt()});
   return false;
 }
 

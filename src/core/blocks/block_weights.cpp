@@ -8,34 +8,35 @@ namespace {
 
 constexpr double kUnusual = 10.0;  // times the usual power, from which a block counts less
 
-BlockVector stepFrom(const StrutBlock& block, const BlockVector& theta) { return theta - block.at; }
-
 }  // namespace
 
-double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {
+double BlockWeights::of(const Eigen::RowVectorXd& power) const {
   if (usual.size() == 0) return 1.0;
-  double times = 0.0;
-  for (int i = 0; i < bands.count(); ++i)
-    times += residualPower(block.bands[static_cast<std::size_t>(i)], block, theta) / (bands.size(i) * usual[i]);
-  const double beyond = kUnusual * bands.count() / times;
-  return beyond < 1.0 ? beyond * beyond : 1.0;
+  const double times = (power.array() / usual.transpose().array()).mean();
+  return times > kUnusual ? kUnusual * kUnusual / (times * times) : 1.0;
 }
 
-double residualPower(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta) {
+double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {
+  Eigen::RowVectorXd power(bands.count());
+  for (int i = 0; i < bands.count(); ++i)
+    power[i] = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands.size(i);
+  return of(power);
+}
+
+double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta) {
   const Eigen::Index p = theta.size();
-  BlockVector step = stepFrom(block, theta);
-  step[kBlockWheelShare] = 0.0;  // e does not depend on it
-  double power = band.moments(p, p);
+  BlockVector linear = theta;
+  linear[kBlockWheelShare] = 0.0;  // e does not depend on it
+  double power = moments(p, p) - 2.0 * moments.col(p).head(p).dot(linear);
   for (Eigen::Index j = 0; j < p; ++j)
-    power += step[j] * (band.moments.col(j).head(p).dot(step) - 2.0 * band.moments(j, p));
+    power += linear[j] * (linear[j] * moments(j, j) + 2.0 * moments.col(j).head(j).dot(linear.head(j)));
   return std::max(power, 0.0);
 }
 
-BlockVector scoreOf(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta,
-                    double share_scale) {
-  BlockVector step = stepFrom(block, theta);
-  step[kBlockWheelShare] *= share_scale;
-  BlockVector score = band.score - band.information * step;
+BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, double share_scale) {
+  BlockVector scaled = theta;
+  scaled[kBlockWheelShare] *= share_scale;
+  BlockVector score = band.score + share_scale * band.share - band.information.lazyProduct(scaled);
   score[kBlockWheelShare] *= share_scale;
   return score;
 }
@@ -49,14 +50,9 @@ BlockMatrix informationOf(const StrutBlock::Band& band, double share_scale) {
 
 NormalEquations::NormalEquations(const BlockMatrix& normal, const BlockVector& right)
     : inverse(normal), solution(right) {
-  // A column that is silent, such as that of an end stop which is not reached, leaves its parameter at 0, unknown.
-  constexpr double kNoInformation = 1e-200;
-  const BlockVector information = normal.diagonal().cwiseAbs().cwiseMax(kNoInformation);
-  const BlockVector scale = information.cwiseSqrt().cwiseInverse();
+  const BlockVector scale = normal.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
   if (!scale.allFinite()) return;
-  BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-  for (Eigen::Index i = 0; i < scaled.rows(); ++i)
-    if (normal(i, i) == 0.0) scaled(i, i) = 1.0;
+  const BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
   inverse = Eigen::PartialPivLU<BlockMatrix>(scaled).inverse();
   inverse = scale.asDiagonal() * inverse * scale.asDiagonal();
   solution.noalias() = inverse * right;

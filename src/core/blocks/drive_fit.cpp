@@ -22,7 +22,7 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
     const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
     const double scale = weights.share_scale[i], of_band = weight / weights.noise[i];
     const BlockMatrix information = of_band * informationOf(band, scale);
-    const BlockVector score = of_band * scoreOf(band, block, theta, scale);
+    const BlockVector score = of_band * scoreOf(band, theta, scale);
     information_ += information;
     right_.noalias() += information * theta;
     right_ += score;
@@ -31,7 +31,7 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
     scatter_ += score * score.transpose() + with_previous + with_previous.transpose();
     previous = score;
     body_ += weight * band.body_power;
-    unexplained_ += weight * residualPower(band, block, linear);
+    unexplained_ += weight * residualPower(band.moments, linear);
     rate_ += weight * band.rate_power;
   }
 }

@@ -35,6 +35,7 @@ StrutBlock StrutEquations::makeBlock() const {
   for (StrutBlock::Band& each : block.bands) {
     each.information.setZero(p, p);
     each.score.setZero(p);
+    each.share.setZero(p);
     each.moments.setZero(p + 1, p + 1);
   }
   return block;
@@ -86,6 +87,9 @@ void StrutEquations::linearise(const BlockVector& theta, StrutBlock& block) {
   instruments_.col(kBlockWheelShare).array() = -rho_slope_ / gain_.conjugate() * wheel_;
   regressors_.col(kBlockWheelShare) = instruments_.col(kBlockWheelShare);
   block.at = theta;
+  block.version = ++versions_;
+  for (Eigen::Index i = 0; i < p; ++i)
+    if (i != kBlockWheelShare) residual += theta[i] * regressors_.col(i).array();
   sumBands(block);
 }
 
@@ -98,6 +102,7 @@ void StrutEquations::sumBands(StrutBlock& block) const {
     const auto z_band = z.middleRows(2 * first, 2 * size), r_band = r.middleRows(2 * first, 2 * size);
     band.information.noalias() = z_band.transpose().lazyProduct(r_band.leftCols(p));
     band.score.noalias() = z_band.transpose().lazyProduct(r_band.col(p));
+    band.share = block.at[kBlockWheelShare] * band.information.col(kBlockWheelShare);
     band.moments.noalias() = r_band.transpose().lazyProduct(r_band);
     band.wheel_power = wheel_.segment(first, size).abs2().sum();
     band.body_power = block.body.col(0).segment(first, size).abs2().sum();
@@ -106,9 +111,9 @@ void StrutEquations::sumBands(StrutBlock& block) const {
   }
 }
 
-Eigen::Vector2d StrutEquations::start(const std::vector<const StrutBlock*>& blocks) {
+Eigen::VectorXd StrutEquations::start(const std::vector<const StrutBlock*>& blocks) {
   const Eigen::Index n = s_.size();
-  Eigen::MatrixXcd rows(n * static_cast<Eigen::Index>(blocks.size()), 2);
+  Eigen::MatrixXcd rows(n * static_cast<Eigen::Index>(blocks.size()), 2 + columns_.neighbours);
   Eigen::MatrixXcd output(rows.rows(), 1);
   Eigen::Index at = 0;
   for (const StrutBlock* block : blocks) {
@@ -117,6 +122,8 @@ Eigen::Vector2d StrutEquations::start(const std::vector<const StrutBlock*>& bloc
     // Over s^2: displacements, which a bounce has most of.
     rows.col(0).segment(at, n).array() = (x1_ - block->body.col(1)) / (s_ * s_);
     rows.col(1).segment(at, n).array() = (x0_ - block->body.col(0)) / (s_ * s_);
+    for (int m = 0; m < columns_.neighbours; ++m)
+      rows.col(2 + m).segment(at, n).array() = block->neighbours.col(m) / (s_ * s_);
     output.col(0).segment(at, n).array() = block->body.col(2) / (s_ * s_);
     at += n;
   }

@@ -6,8 +6,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kIterations = 3;        // of weights and parameters
-constexpr double kContradicted = 4.0;  // standard deviations: by chance once in an hour
+constexpr int kIterations = 3;        // of the noise and parameters
+constexpr int kWeighings = 3;         // of blocks
+constexpr double kSameWeight = 0.1;   // relative
 constexpr double kLeastShare = 0.02;  // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
 
 // Within a factor of two of what it was, so that the model stays stable.
@@ -25,6 +26,15 @@ WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int mos
   const Eigen::Index p = columns.numParameters();
   power_.setZero(most_blocks, bands_.count());
   weight_.setOnes(most_blocks);
+  present_ = weight_;
+  versions_.assign(static_cast<std::size_t>(most_blocks), 0);
+  sums_.resize(static_cast<std::size_t>(bands_.count()));
+  for (Sum& each : sums_) {
+    each.information.resize(p, p);
+    each.moments.resize(p + 1, p + 1);
+    each.score.resize(p);
+    each.share.resize(p);
+  }
   weights_.noise.setOnes(bands_.count());
   weights_.share_scale = weights_.noise;
   normal_.setZero(p, p);
@@ -41,120 +51,163 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
   weights_.usual = usual;
   result.blocks = blocks_;
   result.theta = start;
-  for (int i = 0; i < kIterations; ++i) {
-    weigh(blocks, result.theta);
-    sum(blocks, prior);
-    const NormalEquations equations(normal_, right_);
-    if (!equations.is_solvable) break;
-    const double b1 = result.theta[kBlockDamping], b0 = result.theta[kBlockStiffness];
-    result.theta = equations.solution;
-    result.theta[kBlockDamping] = withinReach(result.theta[kBlockDamping], b1);
-    result.theta[kBlockStiffness] = withinReach(result.theta[kBlockStiffness], b0);
-    result.theta[kBlockWheelShare] = std::clamp(result.theta[kBlockWheelShare], kLeastShare, 1.0 - kLeastShare);
+  gather(blocks);
+  for (int w = 0; w < kWeighings; ++w) {
+    for (int i = 0; i < kIterations; ++i) {
+      measureNoise(result.theta);
+      sum(prior);
+      const NormalEquations equations(normal_, right_);
+      if (!equations.is_solvable) break;
+      const double b1 = result.theta[kBlockDamping], b0 = result.theta[kBlockStiffness];
+      result.theta = equations.solution;
+      result.theta[kBlockDamping] = withinReach(result.theta[kBlockDamping], b1);
+      result.theta[kBlockStiffness] = withinReach(result.theta[kBlockStiffness], b0);
+      result.theta[kBlockWheelShare] = std::clamp(result.theta[kBlockWheelShare], kLeastShare, 1.0 - kLeastShare);
+    }
+    if (!weigh(blocks, result.theta)) break;
+    gathered_ = 0;
+    gather(blocks);
   }
-  weigh(blocks, result.theta);
+  measureNoise(result.theta);
   describe(blocks, prior, least_inflation, result);
 }
 
-bool WindowFit::isContradicted(const std::vector<const StrutBlock*>& blocks, int count, const BlockPrior& prior,
-                               const WindowEstimate& estimate) const {
-  BlockMatrix normal = BlockMatrix::Zero(normal_.rows(), normal_.cols());
-  normal.diagonal() = prior.stddev.cwiseAbs2().cwiseInverse();
-  BlockVector right = normal.diagonal().cwiseProduct(prior.mean - estimate.theta);
-  double power = 0.0;  // of e, over that of the noise
-  for (int b = blocks_ - count; b < blocks_; ++b) {
-    const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
-    for (int i = 0; i < bands_.count(); ++i) {
-      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      const double weight = weight_[b] / weights_.noise[i], scale = weights_.share_scale[i];
-      normal += weight * informationOf(band, scale);
-      right += weight * scoreOf(band, block, estimate.theta, scale);
-      power += weight_[b] * power_(b, i) / (weights_.noise[i] * count * bands_.count());
-    }
+// Sums over the newest blocks: those of a smaller window before this one are there already.
+void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
+  const auto newest = [&](int i) -> const StrutBlock& { return *blocks[static_cast<std::size_t>(blocks_ - 1 - i)]; };
+  const auto version = [&](int i) -> long& { return versions_[static_cast<std::size_t>(i)]; };
+  bool is_known = gathered_ <= blocks_;
+  for (int i = 0; is_known && i < gathered_; ++i) is_known = version(i) == newest(i).version;
+  if (!is_known) {
+    gathered_ = 0;
+    weight_.setOnes();
   }
-  const NormalEquations equations(normal, right);
-  if (!equations.is_solvable) return false;
-  const Eigen::Vector2d step = equations.solution.head<2>();
-  const Eigen::Matrix2d covariance = std::max(1.0, power) * estimate.inflation *
-                                     covarianceByNoise(normal, equations.inverse, prior, count).topLeftCorner<2, 2>();
-  return step.dot(covariance.inverse() * step) > kContradicted * kContradicted;
+  if (gathered_ == 0) {
+    sum_of_weights_ = 0.0;
+    for (Sum& each : sums_) each.setZero();
+  }
+  for (; gathered_ < blocks_; ++gathered_) {
+    version(gathered_) = newest(gathered_).version;
+    sum_of_weights_ += weight_[gathered_];
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].add(weight_[gathered_], newest(gathered_).bands[i]);
+  }
 }
 
-// The noise's spectrum, and how much a block counts.
-void WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {
-  Eigen::VectorXd &noise = weights_.noise, &scale = weights_.share_scale;
-  noise.setZero();
-  scale.setZero();
-  for (int b = 0; b < blocks_; ++b) weight_[b] = weights_.of(*blocks[static_cast<std::size_t>(b)], bands_, theta);
-  weight_.head(blocks_) /= weight_.head(blocks_).maxCoeff();  // where all are noisy that is the noise
-  const double weights = weight_.head(blocks_).sum();
+void WindowFit::Sum::setZero() {
+  information.setZero();
+  moments.setZero();
+  score.setZero();
+  share.setZero();
+  wheel_power = 0.0;
+}
+
+void WindowFit::Sum::add(double weight, const StrutBlock::Band& band) {
+  information += weight * band.information;
+  moments += weight * band.moments;
+  score += weight * band.score;
+  share += weight * band.share;
+  wheel_power += weight * band.wheel_power;
+}
+
+// How much each block counts.
+// @return true if that has changed.
+bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
-    for (int i = 0; i < bands_.count(); ++i) {
-      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      power_(b, i) = residualPower(band, block, theta) / bands_.size(i);
-      noise[i] += weight_[b] * power_(b, i);
-      scale[i] += weight_[b] * band.wheel_power / bands_.size(i);
-    }
+    for (int i = 0; i < bands_.count(); ++i)
+      power_(b, i) = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands_.size(i);
+    present_[blocks_ - 1 - b] = weights_.of(power_.row(b).matrix());
   }
+  auto present = present_.head(blocks_), weight = weight_.head(blocks_);
+  present /= present.maxCoeff();  // where all are noisy that is the noise
+  const bool has_changed = ((present - weight).abs() > kSameWeight * weight).any();
+  weight = present;
+  return has_changed;
+}
+
+// The noise's spectrum.
+void WindowFit::measureNoise(const BlockVector& theta) {
+  Eigen::VectorXd &noise = weights_.noise, &scale = weights_.share_scale;
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
+    const Sum& sum = sums_[static_cast<std::size_t>(i)];
+    const double wheel = sum.wheel_power / bands_.size(i), power = residualPower(sum.moments, theta) / bands_.size(i);
     // From so many degrees of freedom the power is known to 1 +- sqrt(2 / degrees) only: by that weights are worse than
     // the best ones, and their inverse is too large on average, each by 2 / degrees of the variance.
-    const double degrees = weights * bands_.size(i) / kBinCorrelation;
-    noise[i] = (1.0 + 4.0 / degrees) * std::max(noise[i], least * scale[i]) / weights;
-    scale[i] = scale[i] > 0.0 ? noise[i] * weights / scale[i] : 0.0;
+    const double degrees = sum_of_weights_ * bands_.size(i) / kBinCorrelation;
+    noise[i] = (1.0 + 4.0 / degrees) * std::max(power, least * wheel) / sum_of_weights_;
+    scale[i] = wheel > 0.0 ? noise[i] * sum_of_weights_ / wheel : 0.0;
     if (!(noise[i] > 0.0)) noise[i] = 1.0;  // the sensors read constants
   }
 }
 
-void WindowFit::sum(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior) {
+void WindowFit::sum(const BlockPrior& prior) {
   normal_.setZero();
   normal_.diagonal() = prior.stddev.cwiseAbs2().cwiseInverse();
   right_ = normal_.diagonal().cwiseProduct(prior.mean);
-  for (int b = 0; b < blocks_; ++b) {
-    const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
-    for (int i = 0; i < bands_.count(); ++i) {
-      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      const double weight = weight_[b] / weights_.noise[i], scale = weights_.share_scale[i];
-      const BlockMatrix information = weight * informationOf(band, scale);
-      normal_ += information;
-      right_.noalias() += information * block.at;
-      right_ += weight * band.score;
-      right_[kBlockWheelShare] += weight * (scale - 1.0) * band.score[kBlockWheelShare];
-    }
+  for (int i = 0; i < bands_.count(); ++i) {
+    const Sum& sum = sums_[static_cast<std::size_t>(i)];
+    const double noise = weights_.noise[i], scale = weights_.share_scale[i];
+    BlockMatrix information = sum.information / noise;
+    information.row(kBlockWheelShare) *= scale;
+    information.col(kBlockWheelShare) *= scale;
+    BlockVector score = (sum.score + scale * sum.share) / noise;
+    score[kBlockWheelShare] *= scale;
+    normal_ += information;
+    right_ += score;
   }
 }
 
 void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                          WindowEstimate& result) {
-  sum(blocks, prior);
+  sum(prior);
   const NormalEquations equations(normal_, right_);
   result.covariance = covarianceByNoise(normal_, equations.inverse, prior, blocks_);
   if (!equations.is_solvable) result.covariance.setConstant(std::numeric_limits<double>::infinity());
   result.inflation = std::max(least_inflation, inflation(blocks, result, equations.inverse, prior));
   result.covariance *= result.inflation;
   result.noise = weights_.noise;
+  result.alike = 0.0;
+  if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
 
   double body = 0.0, unexplained = 0.0, rate = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero(), information = age;
   const BlockVector linear = linearPart(result.theta, columns_);
+  for (const Sum& each : sums_) unexplained += residualPower(each.moments, linear);
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
+    const double weight = weight_[blocks_ - 1 - b];
     for (int i = 0; i < bands_.count(); ++i) {
       const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      body += weight_[b] * band.body_power;
-      unexplained += weight_[b] * residualPower(band, block, linear);
-      rate += weight_[b] * band.rate_power;
-      const Eigen::Vector2d own = weight_[b] / weights_.noise[i] * band.information.diagonal().head<2>();
+      body += weight * band.body_power;
+      rate += weight * band.rate_power;
+      const Eigen::Vector2d own = weight / weights_.noise[i] * band.information.diagonal().head<2>();
       information += own;
       age += own * (blocks.back()->end - block.end);
     }
   }
   result.explained = body > 0.0 ? 1.0 - unexplained / body : 0.0;
-  result.setRate(rate / weight_.head(blocks_).sum(), length_);
+  result.setRate(rate / sum_of_weights_, length_);
   result.age = (age.array() / information.array()).maxCoeff();
+}
+
+void WindowFit::widenByAlike(const BlockMatrix& inverse, WindowEstimate& result) {
+  BlockMatrix information = BlockMatrix::Zero(inverse.rows(), inverse.cols());
+  double power = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < bands_.count(); ++i) {
+    const WheelNoise& noise = wheel_noise_[static_cast<std::size_t>(i)];
+    information += noise.information / weights_.noise[i];
+    power = std::min(power, weights_.noise[i] / (1.0 + noise.output));
+  }
+  BlockVector size = BlockVector::Zero(inverse.rows());
+  size.head<2>() = result.theta.head<2>();
+  for (int m = 0; m < columns_.neighbours; ++m) size[columns_.firstNeighbour() + m] = result.theta[m % 2];
+  BlockMatrix drawn = inverse * information;
+  drawn *= power * sum_of_weights_ * size.asDiagonal();
+  for (const int i : {kBlockDamping, kBlockStiffness})
+    result.alike = std::max(result.alike, drawn.row(i).norm() / result.theta[i]);
+  result.covariance.noalias() += drawn * drawn.transpose();
 }
 
 // The mean over b1 and b0 of how much more the estimate varies by the scatter of cells, and of neighbouring blocks
@@ -168,8 +221,8 @@ double WindowFit::inflation(const std::vector<const StrutBlock*>& blocks, const 
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     for (int i = 0; i < bands_.count(); ++i) {
       const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      const Eigen::Vector2d moved = weight_[b] / weights_.noise[i] * inverse.topRows<2>() *
-                                    scoreOf(band, block, result.theta, weights_.share_scale[i]);
+      const Eigen::Vector2d moved = weight_[blocks_ - 1 - b] / weights_.noise[i] * inverse.topRows<2>() *
+                                    scoreOf(band, result.theta, weights_.share_scale[i]);
       const Eigen::Matrix2d with_previous = 0.5 * moved * previous_.col(i).transpose();
       scattered += moved * moved.transpose() + with_previous + with_previous.transpose();
       previous_.col(i) = moved;
@@ -190,9 +243,9 @@ double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blo
     Eigen::Vector2d score = Eigen::Vector2d::Zero();
     for (int i = 0; i < bands_.count(); ++i) {
       const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      const double weight = weight_[b] / weights_.noise[i];
+      const double weight = weight_[blocks_ - 1 - b] / weights_.noise[i];
       information += weight * band.information.topLeftCorner<2, 2>();
-      score += weight * scoreOf(band, block, theta, weights_.share_scale[i]).head<2>();
+      score += weight * scoreOf(band, theta, weights_.share_scale[i]).head<2>();
     }
     if (!(information.determinant() > 0.0)) continue;
     own_covariance_.push_back(information.inverse());

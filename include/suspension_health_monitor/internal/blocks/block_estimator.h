@@ -32,6 +32,31 @@ class BlockEstimator {
   /// @return the estimate; nullptr: none yet, or too little is known.
   const WindowEstimate* update();
 
+  /// @return of all blocks kept, with the data alone, up to kSlowEvery blocks ago.
+  const std::optional<WindowEstimate>& ofAllBlocks() const { return of_all_; }
+
+  /// @return of some of the blocks kept, with the data alone; nothing if they do not tell. Not for the sample path.
+  /// @param newest  age of the newest block, 0: of all.  @param count  blocks.
+  std::optional<WindowEstimate> ofBlocks(int newest, int count);
+
+  /// @return what update() could not take; nullptr: it had nothing, or has an estimate.
+  const WindowEstimate* refused() const { return is_refused_ ? &best_ : nullptr; }
+
+  /// @param each  as WindowFit::setWheelNoise.
+  void setWheelNoise(const std::vector<WheelNoise>& each) { window_fit_.setWheelNoise(each); }
+
+  /// A block that is kept, 0 the newest, to have its instruments predicted again: then call linearise() with it.
+  StrutBlock& block(int age);
+  int count() const { return count_; }  ///< blocks kept
+  void linearise(StrutBlock& block) { equations_.linearise(theta_, block); }
+
+  /// What all blocks told of slow parameters is not believed: it was told without the wheels' noise.
+  void forgetSlow();
+
+  /// What is known of a slow parameter from all blocks is so many times as large now, as a neighbour's coefficient is
+  /// that has changed with its strut.  @param stddev  of the factor.
+  void scaleSlow(int parameter, double factor, double stddev);
+
   /// @return the estimate over all blocks so far, those of `before` among them; empty: too little is known. Of no more
   /// blocks than are kept it is iterated until it stands still. Not for the sample path.
   std::optional<WindowEstimate> overTheDrive();
@@ -53,10 +78,12 @@ class BlockEstimator {
 
  private:
   std::vector<const StrutBlock*>& newest(int count);
-  StrutBlock& block(int age);  // 0: the newest
+  void scaleSlow();
   bool start();
   void learnSlow();
+  void lookForDelay();
   bool contradictsSlow();
+  bool contradictsShorter(const WindowEstimate& estimate);
   void retire(const StrutBlock& block);
   void refine(int window, const BlockPrior& prior);
   bool isStale(const StrutBlock& block) const;
@@ -67,15 +94,21 @@ class BlockEstimator {
   WindowFit window_fit_;
   std::vector<StrutBlock> ring_;
   int count_ = 0, head_ = -1;
-  int updates_ = 0;
-  BlockPrior first_, slow_;  // of nothing but the options; with what all blocks tell of slow parameters
-  BlockWeights weights_;     // of all blocks; with what is usual
+  int updates_ = 0, waits_ = 0;       // blocks until another start
+  BlockPrior first_, slow_, scaled_;  // of nothing but the options; with what all blocks tell of slow parameters; now
+  BlockVector factor_, factor_stddev_;
+  BlockWeights weights_;  // of all blocks; with what is usual
   double scatter_ = 1.0;
   DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;
-  bool has_theta_ = false;
+  bool has_theta_ = false, is_refused_ = false;
   double newest_worst_ = 0.0;
   WindowEstimate best_, trial_;
+  std::optional<WindowEstimate> of_all_;
+  struct Shorter {
+    Eigen::Vector2d theta, stddev;
+  };
+  std::vector<Shorter> shorter_;  // windows of the newest update
   std::vector<const StrutBlock*> pointers_;
   std::vector<double> sorted_;
 };

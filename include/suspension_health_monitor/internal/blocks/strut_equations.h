@@ -33,6 +33,7 @@ struct BlockColumns {
   int numParameters() const { return kNumBlockParameters + forces + neighbours; }
   int firstForce() const { return kNumBlockParameters; }
   int firstNeighbour() const { return kNumBlockParameters + forces; }
+  bool isNeighbour(int i) const { return i >= firstNeighbour(); }
 };
 
 /// One block of one strut top: its spectra, and its equations linearised at `at`.
@@ -45,18 +46,21 @@ struct StrutBlock {
   Eigen::ArrayXXcd predicted_neighbours;  ///< the same as the model has them, driven by the wheels
   Eigen::ArrayXcd predicted_travel;       ///< H_0 of the own w'' - z'' likewise; empty: a strut alone
 
-  /// Sums over the bins of one band at theta = at. Re(a* b) of complex columns, Z instruments, R regressors, e
-  /// residual.
+  /// Sums over the bins of one band, Re(a* b) of complex columns: Z instruments, R regressors, both at theta = at, and
+  /// c = e + R at (but for r) what is left of the residual e at theta = 0. So blocks add up, whatever they were
+  /// linearised at: e = c - R theta.
   struct Band {
     Eigen::MatrixXd information;  ///< Z'R
-    Eigen::VectorXd score;        ///< Z'e
-    Eigen::MatrixXd moments;      ///< R'R with the residual as the last column
+    Eigen::VectorXd score;        ///< Z'c
+    Eigen::VectorXd share;        ///< Z'R of r, times r
+    Eigen::MatrixXd moments;      ///< R'R with c as the last column
     double wheel_power = 0.0;     ///< |W^|^2
     double body_power = 0.0;      ///< |H_0(Y)|^2
     double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
   };
   BlockVector at;
   std::vector<Band> bands;
+  long version = 0;  ///< of the linearisation: no two of an estimator are alike
 };
 
 /// The equations of a strut top in the bins of one block. With y = z'', x = w'' (delayed by tau), s = j w_k,
@@ -77,8 +81,8 @@ class StrutEquations {
   /// Computes the sums of a block's bands at theta. Cost: O(bins * parameters^2), no allocation.
   void linearise(const BlockVector& theta, StrutBlock& block);
 
-  /// @return b1, b0 of weighted least squares over blocks, as a start.
-  Eigen::Vector2d start(const std::vector<const StrutBlock*>& blocks);
+  /// @return b1, b0 and the neighbours' columns of weighted least squares over blocks, as a start.
+  Eigen::VectorXd start(const std::vector<const StrutBlock*>& blocks);
 
   const BlockBand& band() const { return band_; }
   const NoiseBands& noiseBands() const { return noise_bands_; }
@@ -92,6 +96,7 @@ class StrutEquations {
   NoiseBands noise_bands_;
   BlockColumns columns_;
   Modulation undelayed_, delayed_;
+  long versions_ = 0;
   Eigen::ArrayXcd s_;
   Eigen::ArrayXcd a_, g_, gain_, x0_, x1_, x2_, wheel_, e_over_g_;
   Eigen::ArrayXd rho_, rho_slope_;

@@ -29,6 +29,7 @@ struct WindowEstimate {
   BlockMatrix covariance;  ///< of theta
   double inflation = 1.0;  ///< of the covariance: cells scatter so much more than their noise explains
   double explained = 0.0;  ///< share of the body's power by b1 and b0 alone
+  double alike = 0.0;      ///< relative standard deviation of b1 or b0 by noise of neighbours' wheels, see WindowFit
   double rate = 0.0;       ///< rms of the travel rate [m/s]
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
   Eigen::VectorXd noise;   ///< power of e per bin of each band: the unexplained spectrum
@@ -53,16 +54,16 @@ struct BlockWeights {
 
   /// @return 1, or less for a block that is unusually noisy at theta.
   double of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const;
+  /// @param power  of e per bin of a block, by band.
+  double of(const Eigen::RowVectorXd& power) const;
 };
 
-/// Power of the residual in a band, by its expansion about the block's theta: it depends on b1, b0 and the columns
-/// linearly, but for the weight 1 / A.
-double residualPower(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta);
+/// Power of the residual at theta in a band, or in a sum of bands. It is linear in the parameters, but for r, which it
+/// does not depend on, and for the weight 1 / A.
+double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta);
 
-/// The score Z'e of a band at theta, by its expansion about the block's, and its information, with the column of r
-/// scaled.
-BlockVector scoreOf(const StrutBlock::Band& band, const StrutBlock& block, const BlockVector& theta,
-                    double share_scale);
+/// The score Z'e of a band at theta, and its information, with the column of r scaled.
+BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, double share_scale);
 BlockMatrix informationOf(const StrutBlock::Band& band, double share_scale);
 
 /// Solves normal equations whose units differ by orders of magnitude.
@@ -81,6 +82,12 @@ BlockMatrix covarianceByNoise(const BlockMatrix& normal, const BlockMatrix& inve
 /// @return theta without the force columns: the linear strut.
 BlockVector linearPart(const BlockVector& theta, const BlockColumns& columns);
 
+/// What noise of power 1 of every wheel of a vehicle does in one band of a strut top's equations.
+struct WheelNoise {
+  BlockMatrix information;  ///< that it adds to Z'R, per block
+  double output = 0.0;      ///< its power in e, per bin
+};
+
 /// Weighted least squares with instruments over a window of linearised blocks.
 ///
 /// The power s2 of e in each band is measured: the mean of the window's cells (block times band) at the estimate. It
@@ -89,7 +96,14 @@ BlockVector linearPart(const BlockVector& theta, const BlockColumns& columns);
 /// A block that is unusual(ly noisy) counts less (BlockWeights). Covariance: bins under a Hann window are correlated,
 /// and so are blocks that overlap by half (kBinCorrelation, kBlockCorrelation), times the factor by which the scores of
 /// cells scatter more than that. Source: Pintelon, Schoukens (2012), ch. 9 and 11; sandwich covariance after P. J.
-/// Huber, The behavior of maximum likelihood estimates under nonstandard conditions (1967). Cost: O(blocks * bands *
+/// Huber, The behavior of maximum likelihood estimates under nonstandard conditions (1967).
+///
+/// Noise of the neighbours' wheels is in their regressors and in all instruments, and counts as information N of the
+/// sum I. It draws coefficients to those of struts that move like them by I^-1 N theta: nothing, unless the struts move
+/// so much alike that noise tells them apart. Then theta is not known, but for its size, that of the own b1 and b0:
+///     covariance + I^-1 N diag(size^2) N' I^-1'.
+/// Its power is what the band with least of it in e lets it have, if the body's sensor is as noisy as the wheels'.
+/// Windows that are nested share their sums. Cost: O(blocks * bands *
 /// parameters^2), no allocation after the construction.
 class WindowFit {
  public:
@@ -106,11 +120,8 @@ class WindowFit {
   void fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
            const Eigen::VectorXd& usual, double least_inflation, WindowEstimate& result);
 
-  /// @return whether the last `count` blocks of the newest fit alone would make another strut of its estimate: by the
-  /// step of Gauss-Newton from there, against its covariance by what these blocks leave unexplained (C. R. Rao's score
-  /// test, 1948).
-  bool isContradicted(const std::vector<const StrutBlock*>& blocks, int count, const BlockPrior& prior,
-                      const WindowEstimate& estimate) const;
+  /// @param each  by band; empty: a strut alone.
+  void setWheelNoise(const std::vector<WheelNoise>& each) { wheel_noise_ = each; }
 
   /// @return power of e per bin, blocks by bands, of the newest fit.
   auto power() const { return power_.topRows(blocks_); }
@@ -123,8 +134,21 @@ class WindowFit {
   double scatterBetweenBlocks(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta);
 
  private:
-  void weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta);
-  void sum(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior);
+  /// Of the same band over blocks, weighted.
+  struct Sum {
+    Eigen::MatrixXd information, moments;
+    Eigen::VectorXd score, share;
+    double wheel_power = 0.0;
+
+    void setZero();
+    void add(double weight, const StrutBlock::Band& band);
+  };
+
+  void gather(const std::vector<const StrutBlock*>& blocks);
+  bool weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta);
+  void measureNoise(const BlockVector& theta);
+  void sum(const BlockPrior& prior);
+  void widenByAlike(const BlockMatrix& inverse, WindowEstimate& result);
   void describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                 WindowEstimate& result);
   double inflation(const std::vector<const StrutBlock*>& blocks, const WindowEstimate& result,
@@ -135,7 +159,13 @@ class WindowFit {
   BlockColumns columns_;
   int blocks_ = 0;
   Eigen::ArrayXXd power_;  // of e per bin, blocks by bands
-  Eigen::ArrayXd weight_;  // of blocks
+  Eigen::ArrayXd weight_;  // of blocks, the newest first
+  Eigen::ArrayXd present_;
+  std::vector<Sum> sums_;  // by band, over the newest gathered_ blocks
+  std::vector<long> versions_;
+  int gathered_ = 0;
+  double sum_of_weights_ = 0.0;
+  std::vector<WheelNoise> wheel_noise_;  // by band
   BlockWeights weights_;
   BlockMatrix normal_;
   BlockVector right_;

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
+
+namespace suspension_health_monitor {
+
+/// What the rows of all tops say: coefficients of every strut's travel rate and travel, and how sure they are.
+struct BodyRows {
+  Eigen::MatrixXd rate, travel;             ///< b1_ij [1/s], b0_ij [1/s^2], tops by struts
+  std::vector<Eigen::MatrixXd> covariance;  ///< by top that of its rates, then its travels
+  bool is_by_body = false;  ///< one IMU of the body tells of all tops: no more rows are independent than it has motions
+
+  Eigen::Index size() const { return rate.rows(); }
+};
+
+/// Two struts that an anti-roll bar may join.
+using StrutPair = std::pair<std::size_t, std::size_t>;
+
+/// @return struts side by side: as far ahead as one another, to a tenth of the wheelbase, on both sides of the middle.
+std::vector<StrutPair> pairsOf(const StrutPlaces& places);
+
+/// A rigid body on struts, as far as its rows tell.
+struct BodyFitResult {
+  enum class Bars { kNone, kStiffness, kStiffnessAndDamping };
+  struct Bar {
+    StrutPair struts;
+    Measured stiffness, damping;  ///< its share of b0 and b1 of the first strut [1/s^2], [1/s]
+  };
+
+  double phi = 0.0;  ///< error of the model per coefficient, over the largest of its kind in its row [-]
+  std::array<std::optional<double>, 3> phi_of;  ///< by Bars; none: not tried, or no fit
+  Bars bars = Bars::kNone;                      ///< that are named
+  std::vector<Bar> found;                       ///< these
+  std::vector<Measured> b1, b0;  ///< by strut, its own column at its own top with its share of bars [1/s], [1/s^2]
+
+  /// @param covariance  of b1 and b0 of a strut by noise and scatter, as its estimate has it.
+  /// @param own  b1, b0 of the estimate.
+  /// @param friction_damping  what friction counts as in b1, TopEstimate::frictionDamping(): a damper that is not
+  /// linear looks like friction, in part or as a whole.
+  /// @return that of their absolute values: with the model's error, as far as the rows of all tops leave it in the
+  /// strut's own column. A change has none of it.
+  Eigen::Matrix2d absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own, const Eigen::Matrix2d& covariance,
+                                     double friction_damping) const;
+
+  Measured mass_to_pitch_inertia{}, mass_to_roll_inertia{};  ///< M/Iyy, M/Ixx [1/m^2]; infinite stddev: not seen
+  Measured product{};                                        ///< their common term, M (I^-1)_xy [1/m^2]
+  Measured x{}, y{};                                         ///< of the centre of gravity [m]
+};
+
+/// Minimum-distance fit of a rigid body on linear struts and anti-roll bars to the rows of its tops:
+///     B1 = Q S Q' (diag(c) + sum of c_p L_p),  B0 = Q S Q' (diag(k) + sum of k_p L_p),
+/// where row i of Q is (1, x_i, y_i), S (symmetric, S_11 = 1) is what the body's mass and inertia make of a force, c
+/// and k are over its mass, and L_p is the difference that a bar resists. Rows have noise, and a model error of phi
+/// times the largest coefficient of their kind: links, side forces of tyres and laws that are not linear are not in the
+/// model, and neither blocks nor bands disagree about them, but no rigid body has such rows. phi is what makes chi2
+/// equal to its degrees of freedom. Sources: minimum distance: G. Chamberlain, Panel data, Handbook of Econometrics 2
+/// (1984), 3.; a common error that chi2 tells: R. T. Birge, The calculation of errors by the method of least squares
+/// (1932).
+class BodyFit {
+ public:
+  /// @param places  by strut, from any point of the body.  @param pairs  that a bar may join.
+  BodyFit(const StrutPlaces& places, const std::vector<StrutPair>& pairs);
+
+  /// @param halves  rows of two sets of blocks that share no reading, by which bars must agree; empty: no bar is named.
+  /// @return nothing if the solver fails.
+  std::optional<BodyFitResult> fit(const BodyRows& rows, const std::vector<BodyRows>& halves = {}) const;
+
+ private:
+  struct Solution {
+    Eigen::VectorXd parameters;
+    Eigen::MatrixXd covariance;
+    double chi2 = 0.0;
+    double phi = 0.0;
+  };
+
+  std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
+                                const Eigen::VectorXd& start) const;
+  std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars) const;
+  bool hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars) const;
+  bool isNamed(const Solution& without, const Solution& with, BodyFitResult::Bars bars,
+               const std::vector<BodyRows>& halves) const;
+  /// @return M/Iyy, M/Ixx, their common term, x and y of the centre of gravity.
+  Eigen::VectorXd inertia(const Eigen::MatrixXd& s) const;
+  BodyFitResult describe(const Solution& solution, BodyFitResult::Bars bars) const;
+
+  Eigen::MatrixXd q_;               // struts by motions, scaled
+  Eigen::Vector2d middle_, scale_;  // of x, y
+  bool sees_pitch_, sees_roll_;
+  std::vector<StrutPair> pairs_;
+};
+
+}  // namespace suspension_health_monitor

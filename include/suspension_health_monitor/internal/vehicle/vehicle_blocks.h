@@ -1,0 +1,116 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/internal/blocks/block_estimator.h"
+#include "suspension_health_monitor/internal/blocks/sliding_friction.h"
+#include "suspension_health_monitor/internal/blocks/strut_blocks.h"
+#include "suspension_health_monitor/internal/vehicle/body_fit.h"
+#include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_spectra.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_tops.h"
+
+namespace suspension_health_monitor {
+
+/// What the blocks tell of one strut of a body: b1 and b0 are the coefficients of its own travel at its own top, with
+/// its share of an anti-roll bar. Their covariance is that of noise and of the scatter of blocks: a change is judged by
+/// it. That of absolute values has the model's error as well (BodyFit).
+struct TopEstimate : BlockEstimate {
+  std::size_t strut = 0;
+  double friction = 0.0;  ///< over the body's mass [m/s^2]
+
+  /// @return the damping that takes as much power as friction does, of a normal travel rate [1/s].
+  double frictionDamping() const { return rate > 0.0 ? std::sqrt(2.0 / M_PI) * friction / rate : 0.0; }
+};
+
+/// Why there is no estimate of a strut.
+enum class TopDoubt {
+  kNone,
+  kFewBlocks,    ///< too few blocks yet
+  kTracksAlike,  ///< struts move so much alike that their wheels' noise is what tells them apart
+  kUncertain,    ///< too little motion, or too much of it is not explained
+};
+
+/// From the readings of all sensors of a vehicle, each on its own stamps, to estimates of every strut after every half
+/// block: VehicleSpectra -> StrutBlock -> BlockEstimator, one per strut top. The rows of a top hold the travel and
+/// travel rate of all struts, since all move it through the body:
+///     z_i'' = sum_j a_ij F_j,  a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx.
+/// Instruments are what the model of all rows makes of the wheels (CoupledTops). A neighbour's columns are slow, but in
+/// proportion to its own: b_ij / b_jj = a_ij / a_jj belongs to the body, whatever wears.
+///
+/// Work is spread: a reading that completes a half block fills the blocks, and each reading after it updates one top.
+class VehicleBlocks {
+ public:
+  /// @param period  the longest sampling time of the streams [s].
+  VehicleBlocks(const VehicleTops& tops, const BlockOptions& options, double period);
+
+  /// Take in one reading [m/s^2], [rad/s]. Stamps of a stream increase; after a clock that went back: restart().
+  /// @return an estimate that is new; nullptr: none is.
+  const TopEstimate* pushWheel(std::size_t strut, Stamp stamp, double acceleration);
+  const TopEstimate* pushTop(std::size_t strut, Stamp stamp, double acceleration);
+  const TopEstimate* pushBody(Stamp stamp, const Eigen::Vector3d& acceleration, const Eigen::Vector3d& rate);
+  const TopEstimate* pushForce(std::size_t force, Stamp stamp, double value);
+
+  /// @return the newest estimate of a strut; nullptr: none yet.
+  const TopEstimate* estimate(std::size_t strut) const { return has_[strut] ? &estimates_[strut] : nullptr; }
+  TopDoubt doubt(std::size_t strut) const { return doubts_[strut]; }
+
+  /// @return the estimate of a strut over all blocks since restart(); nothing if they do not tell, or if tracks are too
+  /// much alike. Not for the sample path.
+  std::optional<WindowEstimate> overTheDrive(std::size_t strut);
+
+  /// @return what all blocks kept say of all tops, with the data alone; nothing if they do not. For BodyFit.
+  std::optional<BodyRows> rows() const;
+  /// @return the rows of the older and of the newer half of the blocks; empty if they do not tell. Not for the sample
+  /// path.
+  std::vector<BodyRows> rowsOfHalves();
+
+  const BlockEstimator& estimator(std::size_t strut) const { return estimators_[strut]; }
+  const VehicleTops& tops() const { return tops_; }
+  double length() const { return length_; }  ///< T of the blocks [s]
+
+  /// Another drive: blocks are forgotten, estimates stay until there are new ones.
+  void restart() { begin(length_); }
+
+ private:
+  void begin(double length);
+  std::optional<double> timeOf(Stamp stamp);
+  const TopEstimate* work();
+  void takeBlock();
+  void fillNeighbours();
+  void predict(int age);
+  const TopEstimate* update(std::size_t strut);
+  void scaleNeighbours(std::size_t strut);
+  void finishRound();
+  void addRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const;
+  void follow();
+
+  VehicleTops tops_;
+  BlockOptions options_;
+  double period_, length_;
+  BlockColumns columns_;
+  std::optional<Stamp> origin_;
+  std::optional<VehicleSpectra> spectra_;
+  std::optional<CoupledTops> model_;
+  std::vector<BlockEstimator> estimators_;  // by strut, as all that follow
+  std::vector<SlidingFriction> friction_;
+  std::vector<TopEstimate> estimates_;
+  std::vector<bool> has_;
+  std::vector<TopDoubt> doubts_;
+  std::vector<const StrutBlock*> blocks_;
+  Modulation modulation_;
+  Eigen::ArrayXXcd motions_;  // H_1, H_0 of every w'' - z''
+  TopRows rows_;
+  bool has_model_ = false;
+  std::size_t to_update_ = 0;  // tops that the newest block has not come to yet
+  int to_predict_ = 0;         // blocks to be predicted again, the newest last
+  long next_half_ = 1;         // the second half of the next block
+  long newest_half_ = 0;       // of the newest block
+};
+
+}  // namespace suspension_health_monitor

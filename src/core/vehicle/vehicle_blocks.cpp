@@ -1,0 +1,268 @@
+#include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kStepsOfFriction = 4096.0;                 // per block: a thousand and more per bounce
+constexpr double kBlocksOfMean = 2.0;                       // memory of the wheel's slow mean
+constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;  // of the bounce in a block, as in StrutBlocks
+// Instruments need not be exact: a model that is wrong by this share of a row's largest coefficient costs its square of
+// the information.
+constexpr double kStaleRows = 0.1;
+constexpr double kChanged = 2.0;      // standard deviations from which a neighbour counts as changed
+constexpr double kMostlyAlike = 0.5;  // of the variance
+
+std::size_t checked(const VehicleTops& tops) {
+  if (tops.size() < 2 || tops.size() > kMostStruts) throw std::invalid_argument("2 to 8 struts are a vehicle");
+  for (const VehicleTops::Top& top : tops.tops)
+    if (!top.has_own && !top.position) throw std::invalid_argument("a strut without a sprung IMU needs a position");
+  return tops.size();
+}
+
+}  // namespace
+
+VehicleBlocks::VehicleBlocks(const VehicleTops& tops, const BlockOptions& options, double period)
+    : tops_(tops),
+      options_(options),
+      period_(period),
+      length_(options.length),
+      columns_{static_cast<int>(tops.known_forces) + (tops.looks_for_friction ? 1 : 0),
+               2 * (static_cast<int>(checked(tops)) - 1)},
+      estimates_(tops.size()),
+      has_(tops.size(), false),
+      doubts_(tops.size(), TopDoubt::kFewBlocks),
+      blocks_(tops.size()),
+      modulation_(BlockBand(length_, period)) {
+  for (std::size_t i = 0; i < tops.size(); ++i) estimates_[i].strut = i;
+  begin(length_);
+}
+
+void VehicleBlocks::begin(double length) {
+  const BlockBand band(length, period_);
+  std::vector<BlockEstimator> before;
+  before.swap(estimators_);
+  length_ = length;
+  modulation_ = Modulation(band);
+  spectra_.emplace(band, tops_);
+  friction_.assign(tops_.size(), SlidingFriction(length / kStepsOfFriction, kBlocksOfMean * length));
+  for (std::size_t i = 0; i < tops_.size(); ++i) {
+    estimators_.emplace_back(band, columns_, options_);
+    if (!before.empty() && before[i].hasTheta()) estimators_[i].begin(before[i].theta(), before[i].slowPrior());
+  }
+  model_.emplace(band, tops_.size(), tops_.known_forces);
+  rows_ = model_->rows();
+  has_model_ = false;
+  const auto n = static_cast<Eigen::Index>(tops_.size());
+  motions_.setZero(band.size(), 2 * n);
+  origin_.reset();
+  to_update_ = tops_.size();
+  to_predict_ = 0;
+  next_half_ = 1;
+}
+
+std::optional<double> VehicleBlocks::timeOf(Stamp stamp) {
+  if (!origin_) origin_ = stamp;
+  const double time = toSeconds(stamp - *origin_);
+  if (time < 0.0) return std::nullopt;  // another stream began later
+  return time;
+}
+
+const TopEstimate* VehicleBlocks::pushWheel(std::size_t strut, Stamp stamp, double acceleration) {
+  const auto time = timeOf(stamp);
+  if (!time) return nullptr;
+  double direction = 0.0;
+  if (tops_.looks_for_friction) {
+    const BlockEstimator& estimator = estimators_[strut];
+    const BlockVector& theta = estimator.theta();
+    if (estimator.hasTheta())
+      friction_[strut].setStrut(theta[kBlockDamping], theta[kBlockStiffness], theta[columns_.firstForce()]);
+    direction = friction_[strut].push(*time, acceleration);
+  }
+  spectra_->pushWheel(strut, *time, acceleration, direction);
+  return work();
+}
+
+const TopEstimate* VehicleBlocks::pushTop(std::size_t strut, Stamp stamp, double acceleration) {
+  const auto time = timeOf(stamp);
+  if (!time) return nullptr;
+  spectra_->pushTop(strut, *time, acceleration);
+  return work();
+}
+
+const TopEstimate* VehicleBlocks::pushBody(Stamp stamp, const Eigen::Vector3d& acceleration,
+                                           const Eigen::Vector3d& rate) {
+  const auto time = timeOf(stamp);
+  if (!time) return nullptr;
+  spectra_->pushBody(*time, acceleration, rate);
+  return work();
+}
+
+const TopEstimate* VehicleBlocks::pushForce(std::size_t force, Stamp stamp, double value) {
+  const auto time = timeOf(stamp);
+  if (!time) return nullptr;
+  spectra_->pushForce(force, *time, value);
+  return work();
+}
+
+// One portion per reading.
+const TopEstimate* VehicleBlocks::work() {
+  if (to_update_ < tops_.size()) {
+    const TopEstimate* found = update(to_update_++);
+    if (to_update_ == tops_.size()) finishRound();
+    return found;
+  }
+  if (to_predict_ > 0) {
+    predict(--to_predict_);
+    for (BlockEstimator& each : estimators_) each.linearise(each.block(to_predict_));
+    return nullptr;
+  }
+  // A stream that is silent holds the others up only as long as their half blocks are kept.
+  next_half_ = std::max(next_half_, spectra_->newestOpen() - FourierIntegrals::kHalves + 2);
+  if (spectra_->isPassed(next_half_)) takeBlock();
+  return nullptr;
+}
+
+void VehicleBlocks::takeBlock() {
+  const long half = next_half_++;
+  if (!spectra_->isWhole(half)) return;
+  for (std::size_t i = 0; i < tops_.size(); ++i) spectra_->fill(i, half, estimators_[i].next());
+  fillNeighbours();
+  predict(0);
+  newest_half_ = half;
+  to_update_ = 0;
+}
+
+void VehicleBlocks::fillNeighbours() {
+  Eigen::ArrayXcd motion(motions_.rows());
+  for (std::size_t j = 0; j < tops_.size(); ++j) {
+    const StrutBlock& block = estimators_[j].block(0);
+    modulation_.setDelay(estimators_[j].hasTheta() ? estimators_[j].slowPrior().mean[kBlockDelay] : 0.0);
+    for (const std::size_t p : {1, 0}) {
+      modulation_.apply(p, block.wheel, motion);
+      motions_.col(static_cast<Eigen::Index>(2 * j + 1 - p)) = motion - block.body.col(static_cast<Eigen::Index>(p));
+    }
+  }
+  for (std::size_t i = 0; i < tops_.size(); ++i)
+    for (std::size_t j = 0; j < tops_.size(); ++j)
+      if (j != i)
+        estimators_[i].block(0).neighbours.middleCols(neighbourColumn(i, j), 2) =
+            motions_.middleCols(static_cast<Eigen::Index>(2 * j), 2);
+}
+
+// Without a model what was measured is all there is.
+void VehicleBlocks::predict(int age) {
+  for (std::size_t i = 0; i < tops_.size(); ++i) blocks_[i] = &estimators_[i].block(age);
+  if (has_model_) model_->predict(blocks_, tops_.looks_for_friction ? 1 : 0);
+  for (std::size_t i = 0; i < tops_.size(); ++i) {
+    StrutBlock& block = estimators_[i].block(age);
+    if (!has_model_) {
+      block.predicted_neighbours = block.neighbours;
+      block.predicted_travel = motions_.col(static_cast<Eigen::Index>(2 * i + 1));
+      continue;
+    }
+    block.predicted_travel = model_->travel().col(static_cast<Eigen::Index>(i));
+    for (std::size_t j = 0; j < tops_.size(); ++j) {
+      if (j == i) continue;
+      const int at = neighbourColumn(i, j);
+      block.predicted_neighbours.col(at + 1) = model_->travel().col(static_cast<Eigen::Index>(j));
+      block.predicted_neighbours.col(at) = modulation_.s() * block.predicted_neighbours.col(at + 1);
+    }
+  }
+}
+
+const TopEstimate* VehicleBlocks::update(std::size_t strut) {
+  BlockEstimator& estimator = estimators_[strut];
+  scaleNeighbours(strut);
+  const WindowEstimate* found = estimator.update();
+  doubts_[strut] = TopDoubt::kNone;
+  if (found != nullptr && !has_model_) {
+    doubts_[strut] = TopDoubt::kFewBlocks;
+    return nullptr;
+  }
+  if (found == nullptr) {
+    const WindowEstimate* refused = estimator.refused();
+    const bool are_few = estimator.count() < BlockEstimator::kWindows.front();
+    doubts_[strut] = are_few ? TopDoubt::kFewBlocks
+                     : refused != nullptr && refused->alike > std::sqrt(kMostlyAlike) * refused->worst()
+                         ? TopDoubt::kTracksAlike
+                         : TopDoubt::kUncertain;
+    return nullptr;
+  }
+  TopEstimate& estimate = estimates_[strut];
+  static_cast<WindowEstimate&>(estimate) = *found;
+  estimate.length = length_;
+  if (tops_.looks_for_friction) estimate.friction = found->theta[columns_.firstForce()];
+  estimate.stamp = *origin_ + fromSeconds(static_cast<double>(newest_half_ + 1) * length_ / 2.0);
+  has_[strut] = true;
+  return &estimate;
+}
+
+// b_ij / b_jj belongs to the body: where strut j differs now from what all blocks say of it, so do its columns here.
+void VehicleBlocks::scaleNeighbours(std::size_t strut) {
+  for (std::size_t j = 0; j < tops_.size(); ++j) {
+    const auto& all = estimators_[j].ofAllBlocks();
+    if (j == strut || !all || !has_[j]) continue;
+    const TopEstimate& now = estimates_[j];
+    for (const int i : {kBlockDamping, kBlockStiffness}) {
+      const double factor = now.theta[i] / all->theta[i], stddev = std::sqrt(now.covariance(i, i)) / all->theta[i];
+      const bool has_changed = std::abs(factor - 1.0) > kChanged * stddev;
+      const int column = columns_.firstNeighbour() + neighbourColumn(strut, j) + i;
+      estimators_[strut].scaleSlow(column, has_changed ? factor : 1.0, has_changed ? stddev : 0.0);
+    }
+  }
+}
+
+// All tops are up to date: so may be the model of them all.
+void VehicleBlocks::finishRound() {
+  for (const BlockEstimator& each : estimators_)
+    if (!each.hasTheta()) return;
+  const std::size_t n = tops_.size();
+  bool is_stale = !has_model_;
+  const int known = columns_.firstForce() + (tops_.looks_for_friction ? 1 : 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const BlockVector& theta = estimators_[i].theta();
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t j = 0; j < n; ++j) {
+      const int at = j == i ? 0 : columns_.firstNeighbour() + neighbourColumn(i, j);
+      rows_.rate(row, static_cast<Eigen::Index>(j)) = theta[at];
+      rows_.travel(row, static_cast<Eigen::Index>(j)) = theta[at + 1];
+    }
+    for (std::size_t k = 0; k < tops_.known_forces; ++k)
+      rows_.force(row, static_cast<Eigen::Index>(k)) = theta[known + static_cast<int>(k)];
+    const TopRows& before = model_->rows();
+    const auto moved = [&](const Eigen::MatrixXd& now, const Eigen::MatrixXd& then) {
+      return (now.row(row) - then.row(row)).cwiseAbs().maxCoeff() > kStaleRows * now.row(row).cwiseAbs().maxCoeff();
+    };
+    is_stale = is_stale || moved(rows_.rate, before.rate) || moved(rows_.travel, before.travel);
+  }
+  if (is_stale) {
+    model_->setRows(rows_);
+    if (!has_model_)
+      for (BlockEstimator& each : estimators_) each.forgetSlow();
+    has_model_ = true;
+    for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
+    to_predict_ = estimators_.front().count();
+  }
+  follow();
+}
+
+// As StrutBlocks does for one strut: by the struts that have an estimate.
+void VehicleBlocks::follow() {
+  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
+  for (const BlockEstimator& each : estimators_) {
+    const double periods = length_ * std::sqrt(each.theta()[kBlockStiffness]) / (2.0 * M_PI);
+    slowest = std::min(slowest, periods);
+    fastest = std::max(fastest, periods);
+  }
+  if (slowest < kFewestPeriods)
+    begin(2.0 * length_);
+  else if (slowest > kMostPeriods)
+    begin(0.5 * length_);
+}
+
+}  // namespace suspension_health_monitor
