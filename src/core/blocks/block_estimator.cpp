@@ -13,14 +13,17 @@ constexpr int kSlowEvery = 4;                            // blocks: all blocks t
 constexpr double kSlowFactor = 1.5;  // standard deviations of what changes slowly count so much more for fewer blocks
 constexpr double kContradiction = 3.0;  // standard deviations
 constexpr double kLost = 0.3;           // relative standard deviation from which there is no estimate to linearise at
-// Share of the body's power below which what was found is noise's, in which some strut is found now and then: half of
-// what a valid estimate explains.
-constexpr double kLeastTold = 0.25;
+constexpr double kNothing = 0.5;        // relative standard deviation from which blocks tell nothing of the strut
+constexpr double kHalf = 0.5;           // of the body's power
 constexpr int kStartBlocks = 8, kStartSteps = 8;
 constexpr int kRefined = 8;          // blocks that are linearised anew per update
 constexpr double kStale = 0.02;      // relative change of b1 or b0 since the linearisation
 constexpr double kStalePhase = 0.1;  // of the phase that the delay makes in the last bin [rad]
 constexpr double kStaleShare = 0.2;  // of r
+
+// At rest now and then a strut is found in the noise. By chance five parameters explain five of the 120 numbers of
+// three blocks.
+bool explainsSomething(const WindowEstimate& estimate) { return estimate.explained > 0.05; }
 
 bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
 
@@ -36,7 +39,7 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   first_.mean.setZero(p);
   first_.stddev.setConstant(p, kUnknown);
   first_.stddev[kBlockDelay] = options.delay_stddev;
-  if (columns.has_friction) first_.stddev[columns.firstForce()] = options.friction_stddev;
+  if (columns.has_friction && columns.forces > 0) first_.stddev[columns.firstForce()] = options.friction_stddev;
   first_.mean[kBlockWheelShare] = kShareMean;
   first_.stddev[kBlockWheelShare] = kShareStddev;
   slow_ = first_;
@@ -85,7 +88,7 @@ const WindowEstimate* BlockEstimator::update() {
   int window = 0;
   for (const int m : kWindows) {
     if (m > count_) break;
-    const bool is_usable = fit(m, prior, trial_) && trial_.explained >= kLeastTold;
+    const bool is_usable = fit(m, prior, trial_) && explainsSomething(trial_);
     if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : kUnknown;
     if (!is_usable) continue;
     // What is older is of another strut.
@@ -104,7 +107,9 @@ const WindowEstimate* BlockEstimator::update() {
   has_theta_ = best_.isUsable() && best_.worst() < kLost;
   if (!has_theta_) return nullptr;
   theta_ = best_.theta;
-  return &best_;
+  // At rest the last blocks of the drive explain less and less of the window: what is known is held.
+  const bool is_at_rest = best_.explained < kHalf && !(newest_worst_ < kNothing);
+  return is_at_rest ? nullptr : &best_;
 }
 
 // Linear least squares, which noise of the regressors biases, then some steps from there.
@@ -122,7 +127,7 @@ bool BlockEstimator::start() {
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
   }
-  if (!(trial_.worst() < kLost && trial_.explained >= kLeastTold)) return false;
+  if (!(trial_.worst() < kLost && explainsSomething(trial_))) return false;
   for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
   return true;
 }

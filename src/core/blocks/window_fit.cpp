@@ -6,9 +6,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kIterations = 3;        // of weights and parameters
+constexpr int kIterations = 3;         // of weights and parameters
 constexpr double kContradicted = 4.0;  // standard deviations: by chance once in an hour
-constexpr double kLeastShare = 0.02;  // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
+constexpr double kLeastShare = 0.02;   // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
 
 // Within a factor of two of what it was, so that the model stays stable.
 double withinReach(double value, double before) { return std::clamp(value, 0.5 * before, 2.0 * before); }
