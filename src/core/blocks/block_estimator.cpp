@@ -158,7 +158,8 @@ void BlockEstimator::retire(const StrutBlock& block) {
 }
 
 DriveFit BlockEstimator::takeDrive() {
-  if (has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_)) weights_ = window_fit_.weights();
+  if (count_ > 0 && has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_))
+    weights_ = window_fit_.weights();
   for (int age = count_ - 1; age >= 0; --age) retire(block(age));
   return drive_;
 }
