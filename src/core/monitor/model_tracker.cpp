@@ -35,7 +35,7 @@ constexpr double kNothing = 0.5;
 
 BlockOptions blockOptions(const MonitorSettings& options) {
   BlockOptions blocks;
-  blocks.length = options.block_length;
+  blocks.length = options.presentBlockLength();
   return blocks;
 }
 
@@ -113,7 +113,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
 
 bool ModelTracker::addReading(Side side, Stamp stamp, double acceleration, ModelReport& report) {
   const BlockEstimate* estimate = blocks_.push(side, stamp, acceleration);
-  now_ = std::max(now_, stamp);
+  now_ = stamp;
   identifier_.hold(blocks_.estimate() != nullptr && blocks_.newestWorst() > kNothing);
   if (estimate == nullptr) return false;
   describe(*estimate, effects().size(), report.estimate);
@@ -221,7 +221,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
 
 void ModelTracker::setInput(const InputStatus& input, Stamp now, ModelReport& report) {
   period_fits_ = input.period_fits;
-  now_ = std::max(now_, now);
+  now_ = now;
   judge(report);
 }
 

@@ -82,6 +82,7 @@ class BlockEstimator {
  private:
   std::vector<const StrutBlock*>& newest(int count);
   void scaleSlow();
+  double delayStddev() const;
   bool start();
   void learnSlow();
   void lookForDelay();
