@@ -77,7 +77,8 @@ void drive(const FieldDrive& road, const Delivery& delivery, double seconds, Fou
     if (!report.estimate.valid()) return;
     found.valid += 1.0;
     found.off.push_back(report.estimate.stiffness_to_mass / road.vehicle.b0 - 1.0);
-    found.inside += std::abs(report.estimate.stiffness_to_mass - road.vehicle.b0) < 1.96 * report.estimate.stiffness_to_mass_stddev;
+    found.inside +=
+        std::abs(report.estimate.stiffness_to_mass - road.vehicle.b0) < 1.96 * report.estimate.stiffness_to_mass_stddev;
   });
   FieldSimulator simulator(road);
   std::mt19937_64 random(road.seed);

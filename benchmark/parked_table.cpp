@@ -69,16 +69,17 @@ void printParked(const char* preset, StrutEstimate ModelReport::*which, double b
   for (long k = 0; k < kSecond; ++k) soon = add(next_drive.next());
   for (long k = 0; k < 9 * kSecond; ++k) next = add(next_drive.next());
   std::printf("| %s, %s | %.1f s | %g, %g | %.2f, %.2f | %.1f, %.1f | %.3f, %.3f | %.2f, %.1f; %.2f, %.1f |\n",
-              which == &ModelReport::la ? "LA" : "estimate", preset, brake, body_noise, wheel_noise, stop.damping_to_mass,
-              day.damping_to_mass, stop.stiffness_to_mass, day.stiffness_to_mass, stop.damping_to_mass_stddev,
-              day.damping_to_mass_stddev, soon.damping_to_mass, soon.stiffness_to_mass, next.damping_to_mass,
-              next.stiffness_to_mass);
+              which == &ModelReport::la ? "LA" : "estimate", preset, brake, body_noise, wheel_noise,
+              stop.damping_to_mass, day.damping_to_mass, stop.stiffness_to_mass, day.stiffness_to_mass,
+              stop.damping_to_mass_stddev, day.damping_to_mass_stddev, soon.damping_to_mass, soon.stiffness_to_mass,
+              next.damping_to_mass, next.stiffness_to_mass);
   std::fflush(stdout);
 }
 
 void printParkedTable() {
   std::printf(
-      "| estimate, preset | stop within | noise of body, wheel [m/s^2] | b1 at the stop, after the day [1/s] | b0 [1/s^2] "
+      "| estimate, preset | stop within | noise of body, wheel [m/s^2] | b1 at the stop, after the day [1/s] | b0 "
+      "[1/s^2] "
       "| stddev of b1 [1/s] | b1, b0 1 s, 10 s into the next drive |\n|---|---|---|---|---|---|---|\n");
   for (const double brake : {3.0, 0.3}) printParked("paper", &ModelReport::la, brake, 0.024, 0.024);
   for (const auto which : {&ModelReport::la, &ModelReport::estimate})

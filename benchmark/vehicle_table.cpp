@@ -49,8 +49,10 @@ void printLinear(const char* kind, unsigned seed, const Measured& how) {
   const VehicleIdentification found =
       identifyVehicle(drives, driven.names, {}, [&](std::size_t i, const MonitorReport& report) {
         if (!report.estimate.valid() || report.stamp < half) return;
-        courses[i][0].add(report.estimate.damping_to_mass, report.estimate.damping_to_mass_stddev, driven.vehicle.b1(i));
-        courses[i][1].add(report.estimate.stiffness_to_mass, report.estimate.stiffness_to_mass_stddev, driven.vehicle.b0(i));
+        courses[i][0].add(report.estimate.damping_to_mass, report.estimate.damping_to_mass_stddev,
+                          driven.vehicle.b1(i));
+        courses[i][1].add(report.estimate.stiffness_to_mass, report.estimate.stiffness_to_mass_stddev,
+                          driven.vehicle.b0(i));
       });
   if (!found) {
     std::printf("%-6s %3u   the drives %s\n", kind, seed, found.coupling.reason.c_str());
@@ -66,8 +68,14 @@ void printLinear(const char* kind, unsigned seed, const Measured& how) {
       count += static_cast<double>(courses[i][j].off.size());
     }
     const IdentifiedStrut& whole_drive = found.struts[i].estimate;
-    whole += std::abs(whole_drive.damping_to_mass - driven.vehicle.b1(i)) < kInterval * whole_drive.damping_to_mass_stddev ? 1 : 0;
-    whole += std::abs(whole_drive.stiffness_to_mass - driven.vehicle.b0(i)) < kInterval * whole_drive.stiffness_to_mass_stddev ? 1 : 0;
+    whole +=
+        std::abs(whole_drive.damping_to_mass - driven.vehicle.b1(i)) < kInterval * whole_drive.damping_to_mass_stddev
+            ? 1
+            : 0;
+    whole += std::abs(whole_drive.stiffness_to_mass - driven.vehicle.b0(i)) <
+                     kInterval * whole_drive.stiffness_to_mass_stddev
+                 ? 1
+                 : 0;
     floor = std::max(floor, diagnosis.struts[i].base.held_out_rmse / diagnosis.struts[i].noise_floor);
   }
   std::printf("%-6s %3u  %8.2f  %8.2f  %6.0f   %d of %zu  %8.3f   %s\n", kind, seed, most[0], most[1],

@@ -21,7 +21,7 @@ struct IdentifiedStrut {
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
   double rows = 0.0;                               ///< regression rows, or blocks, that the estimate rests on
   double explained = std::nan("");                 ///< share of the body's motion that the strut explains, at most 1
-  double age = std::nan("");                       ///< of the newest data [s]; of the block estimates, at the end of the drive
+  double age = std::nan("");  ///< of the newest data [s]; of the block estimates, at the end of the drive
   bool valid = false;
   std::string reason;  ///< why it is not valid; empty if it is
 

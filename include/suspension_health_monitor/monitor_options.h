@@ -28,7 +28,7 @@ struct MonitorOptions : HealthThresholds {
   std::string alignment = "auto";             ///< or "paired", "resampled": how readings become samples
   bool tyre = false;                          ///< there is a third sensor, where the tyre touches the road
   std::optional<double> integration_horizon;  ///< h of the integral filter [s]; left out: 0.6
-  double block_length = 2.0;     ///< T of the first blocks [s]; then it follows the bounce by factors of two
+  std::optional<double> block_length;     ///< T of the first blocks [s]; then it follows the bounce by factors of two
   std::optional<double> memory;  ///< of LS and LA: a row that old counts 1/e [s]; left out: 2, or 10/3 of the
                                  ///< horizon if that is more
   std::optional<double> forgetting_factor;  ///< lambda, instead of memory: 1/(1 - lambda) rows [-]

@@ -98,6 +98,12 @@ RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {
 
 double MonitorSettings::presentHorizon() const { return integration_horizon.value_or(kDefaultHorizon); }
 
+double MonitorSettings::presentBlockLength() const {
+  const double octaves = std::round(std::log2(presentHorizon() / kDefaultHorizon));
+  // A factor of two is left to the blocks themselves, which follow the bounce.
+  return block_length.value_or(BlockOptions().length * (std::abs(octaves) > 1.0 ? std::exp2(octaves) : 1.0));
+}
+
 double MonitorSettings::presentMemory() const {
   constexpr double kMemory = 2.0, kHorizons = 10.0 / 3.0;  // the same for the default horizon
   return memory.value_or(std::max(kMemory, kHorizons * presentHorizon()));

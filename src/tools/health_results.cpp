@@ -108,7 +108,8 @@ json estimatesJson(const SuspensionMonitor& monitor) {
         {"force", friction->force}, {"stddev", friction->stddev}, {"damping_gain", friction->damping_gain}};
   blocks["age"] = report.estimate.age;
   blocks["window"] = report.estimate.window;
-  json estimates{{"estimate", blocks}, {"ls", toJson(toIdentified(report.ls))}, {"la", toJson(toIdentified(report.la))}};
+  json estimates{
+      {"estimate", blocks}, {"ls", toJson(toIdentified(report.ls))}, {"la", toJson(toIdentified(report.la))}};
   estimates["ls"]["offset"] = report.ls.offset;
   estimates["la"]["offset"] = report.la.offset;
   return estimates;

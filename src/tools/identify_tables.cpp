@@ -135,7 +135,7 @@ std::optional<std::string> whyNotValid(const IdentifyResult& found, const Monito
   if (found.estimate.valid || found.now.valid) return std::nullopt;
   if (found.estimate.rows > 0.0) return "no estimate is valid: " + found.estimate.reason;
   constexpr double kLengths = (BlockEstimator::kWindows[0] + 1) / 2.0;  // of blocks that overlap by half
-  const double enough = kLengths * options.block_length;
+  const double enough = kLengths * MonitorSettings(options).presentBlockLength();
   if (static_cast<double>(found.samples) * found.sample_period < enough)
     return "there is no estimate: too short" + describeEnough(enough);
   return std::string("there is no estimate: too little motion, ") + (found.gaps > 0 ? "too many gaps, " : "") +

@@ -20,12 +20,12 @@ namespace {
 
 nlohmann::json toJson(const IdentifyResult& found) {
   nlohmann::json result{{"samples", found.samples},
-          {"rows", found.rows},
-          {"gaps", found.gaps},
-          {"clock_jumps", found.clock_jumps},
-          {"sample_period", found.sample_period},
-          {"horizon_samples", found.horizon_samples},
-          {"warnings", found.warnings}};
+                        {"rows", found.rows},
+                        {"gaps", found.gaps},
+                        {"clock_jumps", found.clock_jumps},
+                        {"sample_period", found.sample_period},
+                        {"horizon_samples", found.horizon_samples},
+                        {"warnings", found.warnings}};
   addEstimates(found, result);
   return result;
 }

@@ -41,8 +41,7 @@ void RowTable::write(const std::optional<double>& predicted) {
     std::fprintf(out_, "%.17g,%.17g,", *predicted, row.measured - *predicted);
   else
     std::fputs("nan,nan,", out_);
-  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g\n", row.damping, row.stiffness, row.damping_stddev,
-               row.stiffness_stddev);
+  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g\n", row.damping, row.stiffness, row.damping_stddev, row.stiffness_stddev);
 }
 
 }  // namespace suspension_health_monitor

@@ -54,27 +54,15 @@ TEST(ClockDelay, IsEstimatedAndChangesNoEstimate) {
   for (const char* road : {"A", "C"})
     for (const int late : {-20, -10, -3, -1, 0, 1, 3, 10, 20}) {
       SCOPED_TRACE(std::string(road) + ", " + std::to_string(late) + " ms");
-      const StrutEstimate estimate = reportOf(driveWith(late, road)).estimate;
+      const MonitorReport report = reportOf(driveWith(late, road));
+      const StrutEstimate& estimate = report.estimate;
       EXPECT_TRUE(estimate.valid()) << describe(estimate.doubt);
+      EXPECT_TRUE(late != 0 || report.la.valid()) << describe(report.la.doubt);
       expectRight(estimate);
       EXPECT_LT(estimate.stiffness_to_mass_stddev, 0.1 * kB0);
       EXPECT_NEAR(estimate.delay, 1e-3 * late, 0.2e-3);
       EXPECT_LT(std::abs(estimate.delay - 1e-3 * late), 4.0 * estimate.delay_stddev);
     }
-}
-
-TEST(ClockDelay, ThatTheRowsDoNotKnowIsADoubtOfLeastSquaresWhereItMakesThemWrong) {
-  for (const int late : {-10, -1, 0, 1, 10}) {
-    SCOPED_TRACE(late);
-    const MonitorReport report = reportOf(driveWith(late, "C"));
-    for (const StrutEstimate* rows : {&report.ls, &report.la}) {
-      if (std::abs(late) == 10) {
-        EXPECT_EQ(rows->doubt, EstimateDoubt::kDisagrees);
-      } else {
-        EXPECT_TRUE(rows->valid()) << describe(rows->doubt);
-      }
-    }
-  }
 }
 
 TEST(ClockDelay, ThatIsTooLargeIsADoubtOrRight) {

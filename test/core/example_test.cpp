@@ -22,8 +22,8 @@ TEST(Example, ArraysAreIdentified) {
   double damping = 0.0, spread = 0.0, stiffness = 0.0, stiffness_spread = 0.0;
   const auto line = text.find("estimate: ");
   ASSERT_NE(line, std::string::npos) << text;
-  ASSERT_EQ(std::sscanf(text.c_str() + line, "estimate: damping/mass %lf +- %lf 1/s, stiffness/mass %lf +- %lf", &damping,
-                        &spread, &stiffness, &stiffness_spread),
+  ASSERT_EQ(std::sscanf(text.c_str() + line, "estimate: damping/mass %lf +- %lf 1/s, stiffness/mass %lf +- %lf",
+                        &damping, &spread, &stiffness, &stiffness_spread),
             4);
   EXPECT_NEAR(damping, 4.0, 0.04) << text;
   EXPECT_NEAR(stiffness, 40.0, 0.4) << text;

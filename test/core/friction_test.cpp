@@ -173,10 +173,10 @@ TEST(BaselineLearner, TakesWhatFrictionIsTakenForForNoChangeOfTheStrut) {
   BaselineLearner learner(100.0);
   std::optional<Baseline> learned;
   for (int k = 0; k < 100; ++k)
-    learned = learner.add(fromSeconds(k),
-                          k < 50 ? estimate(5.5, DryFriction{0.2, 0.01, 10.0, 0.0})
-                                 : estimate(6.25, DryFriction{0.1, 0.01, 5.0, 0.0}),
-                          1.0);
+    learned = learner.add(
+        fromSeconds(k),
+        k < 50 ? estimate(5.5, DryFriction{0.2, 0.01, 10.0, 0.0}) : estimate(6.25, DryFriction{0.1, 0.01, 5.0, 0.0}),
+        1.0);
   ASSERT_TRUE(learned);
   EXPECT_NEAR(*learned->damping_to_mass, 5.875, 1e-9);
   EXPECT_NEAR(learned->friction->force, 0.15, 1e-9);

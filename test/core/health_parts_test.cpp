@@ -13,8 +13,8 @@ namespace {
 constexpr double kSharp = 1e-4;  // standard deviation so small that nothing counts as noise
 
 StrutChange split(double damping, double stiffness, double mass, double range = 0.35, double stddev = kSharp) {
-  return splitChange({LogChange{std::log(damping / mass), stddev}, LogChange{std::log(stiffness / mass), stddev}}, range,
-                     0.0);
+  return splitChange({LogChange{std::log(damping / mass), stddev}, LogChange{std::log(stiffness / mass), stddev}},
+                     range, 0.0);
 }
 
 TEST(SplitChange, TellsPayloadFromDamage) {
@@ -86,8 +86,8 @@ TEST(LoadAlone, KnowsThatErrorsOfBothAreCorrelated) {
   constexpr double kDamping = 0.03, kStiffness = 0.01;
   for (const double correlation : {-0.8, 0.0, 0.8}) {
     const MeasuredChange both{LogChange{-0.2, kDamping}, LogChange{-0.1, kStiffness}, correlation};
-    const double apart = std::sqrt(kDamping * kDamping + kStiffness * kStiffness -
-                                   2.0 * correlation * kDamping * kStiffness);
+    const double apart =
+        std::sqrt(kDamping * kDamping + kStiffness * kStiffness - 2.0 * correlation * kDamping * kStiffness);
     EXPECT_NEAR(explainByLoad(both, {-0.4, 0.4}).distance, 0.1 / apart, 1e-9) << correlation;
     EXPECT_NEAR(splitChange(both, 0.35, 0.0).apartStddev(), apart, 1e-12) << correlation;
   }

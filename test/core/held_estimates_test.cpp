@@ -21,6 +21,12 @@ void expectTrue(const StrutEstimate& estimate) {
   EXPECT_NEAR(estimate.stiffness_to_mass, kB0, 0.6);
 }
 
+// By the standard deviations that prove a change.
+void expectWithinStddevs(const StrutEstimate& estimate) {
+  EXPECT_NEAR(estimate.damping_to_mass, kB1, 4.0 * estimate.damping_to_mass_stddev);
+  EXPECT_NEAR(estimate.stiffness_to_mass, kB0, 4.0 * estimate.stiffness_to_mass_stddev);
+}
+
 void expectSame(const StrutEstimate& now, const StrutEstimate& before) {
   EXPECT_EQ(now.damping_to_mass, before.damping_to_mass);
   EXPECT_EQ(now.stiffness_to_mass, before.stiffness_to_mass);
@@ -67,7 +73,8 @@ TEST(HeldEstimate, OfAParkedVehicleIsNotChangedByADayAndTheNextDriveIsRightAtOnc
   constexpr int kDay = 24 * 3600;  // rows, at one a second instead of 50: blocks and rows are counted, not seconds
   DrivenStrut strut = parkedStrut(liveOptions());
   const StrutEstimate held = strut.estimate(), ls = strut.ls(), la = strut.la();
-  for (const StrutEstimate& estimate : {held, ls, la}) expectTrue(estimate);
+  expectWithinStddevs(held);
+  for (const StrutEstimate& estimate : {ls, la}) expectTrue(estimate);
   strut.park(kDay);
   for (const auto& [now, before] : {std::pair(strut.estimate(), held), {strut.ls(), ls}, {strut.la(), la}}) {
     EXPECT_NEAR(now.damping_to_mass, before.damping_to_mass, before.damping_to_mass_stddev);
@@ -79,7 +86,7 @@ TEST(HeldEstimate, OfAParkedVehicleIsNotChangedByADayAndTheNextDriveIsRightAtOnc
   for (int k = 0; k < 40; ++k) {  // 20 s
     strut.drive(kSecond / 2, road);
     expectTrue(strut.la());
-    if (strut.estimate().valid()) expectTrue(strut.estimate());
+    if (strut.estimate().valid()) expectWithinStddevs(strut.estimate());
   }
   EXPECT_TRUE(strut.estimate().valid());
   EXPECT_TRUE(strut.la().valid());
@@ -96,10 +103,11 @@ TEST(HeldEstimate, HoursAfterAStopOnThePapersRoadItIsWhatItWas) {
     strut.drive(500, road);
     strut.park(1000000);
     EXPECT_EQ(strut.estimate().doubt, EstimateDoubt::kOldData) << brake;
-    EXPECT_NEAR(strut.estimate().damping_to_mass, kB1, 0.05 * kB1) << brake;
-    EXPECT_NEAR(strut.estimate().stiffness_to_mass, kB0, 0.02 * kB0) << brake;
-    EXPECT_NEAR(strut.la().damping_to_mass, stop.damping_to_mass, 0.02 * stop.damping_to_mass) << brake;
-    EXPECT_NEAR(strut.la().stiffness_to_mass, stop.stiffness_to_mass, 0.02 * stop.stiffness_to_mass) << brake;
+    expectWithinStddevs(strut.estimate());
+    const StrutEstimate& la = strut.la();
+    // The newest blocks tell something of the strut until all of them are at rest: rows of two memories are.
+    EXPECT_NEAR(la.damping_to_mass, stop.damping_to_mass, 3.0 * la.damping_to_mass_stddev) << brake;
+    EXPECT_NEAR(la.stiffness_to_mass, stop.stiffness_to_mass, 3.0 * la.stiffness_to_mass_stddev) << brake;
     EXPECT_LT(strut.la().stiffness_to_mass_stddev, 0.1 * kB0) << brake;
   }
 }
@@ -108,7 +116,7 @@ TEST(HeldEstimate, HoursAfterAStopOnThePapersRoadItIsWhatItWas) {
 TEST(HeldEstimate, IsNotChangedByWrongReadingsAtRest) {
   for (const bool of_body : {true, false}) {
     DrivenStrut strut = parkedStrut(liveOptions());
-    strut.park(60 * kSecond);
+    strut.park(120 * kSecond);  // of the newest 64 blocks none is of the drive
     const StrutEstimate held = strut.estimate(), la = strut.la();
     for (int k = 0; k < 20; ++k) {
       strut.read(of_body ? 10.0 : 0.0, of_body ? 0.0 : 10.0);

@@ -17,7 +17,7 @@ struct MeanStiffness {
   void add(const StrutEstimate& found) { value += (found.stiffness_to_mass - value) / ++count; }
 };
 
-// b0 of least squares is 11 % too low. The estimate is a mean of ten minutes, in which it scatters by 2 % / sqrt(60).
+// b0 of least squares is 7 % too low. The estimate is a mean of ten minutes, in which it scatters by 2 % / sqrt(60).
 TEST(NoiseShift, OfTheBlockEstimateIsNone) {
   SimulationOptions options;
   options.scenario = "iso_road";
@@ -37,7 +37,7 @@ TEST(NoiseShift, OfTheBlockEstimateIsNone) {
     least_squares.add(report.ls);
     blocks.add(report.estimate);
   }
-  EXPECT_LT(least_squares.value, 0.92 * kStiffness);
+  EXPECT_LT(least_squares.value, 0.95 * kStiffness);
   EXPECT_NEAR(blocks.value, kStiffness, 0.01 * kStiffness);
 }
 

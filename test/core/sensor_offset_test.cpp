@@ -59,7 +59,8 @@ TEST(SensorOffset, ChangesNoEstimate) {
       const StrutEstimate &blocks_expected = reference.report().estimate, &blocks = monitor.report().estimate;
       EXPECT_TRUE(blocks.valid());
       EXPECT_NEAR(blocks.damping_to_mass, blocks_expected.damping_to_mass, 1e-6 * blocks_expected.damping_to_mass);
-      EXPECT_NEAR(blocks.stiffness_to_mass, blocks_expected.stiffness_to_mass, 1e-6 * blocks_expected.stiffness_to_mass);
+      EXPECT_NEAR(blocks.stiffness_to_mass, blocks_expected.stiffness_to_mass,
+                  1e-6 * blocks_expected.stiffness_to_mass);
       // What remains is the start, from which another offset was learned.
       EXPECT_NEAR(found.damping_to_mass, expected.damping_to_mass, 1e-3 * expected.damping_to_mass);
       EXPECT_NEAR(found.stiffness_to_mass, expected.stiffness_to_mass, 1e-3 * expected.stiffness_to_mass);
@@ -77,7 +78,8 @@ TEST(SensorOffset, ChangesNeitherHorizonNorRecordedDrives) {
     for (CornerSample& sample : drive.samples) sample.unsprung_acceleration += 0.5;
     EXPECT_EQ(surveyHorizon({drive}, 1.0 / road.rate, std::numeric_limits<std::size_t>::max()), horizon);
     const IdentifyResult found = identify({drive});
-    EXPECT_NEAR(found.estimate.stiffness_to_mass, expected.estimate.stiffness_to_mass, 1e-3 * expected.estimate.stiffness_to_mass);
+    EXPECT_NEAR(found.estimate.stiffness_to_mass, expected.estimate.stiffness_to_mass,
+                1e-3 * expected.estimate.stiffness_to_mass);
     EXPECT_NEAR(found.ls.damping_to_mass, expected.ls.damping_to_mass, 1e-3 * expected.ls.damping_to_mass);
     const IntegralFilterOptions filter{horizon, 1.0 / road.rate, IntegrationRule::kBandLimited};
     EXPECT_NEAR(roughModel({drive}, filter).stiffness_to_mass, expected.estimate.stiffness_to_mass,

@@ -21,9 +21,8 @@ struct SlowHeave {
     strut.b0 = kLeft * kB0;
     const double start = strut.time();
     for (int k = 0; k < kSeconds; ++k) {
-      strut.drive(50, [=](double t) {
-        return amplitude * std::min(1.0, (t - start) / 30.0) * std::sin(0.6 * (t - start));
-      });
+      strut.drive(
+          50, [=](double t) { return amplitude * std::min(1.0, (t - start) / 30.0) * std::sin(0.6 * (t - start)); });
       const StrutEstimate& now = strut.estimate();
       if (!now.valid()) continue;
       const double damping_off = std::abs(now.damping_to_mass - kB1) / now.damping_to_mass_stddev;

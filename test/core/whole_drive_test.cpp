@@ -92,7 +92,8 @@ TEST(WholeDrive, IsFreeOfTheNoiseThatStrutsHaveInCommon) {
         const double own = vehicle.mobility(strut, strut);
         const IdentifiedStrut& estimate = found.struts[i].estimate;
         squares[0] += std::pow((estimate.damping_to_mass - own * strut.damping) / estimate.damping_to_mass_stddev, 2);
-        squares[1] += std::pow((estimate.stiffness_to_mass - own * strut.stiffness) / estimate.stiffness_to_mass_stddev, 2);
+        squares[1] +=
+            std::pow((estimate.stiffness_to_mass - own * strut.stiffness) / estimate.stiffness_to_mass_stddev, 2);
         count += 1.0;
       }
     }

@@ -20,8 +20,8 @@ MonitorSettings optionsAt(double sample_period) {
   return options;
 }
 
-// The paper's drive comes every 0.02 s. A period of 0.02 (1 + e) reads b1 as b1 / (1 + e), a healthy damper as worn, for
-// all but the blocks, which count by stamps.
+// The paper's drive comes every 0.02 s. A period of 0.02 (1 + e) reads b1 as b1 / (1 + e), a healthy damper as worn,
+// for all but the blocks, which count by stamps.
 TEST(WrongPeriod, LeavesLeastSquaresNotValidAndTheEstimateRight) {
   const std::vector<CornerSample> drive = healthyPaperDrive(40.0, 0.024);
   for (const double error : {-0.25, -0.03, 0.03, 0.1, 0.4, 0.8}) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/internal/blocks/block_options.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
@@ -67,6 +68,10 @@ struct MonitorSettings : MonitorOptions {
   /// @return integration_horizon [s], or what it is if it is left out.
   double presentHorizon() const;
 
+  /// @return block_length [s], or what it is if it is left out: 2 s, or as many times as long, by a power of two, as
+  /// the horizon is longer than 0.6 s, if that is more than two or less than a half.
+  double presentBlockLength() const;
+
   /// @return memory [s], or what it is if it is left out.
   double presentMemory() const;
 
@@ -94,10 +99,10 @@ inline constexpr std::array kMonitorFields{
     MonitorField{"estimation", "integration_horizon", "s",
                  "horizon h of the integral filter, near one period of the body's bounce; left out: 0.6",
                  &MonitorOptions::integration_horizon, 1e-5, 1e6},
-    MonitorField{
-        "estimation", "block_length", "s",
-        "of the first blocks that the estimate is made of; then it follows the body's bounce by factors of two",
-        &MonitorOptions::block_length, 1e-3, 1e3},
+    MonitorField{"estimation", "block_length", "s",
+                 "of the first blocks that the estimate is made of, left out: 2, or as integration_horizon; it follows "
+                 "the body's bounce by factors of two",
+                 &MonitorOptions::block_length, 1e-3, 1e3},
     MonitorField{
         "estimation", "memory", "s",
         "of LS and LA: what is that old counts 1/e, 10 samples at least; left out: 2 or 10/3 of the horizon, the "

@@ -20,15 +20,18 @@ constexpr int kSlowEvery = 4;         // blocks: all blocks then have changed by
 constexpr double kSlowFactor = 1.5;   // standard deviations of what changes slowly count so much more for fewer blocks
 constexpr double kContradiction = 3.0;  // standard deviations
 constexpr double kLost = 0.3;           // relative standard deviation from which there is no estimate to linearise at
-// Share of the body's power below which what was found is noise's, in which some strut is found now and then: half of
-// what a valid estimate explains.
-constexpr double kLeastTold = 0.25;
+constexpr double kNothing = 0.5;        // relative standard deviation from which blocks tell nothing of the strut
+constexpr double kHalf = 0.5;           // of the body's power
 constexpr int kStartBlocks = 8, kStartSteps = 8;
 constexpr int kVehicleStartSteps = 3;  // all that one reading has time for; the blocks after it go on
 constexpr int kRefined = 8;            // blocks that are linearised anew per update
 constexpr double kStale = 0.02;        // relative change of b1 or b0 since the linearisation
 constexpr double kStalePhase = 0.1;    // of the phase that the delay makes in the last bin [rad]
 constexpr double kStaleShare = 0.2;    // of r
+
+// At rest now and then a strut is found in the noise. By chance five parameters explain five of the 120 numbers of
+// three blocks.
+bool explainsSomething(const WindowEstimate& estimate) { return estimate.explained > 0.05; }
 
 bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
 
@@ -43,8 +46,8 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   const int p = columns.numParameters();
   first_.mean.setZero(p);
   first_.stddev.setConstant(p, kUnknown);
-  first_.stddev[kBlockDelay] = options.delay_stddev;
-  if (columns.has_friction) first_.stddev[columns.firstForce()] = options.friction_stddev;
+  first_.stddev[kBlockDelay] = delayStddev();
+  if (columns.has_friction && columns.forces > 0) first_.stddev[columns.firstForce()] = options.friction_stddev;
   first_.mean[kBlockWheelShare] = kShareMean;
   first_.stddev[kBlockWheelShare] = kShareStddev;
   if (columns.neighbours > 0) {
@@ -59,6 +62,11 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   shorter_.reserve(kWindows.size());
   pointers_.reserve(kMostBlocks);
   sorted_.reserve(kMostBlocks);
+}
+
+// Of a strut that bounces far faster than a car's no more than what a car's may be off by, in its own time.
+double BlockEstimator::delayStddev() const {
+  return std::min(1.0, equations_.band().length / BlockOptions().length) * options_.delay_stddev;
 }
 
 StrutBlock& BlockEstimator::block(int age) {
@@ -118,7 +126,7 @@ const WindowEstimate* BlockEstimator::update() {
   shorter_.clear();
   for (const int m : kWindows) {
     if (m > count_) break;
-    const bool is_usable = fit(m, prior, trial_) && trial_.explained >= kLeastTold;
+    const bool is_usable = fit(m, prior, trial_) && explainsSomething(trial_);
     if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : kUnknown;
     if (!is_usable) continue;
     if (contradictsShorter(trial_)) break;  // what is older is of another strut
@@ -137,7 +145,9 @@ const WindowEstimate* BlockEstimator::update() {
   is_refused_ = !has_theta_;
   if (is_refused_) return nullptr;
   theta_ = best_.theta;
-  return &best_;
+  // At rest the last blocks of the drive explain less and less of the window: what is known is held.
+  const bool is_at_rest = best_.explained < kHalf && !(newest_worst_ < kNothing);
+  return is_at_rest ? nullptr : &best_;
 }
 
 // Linear least squares, which noise of the regressors biases, then some steps from there.
@@ -157,13 +167,13 @@ bool BlockEstimator::start() {
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
   }
-  if (!(trial_.worst() < kLost && trial_.explained >= kLeastTold)) {
+  if (!(trial_.worst() < kLost && explainsSomething(trial_))) {
     std::swap(best_, trial_);
     is_refused_ = true;
     if (equations_.columns().neighbours > 0) {
       waits_ = kSlowEvery - 1;
       double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
-      stddev = stddev == kNoDelay ? options_.delay_stddev : kNoDelay;
+      stddev = stddev == kNoDelay ? delayStddev() : kNoDelay;
     }
     return false;
   }
@@ -225,7 +235,8 @@ void BlockEstimator::retire(const StrutBlock& block) {
 }
 
 DriveFit BlockEstimator::takeDrive() {
-  if (has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_)) weights_ = window_fit_.weights();
+  if (count_ > 0 && has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_))
+    weights_ = window_fit_.weights();
   for (int age = count_ - 1; age >= 0; --age) retire(block(age));
   return drive_;
 }

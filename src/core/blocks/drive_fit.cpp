@@ -33,6 +33,7 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
     body_ += weight * band.body_power;
     unexplained_ += weight * residualPower(band.moments, linear);
     rate_ += weight * band.rate_power;
+    travel_ += weight * band.travel_power;
   }
 }
 
@@ -56,7 +57,7 @@ std::optional<WindowEstimate> DriveFit::estimate(const BlockPrior& prior) const 
   result.inflation = std::max(1.0, 0.5 * (covariance.inverse() * scattered.topLeftCorner<2, 2>()).trace());
   result.covariance *= result.inflation;
   result.explained = body_ > 0.0 ? 1.0 - unexplained_ / body_ : 0.0;
-  result.setRate(rate_ / weight_, length_);
+  result.setMotion(rate_ / weight_, travel_ / weight_, length_);
   if (!result.isUsable()) return std::nullopt;
   return result;
 }

@@ -42,6 +42,7 @@ void StrutBlocks::begin(double length) {
 }
 
 void StrutBlocks::restart() {
+  last_ = {};
   const double length = estimate_.length;
   const DriveFit drive = estimator_->takeDrive();
   estimator_.reset();
@@ -59,6 +60,10 @@ std::optional<BlockEstimate> StrutBlocks::overTheDrive() {
 }
 
 const BlockEstimate* StrutBlocks::push(Side side, Stamp stamp, double acceleration) {
+  // A clock that went back, or a stamp that was far ahead: what follows has nothing to do with what was before.
+  std::optional<Stamp>& last = last_[static_cast<std::size_t>(side)];
+  if (last && stamp <= *last) restart();
+  last = stamp;
   if (!origin_) origin_ = stamp;
   const double time = toSeconds(stamp - *origin_);
   if (time < 0.0) return nullptr;  // the other stream began later

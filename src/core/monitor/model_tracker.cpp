@@ -35,7 +35,7 @@ constexpr double kNothing = 0.5;
 
 BlockOptions blockOptions(const MonitorSettings& options) {
   BlockOptions blocks;
-  blocks.length = options.block_length;
+  blocks.length = options.presentBlockLength();
   return blocks;
 }
 
@@ -61,8 +61,11 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
     const int i = kNumBlockParameters;
     // Of a normal distribution of the rate the least squares line through Coulomb's law has this slope.
     const double gain = std::sqrt(2.0 / M_PI) / blocks.rate;
-    estimate.friction = DryFriction{blocks.theta[i], stddev(i), gain, blocks.covariance(0, i)};
+    estimate.friction =
+        DryFriction{blocks.theta[i], stddev(i), gain, blocks.covariance(0, i), gain * blocks.rate / blocks.travel};
     estimate.damping_to_mass_stddev = std::hypot(estimate.damping_to_mass_stddev, estimate.friction->lawStddev());
+    estimate.stiffness_to_mass_stddev =
+        std::hypot(estimate.stiffness_to_mass_stddev, estimate.friction->stiffnessLawStddev());
   }
   estimate.effective_rows = blocks.blocks;
   estimate.explained = blocks.explained;
@@ -110,7 +113,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
 
 bool ModelTracker::addReading(Side side, Stamp stamp, double acceleration, ModelReport& report) {
   const BlockEstimate* estimate = blocks_.push(side, stamp, acceleration);
-  now_ = std::max(now_, stamp);
+  now_ = stamp;
   identifier_.hold(blocks_.estimate() != nullptr && blocks_.newestWorst() > kNothing);
   if (estimate == nullptr) return false;
   describe(*estimate, effects().size(), report.estimate);
@@ -157,6 +160,7 @@ void ModelTracker::judge(ModelReport& report) {
 
 void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
   EstimateFacts facts = blockFacts(estimate);
+  facts.has_row = blocks_.estimator().hasBlocks();
   if (const BlockEstimate* blocks = blocks_.estimate()) {
     facts.has_row = true;
     estimate.age = facts.age = blocks->age + toSeconds(now_ - blocks->stamp);
@@ -217,7 +221,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
 
 void ModelTracker::setInput(const InputStatus& input, Stamp now, ModelReport& report) {
   period_fits_ = input.period_fits;
-  now_ = std::max(now_, now);
+  now_ = now;
   judge(report);
 }
 

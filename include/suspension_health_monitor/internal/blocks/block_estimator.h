@@ -69,6 +69,9 @@ class BlockEstimator {
   const BlockVector& theta() const { return theta_; }  ///< to linearise at, and for models
   bool hasTheta() const { return has_theta_; }
 
+  /// @return true if there are blocks enough for an estimate.
+  bool hasBlocks() const { return count_ >= kWindows.front(); }
+
   /// @return the larger relative standard deviation of b1 and b0 by the newest blocks alone, kWindows[0] of them [-].
   double newestWorst() const { return newest_worst_; }
 
@@ -79,6 +82,7 @@ class BlockEstimator {
  private:
   std::vector<const StrutBlock*>& newest(int count);
   void scaleSlow();
+  double delayStddev() const;
   bool start();
   void learnSlow();
   void lookForDelay();

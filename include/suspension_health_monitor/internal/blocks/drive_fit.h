@@ -33,7 +33,7 @@ class DriveFit {
   BlockMatrix information_, scatter_;  // sums of Z'R / s2, and of the scores' products
   BlockVector right_;
   std::vector<BlockVector> previous_;  // scores of the block before, by band
-  double body_ = 0.0, unexplained_ = 0.0, rate_ = 0.0, weight_ = 0.0;
+  double body_ = 0.0, unexplained_ = 0.0, rate_ = 0.0, travel_ = 0.0, weight_ = 0.0;
 };
 
 }  // namespace suspension_health_monitor

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -28,7 +29,7 @@ class StrutBlocks {
   /// @param effects  columns that come by pushForces(); none: dry friction is looked for.
   StrutBlocks(const BlockOptions& options, double period, std::size_t effects = 0);
 
-  /// Takes in one reading. Stamps of a stream increase; after a clock that went back: restart().
+  /// Takes in one reading. Where the stamps of a stream go back the blocks begin anew (restart()).
   /// @return the estimate if this reading completes a block; nullptr else.
   const BlockEstimate* push(Side side, Stamp stamp, double acceleration);
 
@@ -61,6 +62,7 @@ class StrutBlocks {
   double period_;
   std::size_t effects_;
   std::optional<Stamp> origin_;
+  std::array<std::optional<Stamp>, 2> last_;  // of the sprung and the unsprung sensor
   std::optional<BlockEstimator> estimator_;
   std::vector<FourierIntegrals> streams_;  // sprung, unsprung with friction, effects
   std::optional<SlidingFriction> friction_;

@@ -27,7 +27,7 @@ enum BlockParameter : int {
 /// How many columns the equations of one strut top have beside b1, b0, tau and r.
 struct BlockColumns {
   int forces = 1;  ///< known shapes of a force over the body's mass, on the wheel's stamps: dry friction, or effects
-  int neighbours = 0;  ///< travel rates and travels of the other struts of the body
+  int neighbours = 0;        ///< travel rates and travels of the other struts of the body
   bool has_friction = true;  ///< the force is dry friction, of which something is known beforehand
 
   int numParameters() const { return kNumBlockParameters + forces + neighbours; }
@@ -57,6 +57,7 @@ struct StrutBlock {
     double wheel_power = 0.0;     ///< |W^|^2
     double body_power = 0.0;      ///< |H_0(Y)|^2
     double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
+    double travel_power = 0.0;    ///< |H_0(X - Y)|^2 / |s|^4
   };
   BlockVector at;
   std::vector<Band> bands;

@@ -31,6 +31,7 @@ struct WindowEstimate {
   double explained = 0.0;  ///< share of the body's power by b1 and b0 alone
   double alike = 0.0;      ///< relative standard deviation of b1 or b0 by noise of neighbours' wheels, see WindowFit
   double rate = 0.0;       ///< rms of the travel rate [m/s]
+  double travel = 0.0;     ///< rms of the travel [m]
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
   Eigen::VectorXd noise;   ///< power of e per bin of each band: the unexplained spectrum
 
@@ -39,9 +40,13 @@ struct WindowEstimate {
   double relativeStddev(int i) const {
     return std::sqrt(covariance(i, i)) / (i == kBlockDamping ? leastDamping(theta[0], theta[1]) : theta[i]);
   }
-  /// @param power  mean over blocks of the sum over bins of |H_1(X - Y)|^2 / |s|^4. By Parseval the mean square of a
-  /// signal over a block of length T is 2 / (T^2 mean(hann^2)) times that, mean(hann^2) = 3/8.
-  void setRate(double power, double length) { rate = std::sqrt(2.0 * power / 0.375) / length; }
+  /// @param rate_power, travel_power  means over blocks of the sum over bins of |H_1(X - Y)|^2 / |s|^4, and of H_0. By
+  /// Parseval the mean square of a signal over a block of length T is 2 / (T^2 mean(hann^2)) times that, mean(hann^2) =
+  /// 3/8.
+  void setMotion(double rate_power, double travel_power, double length) {
+    rate = std::sqrt(2.0 * rate_power / 0.375) / length;
+    travel = std::sqrt(2.0 * travel_power / 0.375) / length;
+  }
   bool isUsable() const;  ///< finite, with b1, b0 above 0
   double worst() const { return std::max(relativeStddev(kBlockDamping), relativeStddev(kBlockStiffness)); }
 };

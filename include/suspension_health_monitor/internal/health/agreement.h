@@ -4,8 +4,8 @@
 
 namespace suspension_health_monitor {
 
-/// Whether LS and LA say the same (agree()). If they do not for long, there are outliers, or was a step. Cost per update:
-/// O(1), no allocation.
+/// Whether LS and LA say the same (agree()). If they do not for long, there are outliers, or was a step. Cost per
+/// update: O(1), no allocation.
 class Agreement {
  public:
   void update(const StrutEstimate& ls, const StrutEstimate& la);

@@ -12,10 +12,10 @@ namespace suspension_health_monitor {
 
 /// By how much the variance of a recursive estimate exceeds the one for independent rows: each reading of a sensor is
 /// in 2 L + 1 rows of the integral filter. With scores s_i = w_i e_i phi_i, and g their sum over a batch of rows much
-/// longer than that, it is E[g^2] / sum E[s^2], parameter by parameter: the regressor of an offset is constant, those of
-/// b1 and b0 oscillate (method of batch means, e.g. C. J. Geyer, Practical Markov chain Monte Carlo, 1992). A mean over
-/// n batches is known as a variance with n degrees of freedom is: the estimate scatters about it as Student's t, whose
-/// variance is n / (n - 2). Cost per row: O(p), no allocation.
+/// longer than that, it is E[g^2] / sum E[s^2], parameter by parameter: the regressor of an offset is constant, those
+/// of b1 and b0 oscillate (method of batch means, e.g. C. J. Geyer, Practical Markov chain Monte Carlo, 1992). A mean
+/// over n batches is known as a variance with n degrees of freedom is: the estimate scatters about it as Student's t,
+/// whose variance is n / (n - 2). Cost per row: O(p), no allocation.
 class BatchScatter {
  public:
   /// @param num_parameters  p >= 1.  @param correlated_rows  2 L; 0: the rows are independent.

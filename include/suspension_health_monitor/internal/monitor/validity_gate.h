@@ -31,7 +31,7 @@ struct EstimateFacts {
   bool is_physical = true;        ///< all parameters that have to be above 0 are
   double age = 0.0;               ///< of the data [s]
   double oldest = std::numeric_limits<double>::infinity();  ///< that may still count [s]
-  bool agrees = true;           ///< with the block estimate, as agree() says
+  bool agrees = true;                                       ///< with the block estimate, as agree() says
   bool free_run_fails = false;  ///< the free run fits the body's motion worse than a constant does
 };
 

@@ -11,9 +11,8 @@ namespace suspension_health_monitor {
 /// not wear: CouplingRows -> moments, in which a row that is far off counts less -> CouplingSolver.
 ///
 /// Tracks that are alike move struts alike: then the rows' information of some combination of struts is not clear of
-/// that of noise, and nothing is known. Nothing is forgotten while what there is does not tell the ratios, as on calm roads
-/// or while the vehicle stands.
-/// Cost per sample: O(N) and, every eighth of a horizon, O(N^2); no allocation.
+/// that of noise, and nothing is known. Nothing is forgotten while what there is does not tell the ratios, as on calm
+/// roads or while the vehicle stands. Cost per sample: O(N) and, every eighth of a horizon, O(N^2); no allocation.
 class CouplingEstimator {
  public:
   /// @param memory  of the rows [samples], the least.
