@@ -116,7 +116,6 @@ TEST(StrutBlocks, DependOnNoUnit) {
   BlockOptions options, scaled_options;
   scaled_options.length = options.length / 16.0;
   scaled_options.delay_stddev = options.delay_stddev / 16.0;
-  scaled_options.friction_stddev = options.friction_stddev * 1000.0;
   StrutBlocks one(options, 1.0 / sampled.rate), other(scaled_options, 1.0 / scaled.rate);
   const std::vector<BlockEstimate> plain = feed(one, readingsOf(sampled)), turned = feed(other, readingsOf(scaled));
   ASSERT_EQ(plain.size(), turned.size());

@@ -47,7 +47,6 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   first_.mean.setZero(p);
   first_.stddev.setConstant(p, kUnknown);
   first_.stddev[kBlockDelay] = delayStddev();
-  if (columns.has_friction && columns.forces > 0) first_.stddev[columns.firstForce()] = options.friction_stddev;
   first_.mean[kBlockWheelShare] = kShareMean;
   first_.stddev[kBlockWheelShare] = kShareStddev;
   if (columns.neighbours > 0) {
@@ -234,11 +233,23 @@ void BlockEstimator::retire(const StrutBlock& block) {
   if (weights_.usual.size() > 0 && block.at[kBlockStiffness] > 0.0) drive_.add(block, weights_, block.at);
 }
 
-DriveFit BlockEstimator::takeDrive() {
-  if (count_ > 0 && has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_))
-    weights_ = window_fit_.weights();
+void BlockEstimator::retireAll() {
+  if (count_ > 0 && has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_)) {
+    weights_.noise = window_fit_.weights().noise;
+    weights_.share_scale = window_fit_.weights().share_scale;
+    weights_.usual = weights_.noise;
+  }
   for (int age = count_ - 1; age >= 0; --age) retire(block(age));
-  return drive_;
+  count_ = 0;
+}
+
+void BlockEstimator::restart() {
+  retireAll();
+  weights_.usual.resize(0);
+  scatter_ = 1.0;
+  slow_ = scaled_ = first_;
+  has_theta_ = is_refused_ = false;
+  updates_ = 0;
 }
 
 std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
@@ -246,7 +257,8 @@ std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
   constexpr double kStill = 1e-12;  // relative
   if (drive_.blocks() > 0) {
     BlockEstimator copy = *this;
-    return copy.takeDrive().estimate(first_);
+    copy.retireAll();
+    return copy.drive_.estimate(first_);
   }
   if (count_ < kWindows.front() || !(has_theta_ || start())) return std::nullopt;
   WindowEstimate result;

@@ -41,33 +41,34 @@ BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, doub
   return score;
 }
 
-BlockMatrix informationOf(const StrutBlock::Band& band, double share_scale) {
-  BlockMatrix information = band.information;
-  information.row(kBlockWheelShare) *= share_scale;
-  information.col(kBlockWheelShare) *= share_scale;
-  return information;
+BlockMatrix withShare(const Eigen::MatrixXd& products, double share_scale) {
+  BlockMatrix scaled = products;
+  scaled.row(kBlockWheelShare) *= share_scale;
+  scaled.col(kBlockWheelShare) *= share_scale;
+  return scaled;
 }
 
 NormalEquations::NormalEquations(const BlockMatrix& normal, const BlockVector& right)
     : inverse(normal), solution(right) {
-  const BlockVector scale = normal.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+  // A column that is silent, such as that of an end stop which is not reached, leaves its parameter at 0, unknown.
+  constexpr double kNoInformation = 1e-200;
+  const BlockVector scale = normal.diagonal().cwiseAbs().cwiseMax(kNoInformation).cwiseSqrt().cwiseInverse();
   if (!scale.allFinite()) return;
-  const BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+  BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+  for (Eigen::Index i = 0; i < scaled.rows(); ++i)
+    if (normal(i, i) == 0.0) scaled(i, i) = 1.0;
   inverse = Eigen::PartialPivLU<BlockMatrix>(scaled).inverse();
   inverse = scale.asDiagonal() * inverse * scale.asDiagonal();
   solution.noalias() = inverse * right;
   is_solvable = solution.allFinite();
 }
 
-BlockMatrix covarianceByNoise(const BlockMatrix& normal, const BlockMatrix& inverse, const BlockPrior& prior,
+BlockMatrix covarianceByNoise(const BlockMatrix& instruments, const BlockMatrix& inverse, const BlockPrior& prior,
                               int blocks) {
   const double correlation = WindowFit::kBinCorrelation + WindowFit::kBlockCorrelation * (blocks - 1.0) / blocks;
-  BlockMatrix middle = correlation * normal;
-  middle.diagonal() += (1.0 - correlation) * prior.stddev.cwiseAbs2().cwiseInverse();
-  BlockMatrix covariance = inverse * middle * inverse.transpose();
-  middle = covariance.transpose();
-  covariance = 0.5 * (covariance + middle);
-  return covariance;
+  BlockMatrix middle = correlation * instruments;
+  middle.diagonal() += prior.stddev.cwiseAbs2().cwiseInverse();
+  return inverse * middle * inverse.transpose();
 }
 
 BlockVector linearPart(const BlockVector& theta, const BlockColumns& columns) {

@@ -8,7 +8,7 @@ DriveFit::DriveFit(const BlockBand& band, const BlockColumns& columns)
     : length_(band.length), bands_(band), columns_(columns) {
   const Eigen::Index p = columns.numParameters();
   information_.setZero(p, p);
-  scatter_ = information_;
+  scatter_ = spread_ = information_;
   right_.setZero(p);
   previous_.assign(static_cast<std::size_t>(bands_.count()), right_);
 }
@@ -21,9 +21,10 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
   for (int i = 0; i < bands_.count(); ++i) {
     const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
     const double scale = weights.share_scale[i], of_band = weight / weights.noise[i];
-    const BlockMatrix information = of_band * informationOf(band, scale);
+    const BlockMatrix information = of_band * withShare(band.information, scale);
     const BlockVector score = of_band * scoreOf(band, theta, scale);
     information_ += information;
+    spread_ += of_band * withShare(band.instruments, scale);
     right_.noalias() += information * theta;
     right_ += score;
     BlockVector& previous = previous_[static_cast<std::size_t>(i)];
@@ -49,7 +50,7 @@ std::optional<WindowEstimate> DriveFit::estimate(const BlockPrior& prior) const 
   WindowEstimate result;
   result.blocks = blocks_;
   result.theta = equations.solution;
-  result.covariance = covarianceByNoise(normal, equations.inverse, prior, blocks_);
+  result.covariance = covarianceByNoise(spread_, equations.inverse, prior, blocks_);
   BlockMatrix scattered = scatter_;
   scattered.diagonal() += known;
   scattered = equations.inverse * scattered * equations.inverse.transpose();

@@ -58,6 +58,13 @@ void FourierIntegrals::push(double time, const double* values) {
   std::copy_n(values, channels_, newest_.begin());
 }
 
+void FourierIntegrals::restart() {
+  time_.reset();
+  spacing_ = 0.0;
+  for (Half& each : halves_) each.index = -1;
+  begin(0);
+}
+
 void FourierIntegrals::begin(long index) {
   open_ = index;
   is_whole_ = true;

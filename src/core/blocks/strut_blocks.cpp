@@ -19,7 +19,7 @@ StrutBlocks::StrutBlocks(const BlockOptions& options, double period, std::size_t
 
 void StrutBlocks::begin(double length) {
   const BlockBand band(length, period_);
-  const BlockColumns columns{effects_ > 0 ? static_cast<int>(effects_) : 1, 0, effects_ == 0};
+  const BlockColumns columns{effects_ > 0 ? static_cast<int>(effects_) : 1, 0};
   std::optional<BlockEstimator> before;
   before.swap(estimator_);
   estimator_.emplace(band, columns, options_);
@@ -42,13 +42,13 @@ void StrutBlocks::begin(double length) {
 }
 
 void StrutBlocks::restart() {
+  estimator_->restart();
+  for (FourierIntegrals& stream : streams_) stream.restart();
+  if (friction_) friction_->restart();
   last_ = {};
-  const double length = estimate_.length;
-  const DriveFit drive = estimator_->takeDrive();
-  estimator_.reset();
+  origin_.reset();
+  next_half_ = 1;
   has_estimate_ = false;
-  begin(length);
-  estimator_->continueDrive(drive);
 }
 
 std::optional<BlockEstimate> StrutBlocks::overTheDrive() {

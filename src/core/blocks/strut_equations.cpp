@@ -34,6 +34,7 @@ StrutBlock StrutEquations::makeBlock() const {
   block.bands.resize(static_cast<std::size_t>(noise_bands_.count()));
   for (StrutBlock::Band& each : block.bands) {
     each.information.setZero(p, p);
+    each.instruments.setZero(p, p);
     each.score.setZero(p);
     each.share.setZero(p);
     each.moments.setZero(p + 1, p + 1);
@@ -101,6 +102,7 @@ void StrutEquations::sumBands(StrutBlock& block) const {
     StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
     const auto z_band = z.middleRows(2 * first, 2 * size), r_band = r.middleRows(2 * first, 2 * size);
     band.information.noalias() = z_band.transpose().lazyProduct(r_band.leftCols(p));
+    band.instruments.noalias() = z_band.transpose().lazyProduct(z_band);
     band.score.noalias() = z_band.transpose().lazyProduct(r_band.col(p));
     band.share = block.at[kBlockWheelShare] * band.information.col(kBlockWheelShare);
     band.moments.noalias() = r_band.transpose().lazyProduct(r_band);

@@ -31,6 +31,7 @@ WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int mos
   sums_.resize(static_cast<std::size_t>(bands_.count()));
   for (Sum& each : sums_) {
     each.information.resize(p, p);
+    each.instruments.resize(p, p);
     each.moments.resize(p + 1, p + 1);
     each.score.resize(p);
     each.share.resize(p);
@@ -38,6 +39,7 @@ WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int mos
   weights_.noise.setOnes(bands_.count());
   weights_.share_scale = weights_.noise;
   normal_.setZero(p, p);
+  spread_ = normal_;
   right_.setZero(p);
   previous_.setZero(2, bands_.count());
   distances_.reserve(static_cast<std::size_t>(most_blocks));
@@ -95,6 +97,7 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
 
 void WindowFit::Sum::setZero() {
   information.setZero();
+  instruments.setZero();
   moments.setZero();
   score.setZero();
   share.setZero();
@@ -103,6 +106,7 @@ void WindowFit::Sum::setZero() {
 
 void WindowFit::Sum::add(double weight, const StrutBlock::Band& band) {
   information += weight * band.information;
+  instruments += weight * band.instruments;
   moments += weight * band.moments;
   score += weight * band.score;
   share += weight * band.share;
@@ -143,18 +147,17 @@ void WindowFit::measureNoise(const BlockVector& theta) {
 }
 
 void WindowFit::sum(const BlockPrior& prior) {
+  spread_.setZero();
   normal_.setZero();
   normal_.diagonal() = prior.stddev.cwiseAbs2().cwiseInverse();
   right_ = normal_.diagonal().cwiseProduct(prior.mean);
   for (int i = 0; i < bands_.count(); ++i) {
     const Sum& sum = sums_[static_cast<std::size_t>(i)];
     const double noise = weights_.noise[i], scale = weights_.share_scale[i];
-    BlockMatrix information = sum.information / noise;
-    information.row(kBlockWheelShare) *= scale;
-    information.col(kBlockWheelShare) *= scale;
     BlockVector score = (sum.score + scale * sum.share) / noise;
     score[kBlockWheelShare] *= scale;
-    normal_ += information;
+    normal_ += withShare(sum.information, scale) / noise;
+    spread_ += withShare(sum.instruments, scale) / noise;
     right_ += score;
   }
 }
@@ -163,7 +166,7 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
                          WindowEstimate& result) {
   sum(prior);
   const NormalEquations equations(normal_, right_);
-  result.covariance = covarianceByNoise(normal_, equations.inverse, prior, blocks_);
+  result.covariance = covarianceByNoise(spread_, equations.inverse, prior, blocks_);
   if (!equations.is_solvable) result.covariance.setConstant(std::numeric_limits<double>::infinity());
   result.inflation = std::max(least_inflation, inflation(blocks, result, equations.inverse, prior));
   result.covariance *= result.inflation;

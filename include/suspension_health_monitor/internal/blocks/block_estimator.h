@@ -61,9 +61,8 @@ class BlockEstimator {
   /// blocks than are kept it is iterated until it stands still. Not for the sample path.
   std::optional<WindowEstimate> overTheDrive();
 
-  /// Hands over what blocks of the same length have told, to go on with after another start.
-  DriveFit takeDrive();
-  void continueDrive(const DriveFit& drive) { drive_ = drive; }
+  /// Another drive, perhaps of another vehicle: nothing is known any more, but to overTheDrive().
+  void restart();
 
   const StrutEquations& equations() const { return equations_; }
   const BlockVector& theta() const { return theta_; }  ///< to linearise at, and for models
@@ -89,6 +88,7 @@ class BlockEstimator {
   bool contradictsSlow();
   bool contradictsShorter(const WindowEstimate& estimate);
   void retire(const StrutBlock& block);
+  void retireAll();
   void refine(int window, const BlockPrior& prior);
   bool isStale(const StrutBlock& block) const;
   bool fit(int window, const BlockPrior& prior, WindowEstimate& result);

@@ -11,8 +11,7 @@ struct BlockOptions {
   double length = 2.0;     ///< T of the first blocks [s]; then it follows the bounce by factors of two
   double enough = 0.0375;  ///< relative standard deviation of b1 and b0 that needs no more blocks: 0.15, the change
                            ///< that warns, over 4, the standard deviations that prove it [-]
-  double delay_stddev = 0.005;   ///< prior of the clocks' difference [s]
-  double friction_stddev = 0.3;  ///< prior of dry friction over the body's mass [m/s^2]
+  double delay_stddev = 0.005;  ///< prior of the clocks' difference [s]
 };
 
 /// The bins of a block that the estimator uses: k = first .. last, w_k = 2 pi k / T. The Hann window mixes each bin

@@ -30,7 +30,7 @@ class DriveFit {
   NoiseBands bands_;
   BlockColumns columns_;
   int blocks_ = 0;
-  BlockMatrix information_, scatter_;  // sums of Z'R / s2, and of the scores' products
+  BlockMatrix information_, spread_, scatter_;  // sums of Z'R / s2, Z'Z / s2, and of the scores' products
   BlockVector right_;
   std::vector<BlockVector> previous_;  // scores of the block before, by band
   double body_ = 0.0, unexplained_ = 0.0, rate_ = 0.0, travel_ = 0.0, weight_ = 0.0;

@@ -30,6 +30,9 @@ class FourierIntegrals {
   /// @param time  since the start of half block 0 [s], not negative.
   void push(double time, const double* values);
 
+  /// The next reading is the first one.
+  void restart();
+
   /// @return the first half block that is not complete yet.
   long openHalf() const { return open_; }
 

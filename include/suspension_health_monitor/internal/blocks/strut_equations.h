@@ -27,8 +27,7 @@ enum BlockParameter : int {
 /// How many columns the equations of one strut top have beside b1, b0, tau and r.
 struct BlockColumns {
   int forces = 1;  ///< known shapes of a force over the body's mass, on the wheel's stamps: dry friction, or effects
-  int neighbours = 0;        ///< travel rates and travels of the other struts of the body
-  bool has_friction = true;  ///< the force is dry friction, of which something is known beforehand
+  int neighbours = 0;  ///< travel rates and travels of the other struts of the body
 
   int numParameters() const { return kNumBlockParameters + forces + neighbours; }
   int firstForce() const { return kNumBlockParameters; }
@@ -51,6 +50,7 @@ struct StrutBlock {
   /// linearised at: e = c - R theta.
   struct Band {
     Eigen::MatrixXd information;  ///< Z'R
+    Eigen::MatrixXd instruments;  ///< Z'Z
     Eigen::VectorXd score;        ///< Z'c
     Eigen::VectorXd share;        ///< Z'R of r, times r
     Eigen::MatrixXd moments;      ///< R'R with c as the last column

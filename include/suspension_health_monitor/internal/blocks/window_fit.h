@@ -69,7 +69,7 @@ double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta);
 
 /// The score Z'e of a band at theta, and its information, with the column of r scaled.
 BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, double share_scale);
-BlockMatrix informationOf(const StrutBlock::Band& band, double share_scale);
+BlockMatrix withShare(const Eigen::MatrixXd& products, double share_scale);
 
 /// Solves normal equations whose units differ by orders of magnitude.
 struct NormalEquations {
@@ -79,9 +79,11 @@ struct NormalEquations {
   NormalEquations(const BlockMatrix& normal, const BlockVector& right);
 };
 
-/// @return the covariance of parameters by noise alone: bins under a Hann window are correlated, and so are blocks that
-/// overlap by half.
-BlockMatrix covarianceByNoise(const BlockMatrix& normal, const BlockMatrix& inverse, const BlockPrior& prior,
+/// @return the covariance of parameters by noise alone, H^-1 (c Z'Z + P) H^-1': bins under a Hann window are
+/// correlated, and so are blocks that overlap by half (c). Where the wheel's motion is little more than noise the
+/// regressors have parts that the instruments know nothing of, so that Z'Z is not H.
+/// @param instruments  sum of Z'Z / s2.  @param inverse  H^-1.
+BlockMatrix covarianceByNoise(const BlockMatrix& instruments, const BlockMatrix& inverse, const BlockPrior& prior,
                               int blocks);
 
 /// @return theta without the force columns: the linear strut.
@@ -141,7 +143,7 @@ class WindowFit {
  private:
   /// Of the same band over blocks, weighted.
   struct Sum {
-    Eigen::MatrixXd information, moments;
+    Eigen::MatrixXd information, instruments, moments;
     Eigen::VectorXd score, share;
     double wheel_power = 0.0;
 
@@ -172,7 +174,7 @@ class WindowFit {
   double sum_of_weights_ = 0.0;
   std::vector<WheelNoise> wheel_noise_;  // by band
   BlockWeights weights_;
-  BlockMatrix normal_;
+  BlockMatrix normal_, spread_;  // sums of Z'R / s2 and of Z'Z / s2; the former with the prior's
   BlockVector right_;
   Eigen::Matrix2Xd previous_;  // by band
   std::vector<double> distances_;
