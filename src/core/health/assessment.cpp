@@ -23,6 +23,7 @@ EarlyWarning earlyWarning(const HealthOptions& options) {
 // |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.
 double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); }
 
+constexpr double kDecisive = 1.5;   // times the significance that a level needs: no second estimate has to confirm it
 constexpr double kHeldShare = 0.5;  // of the significance that a level began with
 
 /// A change of one parameter, and what it is judged by.
@@ -102,9 +103,12 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
     now.level = HealthLevel::kStale;
   else if (sensor_.fault != SensorFault::kNone)
     now.level = HealthLevel::kWarn;
-  // The same estimate twice is no confirmation of itself.
+  // The same estimate twice is no confirmation of itself, unless it needs none.
   const bool is_judgement = estimate.valid() && sensor_.fault == SensorFault::kNone;
-  if (judges || !is_judgement || stamp < report_stamp_) level_ = confirmation_.update(stamp, now.level);
+  const bool is_decisive = std::max(judged_.damping_significance * (judged_.damping_level > HealthLevel::kOk),
+                                    judged_.stiffness_significance * (judged_.stiffness_level > HealthLevel::kOk)) >
+                           kDecisive * options_.min_significance;
+  if (judges || !is_judgement || is_decisive || stamp < report_stamp_) level_ = confirmation_.update(stamp, now.level);
   report_stamp_ = stamp;
   if (estimate.valid() || level_ == HealthLevel::kStale) report_ = now;  // else the last judgement stands
   report_.level = level_;
