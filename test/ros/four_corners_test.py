@@ -21,7 +21,7 @@ RATIO_TOLERANCE = 0.05
 SEDAN = ((1.0, 0.078, 0.381, -0.419), (0.078, 1.0, -0.419, 0.381),  # a_ij / a_jj, as `suspension_bag simulate
          (0.428, -0.470, 1.0, 0.221), (-0.470, 0.428, 0.221, 1.0))  # --vehicle-model sedan` prints them
 SERVICES = ("set_effects", "save_model", "save_baseline", "diagnose", "reset")
-TOPICS = ("ls", "la", "comparison", "health", "model")
+TOPICS = ("estimate", "ls", "la", "comparison", "health", "model")
 
 
 def branch(array, name):

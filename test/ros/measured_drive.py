@@ -15,8 +15,8 @@ GRAVITY = 9.81  # [m/s^2]
 DAMPING_TO_MASS, STIFFNESS_TO_MASS = 3.0, 13.8
 LARGEST_ERROR = (0.16, 0.28)  # of LA over 20 drives without a fault
 FILLING = 60  # samples before the first regression row: two horizons of 30
-SKEW = 4 + 31  # samples until it is known by how much the clocks differ: the wheel's around a row, and rows; not of paper.yaml
-VALID_AFTER = FILLING + SKEW + 50  # samples after which the estimates are marked valid
+BLOCKS = 200  # samples of the first three blocks of 2 s, which overlap by half
+VALID_AFTER = BLOCKS + 2  # samples after which the estimates are marked valid
 BATCH = 100  # samples on their way at once; fewer than any queue holds
 
 

@@ -28,7 +28,7 @@ WRONG = {
     "laws that are not there": ({"effects_file": "/none.yaml"}, ["effects_file = /none.yaml: cannot be read"]),
     "a relative path": ({"effects_file": "my_laws.yaml"}, ["my_laws.yaml: cannot be read in /", "must be a YAML file"]),
     "nested, of the search": ({"diagnose": {"window": 0}}, ["diagnose/window = 0", "must be in [0.01, 1000000]"]),
-    "contradiction": ({"fastest_memory": 3.0}, ["fastest_memory = 3 [s]", "at most memory = 2 [s]"]),
+    "contradiction": ({"health": {"damping_warn": 0.5}}, ["health/damping_error = 0.3", "at least health/damping_warn"]),
     "former option": ({"forgetting_rule": "exponential"}, ["forgetting_rule is no option any more: preset: paper"]),
 }
 WRONG_COMPARISON = {

@@ -32,7 +32,7 @@ class TerminalTest(unittest.TestCase):
         (level, reason), = re.findall(r"/monitor: at the end (\w+), (.*)", text)
         self.assertEqual(level, "ERROR")
         self.assertIn("damping 3", reason)
-        b1, = re.findall(r"/monitor: la: damping/mass (\S+) \+- \S+ 1/s, stiffness/mass \S+ \+- \S+ 1/s\^2", text)
+        b1, = re.findall(r"/monitor: estimate: damping/mass (\S+) \+- \S+ 1/s, stiffness/mass \S+ \+- \S+ 1/s\^2", text)
         self.assertAlmostEqual(float(b1), 2.0, delta=0.3)
 
     def test_a_topic_that_nobody_publishes_is_told_with_those_that_are_there(self):
