@@ -29,9 +29,12 @@ constexpr double kStale = 0.02;        // relative change of b1 or b0 since the 
 constexpr double kStalePhase = 0.1;    // of the phase that the delay makes in the last bin [rad]
 constexpr double kStaleShare = 0.2;    // of r
 
-// At rest now and then a strut is found in the noise. By chance five parameters explain five of the 120 numbers of
-// three blocks.
-bool explainsSomething(const WindowEstimate& estimate) { return estimate.explained > 0.05; }
+// At rest now and then a strut is found in the noise: by chance five parameters explain five of the 120 numbers of three
+// blocks. And a body that the wind rocks at one frequency fits some strut that rings freely, which no wheel drives.
+bool explainsSomething(const WindowEstimate& estimate) {
+  constexpr double kLeastExplained = 0.05, kLeastDriven = 0.25;  // half of what a valid estimate explains
+  return estimate.explained > kLeastExplained && estimate.driven > kLeastDriven;
+}
 
 bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
 
@@ -152,7 +155,7 @@ const WindowEstimate* BlockEstimator::update() {
 // Linear least squares, which noise of the regressors biases, then some steps from there.
 bool BlockEstimator::start() {
   const int window = std::min(count_, kStartBlocks);
-  const Eigen::VectorXd linear = equations_.start(newest(window));
+  const BlockVector linear = equations_.start(newest(window));
   // A strut that bounces a quarter as fast as the lowest bin, damped by a tenth, is the softest that the blocks can
   // see.
   const double slowest = equations_.band().omega(BlockBand::kFirst) / 8.0;
@@ -245,7 +248,7 @@ void BlockEstimator::retireAll() {
 
 void BlockEstimator::restart() {
   retireAll();
-  weights_.usual.resize(0);
+  weights_.usual = Eigen::VectorXd();
   scatter_ = 1.0;
   slow_ = scaled_ = first_;
   has_theta_ = is_refused_ = false;

@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"
 
-#include <Eigen/QR>
+#include <Eigen/LU>
+#include <limits>
 
 namespace suspension_health_monitor {
 namespace {
@@ -108,29 +109,33 @@ void StrutEquations::sumBands(StrutBlock& block) const {
     band.moments.noalias() = r_band.transpose().lazyProduct(r_band);
     band.wheel_power = wheel_.segment(first, size).abs2().sum();
     band.body_power = block.body.col(0).segment(first, size).abs2().sum();
+    band.undriven_power = (block.body.col(0) - gain_ * x0_).segment(first, size).abs2().sum();
     const auto fourth = s_.segment(first, size).abs2().square();
     band.rate_power = ((x1_ - block.body.col(1)).segment(first, size).abs2() / fourth).sum();
     band.travel_power = ((x0_ - block.body.col(0)).segment(first, size).abs2() / fourth).sum();
   }
 }
 
-Eigen::VectorXd StrutEquations::start(const std::vector<const StrutBlock*>& blocks) {
-  const Eigen::Index n = s_.size();
-  Eigen::MatrixXcd rows(n * static_cast<Eigen::Index>(blocks.size()), 2 + columns_.neighbours);
-  Eigen::MatrixXcd output(rows.rows(), 1);
-  Eigen::Index at = 0;
+BlockVector StrutEquations::start(const std::vector<const StrutBlock*>& blocks) {
+  const Eigen::Index p = 2 + columns_.neighbours;
+  BlockMatrix normal = BlockMatrix::Zero(p, p);
+  BlockVector right = BlockVector::Zero(p);
   for (const StrutBlock* block : blocks) {
     undelayed_.apply(0, block->wheel, x0_);
     undelayed_.apply(1, block->wheel, x1_);
     // Over s^2: displacements, which a bounce has most of.
-    rows.col(0).segment(at, n).array() = (x1_ - block->body.col(1)) / (s_ * s_);
-    rows.col(1).segment(at, n).array() = (x0_ - block->body.col(0)) / (s_ * s_);
+    regressors_.col(0).array() = (x1_ - block->body.col(1)) / (s_ * s_);
+    regressors_.col(1).array() = (x0_ - block->body.col(0)) / (s_ * s_);
     for (int m = 0; m < columns_.neighbours; ++m)
-      rows.col(2 + m).segment(at, n).array() = block->neighbours.col(m) / (s_ * s_);
-    output.col(0).segment(at, n).array() = block->body.col(2) / (s_ * s_);
-    at += n;
+      regressors_.col(2 + m).array() = block->neighbours.col(m) / (s_ * s_);
+    regressors_.col(p).array() = block->body.col(2) / (s_ * s_);
+    const auto rows = asReal(regressors_);
+    normal.noalias() += rows.leftCols(p).transpose().lazyProduct(rows.leftCols(p));
+    right.noalias() += rows.leftCols(p).transpose().lazyProduct(rows.col(p));
   }
-  return asReal(rows).colPivHouseholderQr().solve(asReal(output).col(0));
+  const BlockVector scale = normal.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  const BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+  return scale.cwiseProduct(Eigen::PartialPivLU<BlockMatrix>(scaled).solve(scale.cwiseProduct(right)));
 }
 
 }  // namespace suspension_health_monitor

@@ -174,7 +174,7 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   result.alike = 0.0;
   if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
 
-  double body = 0.0, unexplained = 0.0, rate = 0.0, travel = 0.0;
+  double body = 0.0, unexplained = 0.0, undriven = 0.0, rate = 0.0, travel = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero(), information = age;
   const BlockVector linear = linearPart(result.theta, columns_);
   for (const Sum& each : sums_) unexplained += residualPower(each.moments, linear);
@@ -186,12 +186,14 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
       body += weight * band.body_power;
       rate += weight * band.rate_power;
       travel += weight * band.travel_power;
+      undriven += weight * band.undriven_power;
       const Eigen::Vector2d own = weight / weights_.noise[i] * band.information.diagonal().head<2>();
       information += own;
       age += own * (blocks.back()->end - block.end);
     }
   }
   result.explained = body > 0.0 ? 1.0 - unexplained / body : 0.0;
+  result.driven = body > 0.0 ? 1.0 - undriven / body : 0.0;
   result.setMotion(rate / sum_of_weights_, travel / sum_of_weights_, length_);
   result.age = (age.array() / information.array()).maxCoeff();
 }

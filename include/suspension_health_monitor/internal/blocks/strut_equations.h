@@ -56,6 +56,7 @@ struct StrutBlock {
     Eigen::MatrixXd moments;      ///< R'R with c as the last column
     double wheel_power = 0.0;     ///< |W^|^2
     double body_power = 0.0;      ///< |H_0(Y)|^2
+    double undriven_power = 0.0;  ///< |H_0(Y) - G H_0(X)|^2
     double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
     double travel_power = 0.0;    ///< |H_0(X - Y)|^2 / |s|^4
   };
@@ -83,7 +84,7 @@ class StrutEquations {
   void linearise(const BlockVector& theta, StrutBlock& block);
 
   /// @return b1, b0 and the neighbours' columns of weighted least squares over blocks, as a start.
-  Eigen::VectorXd start(const std::vector<const StrutBlock*>& blocks);
+  BlockVector start(const std::vector<const StrutBlock*>& blocks);
 
   const BlockBand& band() const { return band_; }
   const NoiseBands& noiseBands() const { return noise_bands_; }

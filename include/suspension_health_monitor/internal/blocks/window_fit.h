@@ -30,6 +30,7 @@ struct WindowEstimate {
   double inflation = 1.0;  ///< of the covariance: cells scatter so much more than their noise explains
   double explained = 0.0;  ///< share of the body's power by b1 and b0 alone
   double alike = 0.0;      ///< relative standard deviation of b1 or b0 by noise of neighbours' wheels, see WindowFit
+  double driven = 0.0;     ///< share of the body's power that the wheel makes through the model
   double rate = 0.0;       ///< rms of the travel rate [m/s]
   double travel = 0.0;     ///< rms of the travel [m]
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
