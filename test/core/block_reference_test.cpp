@@ -99,6 +99,14 @@ class ReferenceDrive {
   }
 };
 
+// R'R with the residual at theta as the last column; a band has that of b1 = b0 = 0 there, without columns.
+Eigen::MatrixXd momentsAt(const StrutBlock::Band& band, const BlockVector& theta) {
+  Eigen::MatrixXd change = Eigen::MatrixXd::Identity(6, 6);
+  change.col(5).head(5) = -theta;
+  change(kBlockWheelShare, 5) = 0.0;
+  return change.transpose() * band.moments * change;
+}
+
 class BlockReference : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -180,12 +188,12 @@ TEST_F(BlockReference, HasTheSameSumsOfEveryBand) {
   for (const ReferenceDrive& drive : drives_)
     for (int i = 0; i < drive.equations.noiseBands().count(); ++i) {
       const StrutBlock::Band& band = drive.blocks[kSummed].bands[static_cast<std::size_t>(i)];
-      const Eigen::VectorXd sizes = band.moments.diagonal().cwiseSqrt();
+      const Eigen::VectorXd sizes = momentsAt(band, drive.theta).diagonal().cwiseSqrt();
       // An instrument is as large as its regressor or somewhat larger, by noise.
       const Eigen::VectorXd regressors = sizes.head(5), residual = sizes.tail(1);
       expectMatrix(drive, kInformation, i, band.information, regressors, regressors);
-      expectMatrix(drive, kScore, i, band.score, regressors, residual);
-      expectMatrix(drive, kMoments, i, band.moments, sizes, sizes);
+      expectMatrix(drive, kScore, i, scoreOf(band, drive.theta, 1.0), regressors, residual);
+      expectMatrix(drive, kMoments, i, momentsAt(band, drive.theta), sizes, sizes);
       const Eigen::Vector3d powers(band.wheel_power, band.body_power, band.rate_power);
       expectMatrix(drive, kPowers, i, powers, powers, Eigen::VectorXd::Ones(1));
     }

@@ -19,7 +19,7 @@ GIVEN = {"memory": 1.0, "publish_every": 1,
          "health": {"damping_warn": 0.2, "damping_error": 0.5, "stiffness_warn": 0.4, "stiffness_error": 2,
                     "confirm_time": 0.5, "payload_range": 0.3, "gravity_tolerance": 0.2},
          "nominal": {"damping_to_mass": 4.0, "stiffness_to_mass": 13.8}}
-AS_GIVEN = {"memory": 1.0, "publish_every": 1, "health/damping_warn": 0.2, "health/damping_error": 0.5,
+AS_GIVEN = {"memory": 1.0, "publish_every": 1, "health/oldest_data": 90.0, "health/damping_warn": 0.2, "health/damping_error": 0.5,
             "health/stiffness_warn": 0.4, "health/stiffness_error": 2.0, "health/confirm_time": 0.5,
             "health/payload_range": 0.3, "health/gravity_tolerance": 0.2}
 # What is asked for, and what the warning must hold.

@@ -8,7 +8,6 @@ namespace {
 
 constexpr int kIterations = 3;        // of the noise and parameters
 constexpr int kWeighings = 3;         // of blocks
-constexpr double kSameWeight = 0.1;   // relative
 constexpr double kLeastShare = 0.02;  // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
 
 // Within a factor of two of what it was, so that the model stays stable.
@@ -124,7 +123,7 @@ bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
   }
   auto present = present_.head(blocks_), weight = weight_.head(blocks_);
   present /= present.maxCoeff();  // where all are noisy that is the noise
-  const bool has_changed = ((present - weight).abs() > kSameWeight * weight).any();
+  const bool has_changed = (present != weight).any();
   weight = present;
   return has_changed;
 }

@@ -57,6 +57,7 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects, con
 void SuspensionMonitor::reconfigure(const MonitorSettings& options) {
   options_ = checked(options);
   health_.setOptions(options.health());
+  has_new_estimate_ = true;  // the newest estimate is judged by them at once
   sensors_.setTolerance(options.gravity_tolerance);
   changeModels([&](ModelTracker& model, ModelReport&) { model.setOptions(options); });
 }

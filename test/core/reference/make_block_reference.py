@@ -150,7 +150,8 @@ def window(blocks, bands, at, usual=None):
 
     def weigh(theta):
         q = np.array([[power((k.e - (not_r * (theta - at)) @ k.R)[b]) for b in bands] for k in blocks]) / sizes
-        w = np.ones(len(blocks)) if usual is None else np.minimum(1.0, 10.0 / (q / usual).mean(1))
+        w = np.ones(len(blocks)) if usual is None else np.minimum(1.0, 10.0 / (q / usual).mean(1)) ** 2
+        w = w / w.max()
         s2 = w @ q / w.sum()
         s2 = s2 * (1 + 4 * 0.972 / (w.sum() * sizes))  # known by so few degrees of freedom
         wheel = w @ (np.array([[power(k.W[b]) for b in bands] for k in blocks]) / sizes) / w.sum()
@@ -163,26 +164,26 @@ def window(blocks, bands, at, usual=None):
                 yield i, j, w[i] / s2[j], turn * k.Z[:, b], turn * k.R[:, b], k.e[b]
 
     def normal(w, s2, scale):
-        N, right = P.copy(), P @ PRIOR_MEAN
+        N, spread, right = P.copy(), np.zeros_like(P), P @ PRIOR_MEAN
         for _, _, weight, Z, R, e in cells(w, s2, scale):
             N += weight * products(Z, R)
+            spread += weight * products(Z, Z)
             right = right + weight * products(Z, (at @ R + e)[None, :])[:, 0]
-        return N, right
+        return N, right, spread
 
     theta = at.copy()
     for _ in range(3):
-        N, right = normal(*weigh(theta))
+        N, right, _ = normal(*weigh(theta))
         new = np.linalg.solve(N, right)
         new[:2] = np.clip(new[:2], theta[:2] / 2, theta[:2] * 2)
         new[3] = np.clip(new[3], 0.02, 0.98)
         theta = new
     w, s2, scale = weigh(theta)
-    N, _ = normal(w, s2, scale)
+    N, _, spread = normal(w, s2, scale)
     inverse = np.linalg.inv(N)
     B = len(blocks)
     correlation = 0.972 + 0.083 * (B - 1) / B
-    covariance = inverse @ (correlation * (N - P) + P) @ inverse.T
-    covariance = (covariance + covariance.T) / 2
+    covariance = inverse @ (correlation * spread + P) @ inverse.T
     scores = np.zeros((B, len(bands), 2))
     information = np.zeros((B, 2))
     for i, j, weight, Z, R, e in cells(w, s2, scale):
