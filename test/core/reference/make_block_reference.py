@@ -148,11 +148,15 @@ def window(blocks, bands, at, usual=None):
     P = np.diag(PRIOR_SD ** -2.0)
     not_r = np.array([1, 1, 1, 0, 1.0])
 
+    def powers(theta):
+        return np.array([[power((k.e - (not_r * (theta - at)) @ k.R)[b]) for b in bands] for k in blocks]) / sizes
+
     def weigh(theta):
-        q = np.array([[power((k.e - (not_r * (theta - at)) @ k.R)[b]) for b in bands] for k in blocks]) / sizes
-        w = np.ones(len(blocks)) if usual is None else np.minimum(1.0, 10.0 / (q / usual).mean(1)) ** 2
-        w = w / w.max()
-        s2 = w @ q / w.sum()
+        w = np.ones(len(blocks)) if usual is None else np.minimum(1.0, 10.0 / (powers(theta) / usual).mean(1)) ** 2
+        return w / w.max()
+
+    def noise(theta, w):
+        s2 = w @ powers(theta) / w.sum()
         s2 = s2 * (1 + 4 * 0.972 / (w.sum() * sizes))  # known by so few degrees of freedom
         wheel = w @ (np.array([[power(k.W[b]) for b in bands] for k in blocks]) / sizes) / w.sum()
         return w, s2, s2 / wheel
@@ -171,14 +175,18 @@ def window(blocks, bands, at, usual=None):
             right = right + weight * products(Z, (at @ R + e)[None, :])[:, 0]
         return N, right, spread
 
-    theta = at.copy()
+    theta, w = at.copy(), np.ones(len(blocks))
     for _ in range(3):
-        N, right, _ = normal(*weigh(theta))
-        new = np.linalg.solve(N, right)
-        new[:2] = np.clip(new[:2], theta[:2] / 2, theta[:2] * 2)
-        new[3] = np.clip(new[3], 0.02, 0.98)
-        theta = new
-    w, s2, scale = weigh(theta)
+        for _ in range(3):
+            N, right, _ = normal(*noise(theta, w))
+            new = np.linalg.solve(N, right)
+            new[:2] = np.clip(new[:2], theta[:2] / 2, theta[:2] * 2)
+            new[3] = np.clip(new[3], 0.02, 0.98)
+            theta = new
+        before, w = w, weigh(theta)
+        if (before == w).all():
+            break
+    w, s2, scale = noise(theta, w)
     N, _, spread = normal(w, s2, scale)
     inverse = np.linalg.inv(N)
     B = len(blocks)
