@@ -20,7 +20,6 @@ constexpr int kSlowEvery = 4;         // blocks: all blocks then have changed by
 constexpr double kSlowFactor = 1.5;   // standard deviations of what changes slowly count so much more for fewer blocks
 constexpr double kContradiction = 3.0;  // standard deviations
 constexpr double kLost = 0.3;           // relative standard deviation from which there is no estimate to linearise at
-constexpr double kNothing = 0.5;        // relative standard deviation from which blocks tell nothing of the strut
 constexpr double kHalf = 0.5;           // of the body's power
 constexpr int kStartBlocks = 8, kStartSteps = 8;
 constexpr int kVehicleStartSteps = 3;  // all that one reading has time for; the blocks after it go on
@@ -29,8 +28,9 @@ constexpr double kStale = 0.02;        // relative change of b1 or b0 since the 
 constexpr double kStalePhase = 0.1;    // of the phase that the delay makes in the last bin [rad]
 constexpr double kStaleShare = 0.2;    // of r
 
-// At rest now and then a strut is found in the noise: by chance five parameters explain five of the 120 numbers of three
-// blocks. And a body that the wind rocks at one frequency fits some strut that rings freely, which no wheel drives.
+// At rest now and then a strut is found in the noise: by chance five parameters explain five of the 120 numbers of
+// three blocks. And a body that the wind rocks at one frequency fits some strut that rings freely, which no wheel
+// drives.
 bool explainsSomething(const WindowEstimate& estimate) {
   constexpr double kLeastExplained = 0.05, kLeastDriven = 0.25;  // half of what a valid estimate explains
   return estimate.explained > kLeastExplained && estimate.driven > kLeastDriven;
@@ -117,8 +117,8 @@ const WindowEstimate* BlockEstimator::update() {
   }
   is_refused_ = false;
   if (has_theta_) equations_.linearise(theta_, block(0));
-  if (count_ < kWindows.front() || !(has_theta_ || start())) {
-    if (count_ >= kWindows.front()) newest_worst_ = kUnknown;
+  if (!hasBlocks() || !(has_theta_ || start())) {
+    if (hasBlocks()) newest_worst_ = kUnknown;
     return nullptr;
   }
   if (++updates_ % kSlowEvery == 0 && count_ >= kStartBlocks) learnSlow();
@@ -148,7 +148,7 @@ const WindowEstimate* BlockEstimator::update() {
   if (is_refused_) return nullptr;
   theta_ = best_.theta;
   // At rest the last blocks of the drive explain less and less of the window: what is known is held.
-  const bool is_at_rest = best_.explained < kHalf && !(newest_worst_ < kNothing);
+  const bool is_at_rest = best_.explained < kHalf && newestSayNothing();
   return is_at_rest ? nullptr : &best_;
 }
 
@@ -263,7 +263,7 @@ std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
     copy.retireAll();
     return copy.drive_.estimate(first_);
   }
-  if (count_ < kWindows.front() || !(has_theta_ || start())) return std::nullopt;
+  if (!hasBlocks() || !(has_theta_ || start())) return std::nullopt;
   WindowEstimate result;
   for (int i = 0; i < kMostSteps; ++i) {
     const BlockVector before = theta_;

@@ -30,9 +30,6 @@ bool isModel(const StrutEstimate& estimate) {
          estimate.doubt == EstimateDoubt::kOldData;
 }
 
-// The newest blocks alone say nothing of the strut where they do not know it to half of itself.
-constexpr double kNothing = 0.5;
-
 BlockOptions blockOptions(const MonitorSettings& options) {
   BlockOptions blocks;
   blocks.length = options.presentBlockLength();
@@ -114,7 +111,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
 bool ModelTracker::addReading(Side side, Stamp stamp, double acceleration, ModelReport& report) {
   const BlockEstimate* estimate = blocks_.push(side, stamp, acceleration);
   now_ = stamp;
-  identifier_.hold(blocks_.estimate() != nullptr && blocks_.newestWorst() > kNothing);
+  identifier_.hold(blocks_.estimate() != nullptr && blocks_.estimator().newestSayNothing());
   if (estimate == nullptr) return false;
   describe(*estimate, effects().size(), report.estimate);
   return true;

@@ -21,6 +21,7 @@ class BlockEstimator {
  public:
   static constexpr int kMostBlocks = 64;  ///< of a window: a minute at T = 2 s, far longer than a damper stays the same
                                           ///< temperature, shorter than health/oldest_data asks for
+  static constexpr double kNothing = 0.5;                                    ///< relative standard deviation
   static constexpr std::array kWindows{3, 4, 6, 8, 12, 16, 24, 32, 48, 64};  ///< [blocks]
 
   BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options);
@@ -71,8 +72,8 @@ class BlockEstimator {
   /// @return true if there are blocks enough for an estimate.
   bool hasBlocks() const { return count_ >= kWindows.front(); }
 
-  /// @return the larger relative standard deviation of b1 and b0 by the newest blocks alone, kWindows[0] of them [-].
-  double newestWorst() const { return newest_worst_; }
+  /// @return true if the newest blocks alone say nothing of the strut: they do not know it to kNothing of itself.
+  bool newestSayNothing() const { return !(newest_worst_ < kNothing); }
 
   /// Goes on with this estimate, as of blocks of another length.
   void begin(const BlockVector& theta, const BlockPrior& slow);
@@ -106,7 +107,7 @@ class BlockEstimator {
   DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;
   bool has_theta_ = false, is_refused_ = false;
-  double newest_worst_ = 0.0;
+  double newest_worst_ = 0.0;  // larger relative standard deviation of b1 and b0 by the newest blocks, kWindows[0]
   WindowEstimate best_, trial_;
   std::optional<WindowEstimate> of_all_;
   struct Shorter {

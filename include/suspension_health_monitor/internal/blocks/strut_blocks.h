@@ -40,9 +40,6 @@ class StrutBlocks {
   const BlockEstimate* estimate() const { return has_estimate_ ? &estimate_ : nullptr; }
   const BlockEstimator& estimator() const { return *estimator_; }
 
-  /// @return as BlockEstimator::newestWorst(); infinite while the first blocks of a new length fill.
-  double newestWorst() const { return estimator_->newestWorst(); }
-
   /// @return over all readings so far, before restart(), too; empty: too little is known. Not for the sample path.
   std::optional<BlockEstimate> overTheDrive();
 

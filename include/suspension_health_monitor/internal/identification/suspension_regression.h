@@ -43,9 +43,6 @@ class SuspensionRegression {
   /// @return the row, owned by this object and valid until the next call; nullptr while the filter fills.
   const RegressionRow* push(const CornerSample& sample, const double* effect_forces = nullptr);
 
-  /// @return what psi of the newest row would be of the wheel's own acceleration: I_2^2 w'' [m/s^2].
-  double wheelOutput() const { return row_.output + relative_.output(2); }
-
   /// Starts anew after a gap.
   void reset();
 
