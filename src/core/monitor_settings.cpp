@@ -99,9 +99,12 @@ RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {
 double MonitorSettings::presentHorizon() const { return integration_horizon.value_or(kDefaultHorizon); }
 
 double MonitorSettings::presentBlockLength() const {
-  const double octaves = std::round(std::log2(presentHorizon() / kDefaultHorizon));
   // A factor of two is left to the blocks themselves, which follow the bounce.
-  return block_length.value_or(BlockOptions().length * (std::abs(octaves) > 1.0 ? std::exp2(octaves) : 1.0));
+  const double apart = std::abs(std::round(std::log2(presentHorizon() / kDefaultHorizon)));
+  // Horizons that the data propose are a fourth of the bounce's period, and a block holds three of these.
+  constexpr double kHorizons = 12.0;
+  const double octaves = std::round(std::log2(kHorizons * presentHorizon() / BlockOptions().length));
+  return block_length.value_or(BlockOptions().length * (apart > 1.0 ? std::exp2(octaves) : 1.0));
 }
 
 double MonitorSettings::presentMemory() const {

@@ -30,8 +30,8 @@ def constant(value, *topics):
     return change
 
 
-def in_tiny_unit(topic, message, _):
-    message.linear_acceleration.z *= 1e-150
+def in_tiny_unit(topic, message, _):  # squares vanish
+    message.linear_acceleration.z *= 1e-160
 
 
 def not_measured(topic, message, _):

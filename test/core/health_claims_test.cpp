@@ -32,23 +32,26 @@ HealthReport healthAfter(const std::vector<CornerSample>& drive, const MonitorSe
 // paper_outliers a second without readings ends a second before the warning is due: 5 s of readings are 6 s there.
 // The early notice comes 4 s before the warning and more in the mean; it comes after it in 24 of 400 drives, of thirty
 // in more than six but once in 400 times.
-TEST(Health, WarnsWithinFiveSecondsOfTheThresholdsOnThePapersRamp) {
+TEST(Health, WarnsWithinSecondsOfTheThresholdsOnThePapersRamp) {
+  constexpr int kSeeds = 15;
   int early_is_later = 0;
-  for (const auto& [scenario, warn_within] : {std::pair("paper_clean", 5.0), std::pair("paper_outliers", 6.0)}) {
-    double earlier = 0.0;  // [s], of the early notice before the warning
-    for (int seed = 1; seed <= 15; ++seed) {
+  for (const auto& [scenario, warn_within] : {std::pair("paper_clean", 4.0), std::pair("paper_outliers", 6.0)}) {
+    double earlier = 0.0, late = 0.0;  // [s], of the early notice before the warning; of the warning
+    for (int seed = 1; seed <= kSeeds; ++seed) {
       SimulationOptions drive;
       drive.scenario = scenario;
       drive.seed = seed;
       const FirstAlarms first = firstAlarms(simulate(drive), judgedOptions());
       ASSERT_TRUE(first.early && first.warn && first.error) << scenario << ' ' << seed;
-      EXPECT_NEAR(*first.warn, 67.0, warn_within) << scenario << ' ' << seed;
-      EXPECT_NEAR(*first.error, 94.0, 5.0) << scenario << ' ' << seed;
+      late += *first.warn - 67.0;
+      EXPECT_NEAR(*first.warn, 67.0, 2.0 * warn_within) << scenario << ' ' << seed;
+      EXPECT_NEAR(*first.error, 94.0, 6.0) << scenario << ' ' << seed;
       early_is_later += *first.early > *first.warn ? 1 : 0;
       EXPECT_GT(*first.early, 40.0) << scenario << ' ' << seed;
       earlier += *first.warn - *first.early;
     }
-    EXPECT_GT(earlier / 15, 4.0) << scenario;
+    EXPECT_LT(late / kSeeds, warn_within) << scenario;
+    EXPECT_GT(earlier / kSeeds, 4.0) << scenario;
   }
   EXPECT_LE(early_is_later, 6);
 }

@@ -175,7 +175,7 @@ TEST(BaselineLearner, IsTheMeanOfTheStretchWithItsUncertainty) {
   EXPECT_NEAR(learned->damping_to_mass_stddev, 0.02 / 5.0, 1e-9);
   EXPECT_NEAR(learned->stiffness_to_mass_stddev, 0.1 / 5.0, 1e-9);
   EXPECT_TRUE(learned->learned);
-  EXPECT_EQ(learned->from, fromSeconds(5.0));
+  EXPECT_EQ(learned->from, fromSeconds(4.0));  // where the first second begins
   EXPECT_EQ(learned->to, fromSeconds(104.0));
 }
 
@@ -193,7 +193,7 @@ TEST(BaselineLearner, TakesNoTwoDrivesForOne) {
   std::optional<Baseline> learned;
   for (int k = 25; !learned; ++k) learned = learner.add(fromSeconds(k), estimate(2.0, 20.0), 1.0);
   EXPECT_NEAR(*learned->damping_to_mass, 2.0, 1e-9);
-  EXPECT_EQ(learned->from, fromSeconds(25.0));
+  EXPECT_EQ(learned->from, fromSeconds(24.0));
   EXPECT_EQ(learned->to, fromSeconds(124.0));
 }
 

@@ -43,7 +43,8 @@ namespace {
 template <class Step>
 long allocationsPerDrive(const Step& step) {
   const std::vector<CornerSample> drive = healthyPaperDrive(10.0, 0.024);
-  for (const CornerSample& sample : drive) step(sample);
+  for (int i = 0; i < 2; ++i)  // the blocks' length has followed the bounce then
+    for (const CornerSample& sample : drive) step(sample);
   const long before = num_allocations;
   for (const CornerSample& sample : drive) step(sample);
   return num_allocations - before;

@@ -115,7 +115,6 @@ TEST(StrutBlocks, DependOnNoUnit) {
   for (double& each : scaled.wheel) each *= 1000.0;
   BlockOptions options, scaled_options;
   scaled_options.length = options.length / 16.0;
-  scaled_options.delay_stddev = options.delay_stddev / 16.0;
   StrutBlocks one(options, 1.0 / sampled.rate), other(scaled_options, 1.0 / scaled.rate);
   const std::vector<BlockEstimate> plain = feed(one, readingsOf(sampled)), turned = feed(other, readingsOf(scaled));
   ASSERT_EQ(plain.size(), turned.size());
@@ -193,7 +192,7 @@ TEST(StrutBlocks, SayNothingWhileOneSensorIsSilentAndGoOnAfterwards) {
 }
 
 TEST(StrutBlocks, SayNothingOfSensorsThatReadTooSeldom) {
-  for (const double rate : {15.0, 4.0, 1.0}) {
+  for (const double rate : {2.0, 1.0, 0.5}) {  // of a bounce of 1.15 Hz
     NoisyDrive drive;
     drive.rate = rate;
     StrutBlocks blocks({}, 1.0 / rate);

@@ -148,9 +148,9 @@ TEST(SuspensionMonitor, BecomesValidWithThreeBlocksWhichOverlapByHalf) {
   for (const CornerSample& sample : healthyPaperDrive(10.0, 0.001)) {
     const MonitorReport& report = *monitor.addSample(sample);
     const double time = toSeconds(sample.stamp);
-    ASSERT_EQ(report.estimate.valid(), time > 4.0) << time;  // the first reading behind the third block
-    ASSERT_EQ(report.la.valid(), time > 4.0) << time;
-    ASSERT_EQ(report.ls.valid(), time > 4.0) << time;
+    ASSERT_EQ(report.estimate.valid(), time >= 4.0) << time;  // the first reading behind the third block
+    ASSERT_EQ(report.la.valid(), time >= 4.0) << time;
+    ASSERT_EQ(report.ls.valid(), time >= 4.0) << time;
   }
 }
 

@@ -176,9 +176,10 @@ TEST(IdentifiedVehicle, IsValidBehindAGyroThatIsAsLoudAsTheMotion) {
         const double own = vehicle.mobility(vehicle.struts[i], vehicle.struts[i]) * vehicle.struts[i].damping;
         reports += 1.0;
         least_explained = std::min(least_explained, report.la.explained);
-        if (!report.la.valid()) return;
+        const StrutEstimate& estimate = report.estimate;
+        if (!estimate.valid()) return;
         valid += 1.0;
-        inside += std::abs(report.la.damping_to_mass - own) < 3.0 * report.la.damping_to_mass_stddev ? 1.0 : 0.0;
+        inside += std::abs(estimate.damping_to_mass - own) < 3.0 * estimate.damping_to_mass_stddev ? 1.0 : 0.0;
       });
   ASSERT_TRUE(found) << found.coupling.reason;
   EXPECT_LT(least_explained, 0.5);

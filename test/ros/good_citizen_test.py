@@ -5,17 +5,22 @@ import itertools
 import math
 import unittest
 
+import numpy as np
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
-from measured_drive import PERIOD, VALID_AFTER, MeasuredDrive, make_imu
+from measured_drive import (DAMPING_TO_MASS, GRAVITY, JUDGED_AFTER, LARGEST_ERROR, PERIOD, VALID_AFTER, MeasuredDrive,
+                            make_imu)
 from ros_session import PACKAGE, Collector, load_nodelet, statuses, values, wait_until
-from suspension_health_monitor.msg import ModelComparison, SuspensionHealth
+from suspension_health_monitor.msg import ModelComparison, ParameterEstimate, SuspensionHealth
 from tf2_msgs.msg import TFMessage
 
 START = 1000.0  # [s]
 LOOPS = 4
+OLDEST_DATA = 60.0  # [s] health/oldest_data
+STAY = 10.0  # [s] of a vehicle that stands, at once
+NOISE = 0.024  # [m/s^2] of the sensors, which a vehicle that stands has, too
 
 
 def load_monitor(name, **parameters):
@@ -117,22 +122,41 @@ class GoodCitizenTest(unittest.TestCase):
         self.drive.assert_estimate_is_good(self)
 
     def test_stale_diagnostics_not_shown(self):
-        health = "monitor: Health"
-        before = len(self.drive.diagnostics.messages)
+        """A vehicle that stands keeps its level, and shows how old what it rests on is, until that is too old."""
+        estimate = Collector("/monitor/estimate", ParameterEstimate)
+        estimate.wait_for_publisher()
+        noise = np.random.default_rng(1)
 
         def parked(_, pair):
             for imu in pair:
-                imu.linear_acceleration.z = 9.81
-        self.drive.feed(0, 400, START)
-        wait_until(lambda: [s for s in statuses(self.drive.diagnostics.messages, health)[before:]
-                            if s.level == DiagnosticStatus.OK], "health OK")
-        self.drive.feed(400, 700, START, parked)
-        status = wait_until(lambda: statuses(self.drive.diagnostics.messages, health)[-1:], "a status")[0]
-        wait_until(lambda: statuses(self.drive.diagnostics.messages, health)[-1].level == DiagnosticStatus.STALE,
-                   "health STALE")
-        status = statuses(self.drive.diagnostics.messages, health)[-1]
-        self.assertIn("cannot tell", status.message)
-        self.assertFalse(self.drive.estimates.messages[-1].valid)
+                imu.linear_acceleration.z = GRAVITY + NOISE * noise.standard_normal()
+
+        def health():
+            """The first status that is made from now on: of the newest sample."""
+            now = rospy.Time.now()
+            return wait_until(lambda: statuses([array for array in self.drive.diagnostics.messages if array.header.stamp > now],
+                                               "monitor: Health"), "health")[0]
+
+        def park(seconds, start):
+            """@return the stamp of its end."""
+            for begin in np.arange(start, start + seconds, STAY):
+                self.drive.feed(0, round(STAY / PERIOD), begin, parked)
+            return begin + STAY
+        self.drive.feed(0, JUDGED_AFTER, START)
+        driven = health()
+        self.assertEqual(driven.level, DiagnosticStatus.OK, driven.message)
+        end = park(OLDEST_DATA - STAY, START + JUDGED_AFTER * PERIOD)
+        held = health()
+        self.assertEqual(held.level, DiagnosticStatus.OK, held.message)
+        self.assertAlmostEqual(float(values(held)["estimate age [s]"]), OLDEST_DATA - STAY, delta=STAY)
+        self.assertTrue(estimate.messages[-1].valid)
+        park(2 * STAY, end)
+        parked_for_long = health()
+        self.assertEqual(parked_for_long.level, DiagnosticStatus.STALE)
+        self.assertIn("cannot tell: parked: ", parked_for_long.message)
+        self.assertFalse(estimate.messages[-1].valid)
+        self.assertAlmostEqual(estimate.messages[-1].damping_to_mass, DAMPING_TO_MASS, delta=5 * LARGEST_ERROR[0])
+        estimate.stop()
 
     def test_plots_use_the_receive_time(self):
         topics = {"la": type(None), "comparison": ModelComparison, "health": SuspensionHealth}

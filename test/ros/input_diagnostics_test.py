@@ -6,8 +6,9 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticStatus
-from measured_drive import PERIOD, MeasuredDrive, make_imu
-from ros_session import PACKAGE, load_nodelet, statuses, values, wait_until
+from measured_drive import JUDGED_AFTER, PERIOD, STIFFNESS_TO_MASS, MeasuredDrive, make_imu
+from ros_session import PACKAGE, Collector, load_nodelet, statuses, values, wait_until
+from suspension_health_monitor.msg import ParameterEstimate
 
 START = 1000.0  # [s]
 SHORT_TIMEOUT = {"sample_period": PERIOD, "input_timeout": 0.3}
@@ -34,9 +35,9 @@ def publish(drive, samples, change):
 class InputDiagnosticsTest(unittest.TestCase):
     def test_diagnostics_come_once_a_second_whatever_the_sensor_rate(self):
         drive = MeasuredDrive()
-        drive.feed(0, 300, START)
+        drive.feed(0, JUDGED_AFTER, START)  # a change of level would be told at once
         before = len(drive.diagnostics.messages)
-        for index in range(300, 900):
+        for index in range(JUDGED_AFTER, len(drive.readings)):
             drive.feed(index, index + 1, START)
         wait_until(lambda: len(drive.diagnostics.messages) > before + 2, "statuses after it")
         stamps = [array.header.stamp.to_sec() for array in drive.diagnostics.messages[before:]
@@ -81,17 +82,24 @@ class InputDiagnosticsTest(unittest.TestCase):
             self.assertEqual(status.level, DiagnosticStatus.STALE)
             drive.stop()
 
-    def test_stamps_that_do_not_fit_the_sample_period_leave_health_stale(self):
+    def test_stamps_that_do_not_fit_the_sample_period_are_named(self):
+        """LS and LA go by sample_period; health goes by the estimate, which goes by the stamps."""
         with load_monitor("mistimed", {"sample_period": 1.1 * PERIOD}):
+            estimate = Collector("/mistimed/estimate", ParameterEstimate)
+            estimate.wait_for_publisher()
             drive = drive_for("mistimed")
-            drive.feed(0, 400, START)
+            drive.feed(0, JUDGED_AFTER, START)
             before = len(drive.diagnostics.messages)
             status = drive.input_status(lambda s: "stamps do not fit sample_period" in s.message, after=before)
             self.assertEqual(status.level, DiagnosticStatus.WARN)
+            self.assertFalse(any(la.valid for la in drive.estimates.messages))
+            self.assertIn("stamps do not fit sample_period", drive.estimates.messages[-1].reason)
+            last = estimate.messages[-1]
+            self.assertTrue(last.valid, last.reason)
+            self.assertAlmostEqual(last.stiffness_to_mass, STIFFNESS_TO_MASS, delta=3.0 * last.stiffness_to_mass_stddev)
             health = statuses(drive.diagnostics.messages, "mistimed: Health")[-1]
-            self.assertEqual(health.level, DiagnosticStatus.STALE)
-            self.assertIn("stamps do not fit sample_period", health.message)
-            self.assertFalse(any(estimate.valid for estimate in drive.estimates.messages))
+            self.assertEqual(health.level, DiagnosticStatus.OK, health.message)
+            estimate.stop()
             drive.stop()
 
     def test_stamps_that_run_backwards_are_named(self):

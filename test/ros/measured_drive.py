@@ -17,6 +17,8 @@ LARGEST_ERROR = (0.16, 0.28)  # of LA over 20 drives without a fault
 FILLING = 60  # samples before the first regression row: two horizons of 30
 BLOCKS = 200  # samples of the first three blocks of 2 s, which overlap by half
 VALID_AFTER = BLOCKS + 2  # samples after which the estimates are marked valid
+EVERY = 100  # samples between two estimates by blocks of 4 s, which the bounce of 0.6 Hz asks for once it is known
+JUDGED_AFTER = BLOCKS + 6 * EVERY + 50  # samples after which a level is confirmed: three such blocks, and the next estimates
 BATCH = 100  # samples on their way at once; fewer than any queue holds
 
 

@@ -8,7 +8,7 @@ import rospy
 import rostest
 from dynamic_reconfigure.client import Client
 from dynamic_reconfigure.msg import ConfigDescription
-from measured_drive import MeasuredDrive, PERIOD
+from measured_drive import EVERY, JUDGED_AFTER, MeasuredDrive, PERIOD
 from ros_session import PACKAGE, PATIENCE, Collector, find_program, load_nodelet, wait_until
 from rosgraph_msgs.msg import Log
 from suspension_health_monitor.msg import SuspensionHealth
@@ -17,11 +17,11 @@ START = 1000.0  # [s]
 # Not one of them is the default. b1 of the drive is 3 1/s: 25 % below nominal.
 GIVEN = {"memory": 1.0, "publish_every": 1,
          "health": {"damping_warn": 0.2, "damping_error": 0.5, "stiffness_warn": 0.4, "stiffness_error": 2,
-                    "confirm_time": 0.5, "payload_range": 0.3, "gravity_tolerance": 0.2},
+                    "confirm_time": 0.5, "payload_range": 0.3, "gravity_tolerance": 0.2, "oldest_data": 90.0},
          "nominal": {"damping_to_mass": 4.0, "stiffness_to_mass": 13.8}}
-AS_GIVEN = {"memory": 1.0, "publish_every": 1, "health/oldest_data": 90.0, "health/damping_warn": 0.2, "health/damping_error": 0.5,
+AS_GIVEN = {"memory": 1.0, "publish_every": 1, "health/damping_warn": 0.2, "health/damping_error": 0.5,
             "health/stiffness_warn": 0.4, "health/stiffness_error": 2.0, "health/confirm_time": 0.5,
-            "health/payload_range": 0.3, "health/gravity_tolerance": 0.2}
+            "health/payload_range": 0.3, "health/gravity_tolerance": 0.2, "health/oldest_data": 90.0}
 # What is asked for, and what the warning must hold.
 REFUSED = {
     "error below warn": ({"health/damping_error": 0.1}, ["health/damping_error = 0.1", "at least health/damping_warn"]),
@@ -62,6 +62,7 @@ class ReconfigureTest(unittest.TestCase):
     def setUp(self):
         self.turn(**AS_GIVEN)
         self.drive.reset()
+        self.drive.estimates.messages.clear()
         self.health.messages.clear()
 
     def turn(self, **changes):
@@ -156,14 +157,25 @@ class ReconfigureTest(unittest.TestCase):
         self.assertAlmostEqual(self.drive.estimates.messages[-1].effective_rows, 100.0 - 50.0 * 0.99**100, delta=1.0)
 
     def test_thresholds_and_confirmation_hold_at_once(self):
-        self.drive.feed(0, 500, START)
+        self.drive.feed(0, JUDGED_AFTER, START)
         self.assertEqual(self.level(), SuspensionHealth.WARN)
         self.turn(**{"health/damping_error": 0.21})
-        self.drive.feed(500, 600, START)
+        self.drive.feed(JUDGED_AFTER, JUDGED_AFTER + EVERY, START)
         self.assertEqual(self.level(), SuspensionHealth.ERROR)
         self.turn(**{"health/damping_error": 0.9, "health/damping_warn": 0.8})
-        self.drive.feed(600, 700, START)
+        self.drive.feed(JUDGED_AFTER + EVERY, JUDGED_AFTER + 2 * EVERY, START)
         self.assertEqual(self.level(), SuspensionHealth.OK)
+
+    def test_age_of_data_that_may_count_holds_at_once(self):
+        """The blocks of an estimate reach seconds back."""
+        self.drive.feed(0, JUDGED_AFTER, START)
+        self.assertEqual(self.level(), SuspensionHealth.WARN)
+        self.turn(**{"health/oldest_data": 1.0})
+        self.drive.feed(JUDGED_AFTER, JUDGED_AFTER + EVERY, START)
+        self.assertEqual(self.level(), SuspensionHealth.STALE)
+        self.turn(**{"health/oldest_data": 30.0})
+        self.drive.feed(JUDGED_AFTER + EVERY, JUDGED_AFTER + 2 * EVERY, START)
+        self.assertEqual(self.level(), SuspensionHealth.WARN)
 
     def test_settings_outlive_a_reset(self):
         before = self.turn(**{"publish_every": 3})

@@ -28,12 +28,23 @@ constexpr double kStale = 0.02;        // relative change of b1 or b0 since the 
 constexpr double kStalePhase = 0.1;    // of the phase that the delay makes in the last bin [rad]
 constexpr double kStaleShare = 0.2;    // of r
 
-// At rest now and then a strut is found in the noise: by chance five parameters explain five of the 120 numbers of
-// three blocks. And a body that the wind rocks at one frequency fits some strut that rings freely, which no wheel
-// drives.
-bool explainsSomething(const WindowEstimate& estimate) {
-  constexpr double kLeastExplained = 0.05, kLeastDriven = 0.25;  // half of what a valid estimate explains
-  return estimate.explained > kLeastExplained && estimate.driven > kLeastDriven;
+// At rest now and then a strut is found in the noise: by chance p parameters explain p of the numbers of half
+// overlapped blocks. And a body that something else moves at one frequency, as the wind rocks a parked car, drags its
+// wheel along like some strut with hardly any damper: by more than the resonance of a strut that is damped by 0.115
+// makes of a wheel's motion, or with half as much unexplained as the wheel moves at all.
+bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
+  constexpr double kMostAmplified = 20.0;  // 1 + 1 / (4 0.115^2)
+  constexpr double kMostUndriven = 0.5;
+  const double values = band.size() * (estimate.blocks + 1.0);
+  const double least_explained = 2.0 * static_cast<double>(estimate.theta.size()) / values;
+  return estimate.is_settled && estimate.explained > least_explained && estimate.amplified < kMostAmplified &&
+         (1.0 - estimate.explained) * estimate.amplified < kMostUndriven;
+}
+
+double medianOf(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
@@ -128,7 +139,7 @@ const WindowEstimate* BlockEstimator::update() {
   shorter_.clear();
   for (const int m : kWindows) {
     if (m > count_) break;
-    const bool is_usable = fit(m, prior, trial_) && explainsSomething(trial_);
+    const bool is_usable = fit(m, prior, trial_) && explainsSomething(trial_, equations_.band());
     if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : kUnknown;
     if (!is_usable) continue;
     if (contradictsShorter(trial_)) break;  // what is older is of another strut
@@ -152,9 +163,26 @@ const WindowEstimate* BlockEstimator::update() {
   return is_at_rest ? nullptr : &best_;
 }
 
-// Linear least squares, which noise of the regressors biases, then some steps from there.
 bool BlockEstimator::start() {
-  const int window = std::min(count_, kStartBlocks);
+  const bool is_alone = equations_.columns().neighbours == 0;
+  scatter_ = 1.0;  // what was known is lost
+  // Where a strut was known and lost few blocks tell it from what went before, as from a burst of wrong readings.
+  const bool was_known = is_alone && weights_.usual.size() > 0;
+  if (startBy(std::min(count_, kStartBlocks)) || (was_known && startBy(kWindows.front()))) {
+    for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
+    return true;
+  }
+  std::swap(best_, trial_);
+  is_refused_ = true;
+  if (is_alone) return false;
+  waits_ = kSlowEvery - 1;
+  double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
+  stddev = stddev == kNoDelay ? delayStddev() : kNoDelay;
+  return false;
+}
+
+// Linear least squares, which noise of the regressors biases, then some steps from there.
+bool BlockEstimator::startBy(int window) {
   const BlockVector linear = equations_.start(newest(window));
   // A strut that bounces a quarter as fast as the lowest bin, damped by a tenth, is the softest that the blocks can
   // see.
@@ -169,18 +197,7 @@ bool BlockEstimator::start() {
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
   }
-  if (!(trial_.worst() < kLost && explainsSomething(trial_))) {
-    std::swap(best_, trial_);
-    is_refused_ = true;
-    if (equations_.columns().neighbours > 0) {
-      waits_ = kSlowEvery - 1;
-      double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
-      stddev = stddev == kNoDelay ? delayStddev() : kNoDelay;
-    }
-    return false;
-  }
-  for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
-  return true;
+  return trial_.worst() < kLost && explainsSomething(trial_, equations_.band());
 }
 
 // Of a vehicle a delay is let in only if it turns the phase by more than a law's memory does, see kLeastPhase.
@@ -220,12 +237,10 @@ void BlockEstimator::learnSlow() {
   }
   const auto& power = window_fit_.power();
   weights_ = window_fit_.weights();
-  weights_.usual.resize(power.cols());
-  for (Eigen::Index i = 0; i < power.cols(); ++i) {
-    sorted_.assign(power.col(i).begin(), power.col(i).end());
-    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
-    std::nth_element(sorted_.begin(), middle, sorted_.end());
-    weights_.usual[i] = std::max(*middle, std::numeric_limits<double>::min());
+  weights_.usual.resize(power.rows());
+  for (Eigen::Index i = 0; i < power.rows(); ++i) {
+    sorted_.assign(power.row(i).begin(), power.row(i).end());
+    weights_.usual[i] = std::max(medianOf(sorted_), std::numeric_limits<double>::min());
   }
   scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
   of_all_ = trial_;
@@ -248,7 +263,7 @@ void BlockEstimator::retireAll() {
 
 void BlockEstimator::restart() {
   retireAll();
-  weights_.usual = Eigen::VectorXd();
+  weights_.usual = BandVector();
   scatter_ = 1.0;
   slow_ = scaled_ = first_;
   has_theta_ = is_refused_ = false;
@@ -289,14 +304,29 @@ bool BlockEstimator::contradictsSlow() {
   return false;
 }
 
-// Windows of a vehicle are long where one IMU tells of all tops: they end where shorter ones say that a strut was
-// another one. Source: O. V. Lepskii, On a problem of adaptive estimation in Gaussian white noise (1991).
+// A window ends where shorter ones say that the strut was another one, and the newest blocks leave more of it than
+// blocks usually do: at a stop an event that no strut explains, as the level of a tilted IMU, is all that they tell.
+// Source: O. V. Lepskii, On a problem of adaptive estimation in Gaussian white noise (1991).
 bool BlockEstimator::contradictsShorter(const WindowEstimate& estimate) {
   for (const Shorter& each : shorter_)
-    if (((estimate.theta.head<2>() - each.theta).array().abs() > kContradiction * each.stddev.array()).any())
+    if (((estimate.theta.head<2>() - each.theta).array().abs() > kContradiction * each.stddev.array()).any() &&
+        leavesUnusual(each.blocks))
       return true;
-  shorter_.push_back({estimate.theta.head<2>(), estimate.covariance.diagonal().head<2>().cwiseSqrt()});
+  shorter_.push_back(
+      {estimate.blocks, estimate.theta.head<2>(), estimate.covariance.diagonal().head<2>().cwiseSqrt()});
   return false;
+}
+
+// @return true if the newest fit leaves more of the newest blocks than usual: of most of them, as an event is in one or
+// two only.
+bool BlockEstimator::leavesUnusual(int blocks) {
+  constexpr double kUnusual = 1.5;  // the power of a block's 39 bins varies by a sixth
+  if (weights_.usual.size() == 0) return true;
+  sorted_.clear();
+  for (int b = 0; b < blocks; ++b)
+    sorted_.push_back(
+        (window_fit_.power().col(window_fit_.power().cols() - 1 - b) / weights_.usual.array()).mean());
+  return medianOf(sorted_) > kUnusual;
 }
 
 bool BlockEstimator::isStale(const StrutBlock& block) const {

@@ -10,17 +10,17 @@ constexpr double kUnusual = 10.0;  // times the usual power, from which a block 
 
 }  // namespace
 
-double BlockWeights::of(const Eigen::RowVectorXd& power) const {
+double BlockWeights::of(const Eigen::Ref<const Eigen::ArrayXd>& power) const {
   if (usual.size() == 0) return 1.0;
-  const double times = (power.array() / usual.transpose().array()).mean();
+  const double times = (power / usual.array()).mean();
   return times > kUnusual ? kUnusual * kUnusual / (times * times) : 1.0;
 }
 
 double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {
-  Eigen::RowVectorXd power(bands.count());
+  BandVector power(bands.count());
   for (int i = 0; i < bands.count(); ++i)
     power[i] = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands.size(i);
-  return of(power);
+  return of(power.array());
 }
 
 double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta) {
@@ -69,12 +69,6 @@ BlockMatrix covarianceByNoise(const BlockMatrix& instruments, const BlockMatrix&
   BlockMatrix middle = correlation * instruments;
   middle.diagonal() += prior.stddev.cwiseAbs2().cwiseInverse();
   return inverse * middle * inverse.transpose();
-}
-
-BlockVector linearPart(const BlockVector& theta, const BlockColumns& columns) {
-  BlockVector linear = theta;
-  linear.segment(columns.firstForce(), columns.forces).setZero();
-  return linear;
 }
 
 }  // namespace suspension_health_monitor

@@ -17,7 +17,6 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
   ++blocks_;
   const double weight = weights.of(block, bands_, theta);
   weight_ += weight;
-  const BlockVector linear = linearPart(theta, columns_);
   for (int i = 0; i < bands_.count(); ++i) {
     const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
     const double scale = weights.share_scale[i], of_band = weight / weights.noise[i];
@@ -32,7 +31,7 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
     scatter_ += score * score.transpose() + with_previous + with_previous.transpose();
     previous = score;
     body_ += weight * band.body_power;
-    unexplained_ += weight * residualPower(band.moments, linear);
+    unexplained_ += weight * residualPower(band.moments, theta);
     rate_ += weight * band.rate_power;
     travel_ += weight * band.travel_power;
   }

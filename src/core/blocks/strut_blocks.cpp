@@ -7,6 +7,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kStepsOfFriction = 4096.0;  // per block: a thousand and more per bounce
+constexpr double kFewestReadings = 33.0;     // of a block: fewer are a gap each, see FourierIntegrals
 constexpr double kBlocksOfMean = 2.0;        // memory of the wheel's slow mean
 constexpr double kUsualDamping = 0.6;        // b1 over the bounce: a damping ratio of 0.3
 
@@ -14,7 +15,9 @@ constexpr double kUsualDamping = 0.6;        // b1 over the bounce: a damping ra
 
 StrutBlocks::StrutBlocks(const BlockOptions& options, double period, std::size_t effects)
     : options_(options), period_(period), effects_(effects) {
-  begin(options.length);
+  double length = options.length;
+  while (length < kFewestReadings * period) length *= 2.0;
+  begin(length);
 }
 
 void StrutBlocks::begin(double length) {
@@ -33,7 +36,7 @@ void StrutBlocks::begin(double length) {
   if (effects_ == 0) {
     friction_.emplace(length / kStepsOfFriction, kBlocksOfMean * length);
     // Until there is an estimate: a usual strut in the middle of the bounces that this length is for.
-    const double bounce = 2.0 * M_PI * std::sqrt(kFewestPeriods * kMostPeriods) / length;
+    const double bounce = 2.0 * M_PI * std::sqrt(kLeastUpperEdge / (1.0 + kUsualDamping) * kMostPeriods) / length;
     friction_->setStrut(kUsualDamping * bounce, bounce * bounce, 0.0);
   }
   origin_.reset();
@@ -113,7 +116,7 @@ const BlockEstimate* StrutBlocks::takeBlocks() {
     estimate_.stamp = *origin_ + fromSeconds(static_cast<double>(half + 1) * length / 2.0);
     has_estimate_ = true;
     found = &estimate_;
-    follow(estimate->theta[kBlockStiffness]);
+    follow(estimate->theta[kBlockDamping], estimate->theta[kBlockStiffness]);
     if (estimate_.length != length) break;
   }
   return found;
@@ -137,13 +140,15 @@ void StrutBlocks::fill(long half, StrutBlock& block) {
     estimator_->equations().undelayed().apply(p, body_, block.body.col(static_cast<Eigen::Index>(p)));
 }
 
-// Blocks of fewer periods than kFewestPeriods lose the bounce below their lowest bin; of more than kMostPeriods they
-// are slower than they need to be, and the bounce is in few bins of many.
-void StrutBlocks::follow(double stiffness) {
-  const double periods = estimate_.length * std::sqrt(stiffness) / (2.0 * M_PI);
-  if (periods < kFewestPeriods)
+// Blocks that are too short lose the bounce below their lowest bin, of two periods in a block, the more of it the
+// sharper its resonance is; in blocks of more than kMostPeriods it is in few bins of many, and they are slower than they
+// need to be.
+void StrutBlocks::follow(double damping, double stiffness) {
+  const double bounce = std::sqrt(stiffness), periods = estimate_.length * bounce / (2.0 * M_PI);
+  const double upper_edge = periods * (1.0 + damping / bounce);  // of the resonance, its width above its peak
+  if (upper_edge < kLeastUpperEdge)
     begin(2.0 * estimate_.length);
-  else if (periods > kMostPeriods)
+  else if (periods > kMostPeriods && estimate_.length >= 2.0 * kFewestReadings * period_)
     begin(0.5 * estimate_.length);
 }
 

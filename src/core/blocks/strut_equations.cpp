@@ -109,7 +109,7 @@ void StrutEquations::sumBands(StrutBlock& block) const {
     band.moments.noalias() = r_band.transpose().lazyProduct(r_band);
     band.wheel_power = wheel_.segment(first, size).abs2().sum();
     band.body_power = block.body.col(0).segment(first, size).abs2().sum();
-    band.undriven_power = (block.body.col(0) - gain_ * x0_).segment(first, size).abs2().sum();
+    band.moving_power = x0_.segment(first, size).abs2().sum();
     const auto fourth = s_.segment(first, size).abs2().square();
     band.rate_power = ((x1_ - block.body.col(1)).segment(first, size).abs2() / fourth).sum();
     band.travel_power = ((x0_ - block.body.col(0)).segment(first, size).abs2() / fourth).sum();

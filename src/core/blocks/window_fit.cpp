@@ -23,7 +23,7 @@ bool WindowEstimate::isUsable() const {
 WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int most_blocks)
     : length_(band.length), bands_(band), columns_(columns) {
   const Eigen::Index p = columns.numParameters();
-  power_.setZero(most_blocks, bands_.count());
+  power_.setZero(bands_.count(), most_blocks);
   weight_.setOnes(most_blocks);
   present_ = weight_;
   versions_.assign(static_cast<std::size_t>(most_blocks), 0);
@@ -47,11 +47,12 @@ WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int mos
 }
 
 void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
-                    const Eigen::VectorXd& usual, double least_inflation, WindowEstimate& result) {
+                    const BandVector& usual, double least_inflation, WindowEstimate& result) {
   blocks_ = static_cast<int>(blocks.size());
   weights_.usual = usual;
   result.blocks = blocks_;
   result.theta = start;
+  solved_ = start.head<2>();
   gather(blocks);
   for (int w = 0; w < kWeighings; ++w) {
     for (int i = 0; i < kIterations; ++i) {
@@ -61,6 +62,7 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
       if (!equations.is_solvable) break;
       const double b1 = result.theta[kBlockDamping], b0 = result.theta[kBlockStiffness];
       result.theta = equations.solution;
+      solved_ = result.theta.head<2>();
       result.theta[kBlockDamping] = withinReach(result.theta[kBlockDamping], b1);
       result.theta[kBlockStiffness] = withinReach(result.theta[kBlockStiffness], b0);
       result.theta[kBlockWheelShare] = std::clamp(result.theta[kBlockWheelShare], kLeastShare, 1.0 - kLeastShare);
@@ -118,8 +120,8 @@ bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     for (int i = 0; i < bands_.count(); ++i)
-      power_(b, i) = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands_.size(i);
-    present_[blocks_ - 1 - b] = weights_.of(power_.row(b).matrix());
+      power_(i, b) = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands_.size(i);
+    present_[blocks_ - 1 - b] = weights_.of(power_.col(b));
   }
   auto present = present_.head(blocks_), weight = weight_.head(blocks_);
   present /= present.maxCoeff();  // where all are noisy that is the noise
@@ -130,7 +132,7 @@ bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
 
 // The noise's spectrum.
 void WindowFit::measureNoise(const BlockVector& theta) {
-  Eigen::VectorXd &noise = weights_.noise, &scale = weights_.share_scale;
+  BandVector &noise = weights_.noise, &scale = weights_.share_scale;
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
@@ -169,14 +171,16 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   if (!equations.is_solvable) result.covariance.setConstant(std::numeric_limits<double>::infinity());
   result.inflation = std::max(least_inflation, inflation(blocks, result, equations.inverse, prior));
   result.covariance *= result.inflation;
+  result.is_settled = ((solved_ - result.theta.head<2>()).array().square() <=
+                       result.covariance.diagonal().head<2>().array())
+                          .all();
   result.noise = weights_.noise;
   result.alike = 0.0;
   if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
 
-  double body = 0.0, unexplained = 0.0, undriven = 0.0, rate = 0.0, travel = 0.0;
+  double body = 0.0, unexplained = 0.0, wheel = 0.0, rate = 0.0, travel = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero(), information = age;
-  const BlockVector linear = linearPart(result.theta, columns_);
-  for (const Sum& each : sums_) unexplained += residualPower(each.moments, linear);
+  for (const Sum& each : sums_) unexplained += residualPower(each.moments, result.theta);
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
     const double weight = weight_[blocks_ - 1 - b];
@@ -185,14 +189,14 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
       body += weight * band.body_power;
       rate += weight * band.rate_power;
       travel += weight * band.travel_power;
-      undriven += weight * band.undriven_power;
+      wheel += weight * band.moving_power;
       const Eigen::Vector2d own = weight / weights_.noise[i] * band.information.diagonal().head<2>();
       information += own;
       age += own * (blocks.back()->end - block.end);
     }
   }
   result.explained = body > 0.0 ? 1.0 - unexplained / body : 0.0;
-  result.driven = body > 0.0 ? 1.0 - undriven / body : 0.0;
+  result.amplified = body / wheel;
   result.setMotion(rate / sum_of_weights_, travel / sum_of_weights_, length_);
   result.age = (age.array() / information.array()).maxCoeff();
 }

@@ -93,7 +93,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   now.doubt = estimate.doubt;
   now.sensor = sensor_;
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
-  now.outliers = agreement_.fails();
+  now.outliers = outliers_.arePresent();
   now.learned = baseline_.learned;
   if (learner_) {
     now.learning = learner_->progress();
@@ -119,7 +119,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
 void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   const double seconds = taken_ && stamp > *taken_ ? std::min(toSeconds(stamp - *taken_), estimate.window) : 0.0;
   taken_ = stamp;
-  learn(stamp, estimate, seconds);
+  if (sensor_.fault == SensorFault::kNone) learn(stamp, estimate, seconds);
   ChangeFromBaseline changed = changeFrom(baseline_, estimate);
   const auto carryOn = [&](Parameter& parameter, std::optional<LogChange>& change) {
     if (change)

@@ -89,7 +89,7 @@ void BaselineLearner::Half::add(const StrutEstimate& estimate, double new_second
 std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& estimate, double seconds) {
   if (progress() == 0.0 || stamp < newest_) {  // another drive
     halves_ = {};
-    from_ = stamp;
+    from_ = stamp - fromSeconds(seconds);
   }
   newest_ = stamp;
   halves_[halves_[0].seconds >= seconds_ / 2.0 ? 1 : 0].add(estimate, seconds);

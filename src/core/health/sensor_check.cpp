@@ -27,6 +27,14 @@ SensorCheck::SensorCheck(double gravity_tolerance, double memory, int horizon_sa
       memory_(memory),
       unread_(1.0 - 1.0 / std::max(memory, 1.0), 1.0 / (1.0 + horizon_samples / (2.0 * kPi * kBandTimes))) {}
 
+void SensorCheck::setTolerance(double gravity_tolerance) {
+  if (gravity_tolerance == tolerance_) return;
+  tolerance_ = gravity_tolerance;
+  const bool is_of_gravity =
+      report_.fault == SensorFault::kSprungGravity || report_.fault == SensorFault::kUnsprungGravity;
+  if (is_of_gravity) report_.fault = pending_ = judgeMeans();
+}
+
 double SensorCheck::bodyBeyondStrut() const {
   const Reading& body = readings_[0];
   return body.variance > 0.0 ? std::max(0.0, 1.0 - body.band / body.variance) : 0.0;

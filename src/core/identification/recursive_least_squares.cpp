@@ -43,8 +43,9 @@ void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
 
 void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {
   const double lambda = options_.forgetting_factor;
-  scatter_.add(row, weight * innovation);
-  theta_ += covariance_.update(row.regressor, lambda / weight, lambda) * innovation;
+  const Eigen::VectorXd& gain = covariance_.update(row.regressor, lambda / weight, lambda);
+  scatter_.add(gain, innovation);
+  theta_ += gain * innovation;
 }
 
 void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residual_variance, double unit) {

@@ -32,6 +32,8 @@ void describeParameters(const Estimator& estimator, int num_model, StrutEstimate
   if (num_model < estimator.numParameters()) estimate.offset = -theta[num_model] / theta[kStiffnessToMass];
   estimate.effective_rows = estimator.effectiveRows();
   estimate.explained = estimator.explained();
+  const double mean_size = estimator.meanAbsoluteResidual();
+  estimate.tails = mean_size > 0.0 ? estimator.meanSquareResidual() / (mean_size * mean_size) : 0.0;
 }
 
 }  // namespace

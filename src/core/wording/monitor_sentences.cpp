@@ -102,7 +102,7 @@ std::string describeNoReading(double seconds, const std::vector<std::string>& si
 std::string describe(const HealthReport& report) {
   return join({describe(report.sensor), describeJudgement(report),
                report.early_warning && report.level == HealthLevel::kOk ? "early warning: a change is certain" : "",
-               report.outliers ? "outliers or saturation present (LS and LA disagree)" : ""},
+               report.outliers ? "outliers or saturation present (residuals have heavy tails)" : ""},
               "; ");
 }
 

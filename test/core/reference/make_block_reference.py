@@ -201,7 +201,6 @@ def window(blocks, bands, at, usual=None):
     scattered = np.einsum("bji,bjk->ik", scores, scores) + (lag + lag.T) / 2 + (inverse @ P @ inverse.T)[:2, :2]
     inflation = np.trace(np.linalg.solve(covariance[:2, :2], scattered)) / 2  # whatever it is: no least one
     linear = not_r * (theta - at)
-    linear[4] = -at[4]
     unexplained = sum(w[i] * power(k.e - linear @ k.R) for i, k in enumerate(blocks))
     explained = 1 - unexplained / sum(w[i] * power(k.Y[0]) for i, k in enumerate(blocks))
     rate = np.sqrt(2 * sum(w[i] * power(k.rate) for i, k in enumerate(blocks)) / w.sum() / 0.375)

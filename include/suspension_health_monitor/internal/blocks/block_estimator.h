@@ -84,10 +84,12 @@ class BlockEstimator {
   void scaleSlow();
   double delayStddev() const;
   bool start();
+  bool startBy(int window);
   void learnSlow();
   void lookForDelay();
   bool contradictsSlow();
   bool contradictsShorter(const WindowEstimate& estimate);
+  bool leavesUnusual(int blocks);
   void retire(const StrutBlock& block);
   void retireAll();
   void refine(int window, const BlockPrior& prior);
@@ -111,6 +113,7 @@ class BlockEstimator {
   WindowEstimate best_, trial_;
   std::optional<WindowEstimate> of_all_;
   struct Shorter {
+    int blocks;
     Eigen::Vector2d theta, stddev;
   };
   std::vector<Shorter> shorter_;  // windows of the newest update

@@ -12,6 +12,7 @@ namespace suspension_health_monitor {
 class NoiseBands {
  public:
   static constexpr int kFewestBins = 5;
+  static constexpr int kMost = (BlockBand::kLast - BlockBand::kFirst + 1) / kFewestBins;
   static constexpr double kRatio = 1.25;  ///< upper over lower end: a third of an octave
 
   explicit NoiseBands(const BlockBand& band) {

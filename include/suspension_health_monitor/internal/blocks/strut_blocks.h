@@ -21,7 +21,7 @@ struct BlockEstimate : WindowEstimate {
 
 /// From the readings of a strut's two sensors, each on its own stamps, to estimates after every half block:
 /// FourierIntegrals -> StrutBlock -> BlockEstimator. Readings may come in any order between the streams, as long as
-/// none runs four blocks ahead. The blocks' length follows the bounce: from kFewestPeriods to kMostPeriods of it in a
+/// none runs four blocks ahead. The blocks' length follows the bounce: from some two to kMostPeriods of it in a
 /// block.
 class StrutBlocks {
  public:
@@ -47,13 +47,13 @@ class StrutBlocks {
   void restart();
 
  private:
-  static constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;
+  static constexpr double kLeastUpperEdge = 2.5, kMostPeriods = 6.0;  // of the bounce in a block; 1.6 of a usual one
 
   void begin(double length);
   const BlockEstimate* takeBlocks();
   bool isPassed(long half) const;
   void fill(long half, StrutBlock& block);
-  void follow(double stiffness);
+  void follow(double damping, double stiffness);
 
   BlockOptions options_;
   double period_;

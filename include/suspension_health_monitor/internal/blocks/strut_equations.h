@@ -56,7 +56,7 @@ struct StrutBlock {
     Eigen::MatrixXd moments;      ///< R'R with c as the last column
     double wheel_power = 0.0;     ///< |W^|^2
     double body_power = 0.0;      ///< |H_0(Y)|^2
-    double undriven_power = 0.0;  ///< |H_0(Y) - G H_0(X)|^2
+    double moving_power = 0.0;    ///< |H_0(X)|^2
     double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
     double travel_power = 0.0;    ///< |H_0(X - Y)|^2 / |s|^4
   };

@@ -17,6 +17,9 @@ inline constexpr double kLeastDamping = 0.1;
 /// @return b1 [1/s], at least that of kLeastDamping.
 inline double leastDamping(double b1, double b0) { return std::max(b1, 2.0 * kLeastDamping * std::sqrt(b0)); }
 
+/// A value of each band of the noise, without the heap.
+using BandVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, NoiseBands::kMost, 1>;
+
 /// What is known of the parameters before the data of a window: independent normal distributions.
 struct BlockPrior {
   BlockVector mean, stddev;  ///< infinite: nothing is known
@@ -28,13 +31,14 @@ struct WindowEstimate {
   BlockVector theta;       ///< as BlockParameter, then the columns
   BlockMatrix covariance;  ///< of theta
   double inflation = 1.0;  ///< of the covariance: cells scatter so much more than their noise explains
-  double explained = 0.0;  ///< share of the body's power by b1 and b0 alone
+  double explained = 0.0;  ///< share of the body's power
   double alike = 0.0;      ///< relative standard deviation of b1 or b0 by noise of neighbours' wheels, see WindowFit
-  double driven = 0.0;     ///< share of the body's power that the wheel makes through the model
+  bool is_settled = true;  ///< the equations are solved where b1 and b0 are above 0, to a standard deviation
+  double amplified = 0.0;  ///< power of the body's motion over that of the wheel's
   double rate = 0.0;       ///< rms of the travel rate [m/s]
   double travel = 0.0;     ///< rms of the travel [m]
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
-  Eigen::VectorXd noise;   ///< power of e per bin of each band: the unexplained spectrum
+  BandVector noise;        ///< power of e per bin of each band: the unexplained spectrum
 
   /// @param i  b1 or b0. A damping below kLeastDamping is known as well as that one is: a strut without a damper is
   /// one, too.
@@ -54,14 +58,14 @@ struct WindowEstimate {
 
 /// What blocks are weighted by: the noise's spectrum and its share in the wheel's motion.
 struct BlockWeights {
-  Eigen::VectorXd noise;        ///< s2, by band
-  Eigen::VectorXd share_scale;  ///< s2 over the power of the wheel's motion: the scale of the column of r
-  Eigen::VectorXd usual;        ///< power of e per bin of usual blocks, by band; empty: not known yet
+  BandVector noise;        ///< s2, by band
+  BandVector share_scale;  ///< s2 over the power of the wheel's motion: the scale of the column of r
+  BandVector usual;        ///< power of e per bin of usual blocks, by band; empty: not known yet
 
   /// @return 1, or less for a block that is unusually noisy at theta.
   double of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const;
   /// @param power  of e per bin of a block, by band.
-  double of(const Eigen::RowVectorXd& power) const;
+  double of(const Eigen::Ref<const Eigen::ArrayXd>& power) const;
 };
 
 /// Power of the residual at theta in a band, or in a sum of bands. It is linear in the parameters, but for r, which it
@@ -86,9 +90,6 @@ struct NormalEquations {
 /// @param instruments  sum of Z'Z / s2.  @param inverse  H^-1.
 BlockMatrix covarianceByNoise(const BlockMatrix& instruments, const BlockMatrix& inverse, const BlockPrior& prior,
                               int blocks);
-
-/// @return theta without the force columns: the linear strut.
-BlockVector linearPart(const BlockVector& theta, const BlockColumns& columns);
 
 /// What noise of power 1 of every wheel of a vehicle does in one band of a strut top's equations.
 struct WheelNoise {
@@ -126,13 +127,13 @@ class WindowFit {
   /// @param usual  power of e per bin of each band of usual blocks; empty: not known yet.
   /// @param least_inflation  that is known from other windows.
   void fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
-           const Eigen::VectorXd& usual, double least_inflation, WindowEstimate& result);
+           const BandVector& usual, double least_inflation, WindowEstimate& result);
 
   /// @param each  by band; empty: a strut alone.
   void setWheelNoise(const std::vector<WheelNoise>& each) { wheel_noise_ = each; }
 
-  /// @return power of e per bin, blocks by bands, of the newest fit.
-  auto power() const { return power_.topRows(blocks_); }
+  /// @return power of e per bin, bands by blocks, of the newest fit.
+  auto power() const { return power_.leftCols(blocks_); }
 
   /// @return those of the newest fit, without what is usual.
   const BlockWeights& weights() const { return weights_; }
@@ -166,7 +167,7 @@ class WindowFit {
   NoiseBands bands_;
   BlockColumns columns_;
   int blocks_ = 0;
-  Eigen::ArrayXXd power_;  // of e per bin, blocks by bands
+  Eigen::ArrayXXd power_;  // of e per bin, bands by blocks
   Eigen::ArrayXd weight_;  // of blocks, the newest first
   Eigen::ArrayXd present_;
   std::vector<Sum> sums_;  // by band, over the newest gathered_ blocks
@@ -177,6 +178,7 @@ class WindowFit {
   BlockWeights weights_;
   BlockMatrix normal_, spread_;  // sums of Z'R / s2 and of Z'Z / s2; the former with the prior's
   BlockVector right_;
+  Eigen::Vector2d solved_ = Eigen::Vector2d::Zero();  // b1, b0 as the equations have them
   Eigen::Matrix2Xd previous_;  // by band
   std::vector<double> distances_;
   std::vector<Eigen::Vector2d> own_;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "suspension_health_monitor/internal/health/agreement.h"
+#include "suspension_health_monitor/internal/health/outliers.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/change_trend.h"
 #include "suspension_health_monitor/internal/health/early_warning.h"
@@ -30,7 +30,7 @@ struct HealthOptions : HealthThresholds {
 /// - What is judged is the block estimate, whose standard deviations and correlation decide what is certain.
 /// - A baseline is compared as it would be on the present road (changeFrom()), a steady change without its lag
 ///   (ChangeTrend).
-/// - LS and LA that disagree for long (Agreement) are reported: there are outliers.
+/// - Residuals of LS that have heavy tails for long (Outliers) are reported.
 /// - Payload moves both parameters, damage one (splitChange()).
 /// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation), of one
 /// estimate
@@ -52,8 +52,8 @@ class HealthAssessment {
   /// @param sensor  what is known of the sensors; counts from the next update().
   void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
 
-  /// LS and LA as they are now, to be called for each check of the sensors.
-  void compare(const StrutEstimate& ls, const StrutEstimate& la) { agreement_.update(ls, la); }
+  /// LS as it is now, to be called for each check of the sensors.
+  void watch(const StrutEstimate& ls) { outliers_.update(ls); }
 
   /// Judges by this from now on; learning ends.
   void setBaseline(const Baseline& baseline);
@@ -88,7 +88,7 @@ class HealthAssessment {
   Baseline baseline_;
   std::optional<BaselineLearner> learner_;
   Parameter damping_, stiffness_;
-  Agreement agreement_;         // of LS and LA
+  Outliers outliers_;
   double known_load_ = 0.0;     // ln of the body's mass over the healthy vehicle's, when last nothing else had changed
   double since_early_ = 0.0;    // seconds since the early warning saw the newest change
   std::optional<Stamp> taken_;  // when the newest estimate came

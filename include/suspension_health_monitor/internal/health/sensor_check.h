@@ -30,8 +30,8 @@ class SensorCheck {
   /// of the strut but that of an engine.
   SensorCheck(double gravity_tolerance, double memory, int horizon_samples);
 
-  /// Judges by another gravity_tolerance from now on.
-  void setTolerance(double gravity_tolerance) { tolerance_ = gravity_tolerance; }
+  /// Judges by another gravity_tolerance from now on, and what has been found of gravity at once.
+  void setTolerance(double gravity_tolerance);
 
   void add(const CornerSample& sample);
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -99,8 +100,12 @@ class RecursiveEstimator {
   /// @param weight  w: as many rows of an LS problem.
   void correct(const RegressionRow& row, double innovation, double weight);
 
-  /// @return variance of theta_i.  @param scale  what turns P_ii into that of independent rows.
-  double varianceAt(int i, double scale) const { return scale * covariance_.variance(i) * scatter_.inflation(i); }
+  /// @return variance of theta_i; infinite as long as no residual has shown any noise.
+  /// @param scale  what turns P_ii into that of independent rows.
+  double varianceAt(int i, double scale) const {
+    if (!(scale > 0.0)) return std::numeric_limits<double>::infinity();
+    return scale * covariance_.variance(i) * scatter_.inflation(i);
+  }
 
   RecursiveOptions options_;
   Eigen::VectorXd theta_;
