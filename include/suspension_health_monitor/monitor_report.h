@@ -197,7 +197,7 @@ struct HealthReport {
   bool friction_doubt = false;  ///< mostly since dry friction makes so much of the estimates on this road
   LoadDoubt load_doubt = LoadDoubt::kNone;
   bool early_warning = false;  ///< a small change is certain before it reaches a threshold; raises no level
-  bool outliers = false;       ///< LS and LA have disagreed for long: outliers or saturation
+  bool outliers = false;       ///< residuals of LS have had heavy tails for long: outliers or saturation
   SensorReport sensor;
   bool learned = false;             ///< judged by a baseline from a drive, else by nominal values
   std::optional<double> learning;   ///< progress 0..1 of learning the baseline

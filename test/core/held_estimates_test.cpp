@@ -62,7 +62,7 @@ TEST(HeldEstimate, OfAParkedVehicleIsJudgedUntilItIsOldAndThenStale) {
       valid_until = second;
     }
   }
-  EXPECT_GT(valid_until, 45.0);
+  EXPECT_GT(valid_until, 40.0);
   EXPECT_LT(valid_until, 60.0);
   EXPECT_EQ(strut.estimate().doubt, EstimateDoubt::kOldData);
   EXPECT_EQ(strut.la().doubt, EstimateDoubt::kDisagrees);

@@ -158,14 +158,16 @@ const WindowEstimate* BlockEstimator::update() {
   is_refused_ = !has_theta_;
   if (is_refused_) return nullptr;
   theta_ = best_.theta;
-  // At rest the last blocks of the drive explain less and less of the window: what is known is held.
-  const bool is_at_rest = best_.explained < kHalf && newestSayNothing();
-  return is_at_rest ? nullptr : &best_;
+  // Blocks at rest can only make it worse: what is known is held.
+  if (newestSayNothing() && (best_.explained < kHalf || best_.worst() >= told_worst_)) return nullptr;
+  told_worst_ = best_.worst();
+  return &best_;
 }
 
 bool BlockEstimator::start() {
   const bool is_alone = equations_.columns().neighbours == 0;
   scatter_ = 1.0;  // what was known is lost
+  told_worst_ = kUnknown;
   // Where a strut was known and lost few blocks tell it from what went before, as from a burst of wrong readings.
   const bool was_known = is_alone && weights_.usual.size() > 0;
   if (startBy(std::min(count_, kStartBlocks)) || (was_known && startBy(kWindows.front()))) {

@@ -38,17 +38,13 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
   /// @param least_squares  of the same rows.
   void beginAgain(const RecursiveLeastSquares& least_squares);
 
-  /// @return variance of theta_i: P_ii times that of the bounded scores, times the scatter of batches.
+  /// @return variance of theta_i: P_ii times the mean square of the bounded scores over the mean weight, which outliers
+  /// hardly touch, times the scatter of batches.
   /// During the first k0 rows that of LS.
   double parameterVariance(int i) const { return varianceAt(i, leads() ? scale() : meanSquareResidual()); }
 
  private:
-  // E[(w e)^2] / (2 f(0))^2 over P of rows weighted by w: the weights' mean is more than the density at 0, 2 f(0), by
-  // which the sum of sizes bends; of Laplace's residuals, whose estimator this is, that is 1 / mean|e|.
-  double scale() const {
-    const double size = meanAbsoluteResidual();
-    return weights_.mean(kSquareScore) * weights_.mean(kWeight) * size * size;
-  }
+  double scale() const { return weights_.mean(kSquareScore) / weights_.mean(kWeight); }
   bool leads() const { return rows_ == absolute_.start_rows; }  // else LS does
   double weigh(double innovation);
   void takeOver();
