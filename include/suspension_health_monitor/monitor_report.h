@@ -76,7 +76,7 @@ struct StrutEstimate {
   std::optional<DryFriction> friction;  ///< of the blocks; empty: other effects are in the model
   double effective_rows = 0.0;          ///< rows in the memory of LS, LA; blocks of the window
   double explained = 0.0;  ///< share of what was measured: of mean sizes of rows (LS, LA), of the body's power (blocks)
-  double tails = 0.0;  ///< mean square of the residuals of LS, LA over their squared mean size [-]: 1.57 if normal
+  double tails = 0.0;      ///< mean square of the residuals of LS, LA over their squared mean size [-]: 1.57 if normal
   double age = std::nan("");                     ///< of what the block estimate rests on [s], on average
   double window = std::nan("");                  ///< span of its blocks [s]
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)

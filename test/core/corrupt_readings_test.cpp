@@ -52,7 +52,8 @@ void expectRecovers(const Fault& fault, const Corrupt& corrupt) {
                  now && fault.wheel ? corrupt() : kGravity + sample.unsprung_acceleration);
   }
   EXPECT_LT(well_since, end + kEnough) << describe(monitor.report().estimate.doubt) << ", "
-                                          << describe(monitor.report().la.doubt) << ", " << describe(monitor.report().health);
+                                       << describe(monitor.report().la.doubt) << ", "
+                                       << describe(monitor.report().health);
   EXPECT_LT(recursive_since, end + kOfMemory) << describe(monitor.report().la.doubt);
   EXPECT_GT(reports, static_cast<int>(kOfMemory / 0.02));
 }

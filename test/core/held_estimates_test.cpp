@@ -174,9 +174,8 @@ double follow(SuspensionMonitor& monitor, Stamp& stamp, double b1, double b0, do
     monitor.addSample({stamp, sample.sprung_acceleration / smoother + noise(engine),
                        sample.unsprung_acceleration / smoother + noise(engine)});
     const StrutEstimate& estimate = monitor.report().estimate;
-    const bool is_right =
-        std::abs(estimate.damping_to_mass - b1) < 4.0 * estimate.damping_to_mass_stddev &&
-        std::abs(estimate.stiffness_to_mass - b0) < 4.0 * estimate.stiffness_to_mass_stddev;
+    const bool is_right = std::abs(estimate.damping_to_mass - b1) < 4.0 * estimate.damping_to_mass_stddev &&
+                          std::abs(estimate.stiffness_to_mass - b0) < 4.0 * estimate.stiffness_to_mass_stddev;
     wrong += estimate.valid() && is_right ? 0.0 : 0.02;
   }
   return wrong;

@@ -203,7 +203,7 @@ TEST(StrutEquations, SumDerivativesOfTheModelAndOfTheResidualOverEveryBand) {
       instruments[i] = neighbour < 0 ? regressors[i] : Eigen::ArrayXcd(block.predicted_neighbours.col(neighbour) / a);
     }
   }
-  for (std::size_t i = 0; i < p; ++i)  // c, what is left of e at theta = 0
+  for (std::size_t i = 0; i < p; ++i)  // the block keeps the residual at theta = 0
     if (i != kBlockWheelShare) regressors[p] += theta[static_cast<Eigen::Index>(i)] * regressors[i];
   for (int b = 0; b < equations.noiseBands().count(); ++b) {
     const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(b)];

@@ -41,12 +41,6 @@ bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
          (1.0 - estimate.explained) * estimate.amplified < kMostUndriven;
 }
 
-double medianOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 bool isSlow(int i) { return i == kBlockDelay || i >= kNumBlockParameters; }
 
 }  // namespace
@@ -314,8 +308,7 @@ bool BlockEstimator::contradictsShorter(const WindowEstimate& estimate) {
     if (((estimate.theta.head<2>() - each.theta).array().abs() > kContradiction * each.stddev.array()).any() &&
         leavesUnusual(each.blocks))
       return true;
-  shorter_.push_back(
-      {estimate.blocks, estimate.theta.head<2>(), estimate.covariance.diagonal().head<2>().cwiseSqrt()});
+  shorter_.push_back({estimate.blocks, estimate.theta.head<2>(), estimate.covariance.diagonal().head<2>().cwiseSqrt()});
   return false;
 }
 
@@ -325,9 +318,8 @@ bool BlockEstimator::leavesUnusual(int blocks) {
   constexpr double kUnusual = 1.5;  // the power of a block's 39 bins varies by a sixth
   if (weights_.usual.size() == 0) return true;
   sorted_.clear();
-  for (int b = 0; b < blocks; ++b)
-    sorted_.push_back(
-        (window_fit_.power().col(window_fit_.power().cols() - 1 - b) / weights_.usual.array()).mean());
+  const auto newest = window_fit_.power().rightCols(blocks);
+  for (int b = 0; b < blocks; ++b) sorted_.push_back(weights_.timesUsual(newest.col(b)));
   return medianOf(sorted_) > kUnusual;
 }
 

@@ -6,14 +6,14 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kUnusual = 10.0;  // times the usual power, from which a block counts less
+constexpr double kFull = 10.0;  // times the usual power, up to which a block counts in full
 
 }  // namespace
 
 double BlockWeights::of(const Eigen::Ref<const Eigen::ArrayXd>& power) const {
   if (usual.size() == 0) return 1.0;
-  const double times = (power / usual.array()).mean();
-  return times > kUnusual ? kUnusual * kUnusual / (times * times) : 1.0;
+  const double times = timesUsual(power);
+  return times > kFull ? kFull * kFull / (times * times) : 1.0;
 }
 
 double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {
@@ -21,6 +21,12 @@ double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const 
   for (int i = 0; i < bands.count(); ++i)
     power[i] = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands.size(i);
   return of(power.array());
+}
+
+double medianOf(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta) {

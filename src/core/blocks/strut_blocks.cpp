@@ -141,8 +141,8 @@ void StrutBlocks::fill(long half, StrutBlock& block) {
 }
 
 // Blocks that are too short lose the bounce below their lowest bin, of two periods in a block, the more of it the
-// sharper its resonance is; in blocks of more than kMostPeriods it is in few bins of many, and they are slower than they
-// need to be.
+// sharper its resonance is; in blocks of more than kMostPeriods it is in few bins of many, and they are slower than
+// they need to be.
 void StrutBlocks::follow(double damping, double stiffness) {
   const double bounce = std::sqrt(stiffness), periods = estimate_.length * bounce / (2.0 * M_PI);
   const double upper_edge = periods * (1.0 + damping / bounce);  // of the resonance, its width above its peak

@@ -126,8 +126,7 @@ BlockVector StrutEquations::start(const std::vector<const StrutBlock*>& blocks) 
     // Over s^2: displacements, which a bounce has most of.
     regressors_.col(0).array() = (x1_ - block->body.col(1)) / (s_ * s_);
     regressors_.col(1).array() = (x0_ - block->body.col(0)) / (s_ * s_);
-    for (int m = 0; m < columns_.neighbours; ++m)
-      regressors_.col(2 + m).array() = block->neighbours.col(m) / (s_ * s_);
+    for (int m = 0; m < columns_.neighbours; ++m) regressors_.col(2 + m).array() = block->neighbours.col(m) / (s_ * s_);
     regressors_.col(p).array() = block->body.col(2) / (s_ * s_);
     const auto rows = asReal(regressors_);
     normal.noalias() += rows.leftCols(p).transpose().lazyProduct(rows.leftCols(p));

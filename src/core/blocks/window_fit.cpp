@@ -171,9 +171,8 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   if (!equations.is_solvable) result.covariance.setConstant(std::numeric_limits<double>::infinity());
   result.inflation = std::max(least_inflation, inflation(blocks, result, equations.inverse, prior));
   result.covariance *= result.inflation;
-  result.is_settled = ((solved_ - result.theta.head<2>()).array().square() <=
-                       result.covariance.diagonal().head<2>().array())
-                          .all();
+  result.is_settled =
+      ((solved_ - result.theta.head<2>()).array().square() <= result.covariance.diagonal().head<2>().array()).all();
   result.noise = weights_.noise;
   result.alike = 0.0;
   if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
@@ -266,10 +265,8 @@ double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blo
     distances_.push_back(apart.dot(covariance.inverse() * apart));
   }
   if (distances_.size() < 5) return 1.0;
-  const auto middle = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 2);
-  std::nth_element(distances_.begin(), middle, distances_.end());
   constexpr double kMedianOfChiSquare = 1.386;  // 2 ln 2, of two degrees of freedom
-  return std::max(1.0, *middle / kMedianOfChiSquare);
+  return std::max(1.0, medianOf(distances_) / kMedianOfChiSquare);
 }
 
 }  // namespace suspension_health_monitor

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStepsOfFriction = 4096.0;                 // per block: a thousand and more per bounce
 constexpr double kBlocksOfMean = 2.0;                       // memory of the wheel's slow mean
-constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;  // of the bounce in a block, as in StrutBlocks
+constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;  // of the bounce in a block
 // Instruments need not be exact: a model that is wrong by this share of a row's largest coefficient costs its square of
 // the information.
 constexpr double kStaleRows = 0.1;

@@ -62,11 +62,17 @@ struct BlockWeights {
   BandVector share_scale;  ///< s2 over the power of the wheel's motion: the scale of the column of r
   BandVector usual;        ///< power of e per bin of usual blocks, by band; empty: not known yet
 
+  /// @return power of e of a block over that of usual blocks, mean over the bands; what is usual has to be known.
+  /// @param power  of e per bin, by band.
+  double timesUsual(const Eigen::Ref<const Eigen::ArrayXd>& power) const { return (power / usual.array()).mean(); }
   /// @return 1, or less for a block that is unusually noisy at theta.
   double of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const;
   /// @param power  of e per bin of a block, by band.
   double of(const Eigen::Ref<const Eigen::ArrayXd>& power) const;
 };
+
+/// @return the middle one of values, which it puts in another order; the upper one of two.
+double medianOf(std::vector<double>& values);
 
 /// Power of the residual at theta in a band, or in a sum of bands. It is linear in the parameters, but for r, which it
 /// does not depend on, and for the weight 1 / A.
@@ -179,7 +185,7 @@ class WindowFit {
   BlockMatrix normal_, spread_;  // sums of Z'R / s2 and of Z'Z / s2; the former with the prior's
   BlockVector right_;
   Eigen::Vector2d solved_ = Eigen::Vector2d::Zero();  // b1, b0 as the equations have them
-  Eigen::Matrix2Xd previous_;  // by band
+  Eigen::Matrix2Xd previous_;                         // by band
   std::vector<double> distances_;
   std::vector<Eigen::Vector2d> own_;
   std::vector<Eigen::Matrix2d> own_covariance_;

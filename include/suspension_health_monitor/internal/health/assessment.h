@@ -3,11 +3,11 @@
 #include <cmath>
 #include <optional>
 
-#include "suspension_health_monitor/internal/health/outliers.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/change_trend.h"
 #include "suspension_health_monitor/internal/health/early_warning.h"
 #include "suspension_health_monitor/internal/health/level_confirmation.h"
+#include "suspension_health_monitor/internal/health/outliers.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/health/strut_change.h"
 #include "suspension_health_monitor/monitor_options.h"
