@@ -236,7 +236,7 @@ void BlockEstimator::learnSlow() {
   weights_.usual.resize(power.rows());
   for (Eigen::Index i = 0; i < power.rows(); ++i) {
     sorted_.assign(power.row(i).begin(), power.row(i).end());
-    weights_.usual[i] = std::max(medianOf(sorted_), std::numeric_limits<double>::min());
+    weights_.usual[i] = std::max(medianInPlace(sorted_), std::numeric_limits<double>::min());
   }
   scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
   of_all_ = trial_;
@@ -320,7 +320,7 @@ bool BlockEstimator::leavesUnusual(int blocks) {
   sorted_.clear();
   const auto newest = window_fit_.power().rightCols(blocks);
   for (int b = 0; b < blocks; ++b) sorted_.push_back(weights_.timesUsual(newest.col(b)));
-  return medianOf(sorted_) > kUnusual;
+  return medianInPlace(sorted_) > kUnusual;
 }
 
 bool BlockEstimator::isStale(const StrutBlock& block) const {

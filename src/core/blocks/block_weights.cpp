@@ -23,7 +23,7 @@ double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const 
   return of(power.array());
 }
 
-double medianOf(std::vector<double>& values) {
+double medianInPlace(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

@@ -266,7 +266,7 @@ double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blo
   }
   if (distances_.size() < 5) return 1.0;
   constexpr double kMedianOfChiSquare = 1.386;  // 2 ln 2, of two degrees of freedom
-  return std::max(1.0, medianOf(distances_) / kMedianOfChiSquare);
+  return std::max(1.0, medianInPlace(distances_) / kMedianOfChiSquare);
 }
 
 }  // namespace suspension_health_monitor

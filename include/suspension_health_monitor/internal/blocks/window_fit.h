@@ -72,7 +72,7 @@ struct BlockWeights {
 };
 
 /// @return the middle one of values, which it puts in another order; the upper one of two.
-double medianOf(std::vector<double>& values);
+double medianInPlace(std::vector<double>& values);
 
 /// Power of the residual at theta in a band, or in a sum of bands. It is linear in the parameters, but for r, which it
 /// does not depend on, and for the weight 1 / A.
