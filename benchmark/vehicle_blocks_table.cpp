@@ -105,8 +105,8 @@ Run run(const Case& test) {
       result.all.push_back(blocks.overTheDrive(i));
       result.doubts.push_back(blocks.doubt(i));
     }
-    if (const auto rows = blocks.rows())
-      result.body = BodyFit(test.places, pairsOf(test.places)).fit(*rows, blocks.rowsOfHalves());
+    if (BodyRows rows; blocks.rows(rows))
+      result.body = BodyFit(test.places, pairsOf(test.places)).fit(rows, blocks.rowsOfHalves());
   }
   return result;
 }

@@ -64,9 +64,12 @@ struct DryFriction {
 struct StrutEstimate {
   double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
   double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
-  double damping_to_mass_stddev = std::nan("");    ///< [1/s]; that of LS and LA is of their own scatter only
+  double damping_to_mass_stddev = std::nan("");    ///< [1/s]; changes are judged by it; that of LS and LA is of their
+                                                   ///< own scatter only
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
-  double correlation = 0.0;                        ///< of the errors of b1 and b0 [-]; of the block estimate
+  double damping_model_stddev = 0.0;    ///< what links, bushings and laws that no model has do to b1 [1/s]: not to its
+  double stiffness_model_stddev = 0.0;  ///< changes; of b0 [1/s^2]. In struts of a vehicle (BodyFit)
+  double correlation = 0.0;             ///< of the errors of b1 and b0 [-]; of the block estimate
   std::size_t num_effects = 0;                     ///< in the model
   std::array<double, kMostEffects> coefficients = unknownCoefficients();  ///< c_j [unit of the effect's coefficient]
   std::array<double, kMostEffects> coefficient_stddevs = unknownCoefficients();  ///< likewise
@@ -82,6 +85,9 @@ struct StrutEstimate {
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
 
   bool valid() const { return doubt == EstimateDoubt::kNone; }
+  /// Standard deviations of b1 [1/s] and b0 [1/s^2] as absolute values.
+  double dampingAbsoluteStddev() const { return std::hypot(damping_to_mass_stddev, damping_model_stddev); }
+  double stiffnessAbsoluteStddev() const { return std::hypot(stiffness_to_mass_stddev, stiffness_model_stddev); }
   /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
   double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }
   /// Damping ratio b1 / (2 sqrt(b0)) [-]; NaN unless b0 > 0.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -36,6 +38,9 @@ struct VehicleDrive {
   StrutDrives struts;
   std::vector<KnownForceRecord> forces;  ///< in the same order always; none needs to be known
   SensorNoise noise;                     ///< that of the first drive is taken for all
+  /// Of the struts' tops, x ahead and y to the left of any point of the body [m]; empty: not known, so that no
+  /// anti-roll bar is looked for. Those of the first drive are taken for all.
+  std::vector<std::array<double, 2>> places;
 };
 
 inline constexpr const char* kAntiRollBar = "anti_roll_bar";  ///< the name of the effect
@@ -55,16 +60,16 @@ struct KnownForceCoefficients {
   std::vector<double> stddevs;  ///< of these; infinite of a force that never changes
 };
 
-/// How the struts of a vehicle move one another through its body: at the top of strut i
-///   z_i'' = sum_j rho_ij p_j + sum_k kappa_ik x_k,   rho_ij = a_ij / a_jj,
-///   a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx,
-/// where p_j is what strut j does to its own top, and x_k a known force. doc/vehicle.md derives it.
+/// How the struts of a vehicle move one another through its body: what strut j does to its own top it does to that of
+/// strut i with the ratio rho_ij, of a rigid body without anti-roll bars
+///   rho_ij = a_ij / a_jj,   a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx.
+/// doc/vehicle.md derives it.
 struct VehicleCoupling {
   std::vector<std::vector<double>> ratios;   ///< rho_ij in row i [-]; 1 for j = i
   std::vector<std::vector<double>> stddevs;  ///< of these
   std::vector<AntiRollBarFound> bars;        ///< that are part of it
   std::vector<KnownForceCoefficients> forces;
-  double condition = 0.0;  ///< of the rows of all struts: 1 is best, above 20 tracks are much alike
+  double model_error = std::nan("");  ///< of any rigid body on linear struts, in the largest coefficient of a top [-]
   std::string reason;      ///< why the ratios are not known, to be read after "the drives"; empty if they are
 
   explicit operator bool() const { return reason.empty(); }
@@ -101,7 +106,7 @@ struct VehicleIdentification {
 
 /// identify() for every strut of a vehicle; what the coupling does not know is in the standard deviations.
 /// @param options  by strut, or those of all, or none; the sample_period is that of the first.
-/// @param report  IdentifyOptions::report of every strut, one strut after the other.
+/// @param report  IdentifyOptions::report of every strut, as samples come.
 /// @throws std::invalid_argument  as separateVehicle() and identify(); for options of another number of struts.
 VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                                       const std::vector<IdentifyOptions>& options = {},

@@ -32,38 +32,55 @@ struct RecordedVehicle {
   VehicleOptions settings;
   TopicGaps gaps;
   std::vector<VehicleDrive> drives;
-  std::string alignment;  ///< of the last
 
   explicit RecordedVehicle(const po::variables_map& values)
       : vehicle(readVehicle(values)),
         settings(VehicleOptions::fromValues(vehicle.layout, gatherOptions(values))),
         gaps(settings.common.shell.input_timeout) {
     const ImuBags bags = readBags(values, settings.common.shell);
-    for (VehicleBag& bag : readVehicleDrives(bags, settings.common, vehicle.layout, gaps)) {
+    for (VehicleBag& bag : readVehicleDrives(bags, settings.common, vehicle.layout, gaps))
       drives.push_back(std::move(bag.drive));
-      alignment = bag.alignment;
-    }
+  }
+};
+
+/// The monitor of a vehicle that has seen the bags.
+struct RecordedMonitor {
+  TopicGaps gaps;
+  std::optional<WatchedVehicle> struts;
+
+  RecordedMonitor(const po::variables_map& values, AskedVehicle& vehicle, VehicleOptions& options,
+                  const std::vector<WatchedStrut>& watched, const WatchedVehicle::Report& report)
+      : gaps(options.common.shell.input_timeout) {
+    ImuBags bags = readBags(values, options.common.shell);
+    const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
+    bags.gaps = &gaps;
+    struts.emplace(
+        options, streams, watched, bags.transforms.get(), [](std::size_t, const HealthMoment&, const Baseline&) {},
+        report);
+    struts->read(bags);
   }
 };
 
 ByStrut<Identification> identifyStrutsOf(const Arguments& arguments, LongWork& work) {
   const ToolsWork tools(work, 0);
-  RecordedVehicle recorded(parsed(arguments));
-  const std::vector<std::string>& names = recorded.vehicle.names;
-  std::vector<Course> courses(names.size());
-  const VehicleIdentification found = identifyVehicle(recorded.drives, names, identifyOptionsOf(recorded.settings),
-                                                      [&](std::size_t strut, const MonitorReport& report) {
-                                                        if (report.has_row) courses[strut].add(report);
-                                                        work.step();
-                                                      });
-  recorded.gaps.explain([&] { requireCoupling(found.coupling); });
+  const po::variables_map values = parsed(arguments);
+  AskedVehicle vehicle = readVehicle(values);
+  VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
+  const std::vector<WatchedStrut> watched(vehicle.names.size(), WatchedStrut{LiveModel({}, ""), {}});
+  std::vector<Course> courses(vehicle.names.size());
+  RecordedMonitor recorded(values, vehicle, settings, watched, [&](std::size_t strut, const MonitorReport& report) {
+    if (report.has_row) courses[strut].add(report);
+    work.step();
+  });
+  VehicleIdentification found;
+  recorded.gaps.explain([&] { found = recorded.struts->identified(vehicle.names, settings.forceNames()); });
   ByStrut<Identification> results;
-  for (const std::size_t i : recorded.vehicle.asked) {
-    Identification& result = results[names[i]];
+  for (const std::size_t i : vehicle.asked) {
+    Identification& result = results[vehicle.names[i]];
     static_cast<IdentifyResult&>(result) = found.struts[i];
     result.mean_period = std::nan("");  // of the sensors' grid, not of one strut
-    result.alignment = recorded.alignment;
-    const PipelineOptions& options = recorded.settings.struts[i];
+    result.alignment = recorded.struts->alignment();
+    const PipelineOptions& options = settings.struts[i];
     result.sprung_mass = options.monitor.sprung_mass;
     result.change = describeChange(result, knownHealthy({}, options), options.monitor);
     result.course = courses[i];
@@ -75,7 +92,7 @@ ByStrut<Comparison> compareStrutsOf(const Arguments& arguments, LongWork& work) 
   const ToolsWork tools(work, 0);
   const po::variables_map values = parsed(arguments);
   RecordedVehicle recorded(values);
-  const auto& [vehicle, settings, gaps, drives, alignment] = recorded;
+  const auto& [vehicle, settings, gaps, drives] = recorded;
   const KnownModels models = readModels(values, vehicle, readEffects(values));
   const double period = *settings.common.monitor.sample_period;
   const SeparatedVehicle separated = separateVehicle(drives, vehicle.names, period, models);
@@ -121,18 +138,12 @@ ByStrut<HealthSummary> watchStrutsOf(const Arguments& arguments, LongWork& work)
   AskedVehicle vehicle = readVehicle(values);
   VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
   const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
-  TopicGaps gaps(options.common.shell.input_timeout);
-  ImuBags bags = readBags(values, options.common.shell);
-  const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
-  bags.gaps = &gaps;
   std::vector<Course> courses(vehicle.names.size());
-  WatchedVehicle recorded(
-      options, streams, watched, bags.transforms.get(), [](std::size_t, const HealthMoment&, const Baseline&) {},
-      [&](std::size_t strut, const MonitorReport& report) {
-        if (report.has_row) courses[strut].add(report);
-      });
-  recorded.read(bags);
-  gaps.explain([&] { recorded.requireCoupling(vehicle.names); });
+  RecordedMonitor read(values, vehicle, options, watched, [&](std::size_t strut, const MonitorReport& report) {
+    if (report.has_row) courses[strut].add(report);
+  });
+  const WatchedVehicle& recorded = *read.struts;
+  read.gaps.explain([&] { recorded.requireCoupling(vehicle.names); });
   ByStrut<HealthSummary> results;
   for (const std::size_t i : vehicle.asked)
     results[vehicle.names[i]] =

@@ -37,7 +37,8 @@ class LockedVehicle {
                 const MonitorOptions& options)
       : streams_(layoutOf(struts)),
         grid_(*options.sample_period, streams_, MonitorSettings(options).grid(*options.sample_period),
-              [this](const VehicleSample& sample) { monitor_.addSample(grid_, sample); }),
+              [this](const VehicleSample& sample) { monitor_.addGridSample(sample); },
+              [this](const VehicleReading& reading) { monitor_.addReading(grid_.tops(), reading); }),
         monitor_(std::vector<MonitorSettings>(struts.size(), MonitorSettings(options)),
                  [](std::size_t, const MonitorReport&) {}) {}
 

@@ -21,8 +21,8 @@ ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, co
   msg.estimator = estimator;
   msg.damping_to_mass = estimate.damping_to_mass;
   msg.stiffness_to_mass = estimate.stiffness_to_mass;
-  msg.damping_to_mass_stddev = estimate.damping_to_mass_stddev;
-  msg.stiffness_to_mass_stddev = estimate.stiffness_to_mass_stddev;
+  msg.damping_to_mass_stddev = estimate.dampingAbsoluteStddev();
+  msg.stiffness_to_mass_stddev = estimate.stiffnessAbsoluteStddev();
   msg.damping = estimate.damping_to_mass * sprung_mass.value_or(kUnknown);
   msg.stiffness = estimate.stiffness_to_mass * sprung_mass.value_or(kUnknown);
   msg.natural_frequency = estimate.naturalFrequency();

@@ -1,6 +1,7 @@
 #include "coupling_output.h"
 
 #include "conversions.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
@@ -20,10 +21,6 @@ void setBody(const std::optional<BodyInertia>& body, CouplingInUse& msg) {
   set(body ? body->y : unknown, msg.centre_of_gravity[1], msg.centre_of_gravity_stddev[1]);
 }
 
-BodyInertiaResult bodyOf(const CouplingEstimate& coupling, const StrutPlaces& places) {
-  return bodyInertia(coupling.coupling.ratios, coupling.stddevs, places);
-}
-
 void describeBody(const BodyInertiaResult& found, diagnostic_updater::DiagnosticStatusWrapper& status) {
   const auto add = [&](const char* name, const Measured& number) {
     status.addf(name, "%.4g +- %.2g", number.value, number.stddev);
@@ -35,84 +32,97 @@ void describeBody(const BodyInertiaResult& found, diagnostic_updater::Diagnostic
   add("centre of gravity y [m]", found.body->y);
 }
 
-CouplingInUse toMsg(const CouplingEstimate* coupling, const std::string& why_none, const StrutPlaces& places,
+void setBars(const std::vector<BodyFitResult::Bar>& bars, const std::vector<std::string>& struts, CouplingInUse& msg) {
+  for (const BodyFitResult::Bar& bar : bars) {
+    msg.bar_struts.insert(msg.bar_struts.end(), {struts[bar.struts.first], struts[bar.struts.second]});
+    for (const std::size_t end : {0, 1}) {
+      msg.bar_stiffness.push_back(bar.stiffness[end].value);
+      msg.bar_stiffness_stddev.push_back(bar.stiffness[end].stddev);
+      msg.bar_damping.push_back(bar.damping[end].value);
+      msg.bar_damping_stddev.push_back(bar.damping[end].stddev);
+    }
+  }
+}
+
+StrutPlaces placesOf(const VehicleMonitor& monitor) {
+  return monitor.tops() != nullptr ? monitor.tops()->places() : StrutPlaces{};
+}
+
+CouplingInUse toMsg(const VehicleCoupling& coupling, const VehicleMonitor* monitor,
                     const std::vector<std::string>& struts, const std::vector<std::string>& forces) {
   CouplingInUse msg;
-  msg.known = coupling != nullptr;
+  msg.known = static_cast<bool>(coupling);
+  msg.reason = coupling.reason;
   msg.names = struts;
   msg.forces = forces;
   msg.condition = kUnknown;
-  const auto n = static_cast<Eigen::Index>(struts.size());
-  if (coupling == nullptr) {
-    msg.reason = why_none;
+  msg.model_error = coupling.model_error;
+  setBody(msg.known ? inertiaOf(monitor->body(), placesOf(*monitor)).body : std::nullopt, msg);
+  if (!msg.known) {
     msg.ratios.assign(struts.size() * struts.size(), kUnknown);
     msg.stddevs = msg.ratios;
     msg.force_coefficients.assign(struts.size() * forces.size(), kUnknown);
     msg.force_stddevs = msg.force_coefficients;
-    setBody({}, msg);
     return msg;
   }
-  msg.condition = coupling->condition;
-  setBody(bodyOf(*coupling, places).body, msg);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j) {
-      msg.ratios.push_back(coupling->coupling.ratios(i, j));
-      msg.stddevs.push_back(coupling->stddevs(i, j));
+  for (std::size_t i = 0; i < struts.size(); ++i) {
+    msg.ratios.insert(msg.ratios.end(), coupling.ratios[i].begin(), coupling.ratios[i].end());
+    msg.stddevs.insert(msg.stddevs.end(), coupling.stddevs[i].begin(), coupling.stddevs[i].end());
+    for (const KnownForceCoefficients& force : coupling.forces) {
+      msg.force_coefficients.push_back(force.values[i]);
+      msg.force_stddevs.push_back(force.stddevs[i]);
     }
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index k = 0; k < coupling->coupling.forces.cols(); ++k) {
-      msg.force_coefficients.push_back(coupling->coupling.forces(i, k));
-      msg.force_stddevs.push_back(coupling->force_stddevs(i, k));
-    }
+  }
+  if (monitor->body()) setBars(monitor->body()->found, struts, msg);
   return msg;
 }
 
 /// What is not known is NaN in both, and alike.
 bool saysTheSame(const CouplingInUse& a, const CouplingInUse& b) {
   return a.known == b.known && a.reason == b.reason &&
-         (!a.known || (a.ratios == b.ratios && a.stddevs == b.stddevs && a.force_stddevs == b.force_stddevs));
+         (!a.known || (a.ratios == b.ratios && a.stddevs == b.stddevs && a.force_stddevs == b.force_stddevs &&
+                       a.bar_stiffness == b.bar_stiffness));
 }
 
 }  // namespace
 
-void CouplingOutput::publish(const VehicleMonitor* monitor, const std::string& why_none, const StrutPlaces& places,
-                             const ros::Time& stamp) {
-  CouplingInUse msg = toMsg(monitor != nullptr ? monitor->coupling() : nullptr, why_none, places, struts_, forces_);
+VehicleCoupling CouplingOutput::known(const VehicleMonitor* monitor, const std::string& why_none) const {
+  if (monitor != nullptr) return couplingOf(*monitor, struts_, forces_);
+  VehicleCoupling none;
+  none.reason = why_none;
+  return none;
+}
+
+void CouplingOutput::publish(const VehicleMonitor* monitor, const std::string& why_none, const ros::Time& stamp) {
+  CouplingInUse msg = toMsg(known(monitor, why_none), monitor, struts_, forces_);
   if (last_ && saysTheSame(*last_, msg)) return;
   msg.header.stamp = stamp;
   publisher_.publish(msg);
   last_ = msg;
 }
 
-void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& why_none, const StrutPlaces& places,
+void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& why_none,
                               diagnostic_updater::DiagnosticStatusWrapper& status) const {
-  const CouplingEstimate* coupling = monitor != nullptr ? monitor->coupling() : nullptr;
-  if (coupling == nullptr) {
-    status.summary(DiagnosticStatus::STALE, why_none);
+  const VehicleCoupling coupling = known(monitor, why_none);
+  if (!coupling) {
+    status.summary(DiagnosticStatus::STALE, (monitor != nullptr ? "the drives so far " : "") + coupling.reason);
     return;
   }
   status.summary(DiagnosticStatus::OK, "it is known how the struts move one another");
-  status.addf("condition", "%.3g", coupling->condition);
-  if (const std::string late = reasonOf(monitor->estimate(), struts_); !late.empty() && struts_.size() > 1)
-    status.add("not renewed", "the drives of late " + late);
-  if (struts_.size() > 1) describeBody(bodyOf(*coupling, places), status);
+  status.addf("model error", "%.2g %%", 100.0 * coupling.model_error);
+  if (struts_.size() > 1) describeBody(inertiaOf(monitor->body(), placesOf(*monitor)), status);
+  for (const AntiRollBarFound& bar : coupling.bars)
+    status.addf("anti-roll bar " + struts_[bar.first] + " - " + struts_[bar.second], "%.4g and %.4g 1/s^2",
+                bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
   for (std::size_t i = 0; i < struts_.size(); ++i)
-    for (std::size_t j = 0; j < struts_.size(); ++j) {
-      if (i == j) continue;
-      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      status.addf(struts_[i] + " moved by " + struts_[j], "%.3f +- %.3f", coupling->coupling.ratios(row, column),
-                  coupling->stddevs(row, column));
-    }
+    for (std::size_t j = 0; j < struts_.size(); ++j)
+      if (i != j)
+        status.addf(struts_[i] + " moved by " + struts_[j], "%.3f +- %.3f", coupling.ratios[i][j],
+                    coupling.stddevs[i][j]);
   for (std::size_t i = 0; i < struts_.size(); ++i)
-    for (std::size_t k = 0; k < forces_.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
-      status.addf(struts_[i] + " moved by " + forces_[k], "%.4g +- %.2g m/s^2 per unit",
-                  coupling->coupling.forces(row, column), coupling->force_stddevs(row, column));
-    }
-}
-
-std::string whyNotCoupled(const VehicleMonitor& monitor, const std::vector<std::string>& struts) {
-  return "the drives so far " + reasonOf(monitor.estimate(), struts);
+    for (const KnownForceCoefficients& force : coupling.forces)
+      status.addf(struts_[i] + " moved by " + force.name, "%.4g +- %.2g m/s^2 per unit", force.values[i],
+                  force.stddevs[i]);
 }
 
 }  // namespace suspension_health_monitor

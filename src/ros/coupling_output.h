@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
@@ -23,22 +23,19 @@ class CouplingOutput {
       : struts_(struts), forces_(forces), publisher_(private_node.advertise<CouplingInUse>("coupling", 1, true)) {}
 
   /// Publishes what is known, if it is not what was published last.
-  /// @param monitor  nullptr: none yet, and then why.  @param places  of the struts; empty: not known.
-  /// @param stamp  of the newest sample.
-  void publish(const VehicleMonitor* monitor, const std::string& why_none, const StrutPlaces& places,
-               const ros::Time& stamp);
+  /// @param monitor  nullptr: none yet, and then why.  @param stamp  of the newest sample.
+  void publish(const VehicleMonitor* monitor, const std::string& why_none, const ros::Time& stamp);
 
   /// The task "Coupling".
-  void describe(const VehicleMonitor* monitor, const std::string& why_none, const StrutPlaces& places,
+  void describe(const VehicleMonitor* monitor, const std::string& why_none,
                 diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
+  VehicleCoupling known(const VehicleMonitor* monitor, const std::string& why_none) const;
+
   std::vector<std::string> struts_, forces_;
   ros::Publisher publisher_;
   std::optional<CouplingInUse> last_;
 };
-
-/// @return why the struts of a vehicle have no monitors of their own, in a sentence.
-std::string whyNotCoupled(const VehicleMonitor& monitor, const std::vector<std::string>& struts);
 
 }  // namespace suspension_health_monitor

@@ -4,16 +4,13 @@
 
 #include "conversions.h"
 #include "strut_diagnostics.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 const VehicleMonitor* monitorOf(const VehiclePipeline* pipeline) {
   return pipeline != nullptr ? pipeline->monitor() : nullptr;
-}
-
-BodyLevel levelOf(const VehiclePipeline* pipeline) {
-  return pipeline != nullptr && pipeline->grid() != nullptr ? pipeline->grid()->bodyLevel() : BodyLevel();
 }
 
 }  // namespace
@@ -33,7 +30,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
       updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Coupling", [this](Status& status) {
-    coupling_.describe(monitorOf(pipeline_), whyNoMonitor(pipeline_), placement_.places(levelOf(pipeline_)), status);
+    coupling_.describe(monitorOf(pipeline_), whyNoMonitor(pipeline_), status);
     coupling_log_.note(status);
   });
   updater_.add("Input", [this](Status& status) {
@@ -43,7 +40,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
 }
 
 void VehicleDiagnostics::publish(const VehiclePipeline* pipeline) {
-  coupling_.publish(monitorOf(pipeline), whyNoMonitor(pipeline), placement_.places(levelOf(pipeline)),
+  coupling_.publish(monitorOf(pipeline), whyNoMonitor(pipeline),
                     pipeline != nullptr ? toRosTime(pipeline->newest()) : ros::Time());
   pipeline_ = pipeline;
   updater_.force_update();
@@ -53,7 +50,8 @@ void VehicleDiagnostics::publish(const VehiclePipeline* pipeline) {
 std::string VehicleDiagnostics::whyNoMonitor(const VehiclePipeline* pipeline) const {
   if (pipeline == nullptr) return placement_.missing();
   const VehicleMonitor* monitor = pipeline->monitor();
-  return monitor == nullptr ? kMeasuringPeriod : whyNotCoupled(*monitor, struts_);
+  if (monitor == nullptr) return kMeasuringPeriod;
+  return "the drives so far " + suspension_health_monitor::whyNotCoupled(monitor->mostAlike(), struts_);
 }
 
 }  // namespace suspension_health_monitor

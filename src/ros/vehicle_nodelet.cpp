@@ -131,6 +131,7 @@ void VehicleNodelet::stopListening(const std::string& reason) {
 
 void VehicleNodelet::onTick() {
   if (!pipeline_) makePipeline();
+  if (monitor() != nullptr) monitor()->fitBodyIfDue();
   diagnostics_->publish(pipeline());
   for (const auto& strut : struts_) strut->publishDiagnostics();
 }

@@ -31,7 +31,8 @@ void VehiclePipeline::start(double period) {
   }
   period_ = period;
   grid_.emplace(period, streams_, MonitorSettings(options_.common.monitor).grid(period),
-                [this](const VehicleSample& sample) { take(sample); });
+                [this](const VehicleSample& sample) { take(sample); },
+                [this](const VehicleReading& reading) { monitor_->addReading(grid_->tops(), reading); });
   const double kept = std::ceil(options_.common.shell.diagnose_window / period) + 1.0;
   const auto capacity = static_cast<std::size_t>(std::min(kept, kMostKept));
   recent_.assign(settings.size(), Recent<StrutSample>(capacity));
@@ -70,7 +71,7 @@ void VehiclePipeline::take(const VehicleSample& sample) {
     recent_[i].push(strut);
   }
   if (recent_forces_) recent_forces_->push({sample.stamp, sample.forces});
-  monitor_->addSample(*grid_, sample);
+  monitor_->addGridSample(sample);
 }
 
 VehicleDrive VehiclePipeline::newestSamples(double span) const {

@@ -18,23 +18,17 @@ VehicleStreams streamsAnywhere(VehicleLayout layout) {
 VehiclePlacement::VehiclePlacement(const VehicleLayout& layout) : layout_(layout), streams_(streamsAnywhere(layout)) {}
 
 std::optional<VehicleStreams> VehiclePlacement::find(const ShellOptions& options, const tf2::BufferCore& transforms) {
-  placed_ = layout_;
   if (!streams_.channels.body_imu || !layout_.hasFrames()) return streams_;
   if (!body_message_) return std::nullopt;
+  VehicleLayout placed = layout_;
   try {
-    placeFrames(placed_, *body_message_, options, transforms);
+    placeFrames(placed, *body_message_, options, transforms);
   } catch (const std::invalid_argument& error) {
     missing_ = error.what();
     return std::nullopt;
   }
-  for (VehicleLayout::Strut& strut : placed_.struts) strut.frame.reset();
-  return VehicleStreams(placed_);
-}
-
-StrutPlaces VehiclePlacement::places(const BodyLevel& level) const {
-  VehicleLayout upright = placed_;
-  upright.turn(level.mount());
-  return placesOf(upright);
+  for (VehicleLayout::Strut& strut : placed.struts) strut.frame.reset();
+  return VehicleStreams(placed);
 }
 
 }  // namespace suspension_health_monitor

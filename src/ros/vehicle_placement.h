@@ -7,7 +7,6 @@
 #include <string>
 
 #include "shell_options.h"
-#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
 
 namespace suspension_health_monitor {
@@ -30,16 +29,11 @@ class VehiclePlacement {
   /// @return why there are no places yet.
   const std::string& missing() const { return missing_; }
 
-  /// @param level  of the body's IMU.
-  /// @return empty while they are not known.
-  StrutPlaces places(const BodyLevel& level) const;
-
  private:
   VehicleLayout layout_;
   VehicleStreams streams_;
   std::optional<sensor_msgs::Imu> body_message_;
   std::string missing_ = "waiting for body_imu, whose frame tells the struts' positions";
-  VehicleLayout placed_;  // with the positions that transforms tell
 };
 
 }  // namespace suspension_health_monitor

@@ -9,7 +9,7 @@
 #include "long_work.h"
 #include "recorded_vehicle.h"
 #include "report_page.h"
-#include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "vehicle_bags.h"
 #include "vehicle_commands.h"
@@ -43,7 +43,7 @@ void watchStruts(const po::variables_map& values) {
   std::vector<HealthContent::Recording> recordings;
   for (const std::string& name : fileNames(bags.paths)) recordings.push_back({name, begins[recordings.size()]});
   nlohmann::json whole =
-      toJson(describe(*recorded.monitor().coupling(), vehicle.names, options.forceNames()), vehicle.names);
+      toJson(couplingOf(recorded.monitor(), vehicle.names, options.forceNames()), vehicle.names);
   whole["silent"] = gaps.toJson();
   std::vector<HealthContent> contents;
   for (const std::size_t i : vehicle.asked) {

@@ -12,8 +12,10 @@
 #include "row_table.h"
 #include "strut_settings.h"
 #include "suspension_health_monitor/internal/prefixed.h"
+#include "vehicle_bags.h"
 #include "vehicle_commands.h"
 #include "vehicle_tables.h"
+#include "watched_vehicle.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -60,25 +62,30 @@ void identifyStruts(const boost::program_options::variables_map& values) {
   VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, given);
   const std::vector<Baseline> healthy = healthyStruts(values, vehicle, settings);
   TopicGaps gaps(settings.common.shell.input_timeout);
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings.common, gaps);
+  ImuBags bags = readBags(values, settings.common.shell);
+  const VehicleStreams streams = streamsOf(bags, settings.common, vehicle.layout);
+  bags.gaps = &gaps;
   std::vector<RowTable> rows;
   for (std::size_t i = 0; i < vehicle.names.size(); ++i)
     rows.emplace_back(csv && (!vehicle.only || *vehicle.only == i) ? csv->stream() : nullptr,
                       vehicle.only ? "" : vehicle.names[i]);
   if (csv) RowTable::writeHead(csv->stream(), !vehicle.only);
-  std::size_t last = 0;
-  const VehicleIdentification found = identifyVehicle(drives, vehicle.names, identifyOptionsOf(settings),
-                                                      [&](std::size_t strut, const MonitorReport& report) {
-                                                        if (strut != last) rows[last].finish();
-                                                        rows[last = strut].add(report);
-                                                      });
-  rows[last].finish();
-  gaps.explain([&] { requireCoupling(found.coupling); });
+  const std::vector<WatchedStrut> watched(vehicle.names.size(), WatchedStrut{LiveModel({}, ""), {}});
+  WatchedVehicle recorded(
+      settings, streams, watched, bags.transforms.get(), [](std::size_t, const HealthMoment&, const Baseline&) {},
+      [&](std::size_t strut, const MonitorReport& report) { rows[strut].add(report); });
+  recorded.read(bags);
+  for (RowTable& table : rows) table.finish();
+  recorded.printInput();
+  gaps.print();
+  const std::vector<std::string> forces = settings.forceNames();
+  VehicleIdentification found;
+  gaps.explain([&] { found = recorded.identified(vehicle.names, forces); });
   printCoupling(found.coupling, vehicle.names);
   nlohmann::json whole = toJson(found.coupling, vehicle.names);
   whole["silent"] = gaps.toJson();
   if (vehicle.names.size() > 1) {
-    const BodyInertiaResult body = bodyOf(found.coupling, placesOf(vehicle.layout));
+    const BodyInertiaResult body = inertiaOf(recorded.monitor().body(), recorded.monitor().tops()->places());
     printBody(body);
     whole["body"] = toJson(body);
   }

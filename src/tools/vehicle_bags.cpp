@@ -53,6 +53,7 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
   readTopics(bag, {take, take});
   grid.finish();
   grid.describe(read.drive);
+  read.drive.places = grid.tops().places();
   read.body_level = grid.bodyLevel();
   read.alignment = grid.streams().describeAlignment();
   for (std::size_t i = 0; i < streams.sensors.size(); ++i) {

@@ -100,7 +100,7 @@ void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& op
                                              {"struts", struts},
                                              {"ratios", found.coupling.ratios},
                                              {"stddevs", found.coupling.stddevs},
-                                             {"condition", found.coupling.condition},
+                                             {"model_error", found.coupling.model_error},
                                              {"anti_roll_bars", barsJson(found.coupling)},
                                              {"known_forces", forcesJson(found.coupling)},
                                              {"origin", source.origin}}));

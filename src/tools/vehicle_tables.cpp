@@ -1,5 +1,6 @@
 #include "vehicle_tables.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "errors.h"
@@ -56,8 +57,7 @@ void requireCoupling(const VehicleCoupling& coupling) {
 void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
   printForces(coupling, names);
   if (names.size() < 2) return;
-  std::printf("how much of what a strut does to its own top reaches the others (condition %.2g):\n%16s",
-              coupling.condition, "moved by");
+  std::printf("how much of what a strut does to its own top reaches the others:\n%16s", "moved by");
   for (const std::string& name : names) std::printf("  %14s", name.c_str());
   std::printf("\n");
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -69,6 +69,8 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
         std::printf("  %6.3f +-%6.3f", coupling.ratios[i][j], coupling.stddevs[i][j]);
     std::printf("\n");
   }
+  if (!std::isnan(coupling.model_error))
+    std::printf("a rigid body on linear struts leaves %.2g %% of it unexplained\n", 100.0 * coupling.model_error);
   for (const AntiRollBarFound& bar : coupling.bars)
     std::printf("anti-roll bar between %s and %s: stiffness/mass %.4g and %.4g 1/s^2\n", names[bar.first].c_str(),
                 names[bar.second].c_str(), bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
@@ -80,18 +82,7 @@ json toJson(const VehicleCoupling& coupling, const std::vector<std::string>& nam
           {"coupling_stddevs", couplingJson(coupling.stddevs, names)},
           {"anti_roll_bars", barsJson(coupling, names)},
           {"known_forces", forcesJson(coupling, names)},
-          {"condition", coupling.condition}};
-}
-
-BodyInertiaResult bodyOf(const VehicleCoupling& coupling, const StrutPlaces& places) {
-  const auto matrixOf = [](const std::vector<std::vector<double>>& rows) {
-    const auto n = static_cast<Eigen::Index>(rows.size());
-    Eigen::MatrixXd matrix(n, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      matrix.row(i) = Eigen::Map<const Eigen::RowVectorXd>(rows[static_cast<std::size_t>(i)].data(), n);
-    return matrix;
-  };
-  return bodyInertia(matrixOf(coupling.ratios), matrixOf(coupling.stddevs), places);
+          {"model_error", coupling.model_error}};
 }
 
 void printBody(const BodyInertiaResult& found) {

@@ -18,11 +18,7 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
 /// The same for programs, with `struts` to be filled.
 nlohmann::json toJson(const VehicleCoupling& coupling, const std::vector<std::string>& names);
 
-/// @param places  of the struts; empty: not known.
-/// @return how the body's mass is spread, by the ratios.
-BodyInertiaResult bodyOf(const VehicleCoupling& coupling, const StrutPlaces& places);
-
-/// The same for people and for programs.
+/// How the body's mass is spread, for people and for programs.
 void printBody(const BodyInertiaResult& found);
 nlohmann::json toJson(const BodyInertiaResult& found);
 

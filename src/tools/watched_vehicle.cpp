@@ -6,6 +6,7 @@
 #include "errors.h"
 #include "recorded_vehicle.h"
 #include "suspension_health_monitor/internal/prefixed.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -45,6 +46,7 @@ std::vector<Stamp> WatchedVehicle::read(const ImuBags& bags) {
   const auto take = [this](std::size_t sensor, const auto& message, Stamp recorded) {
     for (HealthLog& log : logs_) log.addReading(sensor, toStamp(message.header.stamp), recorded);
     pipeline_.push(sensor, message);
+    if (pipeline_.monitor() != nullptr) pipeline_.monitor()->fitBodyIfDue();
     return true;
   };
   for (const std::string& path : bags.paths) {
@@ -77,7 +79,13 @@ RejectCounts WatchedVehicle::rejected() const {
 void WatchedVehicle::requireCoupling(const std::vector<std::string>& names) const {
   const VehicleMonitor* monitor = pipeline_.monitor();
   if (monitor == nullptr) throw TooLittleError(describeNoStart("on one of " + join(topics_)));
-  if (!monitor->isCoupled()) throw TooLittleError("the drives " + reasonOf(monitor->estimate(), names));
+  if (!monitor->isCoupled()) throw TooLittleError("the drives " + whyNotCoupled(monitor->mostAlike(), names));
+}
+
+VehicleIdentification WatchedVehicle::identified(const std::vector<std::string>& names,
+                                                 const std::vector<std::string>& forces) {
+  requireCoupling(names);
+  return suspension_health_monitor::identified(*pipeline_.monitor(), names, forces);
 }
 
 void WatchedVehicle::begin(VehicleMonitor& monitor) const {

@@ -13,6 +13,7 @@
 #include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
@@ -50,10 +51,16 @@ class WatchedVehicle {
   /// @throws TooLittleError  if the drives do not tell how the struts move one another.
   void requireCoupling(const std::vector<std::string>& names) const;
 
+  /// @param forces  names of the known forces.
+  /// @return what is known at the end.
+  /// @throws TooLittleError  as requireCoupling().
+  VehicleIdentification identified(const std::vector<std::string>& names, const std::vector<std::string>& forces);
+
   /// @return what was kept out of the readings of all sensors.
   RejectCounts rejected() const;
 
   const VehicleMonitor& monitor() const { return *pipeline_.monitor(); }
+  std::string alignment() const { return pipeline_.grid()->streams().describeAlignment(); }
   const HealthLog& log(std::size_t strut) const { return logs_[strut]; }
 
  private:

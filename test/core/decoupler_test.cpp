@@ -12,32 +12,15 @@
 namespace suspension_health_monitor {
 namespace {
 
-Coupling couplingOf(const StrutMatrix& ratios) {
-  Coupling coupling;
-  coupling.ratios = ratios;
-  coupling.forces.setZero(ratios.rows(), 0);
-  coupling.bars = StrutMatrix::Zero(ratios.rows(), ratios.rows());
-  coupling.own_power = StrutVector::Ones(ratios.rows());
-  coupling.rest = 1e-8 * StrutMatrix::Identity(coupling.numStruts(), coupling.numStruts());
-  return coupling;
-}
-
-StrutVector vectorOf(std::initializer_list<double> values) {
-  StrutVector vector(static_cast<Eigen::Index>(values.size()));
-  Eigen::Index i = 0;
-  for (const double value : values) vector[i++] = value;
-  return vector;
-}
-
-TEST(NeighbourWeights, OfTwoStrutsNeedNoModel) {
-  StrutMatrix ratios(2, 2);
-  ratios << 1.0, -0.4, 0.3, 1.0;
-  const NeighbourWeights weights(couplingOf(ratios));
-  const StrutVector own = vectorOf({0.7, -1.1}), body = ratios * own;
-  // Whatever the models say of the neighbours.
-  const StrutVector neighbours = weights.neighbours(body, ForceVector(0), vectorOf({5.0, 5.0}));
-  EXPECT_NEAR(neighbours[0], -0.4 * -1.1, 1e-5);
-  EXPECT_NEAR(neighbours[1], 0.3 * 0.7, 1e-5);
+/// Struts that are all alike.
+BodyRows rowsOf(const StrutMatrix& ratios, const StrutModel& model, const Eigen::MatrixXd& forces) {
+  const Eigen::Index n = ratios.rows();
+  BodyRows rows;
+  rows.rate = model.damping_to_mass * ratios;
+  rows.travel = model.stiffness_to_mass * ratios;
+  rows.force = forces;
+  rows.covariance.assign(static_cast<std::size_t>(n), 1e-8 * Eigen::MatrixXd::Identity(2 * n, 2 * n));
+  return rows;
 }
 
 // A body on four struts.
@@ -51,45 +34,6 @@ StrutMatrix ratiosOfFour() {
       ratios(i, j) = mobility(i, j) / mobility(j, j);
     }
   return ratios;
-}
-
-TEST(NeighbourWeights, OfFourStrutsOnThreeMotionsAreRightWhereTheModelsAre) {
-  const StrutMatrix ratios = ratiosOfFour();
-  const NeighbourWeights weights(couplingOf(ratios));
-  const StrutVector own = vectorOf({0.7, -1.1, 0.4, 0.9}), body = ratios * own;
-  const StrutVector neighbours = weights.neighbours(body, ForceVector(0), own);
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(body[i] - neighbours[i], own[i], 1e-6) << i;
-  // A model that knows nothing of strut 3 leaves less of it than there is without the other bodies' accelerations.
-  const StrutVector blind = weights.neighbours(body, ForceVector(0), vectorOf({0.7, -1.1, 0.4, 0.0}));
-  for (int i = 0; i < 3; ++i) EXPECT_LT(std::abs(body[i] - blind[i] - own[i]), 0.5 * 0.9) << i;
-}
-
-// A gyro that is far noisier than the accelerometer: what it reads wrong turns the body, +1 m/s^2 at the one top and -1
-// at the other. Only what both tops do alike is listened to then, and the neighbour is what its model says.
-TEST(NeighbourWeights, LetNothingThroughOfWhatTheGyroReadsWrong) {
-  StrutMatrix ratios(2, 2);
-  ratios << 1.0, -0.4, 0.3, 1.0;
-  Coupling coupling = couplingOf(ratios);
-  const StrutVector turned = vectorOf({1.0, -1.0});
-  coupling.rest = 1e-8 * StrutMatrix::Identity(2, 2) + 1e6 * turned * turned.transpose();
-  const NeighbourWeights weights(coupling);
-  const StrutVector heard = turned - weights.neighbours(turned, ForceVector(0), vectorOf({0.0, 0.0}));
-  for (int i = 0; i < 2; ++i) EXPECT_NEAR(heard[i], 0.0, 1e-5) << i;
-  const StrutVector own = vectorOf({0.7, -1.1}), body = ratios * own;
-  const StrutVector neighbours = weights.neighbours(body, ForceVector(0), own);
-  for (int i = 0; i < 2; ++i) EXPECT_NEAR(body[i] - neighbours[i], own[i], 1e-9) << i;
-}
-
-TEST(NeighbourWeights, TakeKnownForcesOff) {
-  Coupling coupling = couplingOf(StrutMatrix::Identity(2, 2));
-  coupling.forces.resize(2, 1);
-  coupling.forces << 0.002, -0.001;
-  const NeighbourWeights weights(coupling);
-  ForceVector force(1);
-  force << 300.0;
-  const StrutVector neighbours = weights.neighbours(vectorOf({1.6, 0.7}), force, vectorOf({0.0, 0.0}));
-  EXPECT_NEAR(neighbours[0], 0.6, 1e-6);
-  EXPECT_NEAR(neighbours[1], -0.3, 1e-6);
 }
 
 TEST(TravelObserver, IntegratesASineTwiceAsLateAsItSays) {
@@ -118,11 +62,10 @@ TEST(Decoupler, LeavesEveryStrutItsOwnHoweverSlowTheBodyMoves) {
   constexpr double kPeriod = 0.01, kDamping = 3.0, kStiffness = 60.0, kForce = 400.0;
   constexpr int kFirst = 6000, kEnd = 26000;  // whole periods of all frequencies
   const StrutModel model{kDamping, kStiffness, {}, {}};
-  Coupling coupling = couplingOf(ratiosOfFour());
-  coupling.forces.resize(4, 1);
-  coupling.forces << 1e-3, -2e-3, 3e-3, 1e-3;
+  const StrutMatrix ratios = ratiosOfFour();
+  const Eigen::Vector4d forces(1e-3, -2e-3, 3e-3, 1e-3);
   for (const double frequency : {0.3, 0.6, 1.2, 3.0}) {
-    Decoupler decoupler(kPeriod, coupling, std::vector<StrutModel>(4, model));
+    Decoupler decoupler(kPeriod, rowsOf(ratios, model, forces), std::vector<StrutModel>(4, model));
     const double omega = 2.0 * kPi * frequency;
     const std::complex<double> strut(kStiffness, kDamping * omega);
     std::array<std::complex<double>, 4> sprung{}, unsprung{};
@@ -131,7 +74,7 @@ TEST(Decoupler, LeavesEveryStrutItsOwnHoweverSlowTheBodyMoves) {
       VehicleSample sample{fromSeconds(t + 1.0), StrutVector(4), StrutVector(4), ForceVector(1)};
       const double moving = kForce * std::cos(0.5 * omega * t);
       sample.forces[0] = 5000.0 + moving;
-      sample.sprung = coupling.ratios * StrutVector::Constant(4, own) + coupling.forces.col(0) * moving;
+      sample.sprung = ratios * StrutVector::Constant(4, own) + forces * moving;
       sample.unsprung = sample.sprung.array() - omega * omega * std::sin(omega * t);
       const VehicleSample* found = decoupler.push(sample);
       if (found == nullptr || k < kFirst) continue;
@@ -154,7 +97,7 @@ TEST(Decoupler, BehindAFilterTakesOffTheLawAsItIs) {
   const std::vector<double> taps{0.1, 0.2, 0.4, 0.2, 0.1};  // 18 Hz are damped to a fifth
   StrutModel orifice{kDamping, kStiffness, {{findEffect(forceEffects(), "quadratic_damping"), kOrifice, {}}}, {}};
   const StrutModel linear{kDamping, kStiffness, {}, {}};
-  const Coupling coupling = couplingOf(ratiosOfFour());
+  const StrutMatrix ratios = ratiosOfFour();
   const auto swing = [](double t, int derivative) {
     double sum = 0.0;
     for (const auto& [amplitude, frequency] : {std::array{0.02, 2.0}, std::array{0.003, 18.0}}) {
@@ -173,11 +116,12 @@ TEST(Decoupler, BehindAFilterTakesOffTheLawAsItIs) {
     return sum;
   };
   const auto leftBy = [&](const std::vector<double>& low_pass) {
-    Decoupler decoupler(kPeriod, coupling, {orifice, linear, linear, linear}, low_pass);
+    Decoupler decoupler(kPeriod, rowsOf(ratios, linear, Eigen::MatrixXd(4, 0)), {orifice, linear, linear, linear},
+                        low_pass);
     double left = 0.0;
     for (int k = 0; k < 3000; ++k) {
       const double t = kPeriod * k, told = passed(own, t);
-      VehicleSample sample{fromSeconds(t + 1.0), coupling.ratios.col(0) * told, StrutVector(4), ForceVector(0)};
+      VehicleSample sample{fromSeconds(t + 1.0), ratios.col(0) * told, StrutVector(4), ForceVector(0)};
       sample.unsprung = sample.unfiltered = sample.sprung;
       sample.unsprung[0] += passed([&](double at) { return swing(at, 2); }, t);
       sample.unfiltered[0] += swing(t, 2);
@@ -189,7 +133,7 @@ TEST(Decoupler, BehindAFilterTakesOffTheLawAsItIs) {
   };
   double size = 0.0;
   for (int k = 0; k < 1000; ++k) size += std::pow(passed(own, kPeriod * k), 2) / 1000.0;
-  // The observer is right to a few percent, and a part of it only is told by the models (NeighbourWeights).
+  // The observer is right to a few percent.
   const double with = leftBy(taps), without = leftBy({});
   EXPECT_LT(with, 0.02 * std::sqrt(size));
   EXPECT_GT(without, 3.0 * with);
@@ -197,7 +141,7 @@ TEST(Decoupler, BehindAFilterTakesOffTheLawAsItIs) {
 
 TEST(Decoupler, PassesWhatNoNeighbourTouchesAndSaysHowLate) {
   const StrutModel model{3.0, 60.0, {}, {}};
-  Decoupler decoupler(0.01, couplingOf(StrutMatrix::Identity(2, 2)), {model, model});
+  Decoupler decoupler(0.01, rowsOf(StrutMatrix::Identity(2, 2), model, Eigen::MatrixXd(2, 0)), {model, model});
   VehicleSample sample{Stamp(0), StrutVector(2), StrutVector(2), ForceVector(0)};
   int given = 0;
   for (int k = 0; k < 1000; ++k) {

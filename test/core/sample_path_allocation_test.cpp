@@ -24,6 +24,8 @@
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "vehicle_drive.h"
 
 namespace {
 std::atomic<long> num_allocations{0};
@@ -179,7 +181,7 @@ TEST(SamplePath, AllocatesNothingInAGridOfManyStreamsThatTurnsToResampling) {
 TEST(SamplePath, AllocatesNothingInTheStrutTopsOfABodyImu) {
   VehicleChannels channels;
   channels.body_imu = 0;
-  channels.struts = {{6, {}, {1.0, 0.5, 0.0}}, {7, 8, {0.0, 0.0, 0.0}}};
+  channels.struts = {{6, {}, Eigen::Vector3d(1.0, 0.5, 0.0)}, {7, 8, {}}};
   StrutTops tops(std::chrono::milliseconds(20), channels);
   GridInstant instant{{}, std::vector<double>(9, 1.0), std::vector<bool>(9, true)};
   int instants = 0, samples = 0;
@@ -189,6 +191,22 @@ TEST(SamplePath, AllocatesNothingInTheStrutTopsOfABodyImu) {
             }),
             0);
   EXPECT_GT(instants, 900);
+}
+
+TEST(SamplePath, AllocatesNothingInAVehicleMonitorThatKnowsItsStruts) {
+  const StrutDrives drive = strutDrives(namedVehicle("sedan"), vehicleDrive(120.0));
+  MonitorSettings settings;
+  settings.sample_period = 0.01;
+  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settings), {});
+  const VehicleDrive of_vehicle(drive);
+  constexpr std::size_t kKnown = 6000;
+  for (std::size_t k = 0; k < kKnown; ++k) monitor.addSample(sampleOf(of_vehicle, k));
+  ASSERT_TRUE(monitor.isCoupled());
+  monitor.fitBody();
+  const long before = num_allocations;
+  for (std::size_t k = kKnown; k < drive.front().samples.size(); ++k) monitor.addSample(sampleOf(of_vehicle, k));
+  EXPECT_EQ(num_allocations, before);
+  EXPECT_TRUE(monitor.strut(0)->report().estimate.valid());
 }
 
 TEST(SamplePath, AllocatesNothingInLawsOfTheUser) {

@@ -211,20 +211,19 @@ TEST(VehicleBlocks, RowsAreThoseOfTheBody) {
       blocks.pushTop(i, stamp, record.body[i][k]);
       blocks.pushWheel(i, stamp, record.wheel[i][k]);
     }
-  const auto rows = blocks.rows();
-  ASSERT_TRUE(rows);
+  BodyRows rows;
+  ASSERT_TRUE(blocks.rows(rows));
   EXPECT_EQ(blocks.rowsOfHalves().size(), 2u);
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) {
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
       const double truth = vehicle.mobility(i, j) * vehicle.struts[j].damping;
-      EXPECT_NEAR(rows->rate(row, column), truth, 5.0 * std::sqrt(rows->covariance[i](column, column)));
+      EXPECT_NEAR(rows.rate(row, column), truth, 5.0 * std::sqrt(rows.covariance[i](column, column)));
     }
 }
 
 TEST(VehicleBlocks, RefusesWhatIsNoVehicle) {
   VehicleTops tops;
-  tops.tops.resize(1);
   EXPECT_THROW(VehicleBlocks(tops, BlockOptions{}, 0.01), std::invalid_argument);
   tops.tops.resize(2);
   tops.tops[1].has_own = false;

@@ -53,6 +53,7 @@ inline VehicleDrive bodyImuDrive(const Vehicle& vehicle, const VehicleDriveOptio
   }
   grid.finish();
   grid.describe(drive);
+  drive.places = grid.tops().places();
   return drive;
 }
 

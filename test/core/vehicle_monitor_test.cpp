@@ -85,11 +85,11 @@ TEST(VehicleMonitor, SaysNothingOfStrutsThatTheRoadCannotTellApart) {
 // Of 16 numbers one in 1e6 vehicles has one that is six standard deviations off.
 void expectRightRatios(const Vehicle& vehicle, const VehicleMonitor& monitor) {
   ASSERT_TRUE(monitor.isCoupled());
-  const CouplingEstimate& found = *monitor.coupling();
-  for (Eigen::Index i = 0; i < found.stddevs.rows(); ++i)
-    for (Eigen::Index j = 0; j < found.stddevs.cols(); ++j) {
+  for (Eigen::Index i = 0; i < monitor.rows()->size(); ++i)
+    for (Eigen::Index j = 0; j < monitor.rows()->size(); ++j) {
       const double truth = ratioOf(vehicle, static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-      EXPECT_NEAR(found.coupling.ratios(i, j), truth, std::fmax(6.0 * found.stddevs(i, j), 1e-9)) << i << j;
+      const Measured found = monitor.rows()->ratio(i, j);
+      EXPECT_NEAR(found.value, truth, std::fmax(6.0 * found.stddev, 1e-9)) << i << j;
     }
 }
 
@@ -101,7 +101,7 @@ TEST(VehicleMonitor, ForgetsNothingBeforeTheRatiosAreKnown) {
   VehicleDriveOptions options = vehicleDrive(600.0);
   options.gyro_noise = 0.005;
   const VehicleDrive drive = bodyImuDrive(vehicle, options);
-  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)), {}, 0, drive.noise);
+  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)), {});
   for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
   expectRightRatios(vehicle, monitor);
 }

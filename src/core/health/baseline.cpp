@@ -38,8 +38,14 @@ Baseline baselineOf(const StrutEstimate& estimate, Stamp stamp) {
           stamp};
 }
 
-ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now) {
+ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& estimate) {
   ChangeFromBaseline result;
+  // The model's error is the same at all times, but nominal values know nothing of it.
+  StrutEstimate now = estimate;
+  if (!healthy.learned) {
+    now.damping_to_mass_stddev = estimate.dampingAbsoluteStddev();
+    now.stiffness_to_mass_stddev = estimate.stiffnessAbsoluteStddev();
+  }
   MeasuredChange& change = result.change;
   if (healthy.stiffness_to_mass)
     change.stiffness = logChange({now.stiffness_to_mass, square(now.stiffness_to_mass_stddev)},

@@ -11,6 +11,24 @@
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+IdentifiedStrut toIdentified(const StrutEstimate& estimate) {
+  IdentifiedStrut strut{estimate.damping_to_mass,
+                        estimate.stiffness_to_mass,
+                        estimate.dampingAbsoluteStddev(),
+                        estimate.stiffnessAbsoluteStddev(),
+                        estimate.effective_rows,
+                        estimate.explained,
+                        estimate.age,
+                        estimate.valid(),
+                        {}};
+  if (!strut.valid) strut.reason = describe(estimate.doubt);
+  return strut;
+}
+
+}  // namespace
+
 std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
   if (monitor.input().period_fits) return std::nullopt;
   char text[200];
@@ -21,36 +39,23 @@ std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
   return text;
 }
 
-IdentifiedStrut toIdentified(const StrutEstimate& estimate) {
-  IdentifiedStrut strut{estimate.damping_to_mass,
-                        estimate.stiffness_to_mass,
-                        estimate.damping_to_mass_stddev,
-                        estimate.stiffness_to_mass_stddev,
-                        estimate.effective_rows,
-                        estimate.explained,
-                        estimate.age,
-                        estimate.valid(),
-                        {}};
-  if (!strut.valid) strut.reason = describe(estimate.doubt);
-  return strut;
-}
-
-IdentifyResult DriveIdentification::result() {
+IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate& over_the_drive,
+                          const RejectCounts& rejected) {
   IdentifyResult result;
-  result.sample_period = monitor().period();
-  result.horizon_samples = monitor().horizonSamples();
-  result.ls = toIdentified(monitor().report().ls);
-  result.la = toIdentified(monitor().report().la);
-  result.estimate = toIdentified(strut_.overTheDrive());
-  result.now = toIdentified(monitor().report().estimate);
+  result.sample_period = monitor.period();
+  result.horizon_samples = monitor.horizonSamples();
+  result.ls = toIdentified(monitor.report().ls);
+  result.la = toIdentified(monitor.report().la);
+  result.estimate = toIdentified(over_the_drive);
+  result.now = toIdentified(monitor.report().estimate);
   result.estimate.age = result.now.age;
-  result.samples = monitor().input().samples;
-  result.rows = monitor().input().rows;
-  result.gaps = monitor().input().gaps;
-  result.clock_jumps = monitor().input().restarts;
-  result.rejected = rejected().byName();
-  if (const auto warning = periodWarning(monitor())) result.warnings.push_back(*warning);
-  const SensorReport& sensor = monitor().report().health.sensor;
+  result.samples = monitor.input().samples;
+  result.rows = monitor.input().rows;
+  result.gaps = monitor.input().gaps;
+  result.clock_jumps = monitor.input().restarts;
+  result.rejected = rejected.byName();
+  if (const auto warning = periodWarning(monitor)) result.warnings.push_back(*warning);
+  const SensorReport& sensor = monitor.report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated)
     result.warnings.push_back(describe(sensor));
   // However well a strut fits them: readings in another unit are not those of this one.

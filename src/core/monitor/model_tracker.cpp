@@ -56,8 +56,7 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
   }
   if (num_effects == 0) {
     const int i = kNumBlockParameters;
-    // Of a normal distribution of the rate the least squares line through Coulomb's law has this slope.
-    const double gain = std::sqrt(2.0 / M_PI) / blocks.rate;
+    const double gain = blocks.frictionGain();
     estimate.friction =
         DryFriction{blocks.theta[i], stddev(i), gain, blocks.covariance(0, i), gain * blocks.rate / blocks.travel};
     estimate.damping_to_mass_stddev = std::hypot(estimate.damping_to_mass_stddev, estimate.friction->lawStddev());
@@ -72,32 +71,34 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
 EstimateFacts blockFacts(const StrutEstimate& estimate) {
   EstimateFacts facts;
   facts.damping_stddev =
-      estimate.damping_to_mass_stddev / leastDamping(estimate.damping_to_mass, estimate.stiffness_to_mass);
-  facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
+      estimate.dampingAbsoluteStddev() / leastDamping(estimate.damping_to_mass, estimate.stiffness_to_mass);
+  facts.stiffness_stddev = estimate.stiffnessAbsoluteStddev() / estimate.stiffness_to_mass;
   facts.explained = estimate.explained;
   return facts;
 }
 
 }  // namespace
 
-ModelTracker::ModelTracker(const MonitorSettings& options)
+ModelTracker::ModelTracker(const MonitorSettings& options, bool has_own_blocks)
     : is_paper_(options.preset == "paper"),
       block_options_(blockOptions(options)),
       period_(*options.sample_period),
       oldest_data_(options.oldest_data),
-      blocks_(block_options_, period_),
       identifier_(options),
       free_run_(*options.sample_period),
       model_due_(kModelEvery),
       figures_due_(kFiguresEvery),
-      comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {}
+      comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
+  if (has_own_blocks) blocks_.emplace(block_options_, period_);
+}
 
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut,
                               ModelReport& report) {
   const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
   free_run_.setEffects(effects);  // may throw: first
   identifier_.changeEffects(columns);
-  blocks_ = StrutBlocks(block_options_, period_, effects.size());
+  blocks_.emplace(block_options_, period_, effects.size());
+  newest_.reset();
   has_own_model_ = strut && free_run_.trySetModel(strut->damping_to_mass, strut->stiffness_to_mass);
   starts_.clear();
   for (std::size_t j = 0; j < effects.size(); ++j) {
@@ -109,12 +110,25 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
 }
 
 bool ModelTracker::addReading(Side side, Stamp stamp, double acceleration, ModelReport& report) {
-  const BlockEstimate* estimate = blocks_.push(side, stamp, acceleration);
   now_ = stamp;
-  identifier_.hold(blocks_.estimate() != nullptr && blocks_.estimator().newestSayNothing());
+  if (!blocks_) return false;
+  const BlockEstimate* estimate = blocks_->push(side, stamp, acceleration);
+  hold(blocks_->estimate() != nullptr && blocks_->estimator().newestSayNothing());
+  return take(estimate, report);
+}
+
+bool ModelTracker::take(const BlockEstimate* estimate, ModelReport& report) {
   if (estimate == nullptr) return false;
   describe(*estimate, effects().size(), report.estimate);
+  newest_ = {estimate->stamp, estimate->age};
   return true;
+}
+
+void ModelTracker::takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev,
+                                ModelReport& report) {
+  take(&estimate, report);
+  report.estimate.damping_model_stddev = model_stddev[0];
+  report.estimate.stiffness_model_stddev = model_stddev[1];
 }
 
 bool ModelTracker::add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report) {
@@ -138,10 +152,7 @@ bool ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
 
 bool ModelTracker::addRow(const CornerSample& sample, ModelReport& report) {
   identifier_.add(sample, free_run_.effectForces());
-  if (effects().empty()) return false;
-  const BlockEstimate* estimate = blocks_.pushForces(sample.stamp, free_run_.effectForces());
-  if (estimate != nullptr) describe(*estimate, effects().size(), report.estimate);
-  return estimate != nullptr;
+  return !effects().empty() && take(blocks_->pushForces(sample.stamp, free_run_.effectForces()), report);
 }
 
 void ModelTracker::judge(ModelReport& report) {
@@ -157,19 +168,20 @@ void ModelTracker::judge(ModelReport& report) {
 
 void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
   EstimateFacts facts = blockFacts(estimate);
-  facts.has_row = blocks_.estimator().hasBlocks();
-  if (const BlockEstimate* blocks = blocks_.estimate()) {
-    facts.has_row = true;
-    estimate.age = facts.age = blocks->age + toSeconds(now_ - blocks->stamp);
+  facts.has_row = newest_ || (blocks_ && blocks_->estimator().hasBlocks());
+  if (newest_) {
+    estimate.age = facts.age = newest_->age + toSeconds(now_ - newest_->stamp);
     facts.oldest = oldest_data_;
   }
   estimate.doubt = doubtOf(facts);
 }
 
-StrutEstimate ModelTracker::overTheDrive() {
+StrutEstimate ModelTracker::judged(const std::optional<BlockEstimate>& blocks,
+                                   const Eigen::Vector2d& model_stddev) const {
   StrutEstimate estimate;
-  const std::optional<BlockEstimate> blocks = blocks_.overTheDrive();
   if (blocks) describe(*blocks, effects().size(), estimate);
+  estimate.damping_model_stddev = model_stddev[0];
+  estimate.stiffness_model_stddev = model_stddev[1];
   EstimateFacts facts = blockFacts(estimate);
   facts.has_row = blocks.has_value();
   estimate.doubt = doubtOf(facts);
@@ -182,7 +194,7 @@ void ModelTracker::takeModel(const ModelReport& report) {
   // Until the blocks know the strut LA leads, which needs no more than its own rows for that.
   const bool leads =
       !by_blocks &&
-      (is_paper_ ? isModel(report.la) : blocks_.estimate() == nullptr && isLeading(identifier_.facts(report.la)));
+      (is_paper_ ? isModel(report.la) : !newest_ && isLeading(identifier_.facts(report.la)));
   if (!by_blocks && !leads) return;
   if (!free_run_.trySetModel(estimate.damping_to_mass, estimate.stiffness_to_mass)) return;
   has_own_model_ = true;
@@ -236,7 +248,8 @@ void ModelTracker::startNewSeries(ModelReport& report) {
 }
 
 void ModelTracker::startNewDrive(ModelReport& report) {
-  blocks_.restart();
+  if (blocks_) blocks_->restart();
+  newest_.reset();
   now_ = {};
   startNewSeries(report);
 }

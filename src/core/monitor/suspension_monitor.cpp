@@ -19,11 +19,11 @@ const MonitorSettings& checked(const MonitorSettings& options) {
 
 }  // namespace
 
-SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options)
+SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options, bool has_own_blocks)
     : options_(checked(options)),
       horizon_samples_(options.horizonSamples(*options.sample_period)),
       series_(fromSeconds(*options.sample_period)),
-      plain_(options),
+      plain_(options, has_own_blocks),
       health_(options.health()),
       sensors_(options.gravity_tolerance,
                std::max(options.comparison_window / *options.sample_period, kFewestHorizonsOfMeans * horizon_samples_),
@@ -68,6 +68,11 @@ void SuspensionMonitor::addReading(Side side, Stamp stamp, double acceleration) 
     const bool is_new = model.addReading(side, stamp, acceleration, report);
     has_new_estimate_ = has_new_estimate_ || (is_new && &model == &tracker());
   });
+}
+
+void SuspensionMonitor::takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev) {
+  plain_.takeEstimate(estimate, model_stddev, extended_ ? base_ : report_);
+  has_new_estimate_ = has_new_estimate_ || !extended_;
 }
 
 const MonitorReport* SuspensionMonitor::addGridSample(const CornerSample& sample) {

@@ -67,6 +67,11 @@ BodyFit::BodyFit(const StrutPlaces& places, const std::vector<StrutPair>& pairs)
   if (!sees_roll_) pairs_.clear();
 }
 
+BodyFit::BodyFit(std::size_t struts) {
+  const auto n = static_cast<Eigen::Index>(struts);
+  q_.setIdentity(n, n);
+}
+
 std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
                                                 const Eigen::VectorXd& start) const {
   RigidBodyRows functor(q_, pairs_, bars, rows, phi);

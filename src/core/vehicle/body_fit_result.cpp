@@ -10,17 +10,70 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kProvenBar = 3.0;  // standard deviations
+// Of a neighbour's force: such an error makes b1 and b0 wrong by a few percent, as wheels hardly ever move alike.
+constexpr double kMostOfRatio = 0.15;
 constexpr double kStep = 1e-6;   // relative, of differences
 
 }  // namespace
 
+Measured BodyRows::ratio(Eigen::Index i, Eigen::Index j) const {
+  const auto n = size();
+  double weights = 0.0, sum = 0.0;
+  for (const bool is_travel : {false, true}) {
+    const Eigen::MatrixXd& of = is_travel ? travel : rate;
+    const Eigen::Index at = is_travel ? n : 0;
+    const double value = of(i, j) / of(j, j);
+    const double variance = (covariance[static_cast<std::size_t>(i)](at + j, at + j) +
+                             value * value * covariance[static_cast<std::size_t>(j)](at + j, at + j)) /
+                            (of(j, j) * of(j, j));
+    weights += 1.0 / variance;
+    sum += value / variance;
+  }
+  return i == j ? Measured{1.0, 0.0} : Measured{sum / weights, 1.0 / std::sqrt(weights)};
+}
+
+bool BodyRows::areKnown() const {
+  if (!(rate.diagonal().minCoeff() > 0.0 && travel.diagonal().minCoeff() > 0.0)) return false;
+  for (Eigen::Index i = 0; i < size(); ++i)
+    for (Eigen::Index j = 0; j < size(); ++j)
+      if (!(ratio(i, j).stddev < kMostOfRatio)) return false;
+  return true;
+}
+
+std::vector<StrutModel> BodyRows::models() const {
+  std::vector<StrutModel> models;
+  for (Eigen::Index i = 0; i < size(); ++i) models.push_back({rate(i, i), travel(i, i), {}, {}});
+  return models;
+}
+
+Eigen::Vector2d BodyRows::ownStddev(Eigen::Index i) const {
+  const Eigen::MatrixXd& of = covariance[static_cast<std::size_t>(i)];
+  return {std::sqrt(of(i, i)), std::sqrt(of(size() + i, size() + i))};
+}
+
 Eigen::Matrix2d BodyFitResult::absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own,
                                                   const Eigen::Matrix2d& covariance, double friction_damping) const {
-  const Measured &rate = b1[strut], &travel = b0[strut];
+  const Measured &damping = b1[strut], &stiffness = b0[strut];
   Eigen::Matrix2d result = covariance;
   // Uniform between nothing and all of it: the mean square from one end is a third.
-  result(0, 0) += std::pow(rate.stddev / rate.value * own[0], 2) + friction_damping * friction_damping / 3.0;
-  result(1, 1) += std::pow(travel.stddev / travel.value * own[1], 2);
+  result(0, 0) += std::pow(damping.stddev / damping.value * own[0], 2) + friction_damping * friction_damping / 3.0;
+  result(1, 1) += std::pow(stiffness.stddev / stiffness.value * own[1], 2);
+  return result;
+}
+
+BodyRows BodyFitResult::combined(const BodyRows& rows) const {
+  BodyRows result = rows;
+  const auto combine = [&](const Eigen::MatrixXd& of_body, Eigen::Index first, Eigen::MatrixXd& own) {
+    for (Eigen::Index i = 0; i < own.rows(); ++i) {
+      const double error = phi * own.row(i).cwiseAbs().maxCoeff();
+      for (Eigen::Index j = 0; j < own.cols(); ++j) {
+        const double variance = rows.covariance[static_cast<std::size_t>(i)](first + j, first + j);
+        own(i, j) += variance / (variance + error * error) * (of_body(i, j) - own(i, j));
+      }
+    }
+  };
+  combine(rate, 0, result.rate);
+  combine(travel, rows.size(), result.travel);
   return result;
 }
 
@@ -47,7 +100,7 @@ Eigen::VectorXd BodyFit::inertia(const Eigen::MatrixXd& s) const {
 BodyFitResult BodyFit::describe(const Solution& solution, BodyFitResult::Bars bars) const {
   const auto n = q_.rows();
   const BodyRows none{
-      Eigen::MatrixXd::Ones(n, n), Eigen::MatrixXd::Ones(n, n),
+      Eigen::MatrixXd::Ones(n, n), Eigen::MatrixXd::Ones(n, n), {}, {},
       std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(n), Eigen::MatrixXd::Identity(2 * n, 2 * n)), false};
   const RigidBodyRows functor(q_, pairs_, bars, none, 0.0);
   BodyFitResult result;
@@ -68,6 +121,8 @@ BodyFitResult BodyFit::describe(const Solution& solution, BodyFitResult::Bars ba
   const auto mobility = [&](const Eigen::VectorXd& p) {
     return Eigen::MatrixXd(q_ * functor.body(p) * q_.transpose());
   };
+  result.rate = mobility(solution.parameters) * functor.struts(solution.parameters, 0);
+  result.travel = mobility(solution.parameters) * functor.struts(solution.parameters, 1);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto own = [&](const Eigen::VectorXd& p, int kind) {
       return mobility(p).row(i).dot(functor.struts(p, kind).col(i));
@@ -76,15 +131,16 @@ BodyFitResult BodyFit::describe(const Solution& solution, BodyFitResult::Bars ba
     result.b0.push_back(measured([&](const Eigen::VectorXd& p) { return own(p, 1); }));
   }
   for (std::size_t b = 0; bars != BodyFitResult::Bars::kNone && b < pairs_.size(); ++b) {
-    const auto i = static_cast<Eigen::Index>(pairs_[b].first), j = static_cast<Eigen::Index>(pairs_[b].second);
-    const auto share = [&](const Eigen::VectorXd& p, int kind) {
-      if (functor.numBars(kind) == 0) return 0.0;
-      const Eigen::MatrixXd a = mobility(p);
-      return (a(i, i) - a(i, j)) * p[functor.firstBar(kind) + static_cast<int>(b)];
+    const auto atStrut = [&](std::size_t strut, int kind) {
+      const auto i = static_cast<Eigen::Index>(strut);
+      return measured([&](const Eigen::VectorXd& p) {
+        return functor.numBars(kind) == 0 ? 0.0 : mobility(p)(i, i) * p[functor.firstBar(kind) + static_cast<int>(b)];
+      });
     };
-    const BodyFitResult::Bar bar{pairs_[b], measured([&](const Eigen::VectorXd& p) { return share(p, 1); }),
-                                 measured([&](const Eigen::VectorXd& p) { return share(p, 0); })};
-    if (bar.stiffness.value > kProvenBar * bar.stiffness.stddev) result.found.push_back(bar);
+    const auto [first, second] = pairs_[b];
+    const BodyFitResult::Bar bar{
+        pairs_[b], {atStrut(first, 1), atStrut(second, 1)}, {atStrut(first, 0), atStrut(second, 0)}};
+    if (bar.stiffness[0].value > kProvenBar * bar.stiffness[0].stddev) result.found.push_back(bar);
   }
   Measured* const numbers[] = {&result.mass_to_pitch_inertia, &result.mass_to_roll_inertia, &result.product, &result.x,
                                &result.y};

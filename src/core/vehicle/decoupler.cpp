@@ -20,19 +20,30 @@ int naturalPeriod(const std::vector<StrutModel>& models, double period) {
 
 }  // namespace
 
-Decoupler::Decoupler(double period, const Coupling& coupling, const std::vector<StrutModel>& models,
+Decoupler::Decoupler(double period, const BodyRows& rows, const std::vector<StrutModel>& models,
                      const std::vector<double>& low_pass)
     : period_(period),
-      weights_(coupling),
-      bars_(coupling.bars),
       taps_(low_pass.empty() ? std::vector<double>{1.0} : low_pass),
-      force_means_(static_cast<std::size_t>(coupling.forces.cols()), LimitedMean(std::exp(-period / kMeanMemory))) {
+      force_means_(static_cast<std::size_t>(rows.force.cols()), LimitedMean(std::exp(-period / kMeanMemory))) {
+  setRows(rows);
   const int natural_period = naturalPeriod(models, period);
   for (const StrutModel& model : models)
     struts_.push_back({model, TravelObserver(period, model.stiffness_to_mass, natural_period),
                        LimitedMean(std::exp(-period / kMeanMemory)), RunningMean(std::exp(-period / kMeanMemory)),
-                       boost::circular_buffer<Eigen::Vector3d>(taps_.size())});
+                       boost::circular_buffer<Observed>(taps_.size())});
   recent_.set_capacity(static_cast<std::size_t>(TravelObserver::delayOf(natural_period)) + taps_.size() / 2 + 1);
+}
+
+void Decoupler::setRows(const BodyRows& rows) {
+  const Eigen::Index n = rows.size();
+  for (StrutMatrix& ratios : ratios_) ratios.resize(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      ratios_[kDamper](i, j) = i == j ? 0.0 : rows.rate(i, j) / rows.rate(j, j);
+      ratios_[kSpring](i, j) = i == j ? 0.0 : rows.travel(i, j) / rows.travel(j, j);
+      ratios_[kLaw](i, j) = i == j ? 0.0 : rows.ratio(i, j).value;
+    }
+  forces_ = rows.force;
 }
 
 const VehicleSample* Decoupler::push(const VehicleSample& sample) {
@@ -50,26 +61,24 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   const StrutVector& body = recent_[observed].sprung;
   for (std::size_t j = 0; j < struts_.size(); ++j)
     follow(struts_[j], body[static_cast<Eigen::Index>(j)] - struts_[j].gravity.mean());
-  if (!struts_.front().told.full()) return nullptr;
+  if (!struts_.front().observed.full()) return nullptr;
 
   out_ = recent_.front();
   ForceVector forces = out_.forces;
   for (std::size_t k = 0; k < force_means_.size(); ++k) forces[static_cast<Eigen::Index>(k)] -= force_means_[k].mean();
-  StrutVector moving = out_.sprung, modelled(out_.sprung.size()), stiffness = modelled, travel = modelled,
-              slow = modelled;
+  std::array<StrutVector, kParts> parts;
+  parts.fill(StrutVector(out_.sprung.size()));
+  StrutVector stiffness(out_.sprung.size()), slow = stiffness;
   for (std::size_t j = 0; j < struts_.size(); ++j) {
     const auto place = static_cast<Eigen::Index>(j);
-    const Eigen::Vector3d told = filtered(struts_[j]);
-    moving[place] -= struts_[j].gravity.mean();
-    modelled[place] = told[0];
-    travel[place] = told[1];
-    slow[place] = out_.unsprung[place] - out_.sprung[place] - told[2];
+    const Observed of_strut = filtered(struts_[j]);
+    for (const Part part : {kDamper, kSpring, kLaw}) parts[part][place] = of_strut[part];
+    slow[place] = out_.unsprung[place] - out_.sprung[place] - of_strut[kParts];
     stiffness[place] = struts_[j].model.stiffness_to_mass;
   }
-  // At its own strut, too, what a bar does is not the strut's.
-  const StrutVector by_bars = ofBars(travel), slow_by_bars = ofBars(slow);
-  const StrutVector neighbours = weights_.neighbours(moving, forces, modelled + by_bars) + by_bars;
-  const StrutVector unseen = weights_.leaked(stiffness.cwiseProduct(slow) + slow_by_bars) + slow_by_bars;
+  StrutVector neighbours = forces_ * forces;
+  for (const Part part : {kDamper, kSpring, kLaw}) neighbours += ratios_[part] * parts[part];
+  const StrutVector unseen = ratios_[kSpring] * stiffness.cwiseProduct(slow);
   out_.sprung -= neighbours;
   const StrutVector by_others = neighbours - unseen.cwiseQuotient(stiffness);
   out_.unsprung -= by_others;
@@ -82,27 +91,25 @@ void Decoupler::follow(Strut& strut, double body_acceleration) const {
   const StrutMotion now{strut.travel.travel() + mean_travel, strut.travel.travelRate(), 0.0, 0.0, body_acceleration};
   followMemories(strut.model, strut.motion, now, period_, strut.memory);
   strut.motion = now;
-  const double force = strut.model.force(now.travel, now.travel_rate, 0.0, strut.memory.data());
-  strut.laws.add(force - strut.model.damping_to_mass * now.travel_rate - strut.model.stiffness_to_mass * now.travel);
-  strut.told.push_back({force, strut.travel.travel(), strut.travel.acceleration()});
+  const double damper = strut.model.damping_to_mass * now.travel_rate;
+  const double law = strut.model.force(now.travel, now.travel_rate, 0.0, strut.memory.data()) - damper -
+                     strut.model.stiffness_to_mass * now.travel;
+  strut.laws.add(law);
+  strut.observed.push_back({damper, strut.model.stiffness_to_mass * strut.travel.travel(), law - strut.laws.mean(),
+                            strut.travel.acceleration()});
 }
 
-Eigen::Vector3d Decoupler::filtered(const Strut& strut) const {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < taps_.size(); ++k) sum += taps_[k] * strut.told[k];
+Decoupler::Observed Decoupler::filtered(const Strut& strut) const {
+  Observed sum = Observed::Zero();
+  for (std::size_t k = 0; k < taps_.size(); ++k) sum += taps_[k] * strut.observed[k];
   return sum;
-}
-
-// @return sum over m of bar_im (x_i - x_m).
-StrutVector Decoupler::ofBars(const StrutVector& travels) const {
-  return bars_.rowwise().sum().cwiseProduct(travels) - bars_ * travels;
 }
 
 void Decoupler::startNewSeries() {
   recent_.clear();
   for (Strut& strut : struts_) {
     strut.travel.startNewSeries();
-    strut.told.clear();
+    strut.observed.clear();
     strut.motion = {};
     strut.memory = {};
   }

@@ -1,13 +1,12 @@
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
-#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -39,17 +38,9 @@ void requireOneGrid(const VehicleDrive& drive) {
                                   " values, must have one for each of " + std::to_string(first.size()) + " samples");
 }
 
-std::vector<double> columnOf(const ForceMatrix& matrix, std::size_t column) {
-  std::vector<double> values;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) values.push_back(matrix(i, static_cast<Eigen::Index>(column)));
-  return values;
-}
-
-std::vector<std::vector<double>> rowsOf(const StrutMatrix& matrix) {
-  std::vector<std::vector<double>> rows(static_cast<std::size_t>(matrix.rows()));
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows[static_cast<std::size_t>(i)].push_back(matrix(i, j));
-  return rows;
+std::vector<double> columnOf(const Eigen::MatrixXd& matrix, std::size_t column) {
+  const auto values = matrix.col(static_cast<Eigen::Index>(column));
+  return {values.begin(), values.end()};
 }
 
 }  // namespace
@@ -87,36 +78,51 @@ std::vector<std::string> forceNames(const VehicleDrive& drive) {
   return names;
 }
 
-VehicleCoupling describe(const CouplingEstimate& estimate, const std::vector<std::string>& names,
+double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+                const std::optional<double>& given) {
+  if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
+  requireNumStruts(names.size());
+  requireNumKnownForces(drives.front().forces.size());
+  std::vector<Drive> of_first;
+  for (const VehicleDrive& drive : drives) {
+    if (drive.struts.size() != names.size())
+      throw std::invalid_argument("a drive of " + std::to_string(drive.struts.size()) + " struts, must be " +
+                                  std::to_string(names.size()));
+    if (forceNames(drive) != forceNames(drives.front()))
+      throw std::invalid_argument("a drive with the known forces [" + join(forceNames(drive)) + "], must be [" +
+                                  join(forceNames(drives.front())) + "] as in the first");
+    requireOneGrid(drive);
+    of_first.push_back(drive.struts.front());
+  }
+  return given ? *given : medianPeriod(of_first);
+}
+
+VehicleCoupling describe(const BodyRows* rows, const std::optional<BodyFitResult>& body, const std::string& why_none,
                          const std::vector<std::string>& forces) {
   VehicleCoupling coupling;
-  coupling.ratios = rowsOf(estimate.coupling.ratios);
-  coupling.stddevs = rowsOf(estimate.stddevs);
-  coupling.condition = estimate.condition;
-  const StrutMatrix& bars = estimate.coupling.bars;
-  for (const auto& [i, j] : estimate.bars())
-    coupling.bars.push_back({static_cast<std::size_t>(i), static_cast<std::size_t>(j), bars(i, j), bars(j, i)});
+  coupling.reason = rows == nullptr ? why_none : "";
+  if (rows == nullptr) return coupling;
+  for (Eigen::Index i = 0; i < rows->size(); ++i) {
+    coupling.ratios.emplace_back();
+    coupling.stddevs.emplace_back();
+    for (Eigen::Index j = 0; j < rows->size(); ++j) {
+      const Measured ratio = rows->ratio(i, j);
+      coupling.ratios.back().push_back(ratio.value);
+      coupling.stddevs.back().push_back(ratio.stddev);
+    }
+  }
   for (std::size_t k = 0; k < forces.size(); ++k)
-    coupling.forces.push_back({forces[k], columnOf(estimate.coupling.forces, k), columnOf(estimate.force_stddevs, k)});
-  coupling.reason = reasonOf(estimate, names);
+    coupling.forces.push_back({forces[k], columnOf(rows->force, k), columnOf(rows->force_stddev, k)});
+  if (!body) return coupling;
+  coupling.model_error = body->phi;
+  for (const BodyFitResult::Bar& bar : body->found)
+    coupling.bars.push_back({bar.struts.first, bar.struts.second, bar.stiffness[0].value, bar.stiffness[1].value});
   return coupling;
 }
 
-CouplingEstimate coupleStruts(const std::vector<VehicleDrive>& drives, double period) {
-  const VehicleDrive& first = drives.front();
-  CouplingSurvey survey({static_cast<int>(first.struts.size()), static_cast<int>(first.forces.size())}, period,
-                        std::numeric_limits<double>::infinity(), knownNoise(first.noise, first.struts.size()));
-  for (const VehicleDrive& drive : drives) {
-    requireOneGrid(drive);
-    replay(
-        drive, period, [&] { survey.startNewSeries(); }, [&](const VehicleSample& sample) { survey.add(sample); });
-  }
-  return survey.solve();
-}
-
-StrutDrives separateStruts(const VehicleDrive& drive, double period, const Coupling& coupling,
+StrutDrives separateStruts(const VehicleDrive& drive, double period, const BodyRows& rows,
                            const std::vector<StrutModel>& models) {
-  Decoupler decoupler(period, coupling, models, drive.struts.front().low_pass.taps);
+  Decoupler decoupler(period, rows, models, drive.struts.front().low_pass.taps);
   VehicleDrive separated{StrutDrives(drive.struts.size())};
   for (std::size_t i = 0; i < drive.struts.size(); ++i)
     separated.struts[i].low_pass.taps = drive.struts[i].low_pass.taps;
@@ -129,11 +135,11 @@ StrutDrives separateStruts(const VehicleDrive& drive, double period, const Coupl
 }
 
 // Known forces have none.
-StrutDrives separateNoise(const SensorNoise& noise, double period, const CouplingEstimate& estimate) {
+StrutDrives separateNoise(const SensorNoise& noise, double period, const BodyRows& rows) {
   VehicleDrive drive(makeNoiseDrive(noise, period));
   const std::vector<double> still(drive.struts.front().samples.size(), 0.0);
-  drive.forces.assign(static_cast<std::size_t>(estimate.coupling.forces.cols()), {"", still});
-  return separateStruts(drive, period, estimate.coupling, estimate.models());
+  drive.forces.assign(static_cast<std::size_t>(rows.force.cols()), {"", still});
+  return separateStruts(drive, period, rows, rows.models());
 }
 
 }  // namespace suspension_health_monitor

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -10,36 +11,11 @@
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/shared_noise.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-std::vector<Drive> flattened(const std::vector<VehicleDrive>& drives) {
-  std::vector<Drive> all;
-  for (const VehicleDrive& drive : drives) all.push_back(drive.struts.front());
-  return all;
-}
-
-const std::vector<VehicleDrive>& checked(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
-                                         const KnownModels& known) {
-  if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
-  requireNumStruts(names.size());
-  requireNumKnownForces(drives.front().forces.size());
-  for (const VehicleDrive& drive : drives) {
-    if (drive.struts.size() != names.size())
-      throw std::invalid_argument("a drive of " + std::to_string(drive.struts.size()) + " struts, must be " +
-                                  std::to_string(names.size()));
-    if (forceNames(drive) != forceNames(drives.front()))
-      throw std::invalid_argument("a drive with the known forces [" + join(forceNames(drive)) + "], must be [" +
-                                  join(forceNames(drives.front())) + "] as in the first");
-  }
-  if (!known.empty() && known.size() != names.size())
-    throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
-                                std::to_string(names.size()) + " or of none");
-  return drives;
-}
 
 std::vector<std::vector<Drive>> byStrut(std::vector<StrutDrives> drives, StrutDrives noise) {
   std::vector<std::vector<Drive>> struts(noise.size());
@@ -54,23 +30,50 @@ std::vector<std::vector<Drive>> byStrut(std::vector<StrutDrives> drives, StrutDr
 
 Separator::Separator(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                      const std::optional<double>& sample_period, const KnownModels& known)
-    : drives_(checked(drives, names, known)),
-      period_(sample_period ? *sample_period : medianPeriod(flattened(drives))),
-      estimate_(coupleStruts(drives, period_)),
-      coupling_(describe(estimate_, names, forceNames(drives.front()))),
-      models_(estimate_.models()) {
+    : drives_(drives), period_(periodOf(drives, names, sample_period)) {
+  if (!known.empty() && known.size() != names.size())
+    throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
+                                std::to_string(names.size()) + " or of none");
+  learnRows(names);
+  if (!coupling_) {
+    if (isUndersampled()) coupling_.reason += kWheelsFolded;
+    return;
+  }
+  models_ = rows_.models();
   for (std::size_t i = 0; i < known.size(); ++i)
     if (known[i]) models_[i] = *known[i];
-  if (coupling_)
-    noise_ = separateNoise(knownNoise(drives.front().noise, names.size()), period_, estimate_);
-  else if (isUndersampled())
-    coupling_.reason += kWheelsFolded;
+  noise_ = separateNoise(knownNoise(drives.front().noise, names.size()), period_, rows_);
+}
+
+// Samples are what a grid made of the readings: every strut has two accelerometers, as it seems.
+void Separator::learnRows(const std::vector<std::string>& names) {
+  VehicleTops tops;
+  tops.tops.resize(names.size());
+  tops.known_forces = drives_.front().forces.size();
+  VehicleBlocks blocks(tops, BlockOptions{}, period_);
+  for (const VehicleDrive& drive : drives_) {
+    if (&drive != &drives_.front()) blocks.restart();
+    for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) blocks.push(sampleOf(drive, k));
+  }
+  const std::optional<BodyRows> rows = blocks.rowsOverTheDrive();
+  const bool are_known = rows && rows->areKnown();
+  std::optional<BodyFitResult> body;
+  if (are_known) {
+    const StrutPlaces& places = drives_.front().places;
+    const BodyFit fit = places.empty() ? BodyFit(names.size()) : BodyFit(places, pairsOf(places));
+    if (names.size() > 1) body = fit.fit(*rows, blocks.rowsOfHalves());
+    rows_ = body ? body->combined(*rows) : *rows;
+  }
+  coupling_ = describe(are_known ? &rows_ : nullptr, body, whyNotCoupled(blocks.mostAlike(), names),
+                       forceNames(drives_.front()));
 }
 
 std::vector<LinearStrut> Separator::modelStddevs() const {
   std::vector<LinearStrut> stddevs;
-  for (Eigen::Index i = 0; i < estimate_.own_stddevs.rows(); ++i)
-    stddevs.push_back({estimate_.own_stddevs(i, 0), estimate_.own_stddevs(i, 1)});
+  for (Eigen::Index i = 0; i < rows_.size(); ++i) {
+    const Eigen::Vector2d own = rows_.ownStddev(i);
+    stddevs.push_back({own[0], own[1]});
+  }
   return stddevs;
 }
 
@@ -87,18 +90,13 @@ std::vector<std::optional<ModelFit>> Separator::fitModels(const std::vector<std:
   return fits;
 }
 
-std::vector<std::vector<Drive>> Separator::separate() const { return byStrut(separateAll(estimate_.coupling), noise_); }
+std::vector<std::vector<Drive>> Separator::separate() const { return byStrut(separateAll(), noise_); }
 
-// What shared noise does to one strut is told from all others, so that none of it has to be kept out before: then as
-// much of the neighbours is as can be, and no law that one of them lacks is carried over.
+// What shared noise does to one strut is told from all others.
 std::vector<std::vector<Drive>> Separator::separateForSearch() const {
-  if (!sharesNoise()) return separate();
-  CouplingEstimate estimate = estimate_;
-  StrutMatrix& rest = estimate.coupling.rest;
-  rest = rest.diagonal().minCoeff() * StrutMatrix::Identity(rest.rows(), rest.cols());
-  std::vector<StrutDrives> drives = separateAll(estimate.coupling);
-  StrutDrives noise = separateNoise(drives_.front().noise, period_, estimate);
-  takeSharedNoise(drives, noise, period_, models_);
+  std::vector<StrutDrives> drives = separateAll();
+  StrutDrives noise = noise_;
+  if (sharesNoise()) takeSharedNoise(drives, noise, period_, models_);
   return byStrut(std::move(drives), std::move(noise));
 }
 
@@ -111,9 +109,9 @@ bool Separator::isUndersampled() const {
   });
 }
 
-std::vector<StrutDrives> Separator::separateAll(const Coupling& coupling) const {
+std::vector<StrutDrives> Separator::separateAll() const {
   std::vector<StrutDrives> separated;
-  for (const VehicleDrive& drive : drives_) separated.push_back(separateStruts(drive, period_, coupling, models_));
+  for (const VehicleDrive& drive : drives_) separated.push_back(separateStruts(drive, period_, rows_, models_));
   return separated;
 }
 

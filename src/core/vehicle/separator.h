@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/vehicle/coupling_estimate.h"
+#include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
@@ -39,12 +39,13 @@ class Separator {
   std::vector<std::vector<Drive>> separateForSearch() const;
 
  private:
+  void learnRows(const std::vector<std::string>& names);
   bool isUndersampled() const;
-  std::vector<StrutDrives> separateAll(const Coupling& coupling) const;
+  std::vector<StrutDrives> separateAll() const;
 
   const std::vector<VehicleDrive>& drives_;
   double period_;
-  CouplingEstimate estimate_;
+  BodyRows rows_;
   VehicleCoupling coupling_;
   std::vector<StrutModel> models_;
   StrutDrives noise_;  // empty without a coupling

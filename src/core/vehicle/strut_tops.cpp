@@ -25,6 +25,9 @@ StrutTops::StrutTops(Stamp period, const VehicleChannels& channels) : channels_(
   const bool needs_body = static_cast<std::size_t>(own) < struts;
   if (needs_body && !channels_.body_imu)
     throw std::invalid_argument("a strut without a sprung stream of its own needs the body's IMU");
+  for (const Strut& strut : channels_.struts)
+    if (!strut.sprung && !strut.position)
+      throw std::invalid_argument("a strut without a sprung stream of its own needs a position");
   requireNumStruts(struts);
   requireNumKnownForces(channels_.known_forces.size());
   const std::size_t measured = struts + static_cast<std::size_t>(own) + channels_.known_forces.size();
@@ -89,7 +92,7 @@ void StrutTops::spread(const std::vector<double>& values, const std::vector<doub
   const Eigen::Vector3d products(next[0], next[1], next[2]);
   i = 0;
   for (const Strut& strut : channels_.struts) {
-    const Eigen::Vector3d& r = strut.position;
+    const Eigen::Vector3d& r = *strut.position;
     if (!strut.sprung) sample_.sprung[i] = upward + rates[0] * r.y() - rates[1] * r.x() + products.dot(r);
     ++i;
   }

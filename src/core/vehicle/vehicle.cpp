@@ -1,18 +1,21 @@
 #include "suspension_health_monitor/vehicle.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "options_by_strut.h"
 #include "separator.h"
-#include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-int horizonFor(const StrutModel& model, double period) {
-  const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass).horizon;
-  return horizonSamples(horizon, period);
+MonitorSettings settingsOf(const IdentifyOptions& options, double period) {
+  MonitorOptions monitor;
+  monitor.sample_period = period;
+  monitor.memory = options.memory;
+  if (options.horizon_samples) monitor.integration_horizon = *options.horizon_samples * period;
+  return monitor;
 }
 
 bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == strut || bar.second == strut; }
@@ -46,24 +49,16 @@ VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, c
                                       const std::vector<IdentifyOptions>& options,
                                       const std::function<void(std::size_t strut, const MonitorReport&)>& report) {
   const std::vector<IdentifyOptions> by_strut = optionsByStrut(options, names.size());
-  const Separator separator(drives, names, samplePeriodOf(options));
-  VehicleIdentification result{separator.coupling(), {}};
-  if (!result) return result;
-  const auto separated = separator.separate();
-  const std::vector<LinearStrut> stddevs = separator.modelStddevs();
-  for (std::size_t i = 0; i < separated.size(); ++i) {
-    IdentifyOptions strut = by_strut[i];
-    strut.sample_period = separator.period();
-    if (report) strut.report = [&report, i](const MonitorReport& each) { report(i, each); };
-    if (!strut.horizon_samples) strut.horizon_samples = horizonFor(separator.models()[i], separator.period());
-    IdentifyResult& identified = result.struts.emplace_back(identify(separated[i], strut));
-    const auto [damping, stiffness] = stddevs[i];
-    for (IdentifiedStrut* estimate : {&identified.ls, &identified.la, &identified.estimate, &identified.now}) {
-      estimate->damping_to_mass_stddev = std::hypot(estimate->damping_to_mass_stddev, damping);
-      estimate->stiffness_to_mass_stddev = std::hypot(estimate->stiffness_to_mass_stddev, stiffness);
+  const double period = periodOf(drives, names, samplePeriodOf(options));
+  std::vector<MonitorSettings> settings;
+  for (const IdentifyOptions& strut : by_strut) settings.push_back(settingsOf(strut, period));
+  VehicleMonitor monitor(settings, report, static_cast<int>(drives.front().forces.size()));
+  for (const VehicleDrive& drive : drives)
+    for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) {
+      monitor.addSample(sampleOf(drive, k));
+      monitor.fitBodyIfDue();
     }
-  }
-  return result;
+  return identified(monitor, names, forceNames(drives.front()));
 }
 
 }  // namespace suspension_health_monitor

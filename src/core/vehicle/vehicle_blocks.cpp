@@ -18,7 +18,7 @@ constexpr double kChanged = 2.0;      // standard deviations from which a neighb
 constexpr double kMostlyAlike = 0.5;  // of the variance
 
 std::size_t checked(const VehicleTops& tops) {
-  if (tops.size() < 2 || tops.size() > kMostStruts) throw std::invalid_argument("2 to 8 struts are a vehicle");
+  requireNumStruts(tops.size());
   for (const VehicleTops::Top& top : tops.tops)
     if (!top.has_own && !top.position) throw std::invalid_argument("a strut without a sprung IMU needs a position");
   return tops.size();
@@ -37,6 +37,7 @@ VehicleBlocks::VehicleBlocks(const VehicleTops& tops, const BlockOptions& option
       has_(tops.size(), false),
       doubts_(tops.size(), TopDoubt::kFewBlocks),
       blocks_(tops.size()),
+      last_(2 * tops.size() + tops.known_forces + 1),
       modulation_(BlockBand(length_, period)) {
   for (std::size_t i = 0; i < tops.size(); ++i) estimates_[i].strut = i;
   begin(length_);
@@ -59,21 +60,47 @@ void VehicleBlocks::begin(double length) {
   has_model_ = false;
   const auto n = static_cast<Eigen::Index>(tops_.size());
   motions_.setZero(band.size(), 2 * n);
+  motion_.resize(band.size());
   origin_.reset();
   to_update_ = tops_.size();
   to_predict_ = 0;
   next_half_ = 1;
 }
 
-std::optional<double> VehicleBlocks::timeOf(Stamp stamp) {
+void VehicleBlocks::restart() {
+  for (BlockEstimator& each : estimators_) each.restart();
+  for (SlidingFriction& each : friction_) each.restart();
+  spectra_.emplace(BlockBand(length_, period_), tops_);
+  last_.assign(last_.size(), std::nullopt);
+  origin_.reset();
+  to_update_ = tops_.size();
+  to_predict_ = 0;
+  next_half_ = 1;
+}
+
+// A clock that went back, or a stamp that was far ahead: what follows has nothing to do with what was before.
+std::optional<double> VehicleBlocks::timeOf(std::size_t sensor, Stamp stamp) {
+  if (last_[sensor] && stamp <= *last_[sensor]) restart();
+  last_[sensor] = stamp;
   if (!origin_) origin_ = stamp;
   const double time = toSeconds(stamp - *origin_);
   if (time < 0.0) return std::nullopt;  // another stream began later
   return time;
 }
 
+const TopEstimate* VehicleBlocks::push(const VehicleReading& reading) {
+  const auto& values = reading.values;
+  switch (reading.sensor) {
+    case VehicleReading::Sensor::kWheel: return pushWheel(reading.place, reading.stamp, values[0]);
+    case VehicleReading::Sensor::kTop: return pushTop(reading.place, reading.stamp, values[0]);
+    case VehicleReading::Sensor::kForce: return pushForce(reading.place, reading.stamp, values[0]);
+    case VehicleReading::Sensor::kBody: break;
+  }
+  return pushBody(reading.stamp, {values[0], values[1], values[2]}, {values[3], values[4], values[5]});
+}
+
 const TopEstimate* VehicleBlocks::pushWheel(std::size_t strut, Stamp stamp, double acceleration) {
-  const auto time = timeOf(stamp);
+  const auto time = timeOf(strut, stamp);
   if (!time) return nullptr;
   double direction = 0.0;
   if (tops_.looks_for_friction) {
@@ -88,7 +115,7 @@ const TopEstimate* VehicleBlocks::pushWheel(std::size_t strut, Stamp stamp, doub
 }
 
 const TopEstimate* VehicleBlocks::pushTop(std::size_t strut, Stamp stamp, double acceleration) {
-  const auto time = timeOf(stamp);
+  const auto time = timeOf(tops_.size() + strut, stamp);
   if (!time) return nullptr;
   spectra_->pushTop(strut, *time, acceleration);
   return work();
@@ -96,14 +123,14 @@ const TopEstimate* VehicleBlocks::pushTop(std::size_t strut, Stamp stamp, double
 
 const TopEstimate* VehicleBlocks::pushBody(Stamp stamp, const Eigen::Vector3d& acceleration,
                                            const Eigen::Vector3d& rate) {
-  const auto time = timeOf(stamp);
+  const auto time = timeOf(last_.size() - 1, stamp);
   if (!time) return nullptr;
   spectra_->pushBody(*time, acceleration, rate);
   return work();
 }
 
 const TopEstimate* VehicleBlocks::pushForce(std::size_t force, Stamp stamp, double value) {
-  const auto time = timeOf(stamp);
+  const auto time = timeOf(2 * tops_.size() + force, stamp);
   if (!time) return nullptr;
   spectra_->pushForce(force, *time, value);
   return work();
@@ -138,13 +165,12 @@ void VehicleBlocks::takeBlock() {
 }
 
 void VehicleBlocks::fillNeighbours() {
-  Eigen::ArrayXcd motion(motions_.rows());
   for (std::size_t j = 0; j < tops_.size(); ++j) {
     const StrutBlock& block = estimators_[j].block(0);
     modulation_.setDelay(estimators_[j].hasTheta() ? estimators_[j].slowPrior().mean[kBlockDelay] : 0.0);
     for (const std::size_t p : {1, 0}) {
-      modulation_.apply(p, block.wheel, motion);
-      motions_.col(static_cast<Eigen::Index>(2 * j + 1 - p)) = motion - block.body.col(static_cast<Eigen::Index>(p));
+      modulation_.apply(p, block.wheel, motion_);
+      motions_.col(static_cast<Eigen::Index>(2 * j + 1 - p)) = motion_ - block.body.col(static_cast<Eigen::Index>(p));
     }
   }
   for (std::size_t i = 0; i < tops_.size(); ++i)

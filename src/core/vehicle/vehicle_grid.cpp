@@ -16,19 +16,39 @@ constexpr std::size_t kMostWindows = 3;      // of so many seconds: those take l
 constexpr double kLevelMemory = 4096.0;      // samples: the ratio of two deviations within 2 %
 constexpr std::size_t kFewestOfLevel = 256;  // the same within 5 %
 
+using Sensor = VehicleReading::Sensor;
+
+VehicleTops topsOf(const VehicleChannels& vehicle) {
+  VehicleTops tops;
+  for (const VehicleChannels::Strut& strut : vehicle.struts)
+    tops.tops.push_back({strut.sprung.has_value(), strut.position});
+  tops.known_forces = vehicle.known_forces.size();
+  return tops;
+}
+
 }  // namespace
 
-VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink)
+VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink,
+                         ReadingSink readings)
     : period_(fromSeconds(period)),
       vehicle_(streams.channels),
+      measured_(topsOf(streams.channels)),
       tops_(period_, streams.channels),
       grid_(period, streams.options, options.alignment, options.fill_samples + 2 * tops_.delay()),
       body_levels_(streams.channels.body_imu ? 6 : 0, WhiteLevel(1.0 - 1.0 / kLevelMemory)),
-      sink_(std::move(sink)) {
+      sink_(std::move(sink)),
+      readings_(std::move(readings)) {
   for (const VehicleStreams::Sensor& sensor : streams.sensors) {
-    std::size_t end = sensor.stream;
-    while (end < streams.options.size() && streams.options[end].sensor == streams.options[sensor.stream].sensor) ++end;
-    channels_.push_back({sensor.stream, end});
+    Channels channels{sensor.stream, sensor.stream, Sensor::kForce, 0};
+    while (channels.end < streams.options.size() &&
+           streams.options[channels.end].sensor == streams.options[sensor.stream].sensor)
+      ++channels.end;
+    if (sensor.place == VehicleStreams::Place::kBody) channels.sensor = Sensor::kBody;
+    for (std::size_t i = 0; i < vehicle_.struts.size(); ++i) {
+      if (vehicle_.struts[i].unsprung == sensor.stream) channels = {channels.first, channels.end, Sensor::kWheel, i};
+      if (vehicle_.struts[i].sprung == sensor.stream) channels = {channels.first, channels.end, Sensor::kTop, i};
+    }
+    channels_.push_back(channels);
   }
   // Gaps cost a level some instants.
   if (vehicle_.body_imu)
@@ -38,9 +58,43 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
 }
 
 void VehicleGrid::push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) {
-  std::size_t stream = channels_[sensor].first;
-  for (const double value : values)
-    for (auto instant = grid_.push(stream++, stamp, value); instant != nullptr; instant = grid_.next()) take(*instant);
+  const Channels& channels = channels_[sensor];
+  bool is_taken = true;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    auto instant = grid_.push(channels.first + i, stamp, values[i]);
+    is_taken = is_taken && grid_.taken();
+    if (is_taken && i + 1 == values.size()) lead(channels, values, *grid_.taken());
+    for (; instant != nullptr; instant = grid_.next()) take(*instant);
+  }
+}
+
+void VehicleGrid::lead(const Channels& channels, const std::vector<double>& values, Stamp taken) {
+  if (!readings_) return;
+  VehicleReading reading{channels.sensor, channels.place, taken, {}};
+  if (channels.sensor != Sensor::kForce) {
+    std::copy(values.begin(), values.end(), reading.values.begin());
+    return give(reading);
+  }
+  for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k) {
+    const std::size_t stream = vehicle_.known_forces[k];
+    if (stream < channels.first || stream >= channels.end) continue;
+    reading.place = k;
+    reading.values[0] = values[stream - channels.first];
+    give(reading);
+  }
+}
+
+void VehicleGrid::give(VehicleReading reading) {
+  if (num_to_wait_ > 0) {
+    waiting_readings_.push_back(reading);
+    return;
+  }
+  if (reading.sensor == Sensor::kBody)
+    for (const std::ptrdiff_t first : {0, 3}) {
+      Eigen::Map<Eigen::Vector3d> axes(reading.values.data() + first);
+      axes = vehicle_.body_mount * axes.eval();
+    }
+  readings_(reading);
 }
 
 void VehicleGrid::take(const GridInstant& instant) {
@@ -74,10 +128,18 @@ BodyLevel VehicleGrid::levelSince(std::size_t first) const {
 void VehicleGrid::turnUpright(const BodyLevel& level) {
   level_ = level;
   vehicle_.body_mount = level_.mount();
-  for (VehicleChannels::Strut& strut : vehicle_.struts) strut.position = level_.mount() * strut.position;
+  for (VehicleChannels::Strut& strut : vehicle_.struts)
+    if (strut.position) strut.position = Eigen::Vector3d(level_.mount() * *strut.position);
+  measured_ = topsOf(vehicle_);
   tops_ = StrutTops(period_, vehicle_);
   num_to_wait_ = 0;
-  for (const GridInstant& instant : std::exchange(waiting_, {})) lead(instant);
+  const std::vector<VehicleReading> readings = std::exchange(waiting_readings_, {});
+  auto reading = readings.begin();
+  for (const GridInstant& instant : std::exchange(waiting_, {})) {
+    for (; reading != readings.end() && reading->stamp <= instant.stamp; ++reading) give(*reading);
+    lead(instant);
+  }
+  for (; reading != readings.end(); ++reading) give(*reading);
 }
 
 void VehicleGrid::lead(const GridInstant& instant) {

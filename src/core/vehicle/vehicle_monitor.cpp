@@ -2,22 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
-#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
-#include "suspension_health_monitor/internal/vehicle/separation.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kCouplingMemory = 60.0;  // [s]: a body and where its struts stand change with the load at most
-constexpr double kCouplingEvery = 1.0;    // [s]
-constexpr double kModelsEvery = 0.1;      // [s]
+constexpr double kModelsEvery = 0.1;            // [s]
+constexpr Stamp kBodyEvery = std::chrono::seconds(30);  // half of the blocks that are kept are new then
 
 Stamp periodOf(const std::vector<MonitorSettings>& settings) {
   requireNumStruts(settings.size());
@@ -34,31 +29,19 @@ int samplesOf(double seconds, double period) { return std::max(1, static_cast<in
 
 }  // namespace
 
-VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces,
-                               const SensorNoise& noise)
+VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces)
     : period_(periodOf(settings)),
       sink_(std::move(sink)),
-      noise_(knownNoise(noise, settings.size())),
-      survey_({static_cast<int>(settings.size()), num_forces}, toSeconds(period_), kCouplingMemory, noise_),
-      coupling_due_(samplesOf(kCouplingEvery, toSeconds(period_))),
+      num_forces_(num_forces),
       models_due_(samplesOf(kModelsEvery, toSeconds(period_))),
       is_alone_(settings.size() == 1 && num_forces == 0) {
   for (const MonitorSettings& each : settings) starts_.push_back({each, {}, {}, {}});
-  if (!is_alone_) return;
-  coupling_ = survey_.estimate();
-  coupling_->stddevs.setZero();
-  coupling_->condition = 1.0;
-  beginStruts();
-}
-
-void VehicleMonitor::setNoise(const SensorNoise& noise) {
-  noise_ = noise;
-  survey_.setNoise(noise);
+  if (is_alone_) beginStruts();
 }
 
 void VehicleMonitor::beginStruts() {
   for (const Start& start : starts_) {
-    SuspensionMonitor& strut = struts_.emplace_back(start.settings);
+    SuspensionMonitor& strut = struts_.emplace_back(start.settings, is_alone_);
     if (!start.effects.empty()) strut.setEffects(start.effects, start.strut);
     if (start.baseline) strut.setBaseline(*start.baseline);
   }
@@ -77,43 +60,64 @@ void VehicleMonitor::setBaseline(std::size_t strut, const Baseline& baseline) {
   starts_[strut].baseline = baseline;
 }
 
-void VehicleMonitor::addSample(const VehicleSample& sample) {
+void VehicleMonitor::addReading(const VehicleTops& tops, const VehicleReading& reading) {
+  if (is_alone_) {
+    const Side side = reading.sensor == VehicleReading::Sensor::kWheel ? Side::kUnsprung : Side::kSprung;
+    return struts_.front().addReading(side, reading.stamp, reading.values[0]);
+  }
+  if (!std::all_of(reading.values.begin(), reading.values.end(), isUsable)) return;
+  if (!blocks_) {
+    BlockOptions options;
+    options.length = starts_.front().settings.presentBlockLength();
+    blocks_.emplace(tops, options, toSeconds(period_));
+  }
+  const TopEstimate* estimate = blocks_->push(reading);
+  if (estimate == nullptr) return;
+  if (estimate->strut + 1 == numStruts() || !decoupler_) learnRows();
+  if (isCoupled()) struts_[estimate->strut].takeEstimate(*estimate, modelStddev(*estimate));
+}
+
+void VehicleMonitor::addGridSample(const VehicleSample& sample) {
   const Continuity how = last_ ? continuity(sample.stamp - *last_, period_) : Continuity::kGap;
   if (how == Continuity::kTooSoon) return;
   last_ = sample.stamp;
-  if (how != Continuity::kContinues) startNewSeries();
+  if (how != Continuity::kContinues && decoupler_) decoupler_->startNewSeries();
   const VehicleSample* own = &sample;
   if (!is_alone_) {
-    survey_.add(sample);
-    if (coupling_due_()) learnCoupling();
     if (!decoupler_) return;
     if (models_due_()) takeModels();
     own = decoupler_->push(sample);
     if (own == nullptr) return;
   }
   for (std::size_t i = 0; i < struts_.size(); ++i) {
-    const MonitorReport* report = struts_[i].addSample(own->ofStrut(i));
+    const CornerSample of_strut = own->ofStrut(i);
+    if (!is_alone_) {
+      struts_[i].hold(blocks_->estimator(i).newestSayNothing());
+      struts_[i].addReading(Side::kSprung, of_strut.stamp, of_strut.sprung_acceleration);
+      struts_[i].addReading(Side::kUnsprung, of_strut.stamp, of_strut.unsprung_acceleration);
+    }
+    const MonitorReport* report = struts_[i].addGridSample(of_strut);
     if (report != nullptr && sink_) sink_(i, *report);
   }
 }
 
-// The grid has heard the body's IMU for seconds when it gives the first sample.
-void VehicleMonitor::addSample(const VehicleGrid& grid, const VehicleSample& sample) {
-  if (!last_ && grid.needsBodyImu()) setNoise(grid.noise());
-  addSample(sample);
+void VehicleMonitor::addSample(const VehicleSample& sample) {
+  VehicleTops tops;
+  if (!blocks_) {
+    tops.tops.resize(numStruts());
+    tops.known_forces = static_cast<std::size_t>(num_forces_);
+  }
+  forReadings(sample, [&](const VehicleReading& reading) { addReading(tops, reading); });
+  addGridSample(sample);
 }
 
-void VehicleMonitor::learnCoupling() {
-  const CouplingEstimate& estimate = survey_.solve();
-  if (!estimate.isKnown()) return;
-  if (!decoupler_) begin(estimate);
-  decoupler_->setCoupling(estimate.coupling);
-  coupling_ = estimate;
-}
-
-void VehicleMonitor::begin(const CouplingEstimate& estimate) {
-  const std::vector<StrutModel> models = estimate.models();
-  decoupler_.emplace(toSeconds(period_), estimate.coupling, models);
+// Once per block.
+void VehicleMonitor::learnRows() {
+  if (!blocks_->rows(newest_rows_) || !newest_rows_.areKnown()) return;
+  rows_ = newest_rows_;
+  if (decoupler_) return decoupler_->setRows(rows_);
+  const std::vector<StrutModel> models = rows_.models();
+  decoupler_.emplace(toSeconds(period_), rows_, models);
   for (std::size_t i = 0; i < starts_.size(); ++i) {
     MonitorSettings& settings = starts_[i].settings;
     if (!settings.integration_horizon)
@@ -122,17 +126,50 @@ void VehicleMonitor::begin(const CouplingEstimate& estimate) {
   beginStruts();
 }
 
-// As long as a strut has no valid estimate it shows in others as the coupling was learned with it.
+// As long as a strut has no valid estimate it shows in others as its row has it.
 void VehicleMonitor::takeModels() {
   for (std::size_t i = 0; i < struts_.size(); ++i) {
     const StrutEstimate& now = struts_[i].report().estimate;
-    if (now.valid()) decoupler_->setModel(i, {now.damping_to_mass, now.stiffness_to_mass, struts_[i].effects(), {}});
+    if (!now.valid()) continue;
+    const double friction = now.friction ? now.friction->force * now.friction->damping_gain : 0.0;
+    decoupler_->setModel(i, {now.damping_to_mass + friction, now.stiffness_to_mass, struts_[i].effects(), {}});
   }
 }
 
-void VehicleMonitor::startNewSeries() {
-  survey_.startNewSeries();
-  if (decoupler_) decoupler_->startNewSeries();
+void VehicleMonitor::fitBody() {
+  BodyRows rows;
+  if (!blocks_ || numStruts() < 2 || !blocks_->rows(rows)) return;
+  const StrutPlaces places = blocks_->tops().places();
+  const BodyFit fit = places.empty() ? BodyFit(numStruts()) : BodyFit(places, pairsOf(places));
+  body_ = fit.fit(rows, blocks_->rowsOfHalves());
+}
+
+void VehicleMonitor::fitBodyIfDue() {
+  if (!decoupler_ || !last_ || (fitted_ && *last_ - *fitted_ < kBodyEvery && *last_ >= *fitted_)) return;
+  fitted_ = last_;
+  fitBody();
+}
+
+Eigen::Vector2d VehicleMonitor::modelStddev(const TopEstimate& estimate) const {
+  if (!body_) return Eigen::Vector2d::Zero();
+  const Eigen::Matrix2d absolute =
+      body_->absoluteCovariance(estimate.strut, estimate.theta.head<2>(), Eigen::Matrix2d::Zero(),
+                                estimate.frictionDamping());
+  return absolute.diagonal().cwiseSqrt();
+}
+
+std::optional<StrutPair> VehicleMonitor::mostAlike() const {
+  if (!blocks_ || numStruts() < 2) return std::nullopt;
+  const StrutPair pair = blocks_->mostAlike();
+  return pair.first == pair.second ? std::nullopt : std::optional(pair);
+}
+
+StrutEstimate VehicleMonitor::overTheDrive(std::size_t strut) {
+  if (is_alone_) return struts_.front().overTheDrive();
+  if (!isCoupled()) return {};
+  const std::optional<TopEstimate> estimate = blocks_->overTheDrive(strut);
+  if (!estimate) return struts_[strut].overTheDrive(std::nullopt, Eigen::Vector2d::Zero());
+  return struts_[strut].overTheDrive(*estimate, modelStddev(*estimate));
 }
 
 }  // namespace suspension_health_monitor

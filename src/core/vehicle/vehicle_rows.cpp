@@ -6,58 +6,112 @@
 
 namespace suspension_health_monitor {
 
-std::optional<WindowEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
-  if (!has_model_ || doubts_[strut] != TopDoubt::kNone) return std::nullopt;
-  std::optional<WindowEstimate> result = estimators_[strut].overTheDrive();
+std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
+  if (!has_model_ || !has_[strut]) return std::nullopt;
+  const std::optional<WindowEstimate> of_drive = estimators_[strut].overTheDrive();
   const auto& all = estimators_[strut].ofAllBlocks();
-  if (!result || !all) return std::nullopt;
+  if (!of_drive || !all) return std::nullopt;
+  TopEstimate result = estimates_[strut];
+  static_cast<WindowEstimate&>(result) = *of_drive;
   // Noise of wheels that move alike draws every block the same way: more blocks do not help.
-  result->alike = std::max(result->alike, all->alike);
+  result.alike = std::max(result.alike, all->alike);
   for (const int i : {kBlockDamping, kBlockStiffness})
-    result->covariance(i, i) += std::pow(all->alike * result->theta[i], 2);
+    result.covariance(i, i) += std::pow(all->alike * result.theta[i], 2);
   return result;
 }
 
-void VehicleBlocks::addRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const {
-  const auto n = static_cast<Eigen::Index>(tops_.size()), i = static_cast<Eigen::Index>(strut);
-  if (rows.size() == 0) {
-    rows.is_by_body = std::none_of(tops_.tops.begin(), tops_.tops.end(), [](const auto& top) { return top.has_own; });
-    rows.rate.resize(n, n);
-    rows.travel.resize(n, n);
-  }
-  std::vector<int> places(static_cast<std::size_t>(2 * n));
-  for (std::size_t j = 0; j < tops_.size(); ++j)
-    for (const std::size_t p : {0, 1}) {
-      const int at = static_cast<int>(p) + (j == strut ? 0 : columns_.firstNeighbour() + neighbourColumn(strut, j));
-      places[p * tops_.size() + j] = at;
-      (p == 0 ? rows.rate : rows.travel)(i, static_cast<Eigen::Index>(j)) = estimate.theta[at];
-    }
-  Eigen::MatrixXd covariance(2 * n, 2 * n);
-  for (Eigen::Index a = 0; a < 2 * n; ++a)
-    for (Eigen::Index b = 0; b < 2 * n; ++b)
-      covariance(a, b) = estimate.covariance(places[static_cast<std::size_t>(a)], places[static_cast<std::size_t>(b)]);
-  rows.covariance.push_back(covariance);
+void VehicleBlocks::beginRows(BodyRows& rows) const {
+  const auto n = static_cast<Eigen::Index>(tops_.size());
+  rows.is_by_body = std::none_of(tops_.tops.begin(), tops_.tops.end(), [](const auto& top) { return top.has_own; });
+  rows.rate.resize(n, n);
+  rows.travel.resize(n, n);
+  rows.force.resize(n, static_cast<Eigen::Index>(tops_.known_forces));
+  rows.force_stddev.resize(rows.force.rows(), rows.force.cols());
+  rows.covariance.resize(tops_.size());
+  for (Eigen::MatrixXd& covariance : rows.covariance) covariance.resize(2 * n, 2 * n);
 }
 
-std::optional<BodyRows> VehicleBlocks::rows() const {
+// What others see of a strut's damper is what its friction acts as, too.
+void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const {
+  const auto n = static_cast<Eigen::Index>(tops_.size()), i = static_cast<Eigen::Index>(strut);
+  using Selection = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostStruts, kMostBlockParameters>;
+  Selection selection = Selection::Zero(2 * n, estimate.theta.size());
+  for (std::size_t j = 0; j < tops_.size(); ++j) {
+    const int at = j == strut ? int{kBlockDamping} : columns_.firstNeighbour() + neighbourColumn(strut, j);
+    selection(static_cast<Eigen::Index>(j), at) = selection(n + static_cast<Eigen::Index>(j), at + 1) = 1.0;
+  }
+  if (tops_.looks_for_friction) selection(i, columns_.firstForce()) = estimate.frictionGain();
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostStruts, 1> row = selection * estimate.theta;
+  rows.rate.row(i) = row.head(n).transpose();
+  rows.travel.row(i) = row.tail(n).transpose();
+  rows.covariance[strut].noalias() = selection * (estimate.covariance * selection.transpose()).eval();
+  for (Eigen::Index k = 0; k < rows.force.cols(); ++k) {
+    const int at = columns_.firstForce() + (tops_.looks_for_friction ? 1 : 0) + static_cast<int>(k);
+    rows.force(i, k) = estimate.theta[at];
+    const double variance = estimate.covariance(at, at);
+    rows.force_stddev(i, k) = variance > 0.0 ? std::sqrt(variance) : HUGE_VAL;  // of a force that has not changed 0
+  }
+}
+
+bool VehicleBlocks::rows(BodyRows& rows) const {
+  if (!has_model_) return false;
+  for (const BlockEstimator& each : estimators_)
+    if (!each.ofAllBlocks()) return false;
+  beginRows(rows);
+  for (std::size_t i = 0; i < tops_.size(); ++i) setRow(i, *estimators_[i].ofAllBlocks(), rows);
+  return true;
+}
+
+std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
   BodyRows rows;
+  beginRows(rows);
   for (std::size_t i = 0; i < tops_.size(); ++i) {
-    const auto& estimate = estimators_[i].ofAllBlocks();
-    if (!estimate || !has_model_) return std::nullopt;
-    addRow(i, *estimate, rows);
+    const auto estimate = overTheDrive(i);
+    if (!estimate) return std::nullopt;
+    setRow(i, *estimate, rows);
   }
   return rows;
 }
 
+// In the row that knows a coefficient worst: that one, and the one that it is told from worst.
+StrutPair VehicleBlocks::mostAlike() const {
+  StrutPair worst{0, 0};
+  double largest = 0.0;
+  for (std::size_t i = 0; i < tops_.size(); ++i) {
+    const WindowEstimate* estimate = estimators_[i].refused();
+    if (estimate == nullptr && has_[i]) estimate = &estimates_[i];
+    if (estimate == nullptr) continue;
+    const BlockMatrix& covariance = estimate->covariance;
+    const auto columnOf = [&](std::size_t j) {
+      return int{kBlockStiffness} + (j == i ? 0 : columns_.firstNeighbour() + neighbourColumn(i, j));
+    };
+    for (std::size_t j = 0; j < tops_.size(); ++j) {
+      const int at = columnOf(j);
+      const double share = std::sqrt(covariance(at, at)) / std::abs(estimate->theta[kBlockStiffness]);
+      if (!(share > largest)) continue;
+      largest = share;
+      double closest = 0.0;
+      for (std::size_t k = 0; k < tops_.size(); ++k) {
+        const double together = std::abs(covariance(at, columnOf(k))) / std::sqrt(covariance(columnOf(k), columnOf(k)));
+        if (k == j || !(together > closest)) continue;
+        closest = together;
+        worst = {j, k};
+      }
+    }
+  }
+  return worst;
+}
+
 std::vector<BodyRows> VehicleBlocks::rowsOfHalves() {
   std::vector<BodyRows> halves(2);
+  for (BodyRows& half : halves) beginRows(half);
   for (std::size_t i = 0; i < tops_.size(); ++i) {
     // The block between both shares readings with each.
     const int count = (estimators_[i].count() - 1) / 2;
     for (const std::size_t half : {0, 1}) {
       const auto estimate = estimators_[i].ofBlocks(half == 0 ? estimators_[i].count() - count : 0, count);
       if (!estimate || !has_model_) return {};
-      addRow(i, *estimate, halves[half]);
+      setRow(i, *estimate, halves[half]);
     }
   }
   return halves;

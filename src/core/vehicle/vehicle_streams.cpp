@@ -26,7 +26,7 @@ VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
   for (const VehicleLayout::Strut& strut : layout.struts) {
     const std::string where = "struts/" + strut.name;
     VehicleChannels::Strut its;
-    if (strut.position) its.position = {(*strut.position)[0], (*strut.position)[1], (*strut.position)[2]};
+    if (strut.position) its.position.emplace((*strut.position)[0], (*strut.position)[1], (*strut.position)[2]);
     if (strut.sprung_imu)
       its.sprung = add(*strut.sprung_imu, Place::kSprung, 1, where + "/sprung_imu");
     else if (!strut.position)

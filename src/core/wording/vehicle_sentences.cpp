@@ -9,12 +9,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-// What tracks that are alike keep the information of the least combination of struts over noise's below, and what they
-// make the condition of the rows exceed.
-constexpr double kAlike = 20.0;
-constexpr const char* kTooLittle =
-    "are too short or too calm to tell how the struts move one another, or something else than the wheels moves the body";
-
 // "friction (or digressive_damping)": what the drives cannot tell from it, too.
 std::string namesOf(const Diagnosis& strut) {
   std::string text = join(strut.selected, " and ");
@@ -29,16 +23,12 @@ std::string namesOf(const Diagnosis& strut) {
 
 }  // namespace
 
-std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::string>& struts) {
-  if (estimate.isKnown()) return "";
-  if (estimate.coupling.own_power.isZero(0.0)) return kTooLittle;
-  if (!(estimate.damping_to_mass.minCoeff() > 0.0 && estimate.stiffness_to_mass.minCoeff() > 0.0))
-    return "do not show damped springs that move one body: are body and wheel swapped, or an axis upside down?";
-  if ((estimate.told_apart < kAlike || estimate.condition > kAlike) && struts.size() > 1)
-    return "cannot tell " + struts[static_cast<std::size_t>(estimate.first_alike)] + " from " +
-           struts[static_cast<std::size_t>(estimate.second_alike)] +
-           ": their wheels move alike, or too little. Drive over bumps on one side";
-  return kTooLittle;
+std::string whyNotCoupled(const std::optional<StrutPair>& most_alike, const std::vector<std::string>& struts) {
+  if (!most_alike)
+    return "are too short or too calm to tell how the struts move one another, or something else than the wheels moves "
+           "the body: check which IMU is on the body and which on a wheel, and that their axes point up";
+  return "cannot tell " + struts[most_alike->first] + " from " + struts[most_alike->second] +
+         ": their wheels move alike, or too little. Drive over bumps on one side";
 }
 
 std::string describe(InertiaDoubt doubt) {
@@ -47,7 +37,7 @@ std::string describe(InertiaDoubt doubt) {
     case InertiaDoubt::kNone: return "";
     case InertiaDoubt::kNoPositions: return begin + "a strut has no position";
     case InertiaDoubt::kOnOneLine: return begin + "it takes three struts that do not stand on one line";
-    case InertiaDoubt::kUncertain: return begin + "the ratios are too uncertain, or do not fit the positions";
+    case InertiaDoubt::kUncertain: return begin + "the rows are too uncertain, or do not fit the positions";
   }
   return "";
 }

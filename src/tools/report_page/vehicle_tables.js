@@ -32,7 +32,7 @@ function ratioCell(value, stddev, most = 4) {
   return [shown(value), element('small', {}, `± ${shown(stddev)}`)];
 }
 
-function couplingSection({struts, ratios, stddevs, condition}) {
+function couplingSection({struts, ratios, stddevs, model_error: modelError}) {
   if (struts.length < 2) return null;
   const cell = (i, j) => element(
       'td', {class: 'number', 'data-ratio': ratios[i][j], 'data-stddev': i === j ? null : stddevs[i][j]},
@@ -41,7 +41,9 @@ function couplingSection({struts, ratios, stddevs, condition}) {
       'coupling', 'How the struts move one another',
       'A row is the top of a strut: how much of what each strut does to its own top reaches it, ± standard deviation. ' +
           'The ratios belong to the body and to where the struts stand, not to wear; positive: both are pushed the ' +
-          `same way. Condition ${rounded(condition, 2)}: 1 is best, above 20 the tracks were much alike.`,
+          'same way.' +
+          (isNumber(modelError) ?
+               ` A rigid body on linear struts leaves ${rounded(100 * modelError, 2)} % of it unexplained.` : ''),
       wideTable(
           [head('moved by'), struts.map(({name}) => head(spoken(name), 'number'))],
           struts.map(

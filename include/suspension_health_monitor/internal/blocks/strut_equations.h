@@ -10,7 +10,7 @@
 namespace suspension_health_monitor {
 
 /// Vectors and matrices over parameters, without the heap.
-inline constexpr int kMostBlockParameters = 32;
+inline constexpr int kMostBlockParameters = 40;
 using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostBlockParameters, 1>;
 using BlockMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostBlockParameters, kMostBlockParameters>;

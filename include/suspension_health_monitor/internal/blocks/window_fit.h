@@ -52,6 +52,9 @@ struct WindowEstimate {
     rate = std::sqrt(2.0 * rate_power / 0.375) / length;
     travel = std::sqrt(2.0 * travel_power / 0.375) / length;
   }
+  /// @return g: friction f acts as g f of b1 [s/m]. Of a normal distribution of the rate the least squares line through
+  /// Coulomb's law has this slope.
+  double frictionGain() const { return rate > 0.0 ? std::sqrt(2.0 / M_PI) / rate : 0.0; }
   bool isUsable() const;  ///< finite, with b1, b0 above 0
   double worst() const { return std::max(relativeStddev(kBlockDamping), relativeStddev(kBlockStiffness)); }
 };

@@ -14,8 +14,10 @@ namespace suspension_health_monitor {
 /// @return what is wrong with the stamps for the sample period that was given, in words; nothing: they fit.
 std::optional<std::string> periodWarning(const SuspensionMonitor& monitor);
 
-/// @return what an estimator of the live monitor knows of the strut, for results.
-IdentifiedStrut toIdentified(const StrutEstimate& estimate);
+/// @param over_the_drive  the block estimate over all readings.  @param rejected  readings that were kept out.
+/// @return what is known of a strut at the end of a recorded drive.
+IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate& over_the_drive,
+                          const RejectCounts& rejected);
 
 /// Identifies the strut of a recorded drive reading by reading: what identify() does with arrays and `suspension_bag
 /// identify` with bags of any length. LS, LA and the tyre are those of a StrutPipeline, as live; its blocks
@@ -37,7 +39,7 @@ class DriveIdentification {
   void push(Side side, Stamp stamp, double acceleration) { strut_.push(side, stamp, acceleration); }
 
   /// @return what is known so far.
-  IdentifyResult result();
+  IdentifyResult result() { return identified(monitor(), strut_.overTheDrive(), rejected()); }
 
   /// @return readings that were kept out so far.
   RejectCounts rejected() const { return strut_.rejected(); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -26,7 +27,8 @@ class ModelTracker {
  public:
   /// The plain model.
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  explicit ModelTracker(const MonitorSettings& options);
+  /// @param has_own_blocks  false: its block estimates come by takeEstimate(), as of a vehicle's strut.
+  explicit ModelTracker(const MonitorSettings& options, bool has_own_blocks = true);
 
   /// Goes on with other effects: estimates and covariance of b1, b0 and of the effects that stay (same name and shapes)
   /// carry over, as does the free run. Coefficients of the others are start values. The estimates are valid again after
@@ -41,6 +43,12 @@ class ModelTracker {
   /// Takes in one reading of one sensor, on its own stamp, for the blocks.
   /// @return true if it brought a new block estimate.
   bool addReading(Side side, Stamp stamp, double acceleration, ModelReport& report);
+
+  /// Takes the blocks' estimate from elsewhere, with the model's error in b1 [1/s] and b0 [1/s^2].
+  void takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev, ModelReport& report);
+
+  /// While the newest blocks say nothing of the strut LS and LA stay as they are.
+  void hold(bool holds) { identifier_.hold(holds); }
 
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @param time  of the newest sample since the start of the drive [s]; of no effect on the plain model.
@@ -67,14 +75,18 @@ class ModelTracker {
   /// @return true while what is measured tells nothing of the strut, and LS and LA stay as they are.
   bool holds() const { return identifier_.holds(); }
 
+  /// @return what blocks say, judged as overTheDrive() is.  @param model_stddev  as takeEstimate().
+  StrutEstimate judged(const std::optional<BlockEstimate>& blocks, const Eigen::Vector2d& model_stddev) const;
+
   /// @return the estimate over all readings so far, as StrutBlocks::overTheDrive(); with NaN: too little is known. Not
   /// for the sample path.
-  StrutEstimate overTheDrive();
+  StrutEstimate overTheDrive() { return judged(blocks_->overTheDrive(), Eigen::Vector2d::Zero()); }
 
   /// @return the factor that rows are forgotten by.
   double forgettingFactor() const { return identifier_.forgettingFactor(); }
 
  private:
+  bool take(const BlockEstimate* estimate, ModelReport& report);
   bool addRow(const CornerSample& sample, ModelReport& report);
   void judge(ModelReport& report);
   void judgeBlocks(StrutEstimate& estimate) const;
@@ -85,7 +97,13 @@ class ModelTracker {
   bool is_paper_;
   BlockOptions block_options_;
   double period_, oldest_data_;  // [s]
-  StrutBlocks blocks_;
+  std::optional<StrutBlocks> blocks_;
+  /// Of the newest block estimate.
+  struct Newest {
+    Stamp stamp{};
+    double age = 0.0;
+  };
+  std::optional<Newest> newest_;
   StrutIdentifier identifier_;
   Stamp now_{};
   bool period_fits_ = true;

@@ -24,7 +24,8 @@ class SuspensionMonitor {
  public:
   /// @param options  with sample_period given.
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  explicit SuspensionMonitor(const MonitorSettings& options);
+  /// @param has_own_blocks  false: the plain model's block estimates come by takeEstimate(), as of a vehicle's strut.
+  explicit SuspensionMonitor(const MonitorSettings& options, bool has_own_blocks = true);
 
   /// Has these effects in the model from now on; none: the plain model. Estimates carry over, coefficients are start
   /// values, shapes stay as they are given. Not for the sample path: allocates.
@@ -43,6 +44,12 @@ class SuspensionMonitor {
 
   /// Takes in one reading of one sensor on its own stamp, for the block estimate. Stamps of a sensor increase.
   void addReading(Side side, Stamp stamp, double acceleration);
+
+  /// Takes the block estimate of the plain model from elsewhere.  @param model_stddev  as ModelTracker::takeEstimate().
+  void takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev);
+
+  /// While the newest blocks of elsewhere say nothing of the strut LS and LA stay as they are.
+  void hold(bool holds) { plain_.hold(holds); }
 
   /// Both readings of an instant, then the sample: for sensors that are in step.
   const MonitorReport* addSample(const CornerSample& sample) {
@@ -64,6 +71,10 @@ class SuspensionMonitor {
 
   /// @return as ModelTracker::overTheDrive(), of the model with effects if there is one.
   StrutEstimate overTheDrive() { return (extended_ ? *extended_ : plain_).overTheDrive(); }
+  /// @param plain  what the blocks of elsewhere say of the plain model.  @param model_stddev  as takeEstimate().
+  StrutEstimate overTheDrive(const std::optional<BlockEstimate>& plain, const Eigen::Vector2d& model_stddev) {
+    return extended_ ? extended_->overTheDrive() : plain_.judged(plain, model_stddev);
+  }
 
   /// @return what models are made of: the block estimate, or, with `preset: paper`, LA.
   const StrutEstimate& modelEstimate() const { return options_.preset == "paper" ? report_.la : report_.estimate; }

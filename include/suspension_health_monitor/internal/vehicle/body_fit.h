@@ -8,16 +8,29 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/vehicle/body_inertia.h"
+#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 
-/// What the rows of all tops say: coefficients of every strut's travel rate and travel, and how sure they are.
+/// What the rows of all tops say: how much the travel rate and the travel of every strut, and every known force, moves
+/// every top, and how sure that is.
 struct BodyRows {
-  Eigen::MatrixXd rate, travel;             ///< b1_ij [1/s], b0_ij [1/s^2], tops by struts
+  Eigen::MatrixXd rate, travel;  ///< b1_ij [1/s], with what friction acts as; b0_ij [1/s^2]; tops by struts
+  Eigen::MatrixXd force, force_stddev;      ///< c_ik [m/s^2 per unit of the force], tops by known forces
   std::vector<Eigen::MatrixXd> covariance;  ///< by top that of its rates, then its travels
   bool is_by_body = false;  ///< one IMU of the body tells of all tops: no more rows are independent than it has motions
 
   Eigen::Index size() const { return rate.rows(); }
+
+  /// @return rho_ij: what strut j does to its own top it does to top i with this ratio; b1_ij / b1_jj and b0_ij / b0_jj
+  /// by their variances. a_ij / a_jj of a rigid body, but for anti-roll bars.
+  Measured ratio(Eigen::Index i, Eigen::Index j) const;
+  /// @return true if every ratio is known well enough to take the other struts out.
+  bool areKnown() const;
+  /// @return the linear struts.
+  std::vector<StrutModel> models() const;
+  /// @return standard deviations of b1_ii and b0_ii.
+  Eigen::Vector2d ownStddev(Eigen::Index i) const;
 };
 
 /// Two struts that an anti-roll bar may join.
@@ -31,7 +44,8 @@ struct BodyFitResult {
   enum class Bars { kNone, kStiffness, kStiffnessAndDamping };
   struct Bar {
     StrutPair struts;
-    Measured stiffness, damping;  ///< its share of b0 and b1 of the first strut [1/s^2], [1/s]
+    /// a_ii times the bar's, over the body's mass at the first and at the second strut [1/s^2], [1/s].
+    std::array<Measured, 2> stiffness, damping;
   };
 
   double phi = 0.0;  ///< error of the model per coefficient, over the largest of its kind in its row [-]
@@ -48,6 +62,12 @@ struct BodyFitResult {
   /// strut's own column. A change has none of it.
   Eigen::Matrix2d absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own, const Eigen::Matrix2d& covariance,
                                      double friction_damping) const;
+
+  Eigen::MatrixXd rate, travel;  ///< the rows that the body has, tops by struts [1/s], [1/s^2]
+
+  /// @return what is known of these rows by both: the body's, with an error of phi in each coefficient, and their own,
+  /// by their variances.
+  BodyRows combined(const BodyRows& rows) const;
 
   Measured mass_to_pitch_inertia{}, mass_to_roll_inertia{};  ///< M/Iyy, M/Ixx [1/m^2]; infinite stddev: not seen
   Measured product{};                                        ///< their common term, M (I^-1)_xy [1/m^2]
@@ -67,6 +87,9 @@ class BodyFit {
  public:
   /// @param places  by strut, from any point of the body.  @param pairs  that a bar may join.
   BodyFit(const StrutPlaces& places, const std::vector<StrutPair>& pairs);
+
+  /// Of struts whose places are not known: forces at any two tops move one another alike, and nothing else is known.
+  explicit BodyFit(std::size_t struts);
 
   /// @param halves  rows of two sets of blocks that share no reading, by which bars must agree; empty: no bar is named.
   /// @return nothing if the solver fails.
@@ -90,9 +113,9 @@ class BodyFit {
   Eigen::VectorXd inertia(const Eigen::MatrixXd& s) const;
   BodyFitResult describe(const Solution& solution, BodyFitResult::Bars bars) const;
 
-  Eigen::MatrixXd q_;               // struts by motions, scaled
-  Eigen::Vector2d middle_, scale_;  // of x, y
-  bool sees_pitch_, sees_roll_;
+  Eigen::MatrixXd q_;  // struts by motions, scaled
+  Eigen::Vector2d middle_ = Eigen::Vector2d::Zero(), scale_ = Eigen::Vector2d::Ones();  // of x, y
+  bool sees_pitch_ = false, sees_roll_ = false;
   std::vector<StrutPair> pairs_;
 };
 

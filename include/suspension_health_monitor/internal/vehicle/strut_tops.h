@@ -16,8 +16,8 @@ struct VehicleChannels {
   struct Strut {
     std::size_t unsprung = 0;           ///< stream of w''
     std::optional<std::size_t> sprung;  ///< stream of z''; none: the body's IMU tells it
-    /// Of the strut's top, from the body's IMU [m].
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    /// Of the strut's top, from the body's IMU, or from any point of the body where every strut has its own [m].
+    std::optional<Eigen::Vector3d> position;
   };
   std::vector<Strut> struts;
   /// Stream of the body's IMU that reads its acceleration along x; those along y and z, and the angular rates about x,

@@ -12,6 +12,7 @@
 #include "suspension_health_monitor/internal/blocks/strut_blocks.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_spectra.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_tops.h"
 
@@ -24,8 +25,8 @@ struct TopEstimate : BlockEstimate {
   std::size_t strut = 0;
   double friction = 0.0;  ///< over the body's mass [m/s^2]
 
-  /// @return the damping that takes as much power as friction does, of a normal travel rate [1/s].
-  double frictionDamping() const { return rate > 0.0 ? std::sqrt(2.0 / M_PI) * friction / rate : 0.0; }
+  /// @return the damping that takes as much power as friction does [1/s].
+  double frictionDamping() const { return frictionGain() * friction; }
 };
 
 /// Why there is no estimate of a strut.
@@ -49,8 +50,13 @@ class VehicleBlocks {
   /// @param period  the longest sampling time of the streams [s].
   VehicleBlocks(const VehicleTops& tops, const BlockOptions& options, double period);
 
-  /// Take in one reading [m/s^2], [rad/s]. Stamps of a stream increase; after a clock that went back: restart().
+  /// Take in one reading [m/s^2], [rad/s]. Where the stamps of a sensor go back the blocks begin anew (restart()).
   /// @return an estimate that is new; nullptr: none is.
+  const TopEstimate* push(const VehicleReading& reading);
+  /// All readings of an instant, of struts that have two accelerometers each.
+  void push(const VehicleSample& sample) {
+    forReadings(sample, [this](const VehicleReading& reading) { push(reading); });
+  }
   const TopEstimate* pushWheel(std::size_t strut, Stamp stamp, double acceleration);
   const TopEstimate* pushTop(std::size_t strut, Stamp stamp, double acceleration);
   const TopEstimate* pushBody(Stamp stamp, const Eigen::Vector3d& acceleration, const Eigen::Vector3d& rate);
@@ -62,10 +68,13 @@ class VehicleBlocks {
 
   /// @return the estimate of a strut over all blocks since restart(); nothing if they do not tell, or if tracks are too
   /// much alike. Not for the sample path.
-  std::optional<WindowEstimate> overTheDrive(std::size_t strut);
+  std::optional<TopEstimate> overTheDrive(std::size_t strut);
 
-  /// @return what all blocks kept say of all tops, with the data alone; nothing if they do not. For BodyFit.
-  std::optional<BodyRows> rows() const;
+  /// What all blocks kept say of all tops, with the data alone. Allocates when `rows` is empty.
+  /// @return false: they do not know all tops.
+  bool rows(BodyRows& rows) const;
+  /// @return likewise all blocks since the first. Not for the sample path.
+  std::optional<BodyRows> rowsOverTheDrive();
   /// @return the rows of the older and of the newer half of the blocks; empty if they do not tell. Not for the sample
   /// path.
   std::vector<BodyRows> rowsOfHalves();
@@ -74,12 +83,15 @@ class VehicleBlocks {
   const VehicleTops& tops() const { return tops_; }
   double length() const { return length_; }  ///< T of the blocks [s]
 
-  /// Another drive: blocks are forgotten, estimates stay until there are new ones.
-  void restart() { begin(length_); }
+  /// @return the two struts that the newest blocks tell apart worst.
+  StrutPair mostAlike() const;
+
+  /// Another drive: blocks are forgotten, but to overTheDrive(); estimates stay until there are new ones.
+  void restart();
 
  private:
   void begin(double length);
-  std::optional<double> timeOf(Stamp stamp);
+  std::optional<double> timeOf(std::size_t sensor, Stamp stamp);
   const TopEstimate* work();
   void takeBlock();
   void fillNeighbours();
@@ -87,7 +99,8 @@ class VehicleBlocks {
   const TopEstimate* update(std::size_t strut);
   void scaleNeighbours(std::size_t strut);
   void finishRound();
-  void addRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const;
+  void beginRows(BodyRows& rows) const;
+  void setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const;
   void follow();
 
   VehicleTops tops_;
@@ -103,8 +116,10 @@ class VehicleBlocks {
   std::vector<bool> has_;
   std::vector<TopDoubt> doubts_;
   std::vector<const StrutBlock*> blocks_;
+  std::vector<std::optional<Stamp>> last_;  // by sensor: wheels, tops, forces, the body's IMU
   Modulation modulation_;
   Eigen::ArrayXXcd motions_;  // H_1, H_0 of every w'' - z''
+  Eigen::ArrayXcd motion_;    // H_1 or H_0 of one w''
   TopRows rows_;
   bool has_model_ = false;
   std::size_t to_update_ = 0;  // tops that the newest block has not come to yet

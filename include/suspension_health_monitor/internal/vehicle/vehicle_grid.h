@@ -11,7 +11,9 @@
 #include "suspension_health_monitor/internal/signal/white_level.h"
 #include "suspension_health_monitor/internal/vehicle/body_level.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_tops.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
@@ -23,11 +25,15 @@ namespace suspension_health_monitor {
 class VehicleGrid {
  public:
   using Sink = std::function<void(const VehicleSample&)>;
+  using ReadingSink = std::function<void(const VehicleReading&)>;
 
   /// @param options  of a strut; before an instant is of use the filter of the strut tops fills, too.
   /// @param sink  called with every sample.
+  /// @param readings  called with every reading that was taken in, with the time at which it was taken (ReadingClock);
+  /// those of the body's IMU are turned upright.
   /// @throws std::invalid_argument  as StreamGrid and StrutTops.
-  VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink);
+  VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink,
+              ReadingSink readings = {});
 
   /// Takes in one message of a sensor.
   /// @param sensor  its place in VehicleStreams::sensors.  @param values  of its streams.
@@ -38,8 +44,8 @@ class VehicleGrid {
 
   const StreamGrid& streams() const { return grid_; }
 
-  /// @return true if a strut's top is told by the body's IMU.
-  bool needsBodyImu() const { return vehicle_.body_imu.has_value(); }
+  /// @return what is measured of the vehicle, in the axes of the readings.
+  const VehicleTops& tops() const { return measured_; }
 
   /// @return how the body's IMU was found to be turned.
   const BodyLevel& bodyLevel() const { return level_; }
@@ -64,8 +70,12 @@ class VehicleGrid {
  private:
   struct Channels {
     std::size_t first, end;  // streams
+    VehicleReading::Sensor sensor;
+    std::size_t place;  // of the strut
   };
 
+  void lead(const Channels& channels, const std::vector<double>& values, Stamp taken);
+  void give(VehicleReading reading);
   void take(const GridInstant& instant);
   void lead(const GridInstant& instant);
   BodyLevel levelSince(std::size_t first) const;
@@ -75,17 +85,20 @@ class VehicleGrid {
 
   Stamp period_;
   VehicleChannels vehicle_;
+  VehicleTops measured_;
   StrutTops tops_;
   BodyLevel level_;
   std::size_t level_window_ = 0;  // instants that a level is taken of
   std::size_t num_to_wait_ = 0;   // instants until it is
   std::vector<GridInstant> waiting_;
+  std::vector<VehicleReading> waiting_readings_;
   StreamGrid grid_;
   std::vector<Channels> channels_;       // by sensor
   std::vector<WhiteLevel> body_levels_;  // of the body's IMU, by stream
   std::optional<Stamp> last_;
   std::uint64_t num_instants_ = 0;
   Sink sink_;
+  ReadingSink readings_;
 };
 
 }  // namespace suspension_health_monitor

@@ -1,26 +1,27 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/vehicle/coupling_survey.h"
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 
 namespace suspension_health_monitor {
 
-/// Watches all struts of a vehicle: samples of all sensors in, one SuspensionMonitor per strut.
+/// Watches all struts of a vehicle, one SuspensionMonitor for each.
 ///
-/// sample -> CouplingSurvey: how the struts move one another
-///        -> Decoupler: every strut on its own -> SuspensionMonitor::addSample of each.
-/// Until the coupling is known there is no monitor: what a strut seems to be is mostly its neighbours then. Once known
-/// it stays; rows that tell less change nothing. Where integration_horizon is left out a strut gets the one that suits
-/// what the coupling knows of it. One strut alone, without known forces, has nothing to be taken off, and is a
-/// SuspensionMonitor.
-/// Cost per sample: O(N^2) and once a second O(N^3); no lock.
+/// reading -> VehicleBlocks: estimates of every strut at its own top, and the rows of all tops
+/// sample -> Decoupler: what the other struts do, by these rows, is taken out -> SuspensionMonitor::addGridSample: LS,
+/// LA, free run and models with effects.
+/// Until the rows are known there is no monitor: what a strut seems to be is mostly its neighbours then. Once known they
+/// stay; rows that say less change nothing. Where integration_horizon is left out a strut gets the one that suits its
+/// row. One strut alone, without known forces, has nothing to be taken off, and is a SuspensionMonitor.
+/// Cost per reading: as VehicleBlocks; per sample O(N^2); no lock.
 class VehicleMonitor {
  public:
   /// @param strut  its place.
@@ -29,37 +30,50 @@ class VehicleMonitor {
   /// @param settings  of each strut, with sample_period given, the same in all.
   /// @param sink  called with the report of every strut after every sample that gave one.
   /// @param num_forces  known forces in every sample.
-  /// @param noise  what that of the sensors makes of the samples, as in VehicleDrive.
   /// @throws std::invalid_argument  as SuspensionMonitor; without a strut, or with more than kMostStruts.
-  VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0,
-                 const SensorNoise& noise = {});
+  VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0);
 
-  /// As more is known of the noise. Allocates.
-  void setNoise(const SensorNoise& noise);
+  /// Takes in one reading of one sensor on its own stamp.
+  /// @param tops  of the vehicle; those of the first reading count.
+  void addReading(const VehicleTops& tops, const VehicleReading& reading);
 
-  /// Takes in the next sample; gaps and clocks that go back begin a new series.
+  /// Takes in the next sample of the grid; gaps and clocks that go back begin a new series.
+  void addGridSample(const VehicleSample& sample);
+
+  /// The readings of all IMUs at the tops and wheels at one instant, then the sample: for sensors that are in step.
   void addSample(const VehicleSample& sample);
-
-  /// The same of a grid, with what this knows of its sensors: noise, by the first sample, and errors of the stamps.
-  void addSample(const VehicleGrid& grid, const VehicleSample& sample);
 
   /// As SuspensionMonitor has them; what is set before there is a monitor waits for it.
   void setEffects(std::size_t strut, const std::vector<ActiveEffect>& effects,
                   const std::optional<LinearStrut>& start = {});
   void setBaseline(std::size_t strut, const Baseline& baseline);
 
-  /// @return nullptr while the coupling is not known.
+  /// Looks what is left of a rigid body in the rows (BodyFit): from then on absolute values carry the model's error. Some
+  /// 10 ms: not for the sample path. A minute of blocks knows no more than the minute before.
+  void fitBody();
+
+  /// The same if enough blocks are new since the last time.
+  void fitBodyIfDue();
+
+  /// @return nullptr while the rows are not known.
   const SuspensionMonitor* strut(std::size_t i) const { return struts_.empty() ? nullptr : &struts_[i]; }
   std::size_t numStruts() const { return starts_.size(); }
 
-  /// @return true once the coupling is known.
+  /// @return true once the rows are known.
   bool isCoupled() const { return !struts_.empty(); }
 
-  /// @return the coupling that the struts are taken apart with; nullptr while it is not known.
-  const CouplingEstimate* coupling() const { return coupling_ ? &*coupling_ : nullptr; }
+  /// @return the rows that the struts are taken apart with; nullptr while they are not known, and of a strut alone.
+  const BodyRows* rows() const { return decoupler_ ? &rows_ : nullptr; }
 
-  /// @return what the rows of late say of the coupling.
-  const CouplingEstimate& estimate() const { return survey_.estimate(); }
+  /// @return what fitBody() found last.
+  const std::optional<BodyFitResult>& body() const { return body_; }
+  const VehicleTops* tops() const { return blocks_ ? &blocks_->tops() : nullptr; }
+
+  /// @return the two struts that are told apart worst; nothing while nothing is known, and of a strut alone.
+  std::optional<StrutPair> mostAlike() const;
+
+  /// @return the estimate over all readings so far, as SuspensionMonitor::overTheDrive(). Not for the sample path.
+  StrutEstimate overTheDrive(std::size_t strut);
 
  private:
   /// What a strut is to be begun with.
@@ -70,23 +84,23 @@ class VehicleMonitor {
     std::optional<Baseline> baseline;
   };
 
-  void startNewSeries();
-  void learnCoupling();
-  void begin(const CouplingEstimate& estimate);
+  void learnRows();
   void beginStruts();
   void takeModels();
+  Eigen::Vector2d modelStddev(const TopEstimate& estimate) const;
 
   Stamp period_;
   Sink sink_;
   std::vector<Start> starts_;  // by strut
-  SensorNoise noise_;          // until there are struts
-  CouplingSurvey survey_;
-  std::optional<CouplingEstimate> coupling_;
+  int num_forces_;
+  std::optional<VehicleBlocks> blocks_;  // from the first reading on
+  BodyRows rows_, newest_rows_;
+  std::optional<BodyFitResult> body_;
   std::optional<Decoupler> decoupler_;
   std::vector<SuspensionMonitor> struts_;
-  EveryN coupling_due_, models_due_;
+  EveryN models_due_;
   bool is_alone_;  // nothing known moves the one strut
-  std::optional<Stamp> last_;
+  std::optional<Stamp> last_, fitted_;
 };
 
 }  // namespace suspension_health_monitor

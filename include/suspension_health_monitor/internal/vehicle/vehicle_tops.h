@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -19,6 +20,14 @@ struct VehicleTops {
   bool looks_for_friction = true;  ///< of every strut; else it has no such column
 
   std::size_t size() const { return tops.size(); }
+  /// @return x, y by strut; empty unless every strut has a position.
+  std::vector<std::array<double, 2>> places() const {
+    std::vector<std::array<double, 2>> result;
+    for (const Top& top : tops)
+      if (top.position) result.push_back({top.position->x(), top.position->y()});
+    if (result.size() < tops.size()) result.clear();
+    return result;
+  }
   bool needsBody() const {
     for (const Top& top : tops)
       if (!top.has_own) return true;

@@ -1,17 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
+#include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/body_level.h"
-#include "suspension_health_monitor/internal/vehicle/coupling_estimate.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
-/// @return why the coupling is not known, to be read after "the drives"; empty if it is.
-std::string reasonOf(const CouplingEstimate& estimate, const std::vector<std::string>& struts);
+/// @param most_alike  the struts that are told apart worst; nothing: nothing is known.
+/// @return why the rows of the struts are not known, to be read after "the drives".
+std::string whyNotCoupled(const std::optional<StrutPair>& most_alike, const std::vector<std::string>& struts);
 
 /// @return why it is not known how the body's mass is spread, in a sentence; empty if it is.
 std::string describe(InertiaDoubt doubt);

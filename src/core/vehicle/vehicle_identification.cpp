@@ -1,0 +1,30 @@
+#include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
+
+#include "suspension_health_monitor/internal/monitor/drive_identification.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+
+namespace suspension_health_monitor {
+
+VehicleCoupling couplingOf(const VehicleMonitor& monitor, const std::vector<std::string>& names,
+                           const std::vector<std::string>& forces) {
+  if (monitor.isCoupled() && monitor.rows() == nullptr) {  // a strut alone
+    VehicleCoupling alone;
+    alone.ratios = {{1.0}};
+    alone.stddevs = {{0.0}};
+    return alone;
+  }
+  return describe(monitor.rows(), monitor.body(), whyNotCoupled(monitor.mostAlike(), names), forces);
+}
+
+VehicleIdentification identified(VehicleMonitor& monitor, const std::vector<std::string>& names,
+                                 const std::vector<std::string>& forces) {
+  monitor.fitBody();
+  VehicleIdentification result{couplingOf(monitor, names, forces), {}};
+  for (std::size_t i = 0; result && i < names.size(); ++i)
+    result.struts.push_back(
+        identified(*monitor.strut(i), monitor.overTheDrive(i), monitor.strut(i)->rejected()));
+  return result;
+}
+
+}  // namespace suspension_health_monitor
