@@ -15,7 +15,7 @@
 namespace suspension_health_monitor {
 
 /// How a vehicle of the battery is measured.
-struct Measured {
+struct Setup {
   double rate = 100.0;        // [Hz]
   double seconds = 120.0;     // [s]; the table of health takes its own
   bool has_body_imu = false;  // one six-axis IMU instead of one at the top of every strut
@@ -45,7 +45,11 @@ struct Driven {
   std::size_t size() const { return vehicle.struts.size(); }
   double period() const { return 1.0 / options.rate; }
 
-  VehicleDrive asMeasured() const { return options.imu ? byBodyImu() : VehicleDrive{byOwnImus()}; }
+  VehicleDrive asMeasured() const {
+    VehicleDrive drive = options.imu ? byBodyImu() : VehicleDrive{byOwnImus()};
+    for (const vehicle_drive::Strut& strut : vehicle.struts) drive.places.push_back({strut.x, strut.y});
+    return drive;
+  }
   VehicleDrive withForce() const { return {byOwnImus(), {{"pull", record.pull}}}; }
 
  private:
@@ -79,7 +83,7 @@ inline VehicleDrive Driven::byBodyImu() const {
   return drive;
 }
 
-inline Driven prepared(const char* kind, unsigned seed, const Measured& how) {
+inline Driven prepared(const char* kind, unsigned seed, const Setup& how) {
   Driven driven{vehicle_drive::made(kind, seed), {}, {}, {}};
   driven.options.seed = seed;
   driven.options.rate = how.rate;

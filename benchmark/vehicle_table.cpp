@@ -40,7 +40,7 @@ struct Course {
   double medianOff() const { return off.empty() ? std::nan("") : std::abs(median(off)); }
 };
 
-void printLinear(const char* kind, unsigned seed, const Measured& how) {
+void printLinear(const char* kind, unsigned seed, const Setup& how) {
   Driven driven = prepared(kind, seed, how);
   drive(driven);
   const std::vector<VehicleDrive> drives{driven.asMeasured()};
@@ -82,7 +82,7 @@ void printLinear(const char* kind, unsigned seed, const Measured& how) {
               100.0 * inside / count, whole, 2 * driven.size(), floor, diagnosis.summary.c_str());
 }
 
-void printTwo(const char* kind, unsigned seed, const Measured& how) {
+void printTwo(const char* kind, unsigned seed, const Setup& how) {
   Driven driven = prepared(kind, seed, how);
   drive(driven);
   const std::size_t first = placeOf(seed, driven.size()), second = (first + 1) % driven.size();
@@ -116,7 +116,7 @@ double forceError(const Driven& driven, std::size_t at, const StrutModel& model)
   return 100.0 * std::sqrt(error / size);
 }
 
-void printEffect(const char* kind, unsigned seed, const Measured& how) {
+void printEffect(const char* kind, unsigned seed, const Setup& how) {
   Driven driven = prepared(kind, seed, how);
   drive(driven);
   const Hidden& law = lawOf(seed);
@@ -139,7 +139,7 @@ double worstError(const Driven& driven, const VehicleIdentification& found) {
 }
 
 // A force behind the rear axle and to one side, with nothing hidden behind it and then one law.
-void printForce(const char* kind, unsigned seed, const Measured& how) {
+void printForce(const char* kind, unsigned seed, const Setup& how) {
   Driven driven = prepared(kind, seed, how);
   const vehicle_drive::Strut &front = driven.vehicle.struts.front(), &rear = driven.vehicle.struts.back();
   driven.options.pull = 0.1 * driven.vehicle.mass;
@@ -162,7 +162,7 @@ void printForce(const char* kind, unsigned seed, const Measured& how) {
               diagnoseVehicle({driven.withForce()}, driven.names).summary.c_str());
 }
 
-void printBar(const char* kind, unsigned seed, const Measured& how) {
+void printBar(const char* kind, unsigned seed, const Setup& how) {
   Driven driven = prepared(kind, seed, how);
   if (driven.size() < 4) return;
   driven.options.anti_roll = 0.4 * driven.vehicle.struts[0].stiffness;
@@ -178,7 +178,7 @@ void printBar(const char* kind, unsigned seed, const Measured& how) {
 }
 
 // How far the ratios are off, over their standard deviations.
-void printCoupling(const char* kind, unsigned seed, const Measured& how) {
+void printCoupling(const char* kind, unsigned seed, const Setup& how) {
   Driven driven = prepared(kind, seed, how);
   drive(driven);
   const VehicleCoupling coupling = separateVehicle({driven.asMeasured()}, driven.names).coupling;
@@ -192,12 +192,12 @@ void printCoupling(const char* kind, unsigned seed, const Measured& how) {
       most = std::max(most, std::abs(off));
       count += 1.0;
     }
-  std::printf("%-6s %3u  %9.4f  %11.2f  %9.1f   %s\n", kind, seed, most, squares / count, coupling.condition,
+  std::printf("%-6s %3u  %9.4f  %11.2f  %9.2f   %s\n", kind, seed, most, squares / count, 100.0 * coupling.model_error,
               coupling.reason.c_str());
 }
 
 // Every strut judged by its own two IMUs: nothing is hidden in any.
-void printAlone(const char* kind, unsigned seed, const Measured& how) {
+void printAlone(const char* kind, unsigned seed, const Setup& how) {
   Driven driven = prepared(kind, seed, how);
   drive(driven);
   const StrutDrives struts = driven.asMeasured().struts;
@@ -215,7 +215,7 @@ struct Said {
   double warn = -1.0, error = -1.0;  // first [s]; below 0: never
 };
 
-void printHealth(const char* kind, unsigned seed, const Measured& how) {
+void printHealth(const char* kind, unsigned seed, const Setup& how) {
   constexpr double kLoss = 300.0;
   Driven driven = prepared(kind, seed, how);
   const std::size_t at = seed % driven.size(), n = driven.size();
@@ -238,13 +238,14 @@ void printHealth(const char* kind, unsigned seed, const Measured& how) {
     if (!report.estimate.valid() || (i == at && now > kLoss)) return;
     its.valid += 1.0;
     const double off = report.estimate.damping_to_mass - driven.vehicle.b1(i);
-    its.inside += std::abs(off) < kInterval * report.estimate.damping_to_mass_stddev ? 1.0 : 0.0;
+    its.inside += std::abs(off) < kInterval * report.estimate.dampingAbsoluteStddev() ? 1.0 : 0.0;
   };
   const VehicleDrive drive = driven.asMeasured();
-  VehicleMonitor monitor(std::vector<MonitorSettings>(n, settings), hear, 0, drive.noise);
+  VehicleMonitor monitor(std::vector<MonitorSettings>(n, settings), hear);
   double known = -1.0;
   for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) {
     monitor.addSample(sampleOf(drive, k));
+    monitor.fitBodyIfDue();
     if (known < 0.0 && monitor.isCoupled()) known = static_cast<double>(k) * driven.period();
   }
   double least_ok = 1.0, inside = 0.0;
@@ -264,12 +265,12 @@ void printHealth(const char* kind, unsigned seed, const Measured& how) {
 struct Table {
   const char* name;
   const char* heading;
-  void (*print)(const char* kind, unsigned seed, const Measured& how);
+  void (*print)(const char* kind, unsigned seed, const Setup& how);
 };
 
 constexpr std::array kTables{
     Table{"linear", "kind  seed  b1 off %  b0 off %  inside  iv inside  rmse/floor  verdict", printLinear},
-    Table{"coupling", "kind  seed  ratio off  mean square  condition", printCoupling},
+    Table{"coupling", "kind  seed  ratio off  mean square  model error %", printCoupling},
     Table{"effect", "kind  seed  hidden                         error %  verdict", printEffect},
     Table{"two", "kind  seed  hidden                        and                            verdict", printTwo},
     Table{"bar", "kind  seed  stiffness off %  verdict", printBar},
@@ -288,7 +289,7 @@ int main(int argc, char** argv) {
   }
   const auto seeds = static_cast<unsigned>(argc > 2 ? std::atoi(argv[2]) : 2);
   const auto first = static_cast<unsigned>(argc > 3 ? std::atoi(argv[3]) : 1);
-  Measured how;
+  Setup how;
   how.has_body_imu = argc > 4 && std::string(argv[4]) == "body";
   if (argc > 5) how.rate = std::atof(argv[5]);
   if (argc > 6) how.seconds = std::atof(argv[6]);

@@ -26,6 +26,7 @@ enum class EstimateDoubt {
   kOldData,              ///< the vehicle has not moved for longer than health/oldest_data
   kDisagrees,            ///< LS or LA is not what the block estimate says
   kFreeRunFails,         ///< the model, driven by the wheel, fits worse than a constant
+  kModelError,           ///< what a vehicle's model lacks moves absolute values by more than kMostRelativeStddev
 };
 
 /// @return a sentence for people.
@@ -85,6 +86,8 @@ struct StrutEstimate {
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
 
   bool valid() const { return doubt == EstimateDoubt::kNone; }
+  /// @return true if changes of b1 and b0 can be told, whatever the absolute values are.
+  bool tellsChanges() const { return valid() || doubt == EstimateDoubt::kModelError; }
   /// Standard deviations of b1 [1/s] and b0 [1/s^2] as absolute values.
   double dampingAbsoluteStddev() const { return std::hypot(damping_to_mass_stddev, damping_model_stddev); }
   double stiffnessAbsoluteStddev() const { return std::hypot(stiffness_to_mass_stddev, stiffness_model_stddev); }

@@ -173,7 +173,7 @@ std::string LiveBaseline::keepLearned(const SuspensionMonitor& monitor) {
 }
 
 void LiveBaseline::save(const SuspensionMonitor* monitor) {
-  if (monitor == nullptr || !monitor->report().estimate.valid()) throw std::runtime_error(kNothingToSave);
+  if (monitor == nullptr || !monitor->report().estimate.tellsChanges()) throw std::runtime_error(kNothingToSave);
   if (path_.empty()) throw std::runtime_error("no file to write to: set the parameter baseline_file");
   const StrutEstimate& estimate = monitor->report().estimate;
   const MonitorOptions& options = monitor->options();

@@ -86,10 +86,10 @@ void HealthAssessment::setBaseline(const Baseline& baseline) {
 }
 
 const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& estimate, bool is_new) {
-  const bool judges = estimate.valid() && is_new;
+  const bool judges = estimate.tellsChanges() && is_new;
   if (judges) take(stamp, estimate);
-  HealthReport now = estimate.valid() ? judged_ : HealthReport();
-  now.estimate_valid = estimate.valid();
+  HealthReport now = estimate.tellsChanges() ? judged_ : HealthReport();
+  now.estimate_valid = estimate.tellsChanges();
   now.doubt = estimate.doubt;
   now.sensor = sensor_;
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
@@ -99,18 +99,18 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
     now.learning = learner_->progress();
     now.learning_restarted = learner_->restarts() > 0;
   }
-  if (!estimate.valid())
+  if (!estimate.tellsChanges())
     now.level = HealthLevel::kStale;
   else if (sensor_.fault != SensorFault::kNone)
     now.level = HealthLevel::kWarn;
   // The same estimate twice is no confirmation of itself, unless it needs none.
-  const bool is_judgement = estimate.valid() && sensor_.fault == SensorFault::kNone;
+  const bool is_judgement = estimate.tellsChanges() && sensor_.fault == SensorFault::kNone;
   const bool is_decisive = std::max(judged_.damping_significance * (judged_.damping_level > HealthLevel::kOk),
                                     judged_.stiffness_significance * (judged_.stiffness_level > HealthLevel::kOk)) >
                            kDecisive * options_.min_significance;
   if (judges || !is_judgement || is_decisive || stamp < report_stamp_) level_ = confirmation_.update(stamp, now.level);
   report_stamp_ = stamp;
-  if (estimate.valid() || level_ == HealthLevel::kStale) report_ = now;  // else the last judgement stands
+  if (estimate.tellsChanges() || level_ == HealthLevel::kStale) report_ = now;  // else the last judgement stands
   report_.level = level_;
   return report_;
 }

@@ -70,11 +70,11 @@ void SensorCheck::add(const CornerSample& sample) {
 }
 
 const SensorReport& SensorCheck::judge(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells) {
-  const SensorFault found = find(la, la_tells && !estimate.valid());
+  const SensorFault found = find(la, la_tells && !estimate.tellsChanges());
   if (found != pending_) pending_since_ = samples_;
   pending_ = found;
   const bool stuck = found == SensorFault::kSprungStuck || found == SensorFault::kUnsprungStuck;
-  if (isOfMotion(report_.fault) && estimate.valid()) report_.fault = SensorFault::kNone;
+  if (isOfMotion(report_.fault) && estimate.tellsChanges()) report_.fault = SensorFault::kNone;
   if (stuck || samples_ - pending_since_ >= memory_) {
     report_.fault = found;
     report_.mean = {readings_[0].mean(), readings_[1].mean()};

@@ -11,8 +11,6 @@
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
-namespace {
-
 IdentifiedStrut toIdentified(const StrutEstimate& estimate) {
   IdentifiedStrut strut{estimate.damping_to_mass,
                         estimate.stiffness_to_mass,
@@ -26,8 +24,6 @@ IdentifiedStrut toIdentified(const StrutEstimate& estimate) {
   if (!strut.valid) strut.reason = describe(estimate.doubt);
   return strut;
 }
-
-}  // namespace
 
 std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
   if (monitor.input().period_fits) return std::nullopt;

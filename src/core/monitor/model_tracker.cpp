@@ -26,7 +26,7 @@ std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const
 
 // The free run follows estimates that are worth something, though it may fail by them for now.
 bool isModel(const StrutEstimate& estimate) {
-  return estimate.valid() || estimate.doubt == EstimateDoubt::kFreeRunFails ||
+  return estimate.tellsChanges() || estimate.doubt == EstimateDoubt::kFreeRunFails ||
          estimate.doubt == EstimateDoubt::kOldData;
 }
 
@@ -70,9 +70,11 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
 
 EstimateFacts blockFacts(const StrutEstimate& estimate) {
   EstimateFacts facts;
-  facts.damping_stddev =
-      estimate.dampingAbsoluteStddev() / leastDamping(estimate.damping_to_mass, estimate.stiffness_to_mass);
-  facts.stiffness_stddev = estimate.stiffnessAbsoluteStddev() / estimate.stiffness_to_mass;
+  const double damping = leastDamping(estimate.damping_to_mass, estimate.stiffness_to_mass);
+  facts.damping_stddev = estimate.damping_to_mass_stddev / damping;
+  facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
+  facts.absolute_stddev = std::max(estimate.dampingAbsoluteStddev() / damping,
+                                   estimate.stiffnessAbsoluteStddev() / estimate.stiffness_to_mass);
   facts.explained = estimate.explained;
   return facts;
 }
@@ -170,7 +172,8 @@ void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
   EstimateFacts facts = blockFacts(estimate);
   facts.has_row = newest_ || (blocks_ && blocks_->estimator().hasBlocks());
   if (newest_) {
-    estimate.age = facts.age = newest_->age + toSeconds(now_ - newest_->stamp);
+    // Samples of a vehicle's strut are late, and may be older than its blocks.
+    estimate.age = facts.age = newest_->age + std::max(0.0, toSeconds(now_ - newest_->stamp));
     facts.oldest = oldest_data_;
   }
   estimate.doubt = doubtOf(facts);

@@ -115,7 +115,7 @@ void SuspensionMonitor::judgeSensors() {
   const bool la_tells =
       !tracker().holds() && report_.la.effective_rows >= options_.fewestRows(kHorizonsOfSensorCheck, period());
   health_.setSensors(sensors_.judge(report_.estimate, report_.la, la_tells));
-  if (report_.estimate.valid()) health_.watch(report_.ls);
+  if (report_.estimate.tellsChanges()) health_.watch(report_.ls);
   report_.health = health_.update(report_.stamp, report_.estimate, std::exchange(has_new_estimate_, false));
 }
 

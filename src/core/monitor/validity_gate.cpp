@@ -41,6 +41,8 @@ constexpr std::array kRules{
     Rule{EstimateDoubt::kDisagrees, [](const EstimateFacts& f) { return !f.agrees; }},
     // However small the rows' residuals: parameters whose free run is worse than a constant are not the strut's.
     Rule{EstimateDoubt::kFreeRunFails, [](const EstimateFacts& f) { return f.free_run_fails; }},
+    // Last: all else may be said of the strut.
+    Rule{EstimateDoubt::kModelError, [](const EstimateFacts& f) { return !isKnown(f.absolute_stddev); }},
 };
 
 }  // namespace

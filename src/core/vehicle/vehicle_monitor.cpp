@@ -130,7 +130,7 @@ void VehicleMonitor::learnRows() {
 void VehicleMonitor::takeModels() {
   for (std::size_t i = 0; i < struts_.size(); ++i) {
     const StrutEstimate& now = struts_[i].report().estimate;
-    if (!now.valid()) continue;
+    if (!now.tellsChanges()) continue;
     const double friction = now.friction ? now.friction->force * now.friction->damping_gain : 0.0;
     decoupler_->setModel(i, {now.damping_to_mass + friction, now.stiffness_to_mass, struts_[i].effects(), {}});
   }

@@ -25,7 +25,7 @@ struct EstimateFacts {
   bool has_row = false;           ///< the newest sample gave a regression row; the blocks gave an estimate
   double rows = 0.0;              ///< that the estimate rests on, of the model's present columns
   double fewest_rows = 0.0;       ///< that it needs
-  double damping_stddev = 0.0;    ///< relative [-]
+  double damping_stddev = 0.0;    ///< relative, without the model's error [-]
   double stiffness_stddev = 0.0;  ///< likewise
   double explained = 1.0;         ///< share of the output's size
   bool is_physical = true;        ///< all parameters that have to be above 0 are
@@ -33,6 +33,7 @@ struct EstimateFacts {
   double oldest = std::numeric_limits<double>::infinity();  ///< that may still count [s]
   bool agrees = true;                                       ///< with the block estimate, as agree() says
   bool free_run_fails = false;  ///< the free run fits the body's motion worse than a constant does
+  double absolute_stddev = 0.0;  ///< relative, the larger one of b1 and b0, with the model's error [-]
 };
 
 /// The one place that decides whether an estimate may be trusted.
