@@ -83,6 +83,8 @@ void bindCondition(py::module& module) {
       .def_readonly("stiffness_to_mass", &Baseline::stiffness_to_mass, "b0 [1/s^2], or None")
       .def_readonly("damping_to_mass_stddev", &Baseline::damping_to_mass_stddev, "[1/s]; 0 of a given value")
       .def_readonly("stiffness_to_mass_stddev", &Baseline::stiffness_to_mass_stddev, "[1/s^2]")
+      .def_readonly("damping_scatter", &Baseline::damping_scatter, "of healthy windows beyond that [1/s]")
+      .def_readonly("stiffness_scatter", &Baseline::stiffness_scatter, "[1/s^2]")
       .def_readonly("friction", &Baseline::friction, "when it was learned, or None: not known")
       .def_readonly("learned", &Baseline::learned, "from a drive")
       .def_property_readonly(
@@ -92,7 +94,8 @@ void bindCondition(py::module& module) {
       .def(py::pickle(
           [](const Baseline& self) {
             return py::make_tuple(self.damping_to_mass, self.stiffness_to_mass, self.damping_to_mass_stddev,
-                                  self.stiffness_to_mass_stddev, toNumbers(self.friction), self.learned,
+                                  self.stiffness_to_mass_stddev, self.damping_scatter, self.stiffness_scatter,
+                                  toNumbers(self.friction), self.learned,
                                   self.from.count(), self.to.count());
           },
           [](const py::tuple& state) {
@@ -100,10 +103,12 @@ void bindCondition(py::module& module) {
                             state[1].cast<std::optional<double>>(),
                             state[2].cast<double>(),
                             state[3].cast<double>(),
-                            toFriction(state[4].cast<std::optional<Numbers>>()),
-                            state[5].cast<bool>(),
-                            Stamp(state[6].cast<Stamp::rep>()),
-                            Stamp(state[7].cast<Stamp::rep>())};
+                            state[4].cast<double>(),
+                            state[5].cast<double>(),
+                            toFriction(state[6].cast<std::optional<Numbers>>()),
+                            state[7].cast<bool>(),
+                            Stamp(state[8].cast<Stamp::rep>()),
+                            Stamp(state[9].cast<Stamp::rep>())};
           }));
   py::class_<HealthReport>(module, "HealthReport", "What is known of the strut's condition.")
       .def_property_readonly(

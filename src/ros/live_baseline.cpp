@@ -19,6 +19,7 @@ namespace {
 struct BaselineSettings {
   std::optional<double> damping_to_mass, stiffness_to_mass;
   std::optional<double> damping_to_mass_stddev, stiffness_to_mass_stddev;
+  std::optional<double> damping_scatter, stiffness_scatter;
   std::optional<double> dry_friction, dry_friction_stddev, friction_damping_gain, friction_damping_covariance;
   std::optional<double> friction_stiffness_gain;  // of files up to 1a5605d
   std::optional<double> integration_horizon, sample_period;
@@ -34,6 +35,9 @@ constexpr std::array kBaselineFields{
                   1e12},
     BaselineField{"stiffness_to_mass_stddev", "1/s^2", "its standard deviation",
                   &BaselineSettings::stiffness_to_mass_stddev, 0.0, 1e12},
+    BaselineField{"damping_scatter", "1/s", "of healthy windows, beyond their standard deviations",
+                  &BaselineSettings::damping_scatter, 0.0, 1e9},
+    BaselineField{"stiffness_scatter", "1/s^2", "likewise, of b0", &BaselineSettings::stiffness_scatter, 0.0, 1e12},
     BaselineField{"dry_friction", "m/s^2", "that the strut had besides, over the body's mass; left out: not known",
                   &BaselineSettings::dry_friction, -1e6, 1e6},
     BaselineField{"dry_friction_stddev", "m/s^2", "its standard deviation", &BaselineSettings::dry_friction_stddev, 0.0,
@@ -83,6 +87,8 @@ Baseline toBaseline(const BaselineSettings& settings) {
   baseline.stiffness_to_mass_stddev = settings.stiffness_to_mass_stddev.value_or(0.0);
   checkStddev(baseline.damping_to_mass_stddev, *baseline.damping_to_mass, "damping_to_mass");
   checkStddev(baseline.stiffness_to_mass_stddev, *baseline.stiffness_to_mass, "stiffness_to_mass");
+  baseline.damping_scatter = settings.damping_scatter.value_or(0.0);
+  baseline.stiffness_scatter = settings.stiffness_scatter.value_or(0.0);
   if (settings.dry_friction)
     baseline.friction = DryFriction{*settings.dry_friction, needed(settings.dry_friction_stddev, "dry_friction_stddev"),
                                     needed(settings.friction_damping_gain, "friction_damping_gain"),
@@ -108,6 +114,8 @@ void checkCertain(const char* name, double value, double stddev, double error, d
 std::string toYaml(const Baseline& baseline, double horizon, double sample_period) {
   BaselineSettings settings;
   settings.damping_to_mass = baseline.damping_to_mass;
+  if (baseline.damping_scatter > 0.0) settings.damping_scatter = baseline.damping_scatter;
+  if (baseline.stiffness_scatter > 0.0) settings.stiffness_scatter = baseline.stiffness_scatter;
   settings.stiffness_to_mass = baseline.stiffness_to_mass;
   settings.damping_to_mass_stddev = baseline.damping_to_mass_stddev;
   settings.stiffness_to_mass_stddev = baseline.stiffness_to_mass_stddev;

@@ -1,4 +1,4 @@
-"""Bags with the ParameterEstimate of former versions are migrated by rosbag's own tool."""
+"""Bags with messages of former versions are migrated by rosbag's own tool."""
 import math
 import re
 from pathlib import Path
@@ -8,48 +8,52 @@ import pytest
 import rosbag
 import rosbag.migration
 import rospy
-from suspension_health_monitor.msg import ParameterEstimate
+from suspension_health_monitor.msg import CouplingInUse, ParameterEstimate
 
-RULES = Path(__file__).parents[2] / "migration" / "ParameterEstimate.bmr"
-TYPE = "suspension_health_monitor/ParameterEstimate"
+RULES = Path(__file__).parents[2] / "migration"
+ESTIMATE = {"estimator": "la", "damping_to_mass": 3.0, "stiffness_to_mass": 13.8, "effect_names": ["hysteresis"],
+            "effect_coefficients": [0.5], "effect_stddevs": [0.1], "valid": True}
+COUPLING = {"known": True, "names": ["front", "rear"], "ratios": [1.0, -0.2, -0.3, 1.0], "stddevs": [0.0, 0.1, 0.1, 0.0],
+            "condition": 1.2, "mass_to_pitch_inertia": 0.7, "centre_of_gravity": [0.1, 0.0]}
 
 
-def text_of(name):
-    return re.search(name + r' = """\n(.*?)"""', RULES.read_text(), re.DOTALL).group(1)
+def text_of(message, name):
+    rule = (RULES / f"{message.__name__}.bmr").read_text()
+    return re.search(name + r' = """\n(.*?)"""', rule, re.DOTALL).group(1)
 
 
-@pytest.fixture
-def former_bag(tmp_path):
+def former_bag(folder, message, fields):
     """A bag as a node of the former version recorded it."""
-    former = genpy.dynamic.generate_dynamic(TYPE, text_of("old_full_text"))[TYPE]
-    message = former()
-    message.header.stamp = rospy.Time(12, 500)
-    message.estimator = "la"
-    message.damping_to_mass, message.stiffness_to_mass = 3.0, 13.8
-    message.effect_names, message.effect_coefficients, message.effect_stddevs = ["hysteresis"], [0.5], [0.1]
-    message.valid = True
-    path = tmp_path / "former.bag"
+    former = genpy.dynamic.generate_dynamic(message._type, text_of(message, "old_full_text"))[message._type]()
+    former.header.stamp = rospy.Time(12, 500)
+    for name, value in fields.items():
+        setattr(former, name, value)
+    path = folder / "former.bag"
     with rosbag.Bag(str(path), "w") as bag:
-        bag.write("/monitor/la", message, rospy.Time(12))
+        bag.write("/topic", former, rospy.Time(12))
     return path
 
 
-def test_the_rule_ends_in_the_message_as_it_is():
-    now = genpy.dynamic.generate_dynamic(TYPE, text_of("new_full_text"))[TYPE]
-    assert now._md5sum == ParameterEstimate._md5sum
+@pytest.mark.parametrize("message", [ParameterEstimate, CouplingInUse])
+def test_the_rule_ends_in_the_message_as_it_is(message):
+    now = genpy.dynamic.generate_dynamic(message._type, text_of(message, "new_full_text"))[message._type]
+    assert now._md5sum == message._md5sum
 
 
-def test_a_former_bag_is_migrated_and_keeps_its_numbers(former_bag, tmp_path):
-    migrator = rosbag.migration.MessageMigrator([str(RULES)], plugins=False)
+@pytest.mark.parametrize("message, fields, unknown", [(ParameterEstimate, ESTIMATE, ["explained", "age"]),
+                                                      (CouplingInUse, COUPLING, ["model_error"])])
+def test_a_former_bag_is_migrated_and_keeps_its_numbers(message, fields, unknown, tmp_path):
+    former = former_bag(tmp_path, message, fields)
+    migrator = rosbag.migration.MessageMigrator([str(RULES / f"{message.__name__}.bmr")], plugins=False)
     migrated = tmp_path / "migrated.bag"
-    (_, unresolved), = rosbag.migration.checkbag(migrator, str(former_bag))
+    (_, unresolved), = rosbag.migration.checkbag(migrator, str(former))
     assert not unresolved
-    assert rosbag.migration.fixbag(migrator, str(former_bag), str(migrated))
+    assert rosbag.migration.fixbag(migrator, str(former), str(migrated))
     with rosbag.Bag(str(migrated)) as bag:
-        (_, message, _), = bag.read_messages()
-    assert message._md5sum == ParameterEstimate._md5sum
-    assert message.header.stamp == rospy.Time(12, 500)
-    assert (message.estimator, message.damping_to_mass, message.stiffness_to_mass) == ("la", 3.0, 13.8)
-    assert (message.effect_names, list(message.effect_coefficients)) == (["hysteresis"], [0.5])
-    assert message.valid and message.reason == ""
-    assert math.isnan(message.explained) and math.isnan(message.age)
+        (_, found, _), = bag.read_messages()
+    assert found._md5sum == message._md5sum
+    assert found.header.stamp == rospy.Time(12, 500)
+    for name, value in fields.items():
+        read = getattr(found, name)
+        assert (list(read) if isinstance(value, list) else read) == value, name
+    assert all(math.isnan(getattr(found, name)) for name in unknown)

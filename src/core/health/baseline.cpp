@@ -19,6 +19,14 @@ ValueAndVariance dampingAt(double m, double b1, double stddev, const DryFriction
           std::max(0.0, variance + 2.0 * m * friction.damping_covariance + square(m * friction.stddev))};
 }
 
+// By how much estimates scatter beyond their own standard deviations, if that is no chance: of n windows a variance is
+// known to sqrt(2 / n) of itself.
+double scatterBeyond(double variance, double stddev, double windows) {
+  constexpr double kCertain = 2.0;  // standard deviations
+  const double expected = square(stddev);
+  return variance > expected * (1.0 + kCertain * std::sqrt(2.0 / windows)) ? std::sqrt(variance - expected) : 0.0;
+}
+
 std::optional<LogChange> logChange(const ValueAndVariance& now, const ValueAndVariance& healthy) {
   if (!(now.value > 0.0 && healthy.value > 0.0)) return std::nullopt;
   return LogChange{std::log(now.value / healthy.value),
@@ -32,6 +40,8 @@ Baseline baselineOf(const StrutEstimate& estimate, Stamp stamp) {
           estimate.stiffness_to_mass,
           estimate.damping_to_mass_stddev,
           estimate.stiffness_to_mass_stddev,
+          0.0,
+          0.0,
           estimate.friction,
           true,
           stamp,
@@ -42,10 +52,11 @@ ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& esti
   ChangeFromBaseline result;
   // The model's error is the same at all times, but nominal values know nothing of it.
   StrutEstimate now = estimate;
-  if (!healthy.learned) {
-    now.damping_to_mass_stddev = estimate.dampingAbsoluteStddev();
-    now.stiffness_to_mass_stddev = estimate.stiffnessAbsoluteStddev();
-  }
+  now.damping_to_mass_stddev = std::hypot(
+      healthy.learned ? estimate.damping_to_mass_stddev : estimate.dampingAbsoluteStddev(), healthy.damping_scatter);
+  now.stiffness_to_mass_stddev =
+      std::hypot(healthy.learned ? estimate.stiffness_to_mass_stddev : estimate.stiffnessAbsoluteStddev(),
+                 healthy.stiffness_scatter);
   MeasuredChange& change = result.change;
   if (healthy.stiffness_to_mass)
     change.stiffness = logChange({now.stiffness_to_mass, square(now.stiffness_to_mass_stddev)},
@@ -76,10 +87,15 @@ void BaselineLearner::Half::add(const StrutEstimate& estimate, double new_second
   seconds += new_seconds;
   const double gain = new_seconds / seconds;
   const auto mix = [gain](double& of, double value) { of += gain * (value - of); };
+  const auto spread = [gain](double& variance, double mean_of, double value) {
+    variance = (1.0 - gain) * (variance + gain * square(value - mean_of));
+  };
   const auto mixStddev = [gain](double& of, double value) {
     of = std::sqrt(square(of) + gain * (square(value) - square(of)));
   };
   if (mean.isEmpty()) mean = baselineOf(estimate, {});
+  spread(damping_variance, *mean.damping_to_mass, estimate.damping_to_mass);
+  spread(stiffness_variance, *mean.stiffness_to_mass, estimate.stiffness_to_mass);
   mix(*mean.damping_to_mass, estimate.damping_to_mass);
   mix(*mean.stiffness_to_mass, estimate.stiffness_to_mass);
   mixStddev(mean.damping_to_mass_stddev, estimate.damping_to_mass_stddev);
@@ -109,6 +125,14 @@ std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& e
   return learned;
 }
 
+double BaselineLearner::Half::dampingScatter() const {
+  return scatterBeyond(damping_variance, mean.damping_to_mass_stddev, seconds / window);
+}
+
+double BaselineLearner::Half::stiffnessScatter() const {
+  return scatterBeyond(stiffness_variance, mean.stiffness_to_mass_stddev, seconds / window);
+}
+
 bool BaselineLearner::drifts() const {
   const auto& [a, b] = halves_;
   const auto apart = [&](double first, double first_stddev, double second, double second_stddev) {
@@ -122,9 +146,10 @@ bool BaselineLearner::drifts() const {
   const auto damping = [&](const Baseline& mean) {
     return *mean.damping_to_mass + (mean.friction ? mean.friction->force * gain : 0.0);
   };
-  return apart(damping(a.mean), a.mean.damping_to_mass_stddev, damping(b.mean), b.mean.damping_to_mass_stddev) ||
-         apart(*a.mean.stiffness_to_mass, a.mean.stiffness_to_mass_stddev, *b.mean.stiffness_to_mass,
-               b.mean.stiffness_to_mass_stddev);
+  return apart(damping(a.mean), std::hypot(a.mean.damping_to_mass_stddev, a.dampingScatter()), damping(b.mean),
+               std::hypot(b.mean.damping_to_mass_stddev, b.dampingScatter())) ||
+         apart(*a.mean.stiffness_to_mass, std::hypot(a.mean.stiffness_to_mass_stddev, a.stiffnessScatter()),
+               *b.mean.stiffness_to_mass, std::hypot(b.mean.stiffness_to_mass_stddev, b.stiffnessScatter()));
 }
 
 Baseline BaselineLearner::result(Stamp to) const {
@@ -132,14 +157,17 @@ Baseline BaselineLearner::result(Stamp to) const {
   const auto middle = [](double first, double second) { return (first + second) / 2.0; };
   // Overlapping windows share readings; what friction's law leaves unknown no time removes.
   const double share = std::sqrt(std::min(1.0, middle(a.window, b.window) / seconds_));
-  const auto stddev = [&](double first, double second) {
-    return share * std::sqrt(middle(square(first), square(second)));
-  };
+  const auto rms = [&](double first, double second) { return std::sqrt(middle(square(first), square(second))); };
+  const auto stddev = [&](double first, double second) { return share * rms(first, second); };
   Baseline baseline;
   baseline.damping_to_mass = middle(*a.mean.damping_to_mass, *b.mean.damping_to_mass);
   baseline.stiffness_to_mass = middle(*a.mean.stiffness_to_mass, *b.mean.stiffness_to_mass);
-  baseline.damping_to_mass_stddev = stddev(a.mean.damping_to_mass_stddev, b.mean.damping_to_mass_stddev);
-  baseline.stiffness_to_mass_stddev = stddev(a.mean.stiffness_to_mass_stddev, b.mean.stiffness_to_mass_stddev);
+  const double damping = rms(a.mean.damping_to_mass_stddev, b.mean.damping_to_mass_stddev);
+  const double stiffness = rms(a.mean.stiffness_to_mass_stddev, b.mean.stiffness_to_mass_stddev);
+  baseline.damping_scatter = rms(a.dampingScatter(), b.dampingScatter());
+  baseline.stiffness_scatter = rms(a.stiffnessScatter(), b.stiffnessScatter());
+  baseline.damping_to_mass_stddev = share * std::hypot(damping, baseline.damping_scatter);
+  baseline.stiffness_to_mass_stddev = share * std::hypot(stiffness, baseline.stiffness_scatter);
   if (a.mean.friction && b.mean.friction)
     baseline.friction =
         DryFriction{middle(a.mean.friction->force, b.mean.friction->force),

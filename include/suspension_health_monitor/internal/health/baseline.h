@@ -28,7 +28,8 @@ ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now)
 /// A strut that changes while it is learned is not taken as healthy: if the means of the two halves differ by more than
 /// kDrift standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another
 /// drive, perhaps of another vehicle. Estimates whose windows overlap share their errors: those of a mean over t
-/// seconds have window / t of the variance of one. Cost per estimate: O(1), no allocation.
+/// seconds have window / t of the variance of one. Where they scatter more than that, for certain, the rest is part of
+/// the baseline. Cost per estimate: O(1), no allocation.
 class BaselineLearner {
  public:
   /// @param seconds  to learn from, > 0.
@@ -46,7 +47,10 @@ class BaselineLearner {
     double seconds = 0.0;
     Baseline mean;        // standard deviations: those of one estimate, as root mean squares
     double window = 0.0;  // mean span of an estimate's window [s]
+    double damping_variance = 0.0, stiffness_variance = 0.0;  // of the estimates
     void add(const StrutEstimate& estimate, double seconds);
+    double dampingScatter() const;    // beyond the standard deviations [1/s]
+    double stiffnessScatter() const;  // likewise [1/s^2]
   };
 
   static constexpr double kDrift = 3.0;

@@ -15,7 +15,7 @@ namespace suspension_health_monitor {
 /// What the rows of all tops say: how much the travel rate and the travel of every strut, and every known force, moves
 /// every top, and how sure that is.
 struct BodyRows {
-  Eigen::MatrixXd rate, travel;  ///< b1_ij [1/s], with what friction acts as; b0_ij [1/s^2]; tops by struts
+  Eigen::MatrixXd rate, travel;             ///< b1_ij [1/s], with what friction acts as; b0_ij [1/s^2]; tops by struts
   Eigen::MatrixXd force, force_stddev;      ///< c_ik [m/s^2 per unit of the force], tops by known forces
   std::vector<Eigen::MatrixXd> covariance;  ///< by top that of its rates, then its travels
   bool is_by_body = false;  ///< one IMU of the body tells of all tops: no more rows are independent than it has motions
@@ -74,7 +74,8 @@ struct BodyFitResult {
   Measured x{}, y{};                                         ///< of the centre of gravity [m]
 };
 
-/// Minimum-distance fit of a rigid body on linear struts and anti-roll bars to the rows of its tops:
+/// Minimum-distance fit of a rigid body on linear struts and anti-roll bars to the rows of its tops, (B23) in
+/// doc/equations.md:
 ///     B1 = Q S Q' (diag(c) + sum of c_p L_p),  B0 = Q S Q' (diag(k) + sum of k_p L_p),
 /// where row i of Q is (1, x_i, y_i), S (symmetric, S_11 = 1) is what the body's mass and inertia make of a force, c
 /// and k are over its mass, and L_p is the difference that a bar resists. Rows have noise, and a model error of phi
@@ -113,7 +114,7 @@ class BodyFit {
   Eigen::VectorXd inertia(const Eigen::MatrixXd& s) const;
   BodyFitResult describe(const Solution& solution, BodyFitResult::Bars bars) const;
 
-  Eigen::MatrixXd q_;  // struts by motions, scaled
+  Eigen::MatrixXd q_;                                                                   // struts by motions, scaled
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero(), scale_ = Eigen::Vector2d::Ones();  // of x, y
   bool sees_pitch_ = false, sees_roll_ = false;
   std::vector<StrutPair> pairs_;

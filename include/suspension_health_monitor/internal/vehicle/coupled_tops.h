@@ -20,7 +20,8 @@ struct TopRows {
 /// travel's is the next.
 inline int neighbourColumn(std::size_t i, std::size_t j) { return 2 * static_cast<int>(j < i ? j : j - 1); }
 
-/// What the model of all rows makes of the wheels alone, in the bins of one block: with Q(s) = b1 s + b0 (matrices)
+/// What the model of all rows makes of the wheels alone, in the bins of one block, (B22) in doc/equations.md: with Q(s)
+/// = b1 s + b0 (matrices)
 ///     Z = (s^2 I + Q)^-1 (Q X + s^2 c F).
 /// These motions are free of the noise of all body sensors: instruments. Source: R. Pintelon, J. Schoukens, System
 /// Identification: A Frequency Domain Approach, 2012, ch. 9 (instrumental variables by a model's output).

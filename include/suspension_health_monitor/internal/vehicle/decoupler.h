@@ -18,16 +18,15 @@ namespace suspension_health_monitor {
 ///   S_i = z_i'' - n_i,   W_i = w_i'' - n_i,
 ///   n_i = sum_{j != i} (b1_ij / b1_jj F1_j + b0_ij / b0_jj F0_j + rho_ij L_j) + sum_k c_ik x_k,
 /// with F1 = b1 v, F0 = b0 d and L, what its effects add, by the model of strut j, and ratios from the rows of all tops
-/// (BodyRows). W_i - S_i stays w_i'' - z_i'', and S_i is a quarter car's with the strut's own b1 and b0, its share of an
-/// anti-roll bar among them.
+/// (BodyRows). W_i - S_i stays w_i'' - z_i'', and S_i is a quarter car's with the strut's own b1 and b0, its share of
+/// an anti-roll bar among them.
 ///
-/// The models see the travel of their struts by a TravelObserver, and with it everything is late by delay(). Travel that
-/// is slower than it observes is not seen, nor the slow part E of n_i. A strut passes it nearly as it is, S = G W with G
-/// near 1: what remains, (1 - G) E = G E'' / (b1 s + b0), is that of a wheel which moves by E'' / b0, and E'' needs no
-/// travel, only the slow part of w_j'' - z_j''.
-/// The travel observed has no mean; that of a strut has the one at which its force has none, as in a free run.
-/// Behind a low-pass filter a neighbour's travel is observed with what its wheel did before it, and what its model says
-/// passes it: the law of a filtered travel is not the filtered law.
+/// The models see the travel of their struts by a TravelObserver, and with it everything is late by delay(). Travel
+/// that is slower than it observes is not seen, nor the slow part E of n_i. A strut passes it nearly as it is, S = G W
+/// with G near 1: what remains, (1 - G) E = G E'' / (b1 s + b0), is that of a wheel which moves by E'' / b0, and E''
+/// needs no travel, only the slow part of w_j'' - z_j''. The travel observed has no mean; that of a strut has the one
+/// at which its force has none, as in a free run. Behind a low-pass filter a neighbour's travel is observed with what
+/// its wheel did before it, and what its model says passes it: the law of a filtered travel is not the filtered law.
 /// Cost per sample: O(N^2 + N taps), no allocation.
 class Decoupler {
  public:

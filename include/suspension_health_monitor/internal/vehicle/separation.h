@@ -26,8 +26,8 @@ VehicleCoupling describe(const BodyRows* rows, const std::optional<BodyFitResult
 std::vector<std::string> forceNames(const VehicleDrive& drive);
 
 /// @return T [s]: as given, or the median spacing of the samples.
-/// @throws std::invalid_argument  if there is no drive, or drives have other struts or known forces than one another; if
-/// the struts of one have not the same stamps or filter, or a force not a value for each.
+/// @throws std::invalid_argument  if there is no drive, or drives have other struts or known forces than one another;
+/// if the struts of one have not the same stamps or filter, or a force not a value for each.
 double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                 const std::optional<double>& given);
 

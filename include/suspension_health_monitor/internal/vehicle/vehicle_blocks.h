@@ -39,7 +39,7 @@ enum class TopDoubt {
 
 /// From the readings of all sensors of a vehicle, each on its own stamps, to estimates of every strut after every half
 /// block: VehicleSpectra -> StrutBlock -> BlockEstimator, one per strut top. The rows of a top hold the travel and
-/// travel rate of all struts, since all move it through the body:
+/// travel rate of all struts, since all move it through the body, (B20) in doc/equations.md:
 ///     z_i'' = sum_j a_ij F_j,  a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx.
 /// Instruments are what the model of all rows makes of the wheels (CoupledTops). A neighbour's columns are slow, but in
 /// proportion to its own: b_ij / b_jj = a_ij / a_jj belongs to the body, whatever wears.

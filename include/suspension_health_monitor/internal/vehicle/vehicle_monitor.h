@@ -18,10 +18,10 @@ namespace suspension_health_monitor {
 /// reading -> VehicleBlocks: estimates of every strut at its own top, and the rows of all tops
 /// sample -> Decoupler: what the other struts do, by these rows, is taken out -> SuspensionMonitor::addGridSample: LS,
 /// LA, free run and models with effects.
-/// Until the rows are known there is no monitor: what a strut seems to be is mostly its neighbours then. Once known they
-/// stay; rows that say less change nothing. Where integration_horizon is left out a strut gets the one that suits its
-/// row. One strut alone, without known forces, has nothing to be taken off, and is a SuspensionMonitor.
-/// Cost per reading: as VehicleBlocks; per sample O(N^2); no lock.
+/// Until the rows are known there is no monitor: what a strut seems to be is mostly its neighbours then. Once known
+/// they stay; rows that say less change nothing. Where integration_horizon is left out a strut gets the one that suits
+/// its row. One strut alone, without known forces, has nothing to be taken off, and is a SuspensionMonitor. Cost per
+/// reading: as VehicleBlocks; per sample O(N^2); no lock.
 class VehicleMonitor {
  public:
   /// @param strut  its place.
@@ -48,8 +48,8 @@ class VehicleMonitor {
                   const std::optional<LinearStrut>& start = {});
   void setBaseline(std::size_t strut, const Baseline& baseline);
 
-  /// Looks what is left of a rigid body in the rows (BodyFit): from then on absolute values carry the model's error. Some
-  /// 10 ms: not for the sample path. A minute of blocks knows no more than the minute before.
+  /// Looks what is left of a rigid body in the rows (BodyFit): from then on absolute values carry the model's error.
+  /// Some 10 ms: not for the sample path. A minute of blocks knows no more than the minute before.
   void fitBody();
 
   /// The same if enough blocks are new since the last time.

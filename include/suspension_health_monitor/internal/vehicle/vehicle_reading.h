@@ -14,8 +14,8 @@ struct VehicleReading {
   Sensor sensor;
   std::size_t place;  ///< of the strut, or of the known force; of the body's IMU 0
   Stamp stamp;
-  /// Acceleration along the strut [m/s^2]; a known force; of the body's IMU the acceleration along x, y, z [m/s^2], then
-  /// the angular rate about them [rad/s].
+  /// Acceleration along the strut [m/s^2]; a known force; of the body's IMU the acceleration along x, y, z [m/s^2],
+  /// then the angular rate about them [rad/s].
   std::array<double, 6> values;
 };
 

@@ -14,7 +14,7 @@ namespace suspension_health_monitor {
 
 /// The Fourier integrals of all streams of a vehicle, each on its own stamps, and what they make of a block.
 ///
-/// Where the body's IMU tells what a strut's top at r does,
+/// Where the body's IMU tells what a strut's top at r does, (B21) in doc/equations.md,
 ///     z'' = a_z + alpha_x r_y - alpha_y r_x + w_z (w_x r_x + w_y r_y) - (w_x^2 + w_y^2) r_z,  alpha = w',
 /// the derivative of the rate w moves onto the modulating function: H_p(alpha) = H_(p+1)(w). The products are channels
 /// of their own. Nothing is differentiated.
