@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <boost/program_options.hpp>
-#include <stdexcept>
 
 #include "../tools/command.h"
 #include "bags_long_work.h"

@@ -31,8 +31,8 @@ Identification Identification::of(DriveIdentification& made, const RejectCounts&
   static_cast<IdentifyResult&>(found) = made.result();
   found.rejected = rejected.byName();
   found.mean_period = monitor.input().mean_period;
-  found.alignment = made.grid().describeAlignment();
-  found.bridged = made.grid().bridged();
+  found.alignment = made.grid().streams().describeAlignment();
+  found.bridged = made.grid().streams().bridged();
   if (made.tyre() != nullptr) found.tyre = made.tyre()->report();
   found.sprung_mass = monitor.options().sprung_mass;
   found.course = course;

@@ -27,10 +27,11 @@ void InputDiagnostics::describe(const ImuPipeline& pipeline, Status& status) {
   summarize(pipeline, status);
   if (pipeline.monitor() != nullptr) series_.describe(*pipeline.monitor(), status);
   if (pipeline.strut().grid() != nullptr) {
-    const std::string slow = pipeline.strut().grid()->resamples() ? "" : pipeline.strut().grid()->whatIsTooSlow();
+    const std::string slow =
+        pipeline.strut().grid()->streams().resamples() ? "" : pipeline.strut().grid()->streams().whatIsTooSlow();
     if (!slow.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow);
-    status.add("alignment", pipeline.strut().grid()->describeAlignment());
-    status.add("bridged", pipeline.strut().grid()->bridged());
+    status.add("alignment", pipeline.strut().grid()->streams().describeAlignment());
+    status.add("bridged", pipeline.strut().grid()->streams().bridged());
   }
   for (const Side side : {Side::kSprung, Side::kUnsprung}) describeStream(side, pipeline, status);
   if (const std::string newly = rejected_.describe(pipeline.rejected(), "", status); !newly.empty())

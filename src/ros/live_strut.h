@@ -57,7 +57,6 @@ class LiveStrut {
   void setDiagnosis(const Diagnosis& diagnosis) { model_.setDiagnosis(diagnosis); }
 
   const LiveModel& model() const { return model_; }
-  const std::string& name() const { return name_; }
 
  private:
   const SuspensionMonitor* monitor() const;

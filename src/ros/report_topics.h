@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "imu_pipeline.h"
 #include "model_topic.h"
 #include "tyre_output.h"
 

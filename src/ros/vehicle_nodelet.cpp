@@ -1,6 +1,5 @@
 #include "vehicle_nodelet.h"
 
-#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 #include <utility>

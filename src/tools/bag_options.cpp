@@ -3,10 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <stdexcept>
-#include <string>
 #include <thread>
 #include <utility>
 

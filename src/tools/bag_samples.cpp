@@ -31,7 +31,7 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
     return true;
   });
   RejectCounts rejected = sensors.rejected();
-  rejected += grid.rejected();
+  rejected += grid.streams().rejected();
   return {std::move(grid), rejected};
 }
 

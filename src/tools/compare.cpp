@@ -1,4 +1,3 @@
-#include <cstdio>
 
 #include "../ros/whole_file.h"
 #include "bag_options.h"

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <vector>
 
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/readable_unit.h"

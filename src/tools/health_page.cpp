@@ -6,7 +6,6 @@
 
 #include "bag_options.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {

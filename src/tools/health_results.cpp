@@ -8,7 +8,6 @@
 #include "identify_tables.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -10,7 +10,6 @@
 #include "identify_tables.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 

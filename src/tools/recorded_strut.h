@@ -3,7 +3,6 @@
 #include <boost/program_options.hpp>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "../ros/imu_pipeline.h"

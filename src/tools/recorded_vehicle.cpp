@@ -6,7 +6,6 @@
 
 #include "../ros/vehicle_file.h"
 #include "bag_options.h"
-#include "bag_samples.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"

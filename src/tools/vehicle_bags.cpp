@@ -1,8 +1,6 @@
 #include "vehicle_bags.h"
 
 #include <optional>
-#include <stdexcept>
-#include <string>
 
 #include "../ros/conversions.h"
 #include "../ros/vehicle_sensors.h"

@@ -9,7 +9,6 @@
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/periodogram.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -80,7 +79,7 @@ double shareOfSlow(const Residuals& residuals, double in_spectra, const PartSpec
 }  // namespace
 
 double bandNoiseShare(const Residuals& residuals, double period, const StrutModel& model) {
-  const double natural_period = 2.0 * kPi / (std::sqrt(model.stiffness_to_mass) * period);
+  const double natural_period = 2.0 * M_PI / (std::sqrt(model.stiffness_to_mass) * period);
   const std::optional<PartSpectra> spectra = spectraOf(residuals, natural_period);
   if (!spectra) return 0.0;
   BandSums sums;

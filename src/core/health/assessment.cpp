@@ -89,7 +89,6 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   const bool judges = estimate.valid() && is_new;
   if (judges) take(stamp, estimate);
   HealthReport now = estimate.valid() ? judged_ : HealthReport();
-  now.estimate_valid = estimate.valid();
   now.doubt = estimate.doubt;
   now.sensor = sensor_;
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();

@@ -5,14 +5,12 @@
 
 namespace suspension_health_monitor {
 
-EarlyWarning::EarlyWarning(double reference, double values_between_false_alarms, double variance_of_means)
-    : reference_(reference),
-      threshold_(std::log(2.0 * values_between_false_alarms)),
-      variance_of_means_(std::max(1.0, variance_of_means)) {}
+EarlyWarning::EarlyWarning(double reference, double values_between_false_alarms)
+    : reference_(reference), threshold_(std::log(2.0 * values_between_false_alarms)) {}
 
 bool EarlyWarning::add(double change, double stddev) {
   if (!(stddev > 0.0)) return isOn();
-  const double gain = 2.0 * reference_ / (variance_of_means_ * stddev * stddev);
+  const double gain = 2.0 * reference_ / (stddev * stddev);
   fall_.add(gain * (-change - reference_), threshold_);
   rise_.add(gain * (change - reference_), threshold_);
   return isOn();

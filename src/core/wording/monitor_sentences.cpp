@@ -56,7 +56,7 @@ std::string describeJudgement(const HealthReport& report) {
            "road and that of the baseline (learn one on such a road)";
   if (report.level == HealthLevel::kStale && report.uncertain)
     return "cannot tell: estimates too uncertain to prove a change (drive on, or on a rougher road)";
-  if (report.level == HealthLevel::kStale && report.estimate_valid)
+  if (report.level == HealthLevel::kStale && report.doubt == EstimateDoubt::kNone)
     return "cannot tell yet: a new level must last for health/confirm_time";
   if (report.level == HealthLevel::kStale) return "cannot tell: " + describe(report.doubt);
   const std::string changes = describeChanges(report);

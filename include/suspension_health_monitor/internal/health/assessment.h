@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "suspension_health_monitor/internal/health/baseline.h"
@@ -58,13 +57,11 @@ class HealthAssessment {
   /// Judges by this from now on; learning ends.
   void setBaseline(const Baseline& baseline);
   const Baseline& baseline() const { return baseline_; }
+  const HealthReport& report() const { return report_; }
 
   /// Judges by other thresholds from now on; a level that is being confirmed stays so.
   /// @throws std::invalid_argument  as HealthOptions::validate(); the thresholds then stay as they were.
   void setOptions(const HealthOptions& options);
-
-  const HealthReport& report() const { return report_; }
-  const HealthOptions& options() const { return options_; }
 
  private:
   static constexpr double kLoadCertain = 2.0, kLoadShare = 0.5;  // standard deviations; of a change that warns

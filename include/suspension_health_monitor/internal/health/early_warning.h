@@ -7,16 +7,15 @@ namespace suspension_health_monitor {
 ///   S+ <- max(0, S+ + 2 r (x - r) / sigma^2),  S- <- max(0, S- + 2 r (-x - r) / sigma^2),  alarm at S >= h.
 /// It adds up small changes that no single estimate could prove. h = ln(2 N) for at least N values in the mean between
 /// two false alarms, by G. Lorden (Procedures for reacting to a change in distribution, Annals of Mathematical
-/// Statistics 1971): one sum gives at least exp(h), a sum each way alarms twice as often. Sums of correlated values
-/// scatter as if sigma^2 were 1 + 2 (sum of their correlations) times as large, which then is taken: long sums are a
-/// Wiener process with that variance (R. A. Johnson, M. Bagshaw, The effect of serial correlation on the performance of
-/// CUSUM tests, Technometrics 16 (1974), 103-112). Cost per value: O(1), no allocation.
+/// Statistics 1971): one sum gives at least exp(h), a sum each way alarms twice as often. Values
+/// are taken for uncorrelated: correlated ones would alarm oftener (R. A. Johnson, M. Bagshaw, The effect of serial
+/// correlation on the performance of CUSUM tests, Technometrics 16 (1974), 103-112). Cost per value: O(1), no
+/// allocation.
 class EarlyWarning {
  public:
   /// @param reference  changes below it are of no interest [-].
   /// @param values_between_false_alarms  N, >= 2.
-  /// @param variance_of_means  of correlated values, over that of uncorrelated ones [-]; below 1 counts as 1.
-  EarlyWarning(double reference, double values_between_false_alarms, double variance_of_means = 1.0);
+  EarlyWarning(double reference, double values_between_false_alarms);
 
   /// @param change  x [-].  @param stddev  sigma; a value whose sigma is not known says nothing.
   /// @return isOn().
@@ -24,8 +23,6 @@ class EarlyWarning {
 
   /// @return true from the alarm on until the sum is back at 0.
   bool isOn() const { return fall_.on || rise_.on; }
-
-  double threshold() const { return threshold_; }  ///< h
 
  private:
   struct Sum {
@@ -35,7 +32,6 @@ class EarlyWarning {
   };
 
   double reference_, threshold_;
-  double variance_of_means_;
   Sum fall_, rise_;
 };
 

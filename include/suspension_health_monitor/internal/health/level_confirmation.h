@@ -17,8 +17,6 @@ class LevelConfirmation {
   /// @return the confirmed level.
   HealthLevel update(Stamp stamp, HealthLevel now);
 
-  HealthLevel level() const { return confirmed_; }
-
  private:
   Stamp confirm_time_;
   HealthLevel confirmed_ = HealthLevel::kStale;

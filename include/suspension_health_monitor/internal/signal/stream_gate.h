@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
