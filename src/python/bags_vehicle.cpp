@@ -158,13 +158,7 @@ void bindVehicles(pybind11::module& module) {
   defCommand(module, "identify_struts", &identifyStrutsOf);
   defCommand(module, "compare_struts", &compareStrutsOf);
   defCommand(module, "health_struts", &watchStrutsOf);
-  module.def(
-      "diagnose_struts",
-      [](const Arguments& arguments, int threads, const pybind11::object& progress) {
-        LongWork work(progress);
-        return asCommand([&] { return work.run([&] { return diagnoseStrutsOf(arguments, threads, work); }); });
-      },
-      pybind11::arg("arguments"), pybind11::arg("threads"), pybind11::arg("progress"));
+  defWork<Arguments, int>(module, "diagnose_struts", &diagnoseStrutsOf, "arguments", "threads");
 }
 
 }  // namespace suspension_health_monitor

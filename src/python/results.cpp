@@ -1,6 +1,5 @@
 #include "results.h"
 
-#include <array>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
@@ -8,8 +7,6 @@
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr std::array kLevels{HealthLevel::kOk, HealthLevel::kWarn, HealthLevel::kError, HealthLevel::kStale};
 
 HealthMoment shifted(HealthMoment moment, Stamp shift) {
   moment.stamp -= shift;
@@ -46,7 +43,7 @@ HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& m
   summary.events = shifted(log.events(), shift);
   summary.early_warnings = shifted(log.earlyWarnings(), shift);
   summary.end = shifted(log.latest(), shift);
-  for (const HealthLevel level : kLevels) {
+  for (const HealthLevel level : kHealthLevels) {
     summary.seconds[nameOf(level)] = toSeconds(log.duration(level));
     summary.counts[nameOf(level)] = log.count(level);
   }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "../ros/conversions.h"
-#include "../ros/strut_sensors.h"
+#include "../ros/imu_mount.h"
 
 namespace suspension_health_monitor {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "../ros/imu_mount.h"
 #include "../ros/imu_pipeline.h"
-#include "../ros/strut_sensors.h"
 #include "bag_options.h"
 #include "health_page.h"
 #include "suspension_health_monitor/compare.h"

@@ -66,13 +66,7 @@ std::optional<PartSpectra> spectraOf(const Residuals& residuals, double natural_
 /// offset, and what wanders.
 /// @param in_spectra  the power that these have.
 double shareOfSlow(const Residuals& residuals, double in_spectra, const PartSpectra& spectra) {
-  double squares = 0.0, count = 0.0;
-  for (const std::vector<double>& segment : residuals)
-    for (const double r : segment) {
-      squares += square(r);
-      count += 1.0;
-    }
-  const double shown = in_spectra / spectra.unit, whole = squares / count;
+  const double shown = in_spectra / spectra.unit, whole = meanSquare(residuals);
   return whole > shown ? 1.0 - shown / whole : 0.0;
 }
 

@@ -177,6 +177,15 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
   return fit;
 }
 
+double meanSquare(const Residuals& residuals) {
+  double squares = 0.0, count = 0.0;
+  for (const std::vector<double>& segment : residuals) {
+    for (const double r : segment) squares += r * r;
+    count += static_cast<double>(segment.size());
+  }
+  return count > 0.0 ? squares / count : 0.0;
+}
+
 FitOutcome withoutFit(const Records& records, const StrutModel& model) {
   ModelFit fit;
   fit.model = model;

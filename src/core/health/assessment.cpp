@@ -92,7 +92,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   now.doubt = estimate.doubt;
   now.sensor = sensor_;
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
-  now.outliers = outliers_.arePresent();
+  now.outliers = outlying_ > kOutlyingOften;
   now.learned = baseline_.learned;
   if (learner_) {
     now.learning = learner_->progress();

@@ -75,11 +75,7 @@ void changeKnownForces(OptionMap& values, Vehicle& vehicle) {
 }
 
 void changeImu(OptionMap& values, Vehicle& vehicle) {
-  const std::string start = "body_imu/";
-  OptionMap settings;
-  for (auto entry = values.lower_bound(start);
-       entry != values.end() && entry->first.compare(0, start.size(), start) == 0; entry = values.erase(entry))
-    settings[entry->first.substr(start.size())] = entry->second;
+  OptionMap settings = takePrefixed(values, "body_imu");
   takeAll("body_imu", settings, kVehicleImuFields, vehicle.body_imu);
 }
 

@@ -94,8 +94,12 @@ const char* nameOf(HealthLevel level) {
   return "STALE";
 }
 
+std::string describeSilent(const std::vector<std::string>& topics) {
+  return topics.empty() ? "" : join(topics) + (topics.size() == 1 ? " is" : " are") + " silent";
+}
+
 std::string describeNoReading(double seconds, const std::vector<std::string>& silent, const std::string& before) {
-  const std::string why = silent.empty() ? "" : ", " + join(silent) + (silent.size() == 1 ? " is" : " are") + " silent";
+  const std::string why = silent.empty() ? "" : ", " + describeSilent(silent);
   return formatted("cannot tell: no reading accepted for %.0f s", seconds) + why + "; before: " + before;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,15 @@ namespace suspension_health_monitor {
 
 /// What the live monitor has found, in words for people; the rest of it is declared in monitor_report.h.
 
+/// All levels, as lists of them go.
+inline constexpr std::array kHealthLevels{HealthLevel::kOk, HealthLevel::kWarn, HealthLevel::kError,
+                                          HealthLevel::kStale};
+
 /// @return "OK", "WARN", "ERROR" or "STALE".
 const char* nameOf(HealthLevel level);
+
+/// @return e.g. "/front/imu is silent"; empty of none.
+std::string describeSilent(const std::vector<std::string>& topics);
 
 /// @param seconds  for which no reading was accepted.  @param silent  topics that nothing came on meanwhile, though
 /// others went on.  @param before  what was said until then.
