@@ -16,7 +16,7 @@
 #include "bags_call.h"
 #include "options.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "../ros/vehicle_options.h"
 #include "../tools/bag_options.h"
-#include "../tools/errors.h"
+#include "../tools/command.h"
 #include "../tools/healthy_strut.h"
 #include "../tools/recorded_vehicle.h"
 #include "../tools/strut_files.h"
@@ -16,7 +16,7 @@
 #include "../tools/watched_vehicle.h"
 #include "bags_call.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,8 +1,7 @@
-#include "tyre_output.h"
-
 #include <suspension_health_monitor/TyreEstimate.h>
 
 #include "conversions.h"
+#include "report_topics.h"
 #include "strut_diagnostics.h"
 
 namespace suspension_health_monitor {

@@ -11,7 +11,6 @@
 #include "../ros/model_file.h"
 #include "bag_samples.h"
 #include "command.h"
-#include "errors.h"
 #include "survey.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 

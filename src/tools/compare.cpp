@@ -5,7 +5,6 @@
 #include "long_work.h"
 #include "recorded_strut.h"
 #include "results.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 

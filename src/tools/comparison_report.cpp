@@ -4,7 +4,7 @@
 #include <string>
 
 #include "results.h"
-#include "suspension_health_monitor/internal/wording/readable_unit.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

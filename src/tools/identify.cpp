@@ -5,7 +5,6 @@
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
-#include "errors.h"
 #include "healthy_strut.h"
 #include "identify_tables.h"
 #include "long_work.h"
@@ -17,7 +16,6 @@
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace {

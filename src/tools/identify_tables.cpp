@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bag_samples.h"
-#include "errors.h"
+#include "command.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"

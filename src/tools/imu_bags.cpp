@@ -9,7 +9,7 @@
 #include "../ros/conversions.h"
 #include "bag_file.h"
 #include "chunks_ahead.h"
-#include "errors.h"
+#include "command.h"
 #include "long_work.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 

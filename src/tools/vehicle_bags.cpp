@@ -4,7 +4,7 @@
 
 #include "../ros/conversions.h"
 #include "../ros/vehicle_sensors.h"
-#include "errors.h"
+#include "command.h"
 #include "survey.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"

@@ -9,7 +9,7 @@
 #include "recorded_drive.h"
 #include "suspension_health_monitor/internal/fit/initial_states.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
-#include "suspension_health_monitor/internal/wording/failure_sentences.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

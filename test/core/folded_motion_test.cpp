@@ -1,10 +1,9 @@
-#include "suspension_health_monitor/internal/fit/folded_motion.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "recorded_drive.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 namespace suspension_health_monitor {

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "suspension_health_monitor/internal/health/baseline.h"
-#include "suspension_health_monitor/internal/health/early_warning.h"
+#include "suspension_health_monitor/internal/health/health_rules.h"
 #include "suspension_health_monitor/internal/health/strut_change.h"
 
 namespace suspension_health_monitor {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "suspension_health_monitor/internal/compare/residual_analysis.h"
-#include "suspension_health_monitor/internal/wording/failure_sentences.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

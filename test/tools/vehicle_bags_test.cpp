@@ -17,7 +17,7 @@
 
 #include "ros/vehicle_file.h"
 #include "suspension_health_monitor/internal/signal/motion_filter.h"
-#include "tools/errors.h"
+#include "tools/command.h"
 
 namespace suspension_health_monitor {
 namespace {

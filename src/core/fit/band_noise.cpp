@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/fit/band_noise.h"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -7,9 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "drive_sizes.h"
 #include "parameterization.h"
-#include "segment_cost.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/low_pass.h"
 

@@ -5,7 +5,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/model/effect_settings.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
 
 namespace suspension_health_monitor {

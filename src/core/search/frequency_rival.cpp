@@ -1,8 +1,7 @@
-#include "frequency_rival.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "rivals.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/statistics.h"
 

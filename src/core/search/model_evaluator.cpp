@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "frequency_rival.h"
 #include "parallel.h"
+#include "rivals.h"
 #include "row_start.h"
 #include "suspension_health_monitor/internal/statistics.h"
-#include "wandering.h"
 
 namespace suspension_health_monitor {
 namespace {

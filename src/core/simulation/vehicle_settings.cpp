@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/model/effect_settings.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/setting_groups.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/fit/folded_motion.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {

@@ -3,9 +3,7 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/health/baseline.h"
-#include "suspension_health_monitor/internal/health/change_trend.h"
-#include "suspension_health_monitor/internal/health/early_warning.h"
-#include "suspension_health_monitor/internal/health/level_confirmation.h"
+#include "suspension_health_monitor/internal/health/health_rules.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/health/strut_change.h"
 #include "suspension_health_monitor/monitor_options.h"
