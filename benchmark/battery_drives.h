@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
 #include "suspension_health_monitor/internal/record/motion_scale.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"

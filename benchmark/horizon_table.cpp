@@ -9,7 +9,6 @@
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
@@ -53,7 +52,7 @@ std::vector<Samples> simulateAll(const Drive& drive) {
     options.damping_end_fraction = 1.0;
     options.rate = drive.rate;
     options.noise = drive.noise;
-    options.duration = kPeriodsPerDrive * 2.0 * kPi / std::sqrt(drive.b0);
+    options.duration = kPeriodsPerDrive * 2.0 * M_PI / std::sqrt(drive.b0);
     options.seed = i + 1;
     drives[static_cast<std::size_t>(i)] = simulate(options);
   }
@@ -69,7 +68,7 @@ Errors errorsAt(double horizon, const Drive& drive, const std::vector<Samples>& 
   const IntegralFilterOptions filter{horizonSamples(horizon, 1.0 / drive.rate), 1.0 / drive.rate,
                                      IntegrationRule::kBandLimited};
   RecursiveOptions recursive;
-  recursive.forgetting_factor = 1.0 - std::sqrt(drive.b0) / (kMemory * 2.0 * kPi * drive.rate);
+  recursive.forgetting_factor = 1.0 - std::sqrt(drive.b0) / (kMemory * 2.0 * M_PI * drive.rate);
   const auto squaredError = [&](const Eigen::VectorXd& theta) {
     return (std::pow(theta[0] / drive.b1 - 1.0, 2) + std::pow(theta[1] / drive.b0 - 1.0, 2)) / 2.0;
   };

@@ -139,7 +139,7 @@ class Stream {
       ++samples_;
       take(monitor_.addSample(*sample));
     }
-    const RejectCounts rejected = grid_.rejected();
+    const RejectCounts rejected = grid_.streams().rejected();
     // A stuck sensor is counted once for the pair; a reading that begins a new series is counted and used.
     const std::uint64_t seen = 2 * samples_ + rejected.total() + rejected.count(RejectReason::kStuck);
     require(readings_ <= seen + 2 * UniformGrid::kMostWaiting, "every reading waits, is used or is counted");

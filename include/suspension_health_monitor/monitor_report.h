@@ -71,7 +71,7 @@ struct StrutEstimate {
   double damping_model_stddev = 0.0;    ///< what links, bushings and laws that no model has do to b1 [1/s]: not to its
   double stiffness_model_stddev = 0.0;  ///< changes; of b0 [1/s^2]. In struts of a vehicle (BodyFit)
   double correlation = 0.0;             ///< of the errors of b1 and b0 [-]; of the block estimate
-  std::size_t num_effects = 0;                     ///< in the model
+  std::size_t num_effects = 0;          ///< in the model
   std::array<double, kMostEffects> coefficients = unknownCoefficients();  ///< c_j [unit of the effect's coefficient]
   std::array<double, kMostEffects> coefficient_stddevs = unknownCoefficients();  ///< likewise
   double offset = std::nan("");         ///< of the wheel carrier's reading against the body's [m/s^2]; of LS and LA
@@ -203,8 +203,7 @@ struct HealthReport {
   double stiffness_significance = std::nan("");
   HealthLevel damping_level = HealthLevel::kOk;
   HealthLevel stiffness_level = HealthLevel::kOk;
-  bool estimate_valid = false;                   ///< that of the blocks
-  EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not
+  EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why the estimate of the blocks is not valid
   bool uncertain = false;       ///< valid, but a change as large as the error threshold would not be significant
   bool friction_doubt = false;  ///< mostly since dry friction makes so much of the estimates on this road
   LoadDoubt load_doubt = LoadDoubt::kNone;

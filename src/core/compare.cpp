@@ -2,7 +2,6 @@
 
 #include "prepared_drives.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
-#include "suspension_health_monitor/internal/wording/failure_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {

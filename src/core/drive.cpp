@@ -1,10 +1,11 @@
 #include "suspension_health_monitor/drive.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -45,10 +46,9 @@ double medianPeriod(const std::vector<Drive>& drives) {
     for (std::size_t k = 1; k < drive.samples.size(); ++k)
       spacings.push_back(drive.samples[k].stamp - drive.samples[k - 1].stamp);
   if (spacings.empty()) throw std::invalid_argument("no drive has two samples");
-  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), middle, spacings.end());
-  if (*middle <= Stamp::zero()) throw std::invalid_argument("the stamps of the samples do not rise");
-  return toSeconds(*middle);
+  const Stamp period = median(std::move(spacings));
+  if (period <= Stamp::zero()) throw std::invalid_argument("the stamps of the samples do not rise");
+  return toSeconds(period);
 }
 
 }  // namespace suspension_health_monitor

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -14,7 +12,7 @@ constexpr std::size_t kShortestWindow = 32;
 
 Periodogram::Periodogram(std::size_t length) : taper_(length), windowed_(length) {
   for (std::size_t i = 0; i < length; ++i) {
-    taper_[i] = 0.5 - 0.5 * std::cos(2.0 * kPi * static_cast<double>(i) / static_cast<double>(length));
+    taper_[i] = 0.5 - 0.5 * std::cos(2.0 * M_PI * static_cast<double>(i) / static_cast<double>(length));
     power_ += taper_[i] * taper_[i];
   }
   fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);

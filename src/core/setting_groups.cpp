@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -15,17 +16,24 @@ struct Number {
 
 }  // namespace
 
-std::map<std::string, OptionMap> takeGroups(OptionMap& values, const std::string& prefix) {
+OptionMap takePrefixed(OptionMap& values, const std::string& prefix) {
   const std::string start = prefix + '/';
-  std::map<std::string, OptionMap> groups;
+  OptionMap taken;
   for (auto entry = values.lower_bound(start);
-       entry != values.end() && entry->first.compare(0, start.size(), start) == 0; entry = values.erase(entry)) {
-    const std::string& key = entry->first;
-    requireNameLength(key);
-    const std::size_t slash = key.find('/', start.size());
-    if (slash == std::string::npos || slash == start.size())
-      throw std::invalid_argument(key + " must be " + start + "NAME/SETTING");
-    groups[key.substr(start.size(), slash - start.size())][key.substr(slash + 1)] = entry->second;
+       entry != values.end() && entry->first.compare(0, start.size(), start) == 0; entry = values.erase(entry))
+    taken.emplace(entry->first.substr(start.size()), std::move(entry->second));
+  return taken;
+}
+
+std::map<std::string, OptionMap> takeGroups(OptionMap& values, const std::string& prefix) {
+  std::map<std::string, OptionMap> groups;
+  for (const auto& [key, value] : takePrefixed(values, prefix)) {
+    const std::string whole = prefix + '/' + key;
+    requireNameLength(whole);
+    const std::size_t slash = key.find('/');
+    if (slash == std::string::npos || slash == 0)
+      throw std::invalid_argument(whole + " must be " + prefix + "/NAME/SETTING");
+    groups[key.substr(0, slash)][key.substr(slash + 1)] = value;
   }
   return groups;
 }

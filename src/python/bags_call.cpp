@@ -1,7 +1,7 @@
 #include "bags_call.h"
 
 #include "../tools/bag_options.h"
-#include "../tools/vehicle_commands.h"
+#include "../tools/command.h"
 
 namespace suspension_health_monitor {
 

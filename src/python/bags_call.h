@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <boost/program_options.hpp>
-#include <stdexcept>
 
 #include "../tools/command.h"
 #include "bags_long_work.h"
@@ -29,16 +28,23 @@ auto asCommand(const Work& work) {
   }
 }
 
-/// Adds a function of arguments as on the command line, and of a callback.
-template <class Work>
-void defCommand(pybind11::module& module, const char* name, const Work& work) {
+/// Adds a function work(arguments, progress) of named arguments and of a callback.
+/// @tparam Given  what it is given before the callback, by `names`.
+template <class... Given, class Work, class... Names>
+void defWork(pybind11::module& module, const char* name, const Work& work, const Names&... names) {
   module.def(
       name,
-      [work](const Arguments& arguments, const pybind11::object& progress) {
+      [work](const Given&... given, const pybind11::object& progress) {
         LongWork long_work(progress);
-        return asCommand([&] { return long_work.run([&] { return work(arguments, long_work); }); });
+        return asCommand([&] { return long_work.run([&] { return work(given..., long_work); }); });
       },
-      pybind11::arg("arguments"), pybind11::arg("progress"));
+      pybind11::arg(names)..., pybind11::arg("progress"));
+}
+
+/// Likewise, of arguments as on the command line.
+template <class Work>
+void defCommand(pybind11::module& module, const char* name, const Work& work) {
+  defWork<Arguments>(module, name, work, "arguments");
 }
 
 /// Adds what is of the struts of a vehicle.

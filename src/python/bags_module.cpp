@@ -16,7 +16,7 @@
 #include "bags_call.h"
 #include "options.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -96,40 +96,35 @@ PYBIND11_MODULE(_bags, module) {
   module.doc() = "Compiled part of suspension_health_monitor: bags and files.";
   pybind11::module::import("suspension_health_monitor._core");  // which has the classes of the results
   defCommand(module, "identify", &identifyBags);
-  module.def(
-      "health",
-      [](const Arguments& arguments, const std::optional<Baseline>& baseline, const std::string& file,
-         const py::object& progress) {
-        LongWork work(progress);
+  defWork<Arguments, std::optional<Baseline>, std::string>(
+      module, "health",
+      [](const Arguments& arguments, const std::optional<Baseline>& baseline, const std::string& file, LongWork& work) {
         std::optional<HealthyStrut> healthy;
         if (baseline) healthy = HealthyStrut{*baseline, file};
-        return asCommand([&] { return work.run([&] { return watchBags(arguments, healthy, work); }); });
+        return watchBags(arguments, healthy, work);
       },
-      py::arg("arguments"), py::arg("baseline"), py::arg("file"), py::arg("progress"));
+      "arguments", "baseline", "file");
   bindVehicles(module);
   defCommand(module, "compare", [](const Arguments& arguments, LongWork& work) {
     return withDrives(arguments, work, [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
       return compareBags(options, models, gaps, work.callback());
     });
   });
-  module.def(
-      "diagnose",
-      [](const Arguments& arguments, int threads, const py::object& progress) {
-        LongWork work(progress);
-        const auto search = [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
+  defWork<Arguments, int>(
+      module, "diagnose",
+      [](const Arguments& arguments, int threads, LongWork& work) {
+        return withDrives(arguments, work, [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
           RecordedDiagnosis recorded = diagnoseBags(options, models, threads, gaps, work.callback());
           return SearchedStrut{std::move(recorded.found), std::move(recorded.change)};
-        };
-        return asCommand([&] { return work.run([&] { return withDrives(arguments, work, search); }); });
+        });
       },
-      py::arg("arguments"), py::arg("threads"), py::arg("progress"));
-  module.def(
-      "simulate",
-      [](const std::string& path, const Keywords& keywords, const py::object& progress) {
-        LongWork work(progress);
-        return asCommand([&] { return work.run([&] { return writeSimulation(path, keywords.values, work); }); });
+      "arguments", "threads");
+  defWork<std::string, Keywords>(
+      module, "simulate",
+      [](const std::string& path, const Keywords& keywords, LongWork& work) {
+        return writeSimulation(path, keywords.values, work);
       },
-      py::arg("path"), py::arg("keywords"), py::arg("progress"));
+      "path", "keywords");
   module.def(
       "read_effects", [](const std::string& path) { return readEffectsFile(path); }, py::arg("path"));
   module.def(

@@ -7,7 +7,7 @@
 
 #include "../ros/vehicle_options.h"
 #include "../tools/bag_options.h"
-#include "../tools/errors.h"
+#include "../tools/command.h"
 #include "../tools/healthy_strut.h"
 #include "../tools/recorded_vehicle.h"
 #include "../tools/strut_files.h"
@@ -16,7 +16,7 @@
 #include "../tools/watched_vehicle.h"
 #include "bags_call.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -158,13 +158,7 @@ void bindVehicles(pybind11::module& module) {
   defCommand(module, "identify_struts", &identifyStrutsOf);
   defCommand(module, "compare_struts", &compareStrutsOf);
   defCommand(module, "health_struts", &watchStrutsOf);
-  module.def(
-      "diagnose_struts",
-      [](const Arguments& arguments, int threads, const pybind11::object& progress) {
-        LongWork work(progress);
-        return asCommand([&] { return work.run([&] { return diagnoseStrutsOf(arguments, threads, work); }); });
-      },
-      pybind11::arg("arguments"), pybind11::arg("threads"), pybind11::arg("progress"));
+  defWork<Arguments, int>(module, "diagnose_struts", &diagnoseStrutsOf, "arguments", "threads");
 }
 
 }  // namespace suspension_health_monitor

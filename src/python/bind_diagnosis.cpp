@@ -3,8 +3,8 @@
 #include "readings.h"
 #include "results.h"
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
 
 namespace suspension_health_monitor {
 

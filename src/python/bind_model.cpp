@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "bindings.h"
 #include "options.h"

@@ -1,4 +1,3 @@
-#include <map>
 #include <stdexcept>
 
 #include "bindings.h"
@@ -36,9 +35,10 @@ class LockedVehicle {
   LockedVehicle(const std::vector<std::pair<std::string, std::optional<Position>>>& struts,
                 const MonitorOptions& options)
       : streams_(layoutOf(struts)),
-        grid_(*options.sample_period, streams_, MonitorSettings(options).grid(*options.sample_period),
-              [this](const VehicleSample& sample) { monitor_.addGridSample(sample); },
-              [this](const VehicleReading& reading) { monitor_.addReading(grid_.tops(), reading); }),
+        grid_(
+            *options.sample_period, streams_, MonitorSettings(options).grid(*options.sample_period),
+            [this](const VehicleSample& sample) { monitor_.addGridSample(sample); },
+            [this](const VehicleReading& reading) { monitor_.addReading(grid_.tops(), reading); }),
         monitor_(std::vector<MonitorSettings>(struts.size(), MonitorSettings(options)),
                  [](std::size_t, const MonitorReport&) {}) {}
 

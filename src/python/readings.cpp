@@ -1,7 +1,6 @@
 #include "readings.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 #include "suspension_health_monitor/internal/signal/period_measurement.h"

@@ -1,6 +1,5 @@
 #include "results.h"
 
-#include <array>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
@@ -8,8 +7,6 @@
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr std::array kLevels{HealthLevel::kOk, HealthLevel::kWarn, HealthLevel::kError, HealthLevel::kStale};
 
 HealthMoment shifted(HealthMoment moment, Stamp shift) {
   moment.stamp -= shift;
@@ -31,8 +28,8 @@ Identification Identification::of(DriveIdentification& made, const RejectCounts&
   static_cast<IdentifyResult&>(found) = made.result();
   found.rejected = rejected.byName();
   found.mean_period = monitor.input().mean_period;
-  found.alignment = made.grid().describeAlignment();
-  found.bridged = made.grid().bridged();
+  found.alignment = made.grid().streams().describeAlignment();
+  found.bridged = made.grid().streams().bridged();
   if (made.tyre() != nullptr) found.tyre = made.tyre()->report();
   found.sprung_mass = monitor.options().sprung_mass;
   found.course = course;
@@ -46,7 +43,7 @@ HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& m
   summary.events = shifted(log.events(), shift);
   summary.early_warnings = shifted(log.earlyWarnings(), shift);
   summary.end = shifted(log.latest(), shift);
-  for (const HealthLevel level : kLevels) {
+  for (const HealthLevel level : kHealthLevels) {
     summary.seconds[nameOf(level)] = toSeconds(log.duration(level));
     summary.counts[nameOf(level)] = log.count(level);
   }

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/digest.h"

@@ -1,7 +1,5 @@
 #include "conversions.h"
 
-#include <cmath>
-
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {

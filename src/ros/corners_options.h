@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/option_table.h"

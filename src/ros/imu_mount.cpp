@@ -23,12 +23,11 @@ double along(const std::array<double, 3>& direction, const geometry_msgs::Vector
   return sum;
 }
 
-// Some drivers still put a slash in front of the frame's name, as tf1 did; tf2 does not find such a name.
+}  // namespace
+
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
-
-}  // namespace
 
 ImuMount::ImuMount(const std::string& axis, const std::string& target_frame, const std::optional<double>& range,
                    const tf2::BufferCore* transforms)
@@ -102,6 +101,13 @@ BodyMotion ImuMount::across(const sensor_msgs::Imu& imu) const {
   if (imu.linear_acceleration_covariance[0] == -1.0) motion.acceleration = {kUnknown, kUnknown};
   if (imu.angular_velocity_covariance[0] == -1.0) motion.angular_rate = {kUnknown, kUnknown};
   return motion;
+}
+
+std::optional<double> StrutSensors::read(Side side, const sensor_msgs::Imu& imu) {
+  const auto acceleration = mounts_[static_cast<std::size_t>(side)].acceleration(imu);
+  if (const double* along = std::get_if<double>(&acceleration)) return *along;
+  rejected_.add(std::get<RejectReason>(acceleration));
+  return std::nullopt;
 }
 
 }  // namespace suspension_health_monitor

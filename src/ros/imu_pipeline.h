@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "imu_mount.h"
 #include "shell_options.h"
-#include "strut_sensors.h"
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
 #include "suspension_health_monitor/internal/signal/recent_samples.h"

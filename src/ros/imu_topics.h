@@ -6,7 +6,6 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 

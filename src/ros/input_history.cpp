@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "conversions.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"

@@ -9,8 +9,6 @@
 #include "model_file.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/model/shape_range.h"
-#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "whole_file.h"
 #include "yaml_settings.h"

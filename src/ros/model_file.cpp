@@ -11,8 +11,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr const char* kStruts = "struts";
-
 /// Calls take(settings) with what the file holds; what it leaves is refused.
 template <class Take>
 auto takeFile(const std::string& path, const Take& take) {

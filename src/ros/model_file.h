@@ -13,6 +13,9 @@ namespace suspension_health_monitor {
 /// @throws std::invalid_argument  naming the file and what is wrong in it.
 StrutModel readModelFile(const std::string& path, const EffectLibrary& library);
 
+/// Below which a file has something of every strut, `struts: {NAME: {...}}`.
+inline constexpr const char* kStruts = "struts";
+
 /// The models of a vehicle's struts, by name.
 using ModelsByStrut = std::map<std::string, StrutModel>;
 

@@ -1,8 +1,7 @@
-#include "model_topic.h"
-
 #include <cmath>
 
 #include "conversions.h"
+#include "report_topics.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {

@@ -11,14 +11,12 @@
 
 #include "imu_pipeline.h"
 #include "imu_topics.h"
-#include "live_baseline.h"
-#include "live_model.h"
+#include "input_diagnostics.h"
 #include "live_settings.h"
-#include "monitor_diagnostics.h"
+#include "live_strut.h"
 #include "monitor_thread.h"
-#include "report_topics.h"
 #include "strut_search.h"
-#include "strut_services.h"
+#include "task_log.h"
 
 namespace suspension_health_monitor {
 
@@ -36,30 +34,24 @@ class MonitorNodelet : public nodelet::Nodelet {
   void start(ros::NodeHandle node, ros::NodeHandle private_node);
   void tellStart() const;
 
+  LiveStrut::Host host();
+  void makePipeline();
+
   void onImu(Side side, const sensor_msgs::Imu& imu);
-  void publish(const MonitorReport& report);
-  void onTick();
   void onReconfigure(LiveSettings& settings);
   std::string reset();
-  void keepBaseline();
   SearchTask giveSamples(double window) const;
   void takeDiagnosis(const Diagnosis& diagnosis);
-  void publishModel();
-  void advertiseServices(ros::NodeHandle& private_node);
-  void makePipeline();
   void stopListening(const std::string& reason);
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   PipelineOptions options_;
-  std::optional<LiveModel> model_;
-  std::optional<LiveBaseline> baseline_;
+  std::optional<LiveStrut> strut_;
   std::optional<ImuTopics> imus_;
   std::optional<ImuPipeline> pipeline_;
-  std::optional<ReportTopics> reports_;
-  std::optional<MonitorDiagnostics> diagnostics_;
-  std::optional<StrutServices> services_;
+  std::optional<InputDiagnostics> input_;
+  std::optional<TaskLog> input_log_;
   std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
-  std::optional<DiagnoseService<Diagnose>> diagnose_;
   ros::WallTimer tick_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <mutex>
-#include <utility>
 
 namespace suspension_health_monitor {
 namespace {

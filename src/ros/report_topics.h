@@ -1,16 +1,54 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <suspension_health_monitor/ModelInUse.h>
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "imu_pipeline.h"
-#include "model_topic.h"
-#include "tyre_output.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
+
+/// The latched topic ~model: what the model is, published when it changes.
+class ModelTopic {
+ public:
+  explicit ModelTopic(ros::NodeHandle& private_node)
+      : publisher_(private_node.advertise<ModelInUse>("model", 1, true)) {}
+
+  /// The model is another one from now on.
+  /// @param monitor  nullptr as long as the sample period is being measured.
+  void change(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor, const std::string& frame);
+
+  /// To be called with every report: publishes the first valid estimate of a model.
+  void note(const SuspensionMonitor& monitor, const std::string& frame) {
+    if (!has_estimate_ && monitor.modelEstimate().valid()) change(monitor.effects(), &monitor, frame);
+  }
+
+ private:
+  ros::Publisher publisher_;
+  bool has_estimate_ = false;
+};
+
+/// What a monitor with a third IMU on the road says of wheel and tyre: ~tyre_ls, ~tyre_la and a task of /diagnostics.
+class TyreOutput {
+ public:
+  TyreOutput(ros::NodeHandle& private_node, std::uint32_t queue_size);
+
+  /// Publishes what has subscribers.
+  void publish(const TyreTracker& tracker, const StrutEstimate& strut, const std_msgs::Header& header);
+
+ private:
+  ros::Publisher ls_, la_;
+};
+
+/// The task "Tyre".
+void describeTyre(const ImuPipeline& pipeline, diagnostic_updater::DiagnosticStatusWrapper& status);
 
 /// What is told of every sample: ~estimate, ~ls, ~la, ~comparison, ~health and those of the tyre; and ~model, when it
 /// changes.

@@ -8,7 +8,7 @@
 
 #include "model_file.h"
 #include "playing_options.h"
-#include "suspension_health_monitor/internal/model/effect_settings.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/option_table.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 

@@ -23,10 +23,6 @@ void addJudgement(diagnostic_updater::DiagnosticStatusWrapper& status, const std
   if (change) status.addf(name + " change [%]", "%+.1f", 100.0 * *change);
 }
 
-std::string describeSilent(const std::vector<std::string>& topics) {
-  return topics.empty() ? "" : join(topics) + (topics.size() == 1 ? " is" : " are") + " silent";
-}
-
 }  // namespace
 
 void StrutDiagnostics::addTo(diagnostic_updater::Updater& updater, const Find& find) {

@@ -1,7 +1,6 @@
 #include "strut_services.h"
 
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "suspension_health_monitor/internal/record/motion_scale.h"

@@ -1,8 +1,8 @@
-#include "tyre_output.h"
-
 #include <suspension_health_monitor/TyreEstimate.h>
 
 #include "conversions.h"
+#include "report_topics.h"
+#include "strut_diagnostics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -40,7 +40,7 @@ void TyreOutput::publish(const TyreTracker& tracker, const StrutEstimate& strut,
 
 void describeTyre(const ImuPipeline& pipeline, diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (pipeline.strut().tyre() == nullptr) {
-    status.summary(DiagnosticStatus::STALE, "measuring the sample period");
+    status.summary(DiagnosticStatus::STALE, kMeasuringPeriod);
     return;
   }
   const WheelEstimate& la = pipeline.strut().tyre()->report().la;

@@ -1,12 +1,12 @@
 #include "vehicle_nodelet.h"
 
-#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "parameters.h"
 #include "strut_search.h"
+#include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -41,32 +41,39 @@ void VehicleNodelet::onInit() {
 
 void VehicleNodelet::addStruts() {
   for (std::size_t i = 0; i < options_.struts.size(); ++i) {
-    struts_.push_back(std::make_unique<LiveStrut>(options_.layout.struts[i].name, i, options_.struts[i],
-                                                  options_.model_of[i], servedStrut(i)));
+    const std::string& name = options_.layout.struts[i].name;
+    prefixed("struts/" + name + ": ", [&] {
+      struts_.push_back(std::make_unique<LiveStrut>(name, options_.struts[i], options_.model_of[i], hostOf(i)));
+    });
   }
 }
 
-LiveStrut::Vehicle VehicleNodelet::servedStrut(std::size_t i) {
-  LiveStrut::Vehicle vehicle;
-  vehicle.monitor = [this] { return monitor(); };
-  vehicle.newest_samples = [this, i] {
+LiveStrut::Host VehicleNodelet::hostOf(std::size_t i) {
+  LiveStrut::Host host;
+  host.title = options_.layout.struts[i].name;
+  host.monitor = [this, i] { return monitor() != nullptr ? monitor()->strut(i) : nullptr; };
+  host.set_effects = [this, i](const auto& effects, const auto& strut) {
+    if (monitor() != nullptr) monitor()->setEffects(i, effects, strut);
+  };
+  host.set_baseline = [this, i](const Baseline& baseline) {
+    if (monitor() != nullptr) monitor()->setBaseline(i, baseline);
+  };
+  host.newest_samples = [this, i] {
     return pipeline_ ? pipeline_->newestSamples(options_.common.shell.diagnose_window).struts[i].samples
                      : std::vector<CornerSample>{};
   };
-  vehicle.why_none = [this] { return diagnostics_->whyNoMonitor(pipeline()); };
-  vehicle.silent_topics = [this] { return diagnostics_->input().silentTopics(); };
-  vehicle.frame = [this, imu = placement_->streams().bodyImuOf(i)]() -> const std::string& {
-    return imus_->frame(imu);
-  };
-  vehicle.describe_input = [this, i](ImuArrivals::Status& status) {
+  host.why_none = [this] { return diagnostics_->whyNoMonitor(pipeline()); };
+  host.silent_topics = [this] { return diagnostics_->input().silentTopics(); };
+  host.frame = [this, imu = placement_->streams().bodyImuOf(i)]() -> const std::string& { return imus_->frame(imu); };
+  host.describe_input = [this, i](ImuArrivals::Status& status) {
     diagnostics_->input().describeStrut(i, pipeline(), placement_->missing(), status);
   };
-  vehicle.queue = &thread_->queue();
-  vehicle.search = [this, i](double window) {
+  host.queue = &thread_->queue();
+  host.search = [this, i](double window) {
     return searchOf(giveSamples(window), i, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
   };
-  vehicle.reset = [this] { return reset(); };
-  return vehicle;
+  host.reset = [this] { return reset(); };
+  return host;
 }
 
 void VehicleNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
@@ -100,7 +107,9 @@ void VehicleNodelet::makePipeline() {
 
 VehiclePipeline::Sinks VehicleNodelet::pipelineSinks() {
   return {[this](VehicleMonitor& monitor) {
-            for (const auto& strut : struts_) strut->begin(monitor);
+            for (std::size_t i = 0; i < struts_.size(); ++i)
+              struts_[i]->begin([&](const auto& effects, const auto& strut) { monitor.setEffects(i, effects, strut); },
+                                [&](const Baseline& baseline) { monitor.setBaseline(i, baseline); });
           },
           [this](std::size_t strut, const MonitorReport& report) { struts_[strut]->publish(report); }};
 }

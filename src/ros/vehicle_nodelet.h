@@ -37,7 +37,7 @@ class VehicleNodelet : public nodelet::Nodelet {
 
   void start(ros::NodeHandle node, ros::NodeHandle private_node);
   void addStruts();
-  LiveStrut::Vehicle servedStrut(std::size_t i);
+  LiveStrut::Host hostOf(std::size_t i);
   std::vector<std::string> topics() const;
   void makePipeline();
   VehiclePipeline::Sinks pipelineSinks();

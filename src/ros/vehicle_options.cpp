@@ -23,18 +23,8 @@ constexpr std::array kFileFields{
     FileField{"vehicle", "-", "YAML file that says which sensors the vehicle has", &FileSettings::vehicle},
 };
 
-/// Takes `vehicle/...` out of the settings.
-OptionMap takeSensors(OptionMap& values) {
-  const std::string start = "vehicle/";
-  OptionMap sensors;
-  for (auto entry = values.lower_bound(start);
-       entry != values.end() && entry->first.compare(0, start.size(), start) == 0; entry = values.erase(entry))
-    sensors.emplace(entry->first.substr(start.size()), entry->second);
-  return sensors;
-}
-
 VehicleLayout takeLayout(OptionMap& values) {
-  if (OptionMap sensors = takeSensors(values); !sensors.empty())
+  if (OptionMap sensors = takePrefixed(values, "vehicle"); !sensors.empty())
     return prefixed("vehicle: ", [&] { return takeVehicle(sensors); });
   FileSettings file;
   takeOptions(values, kFileFields, file);

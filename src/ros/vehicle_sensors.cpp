@@ -9,11 +9,6 @@ namespace {
 
 using Place = VehicleStreams::Place;
 
-// tf1 put a slash in front of a frame's name; tf2 does not find such a name.
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
-
 }  // namespace
 
 VehicleSensors::VehicleSensors(const VehicleStreams& streams, const ShellOptions& options,

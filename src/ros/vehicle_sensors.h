@@ -5,7 +5,6 @@
 #include <tf2/buffer_core.h>
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "imu_mount.h"

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "model_file.h"
-#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/simulation/vehicle_settings.h"
 #include "yaml_settings.h"
 

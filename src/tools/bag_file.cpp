@@ -3,7 +3,6 @@
 #include <rosbag/constants.h>
 #include <rosbag/exceptions.h>
 
-#include <algorithm>
 #include <filesystem>
 
 namespace suspension_health_monitor {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "bag_record.h"
-#include "errors.h"
+#include "command.h"
 
 namespace suspension_health_monitor {
 

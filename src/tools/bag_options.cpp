@@ -3,17 +3,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <stdexcept>
-#include <string>
 #include <thread>
 #include <utility>
 
 #include "../ros/model_file.h"
 #include "bag_samples.h"
 #include "command.h"
-#include "errors.h"
 #include "survey.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "../ros/conversions.h"
-#include "../ros/strut_sensors.h"
+#include "../ros/imu_mount.h"
 
 namespace suspension_health_monitor {
 
@@ -31,7 +31,7 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
     return true;
   });
   RejectCounts rejected = sensors.rejected();
-  rejected += grid.rejected();
+  rejected += grid.streams().rejected();
   return {std::move(grid), rejected};
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 #include "../ros/shell_options.h"
 #include "imu_bags.h"

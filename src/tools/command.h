@@ -2,12 +2,26 @@
 
 #include <boost/program_options.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "suspension_health_monitor/internal/option_table.h"
 
 namespace suspension_health_monitor {
+
+/// Exit statuses of suspension_bag, as promised to scripts.
+enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kWrongInput = 3, kTooLittle = 4 };
+
+/// An input file that cannot be read, or is not what it should be: exit status 3.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Input that is in order but says too little: exit status 4.
+struct TooLittleError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 using Arguments = std::vector<std::string>;
 
@@ -61,5 +75,20 @@ void requireSeparateFiles(const boost::program_options::variables_map& values, c
 /// Tells people which files were written.
 /// @param outputs  as above. What is no regular file (a pipe, /dev/stdout) is not told of.
 void printWritten(const boost::program_options::variables_map& values, const std::vector<std::string>& outputs);
+
+/// Adds --vehicle and --strut.
+void addVehicleOptions(boost::program_options::options_description& description);
+
+/// @return true if a vehicle file is given: the commands below are then meant.
+bool isOfVehicle(const boost::program_options::variables_map& values);
+
+/// What the subcommands of these names do for every strut of a vehicle, with the values that they have parsed.
+/// @throws std::invalid_argument, InputError, TooLittleError  as command.h.
+void identifyStruts(const boost::program_options::variables_map& values);
+void compareStruts(const boost::program_options::variables_map& values);
+void diagnoseStruts(const boost::program_options::variables_map& values);
+void watchStruts(const boost::program_options::variables_map& values);
+
+inline constexpr const char* kBaseline = "baseline";  ///< name of an option
 
 }  // namespace suspension_health_monitor

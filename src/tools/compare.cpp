@@ -1,4 +1,3 @@
-#include <cstdio>
 
 #include "../ros/whole_file.h"
 #include "bag_options.h"
@@ -6,7 +5,6 @@
 #include "long_work.h"
 #include "recorded_strut.h"
 #include "results.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 

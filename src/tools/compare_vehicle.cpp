@@ -6,7 +6,6 @@
 #include "recorded_vehicle.h"
 #include "results.h"
 #include "strut_files.h"
-#include "vehicle_commands.h"
 #include "vehicle_tables.h"
 
 namespace suspension_health_monitor {

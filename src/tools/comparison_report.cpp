@@ -2,10 +2,9 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <vector>
 
 #include "results.h"
-#include "suspension_health_monitor/internal/wording/readable_unit.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

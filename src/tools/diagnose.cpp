@@ -9,7 +9,6 @@
 #include "report_page.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace po = boost::program_options;

@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <cstdio>
 
 #include "bag_options.h"
 #include "command.h"
-#include "errors.h"
 #include "healthy_strut.h"
 #include "identify_tables.h"
 #include "long_work.h"
@@ -11,7 +9,6 @@
 #include "results.h"
 #include "strut_files.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
-#include "vehicle_commands.h"
 #include "vehicle_page.h"
 #include "vehicle_tables.h"
 

@@ -3,7 +3,7 @@
 
 #include "bag_options.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/wording/effect_sentences.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {

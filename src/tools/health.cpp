@@ -1,4 +1,3 @@
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +9,6 @@
 #include "long_work.h"
 #include "recorded_strut.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace po = boost::program_options;

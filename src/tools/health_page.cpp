@@ -6,7 +6,6 @@
 
 #include "bag_options.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -36,22 +35,17 @@ std::string sourceOf(const HealthContent& content) {
 }  // namespace
 
 void HealthCourse::add(const HealthMoment& moment, const Baseline& healthy) {
-  if (count_++ % stride_ != 0) return;
   const auto if_valid = [&](double number) { return moment.estimate.valid() ? number : kNothing; };
-  points_.push_back({toSeconds(moment.elapsed),
-                     {if_valid(moment.estimate.damping_to_mass), if_valid(moment.estimate.damping_to_mass_stddev),
-                      healthy.damping_to_mass.value_or(kNothing)},
-                     {if_valid(moment.estimate.stiffness_to_mass), if_valid(moment.estimate.stiffness_to_mass_stddev),
-                      healthy.stiffness_to_mass.value_or(kNothing)}});
-  if (points_.size() < 2 * kMostPoints) return;
-  for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];
-  points_.resize(points_.size() / 2);
-  stride_ *= 2;
+  points_.add({toSeconds(moment.elapsed),
+               {if_valid(moment.estimate.damping_to_mass), if_valid(moment.estimate.damping_to_mass_stddev),
+                healthy.damping_to_mass.value_or(kNothing)},
+               {if_valid(moment.estimate.stiffness_to_mass), if_valid(moment.estimate.stiffness_to_mass_stddev),
+                healthy.stiffness_to_mass.value_or(kNothing)}});
 }
 
 json HealthCourse::toJson(Parameter Point::*parameter) const {
   json value = json::array(), stddev = value, healthy = value;
-  for (const Point& point : points_) {
+  for (const Point& point : points_.items()) {
     value.push_back((point.*parameter).value);
     stddev.push_back((point.*parameter).stddev);
     healthy.push_back((point.*parameter).healthy);
@@ -61,7 +55,7 @@ json HealthCourse::toJson(Parameter Point::*parameter) const {
 
 json HealthCourse::toJson() const {
   json time = json::array();
-  for (const Point& point : points_) time.push_back(std::round(1e3 * point.time) / 1e3);
+  for (const Point& point : points_.items()) time.push_back(std::round(1e3 * point.time) / 1e3);
   return {{"time", time}, {"damping", toJson(&Point::damping)}, {"stiffness", toJson(&Point::stiffness)}};
 }
 

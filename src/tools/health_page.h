@@ -8,6 +8,7 @@
 
 #include "health_results.h"
 #include "html_page.h"
+#include "suspension_health_monitor/internal/digest.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
@@ -37,8 +38,7 @@ class HealthCourse {
 
   nlohmann::json toJson(Parameter Point::*parameter) const;
 
-  std::vector<Point> points_;
-  std::size_t count_ = 0, stride_ = 1;
+  Digest<Point> points_{kMostPoints};
 };
 
 /// All that the page of `suspension_bag health --report` is made of.

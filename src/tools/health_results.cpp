@@ -1,6 +1,5 @@
 #include "health_results.h"
 
-#include <array>
 #include <cinttypes>
 #include <cmath>
 #include <utility>
@@ -8,14 +7,11 @@
 #include "identify_tables.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::array kLevels{HealthLevel::kOk, HealthLevel::kWarn, HealthLevel::kError, HealthLevel::kStale};
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -74,7 +70,7 @@ void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const s
                 event.message.c_str());
   std::printf("\nlevel    time [s]   share   events\n");
   const double covered = toSeconds(log.elapsed());
-  for (const HealthLevel level : kLevels) {
+  for (const HealthLevel level : kHealthLevels) {
     const double seconds = toSeconds(log.duration(level));
     std::printf("%-5s  %10.2f  %4.0f %%  %7zu\n", nameOf(level), seconds,
                 covered > 0.0 ? 100.0 * seconds / covered : 0.0, log.count(level));
@@ -94,7 +90,7 @@ json toJson(const HealthMoment& moment) {
 
 json secondsJson(const HealthLog& log) {
   json seconds;
-  for (const HealthLevel level : kLevels) seconds[nameOf(level)] = toSeconds(log.duration(level));
+  for (const HealthLevel level : kHealthLevels) seconds[nameOf(level)] = toSeconds(log.duration(level));
   return seconds;
 }
 

@@ -12,7 +12,6 @@
 #include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "vehicle_bags.h"
-#include "vehicle_commands.h"
 #include "vehicle_tables.h"
 #include "watched_vehicle.h"
 
@@ -42,8 +41,7 @@ void watchStruts(const po::variables_map& values) {
 
   std::vector<HealthContent::Recording> recordings;
   for (const std::string& name : fileNames(bags.paths)) recordings.push_back({name, begins[recordings.size()]});
-  nlohmann::json whole =
-      toJson(couplingOf(recorded.monitor(), vehicle.names, options.forceNames()), vehicle.names);
+  nlohmann::json whole = toJson(couplingOf(recorded.monitor(), vehicle.names, options.forceNames()), vehicle.names);
   whole["silent"] = gaps.toJson();
   std::vector<HealthContent> contents;
   for (const std::size_t i : vehicle.asked) {

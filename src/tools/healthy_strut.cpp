@@ -4,9 +4,9 @@
 
 #include "../ros/live_baseline.h"
 #include "../ros/yaml_settings.h"
+#include "command.h"
 #include "strut_files.h"
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
-#include "vehicle_commands.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

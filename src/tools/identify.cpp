@@ -5,7 +5,6 @@
 #include "../ros/whole_file.h"
 #include "bag_options.h"
 #include "command.h"
-#include "errors.h"
 #include "healthy_strut.h"
 #include "identify_tables.h"
 #include "long_work.h"
@@ -17,7 +16,6 @@
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -49,8 +47,8 @@ void writeJson(std::FILE* out, const DriveIdentification& identification, const 
                         {"rows", found.rows},
                         {"gaps", found.gaps},
                         {"clock_jumps", found.clock_jumps},
-                        {"alignment", identification.grid().describeAlignment()},
-                        {"bridged", identification.grid().bridged()},
+                        {"alignment", identification.grid().streams().describeAlignment()},
+                        {"bridged", identification.grid().streams().bridged()},
                         {"rejected", rejected},
                         {"silent", gaps.toJson()},
                         {"sample_period", found.sample_period},

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bag_samples.h"
-#include "errors.h"
+#include "command.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
@@ -41,12 +41,12 @@ void printInput(const SuspensionMonitor& monitor, const UniformGrid& grid, const
               monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
   std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
               input.rows, input.gaps, input.restarts);
-  if (grid.resamples()) std::printf(", bridged %" PRIu64, grid.bridged());
+  if (grid.streams().resamples()) std::printf(", bridged %" PRIu64, grid.streams().bridged());
   if (rejected.total() == 0) std::printf(", rejected 0");
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
       std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
-  std::printf("\nreadings %s\n\n", grid.describeAlignment().c_str());
+  std::printf("\nreadings %s\n\n", grid.streams().describeAlignment().c_str());
 }
 
 void requireRows(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected) {

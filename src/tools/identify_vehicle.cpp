@@ -3,7 +3,6 @@
 
 #include "bag_options.h"
 #include "command.h"
-#include "errors.h"
 #include "healthy_strut.h"
 #include "identify_tables.h"
 #include "long_work.h"
@@ -13,7 +12,6 @@
 #include "strut_settings.h"
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "vehicle_bags.h"
-#include "vehicle_commands.h"
 #include "vehicle_tables.h"
 #include "watched_vehicle.h"
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "../ros/conversions.h"
 #include "bag_file.h"
 #include "chunks_ahead.h"
-#include "errors.h"
+#include "command.h"
 #include "long_work.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 

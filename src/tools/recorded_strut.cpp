@@ -5,12 +5,10 @@
 #include "../ros/conversions.h"
 #include "../ros/live_model.h"
 #include "command.h"
-#include "errors.h"
 #include "healthy_strut.h"
 #include "identify_tables.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 

@@ -3,11 +3,10 @@
 #include <boost/program_options.hpp>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "../ros/imu_mount.h"
 #include "../ros/imu_pipeline.h"
-#include "../ros/strut_sensors.h"
 #include "bag_options.h"
 #include "health_page.h"
 #include "suspension_health_monitor/compare.h"

@@ -6,12 +6,11 @@
 
 #include "../ros/vehicle_file.h"
 #include "bag_options.h"
-#include "bag_samples.h"
+#include "command.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 #include "vehicle_bags.h"
-#include "vehicle_commands.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "report_parts.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -91,7 +90,7 @@ std::pair<double, double> worstSpan(const ComparedSegment& segment, double span)
 
 json drivesJson(const ReportContent& content) {
   const double stiffness = content.found.base.model.stiffness_to_mass;
-  const double span = kPeriodsInView * 2.0 * kPi / std::sqrt(stiffness);
+  const double span = kPeriodsInView * 2.0 * M_PI / std::sqrt(stiffness);
   const std::size_t range = thinning(content);
   json drives = json::array();
   for (std::size_t r = 0; r < content.source.drive_names.size(); ++r) {

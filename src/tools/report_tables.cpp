@@ -1,8 +1,7 @@
-#include <string>
 #include <vector>
 
 #include "report_parts.h"
-#include "suspension_health_monitor/internal/wording/effect_sentences.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

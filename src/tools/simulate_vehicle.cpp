@@ -8,7 +8,7 @@
 #include "../ros/whole_bag.h"
 #include "bag_options.h"
 #include "long_work.h"
-#include "suspension_health_monitor/internal/model/effect_settings.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 

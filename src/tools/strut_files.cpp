@@ -16,8 +16,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr const char* kStruts = "struts";
-
 /// @return by name what the file has of the struts.
 std::map<std::string, OptionMap> readStruts(const std::string& path, const AskedVehicle& vehicle) {
   OptionMap values = readYaml(path);

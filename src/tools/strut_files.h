@@ -7,7 +7,6 @@
 
 #include "recorded_vehicle.h"
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {

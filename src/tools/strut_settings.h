@@ -2,12 +2,10 @@
 
 #include <boost/program_options.hpp>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "../ros/shell_options.h"
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 

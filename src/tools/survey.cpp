@@ -11,7 +11,7 @@
 
 #include "../ros/conversions.h"
 #include "bag_samples.h"
-#include "errors.h"
+#include "command.h"
 #include "suspension_health_monitor/internal/identification/clock_lag.h"
 #include "suspension_health_monitor/internal/identification/horizon_survey.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "command.h"
-#include "errors.h"
 #include "long_work.h"
 #include "suspension_health_monitor/internal/nearest_name.h"
 #include "suspension_health_monitor/internal/plain_text.h"

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "errors.h"
+#include "command.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {

@@ -1,12 +1,10 @@
 #include "vehicle_bags.h"
 
 #include <optional>
-#include <stdexcept>
-#include <string>
 
 #include "../ros/conversions.h"
 #include "../ros/vehicle_sensors.h"
-#include "errors.h"
+#include "command.h"
 #include "survey.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"

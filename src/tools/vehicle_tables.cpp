@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "errors.h"
+#include "command.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {

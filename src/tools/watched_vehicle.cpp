@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "../ros/conversions.h"
-#include "errors.h"
+#include "command.h"
 #include "recorded_vehicle.h"
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"

@@ -38,7 +38,7 @@ def test_library_has_files():
     ("# include <tf2_ros/buffer.h>", ROS_INCLUDE), ("#include <diagnostic_updater/publisher.h>", ROS_INCLUDE),
     ("#include <suspension_health_monitor/SuspensionHealth.h>", GENERATED_INCLUDE),
     ('#include "suspension_health_monitor/internal/simulation/road.h"', SIMULATION_INCLUDE),
-    ('#include "suspension_health_monitor/internal/pi.h"', INTERNAL_INCLUDE)])
+    ('#include "suspension_health_monitor/internal/statistics.h"', INTERNAL_INCLUDE)])
 def test_rule_sees_a_forbidden_include(include, pattern):
     assert pattern.match(include)
 

@@ -17,7 +17,7 @@ using Names = std::vector<std::string>;
 
 // An oscillator with a cubic spring, in the units of an electronic one: 68 Hz, sampled at 610 Hz, shaken up to 200 Hz.
 DrivenMass duffing(int seed) {
-  const double omega = 2.0 * kPi * 68.0, b1 = 0.2 * omega, b0 = omega * omega;
+  const double omega = 2.0 * M_PI * 68.0, b1 = 0.2 * omega, b0 = omega * omega;
   return {610.0, BandNoise(seed, 0.0, 200.0, 2e5),
           [=](const MassState& x, double) { return b1 * x.v + b0 * x.d * (1.0 + 0.15 * x.d * x.d); }};
 }
@@ -32,7 +32,7 @@ TEST(BandLimitedRecords, ACubicSpringWithoutAnyNoiseIsFoundAlone) {
     EXPECT_LT(20.0 * found.extended->held_out_rmse, found.base.held_out_rmse);
     const ActiveEffect& spring = found.model().effects.at(0);
     EXPECT_NEAR(spring.shapes.at(0), 3.0, 0.03);
-    EXPECT_NEAR(spring.coefficient / (0.15 * std::pow(2.0 * kPi * 68.0, 2)), 1.0, 0.05);
+    EXPECT_NEAR(spring.coefficient / (0.15 * std::pow(2.0 * M_PI * 68.0, 2)), 1.0, 0.05);
   }
 }
 
@@ -58,7 +58,7 @@ TEST(BandLimitedRecords, NoiseThatTheSensorHasFilteredIsNoStructure) {
 TEST(BandLimitedRecords, OneLineOfForceIsNoNoise) {
   DrivenMass strut = linearStrut(0.0);
   strut.force = [](const MassState& x, double t) {
-    return 6.0 * x.v + 63.0 * x.d + 0.2 * std::sin(2.0 * kPi * 1.9 * t);
+    return 6.0 * x.v + 63.0 * x.d + 0.2 * std::sin(2.0 * M_PI * 1.9 * t);
   };
   const Diagnosis found = diagnose({strut.drive(6000)});
   ASSERT_TRUE(found) << found.reason;
@@ -107,7 +107,7 @@ TEST(TextbookLaws, TheDragOfTheBodyIsNoMount) {
 
 // From 0.5 to 8 Hz, with an actuator that follows the drive.
 TEST(TextbookLaws, ASweepWithAnActuatorNamesNoDrift) {
-  const auto sweep = [](double t) { return 3.0 * std::sin(2.0 * kPi * (0.5 * t + 7.5 / 240.0 * t * t)); };
+  const auto sweep = [](double t) { return 3.0 * std::sin(2.0 * M_PI * (0.5 * t + 7.5 / 240.0 * t * t)); };
   const DrivenMass strut{
       100.0, sweep,
       [&](const MassState& x, double t) { return 6.0 * x.v + 63.0 * x.d + 0.15 * sweep(t - 0.03) - 0.5 * x.body; },

@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -34,10 +32,10 @@ TEST(BandlimitedInterpolator, FractionsZeroAndOneAreTheTwoMiddleSamples) {
 }
 
 double worstErrorAt(double share_of_nyquist) {
-  const double omega = share_of_nyquist * kPi;
+  const double omega = share_of_nyquist * M_PI;
   double worst = 0.0;
   for (const double fraction : {0.1, 0.25, 0.5, 0.9})
-    for (const double phase : {0.0, 0.7, kPi / 2, 2.0}) {
+    for (const double phase : {0.0, 0.7, M_PI / 2, 2.0}) {
       const double value = BandlimitedInterpolator(fraction)(sineAround(omega, phase).data());
       worst = std::max(worst, std::abs(value - std::sin(omega * fraction + phase)));
     }
@@ -55,7 +53,7 @@ TEST(BandlimitedInterpolator, SinesNearNyquistAreBetterThanACubicSplines) {
 }
 
 TEST(BandlimitedInterpolator, IntegralIsThatOfASine) {
-  for (const double omega : {0.2, 1.0, kPi / 2})
+  for (const double omega : {0.2, 1.0, M_PI / 2})
     for (const double phase : {0.0, 0.7, 2.0})
       for (const auto& [from, to] : std::vector<std::pair<double, double>>{{0.0, 1.0}, {0.0, 0.5}, {0.5, 1.0}}) {
         const std::vector<double> samples = sineAround(omega, phase);

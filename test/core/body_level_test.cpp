@@ -8,7 +8,6 @@
 #include <random>
 #include <vector>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 
 namespace suspension_health_monitor {
@@ -18,7 +17,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 Matrix3d turn(double degrees, const Vector3d& axis) {
-  return Eigen::AngleAxisd(degrees / 180.0 * kPi, axis.normalized()).toRotationMatrix();
+  return Eigen::AngleAxisd(degrees / 180.0 * M_PI, axis.normalized()).toRotationMatrix();
 }
 
 /// Readings of an IMU that is turned against the body by this, on a rough road.
@@ -50,7 +49,7 @@ TEST(BodyLevel, TurnsAnIMUThatLeansAnyhowUpright) {
 
 TEST(BodyLevel, LeavesWhatARoadMayBe) {
   const BodyLevel level(drive(turn(3.0, {0.0, 1.0, 0.0})));
-  EXPECT_NEAR(level.lean(), 3.0 / 180.0 * kPi, kMedianOff);
+  EXPECT_NEAR(level.lean(), 3.0 / 180.0 * M_PI, kMedianOff);
   EXPECT_EQ(level.mount(), Matrix3d::Identity());
 }
 
@@ -65,7 +64,7 @@ TEST(BodyLevel, SaysNothingOfAnIMUThatTakesGravityOff) {
 TEST(BodyLevel, IsNotMovedByWrongReadings) {
   std::vector<Vector3d> readings = drive(turn(30.0, {0.0, 1.0, 0.0}));
   for (std::size_t k = 0; k < readings.size(); k += 20) readings[k] = Vector3d(1e60, -1e60, 1e9);
-  EXPECT_NEAR(BodyLevel(readings).lean(), 30.0 / 180.0 * kPi, 0.1 * 1.5 / 9.81 + kMedianOff);
+  EXPECT_NEAR(BodyLevel(readings).lean(), 30.0 / 180.0 * M_PI, 0.1 * 1.5 / 9.81 + kMedianOff);
 }
 
 constexpr double kPeriod = 0.01;
@@ -91,7 +90,7 @@ std::vector<VehicleSample> topOf(
   VehicleGrid grid(kPeriod, streamsAt(imu_in_body.transpose() * top), {},
                    [&](const VehicleSample& sample) { samples.push_back(sample); });
   for (int k = 0; k < instants; ++k) {
-    const double t = kPeriod * k, w = 2.0 * kPi * 1.5;
+    const double t = kPeriod * k, w = 2.0 * M_PI * 1.5;
     const Vector3d acceleration = imu_in_body.transpose() * Vector3d(pulls_away(t), 0.0, 9.81 + std::sin(w * t));
     const Vector3d rate = imu_in_body.transpose() * Vector3d(0.0, 0.05 * std::cos(w * t), 0.0);
     const Stamp stamp = fromSeconds(100.0) + k * fromSeconds(kPeriod);

@@ -8,9 +8,8 @@
 #include "hidden_effect.h"
 #include "recorded_drive.h"
 #include "suspension_health_monitor/internal/fit/initial_states.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
-#include "suspension_health_monitor/internal/wording/failure_sentences.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -218,7 +217,7 @@ TEST(CompareModel, AFitThatIsNoSpringHasAReason) {
   for (int k = 0; k < 3000 * steps; ++k) {
     const double t = k * period / steps, y = b1 * v + b0 * d;
     double wheel = 0.0;
-    for (const double f : {0.07, 0.13, 0.31, 0.7, 1.3, 2.9, 5.3}) wheel += std::sin(2.0 * kPi * f * t + 9.0 * f);
+    for (const double f : {0.07, 0.13, 0.31, 0.7, 1.3, 2.9, 5.3}) wheel += std::sin(2.0 * M_PI * f * t + 9.0 * f);
     if (k % steps == 0) source.samples.push_back({fromSeconds(t), y + 1e-3 * std::sin(777.0 * t), wheel});
     v += period / steps * (wheel - y);
     d += period / steps * v;

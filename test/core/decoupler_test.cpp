@@ -7,8 +7,6 @@
 #include <cmath>
 #include <complex>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -41,7 +39,7 @@ TEST(TravelObserver, IntegratesASineTwiceAsLateAsItSays) {
   constexpr int kNatural = 82;
   for (const double frequency : {1.2, 2.0, 5.0, 12.0}) {
     TravelObserver observer(kPeriod, kStiffness, kNatural);
-    const double omega = 2.0 * kPi * frequency;
+    const double omega = 2.0 * M_PI * frequency;
     double worst = 0.0, worst_rate = 0.0;
     for (int k = 0; k < 9000; ++k) {
       observer.push(kOffset + std::sin(omega * k * kPeriod));
@@ -66,7 +64,7 @@ TEST(Decoupler, LeavesEveryStrutItsOwnHoweverSlowTheBodyMoves) {
   const Eigen::Vector4d forces(1e-3, -2e-3, 3e-3, 1e-3);
   for (const double frequency : {0.3, 0.6, 1.2, 3.0}) {
     Decoupler decoupler(kPeriod, rowsOf(ratios, model, forces), std::vector<StrutModel>(4, model));
-    const double omega = 2.0 * kPi * frequency;
+    const double omega = 2.0 * M_PI * frequency;
     const std::complex<double> strut(kStiffness, kDamping * omega);
     std::array<std::complex<double>, 4> sprung{}, unsprung{};
     for (int k = 0; k < kEnd; ++k) {
@@ -101,8 +99,8 @@ TEST(Decoupler, BehindAFilterTakesOffTheLawAsItIs) {
   const auto swing = [](double t, int derivative) {
     double sum = 0.0;
     for (const auto& [amplitude, frequency] : {std::array{0.02, 2.0}, std::array{0.003, 18.0}}) {
-      const double omega = 2.0 * kPi * frequency;
-      sum += amplitude * std::pow(omega, derivative) * std::sin(omega * t + derivative * kPi / 2.0);
+      const double omega = 2.0 * M_PI * frequency;
+      sum += amplitude * std::pow(omega, derivative) * std::sin(omega * t + derivative * M_PI / 2.0);
     }
     return sum;
   };

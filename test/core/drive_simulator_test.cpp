@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "reference/quarter_car_forms.h"
 #include "simulated_drive.h"
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -62,7 +62,7 @@ Eigen::Vector2d steadyAccelerations(const RoadDrivenForm& form, double t) {
   const double amplitudes[] = {0.01, 0.02, 0.03, 0.04}, periods[] = {1.3, 1.9, 2.5, 2.8};
   Eigen::Vector2d sum(0.0, 0.0);
   for (int i = 0; i < 4; ++i) {
-    const std::complex<double> s(0.0, 2.0 * kPi / periods[i]);
+    const std::complex<double> s(0.0, 2.0 * M_PI / periods[i]);
     const Eigen::Matrix4cd resolvent = s * Eigen::Matrix4cd::Identity() - form.a.cast<std::complex<double>>();
     const Eigen::Vector4cd states = resolvent.partialPivLu().solve(form.b.cast<std::complex<double>>());
     const std::complex<double> road = -amplitudes[i] * std::exp(s * t);

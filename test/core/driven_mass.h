@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "suspension_health_monitor/drive.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 namespace suspension_health_monitor {
@@ -18,7 +17,7 @@ class BandNoise {
   BandNoise(int seed, double low, double high, double rms, int lines = 200) : scale_(rms * std::sqrt(2.0 / lines)) {
     RandomStream random(seed, RandomPurpose::kRoad);
     for (int i = 0; i < lines; ++i)
-      lines_.push_back({2.0 * kPi * (low + (high - low) * random.uniform()), 2.0 * kPi * random.uniform()});
+      lines_.push_back({2.0 * M_PI * (low + (high - low) * random.uniform()), 2.0 * M_PI * random.uniform()});
   }
 
   double operator()(double t) const {

@@ -8,7 +8,6 @@
 
 #include "monitor_settings.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 
@@ -50,7 +49,7 @@ class DrivenStrut {
 
   /// At rest, with a body that the engine shakes.
   void idle(int samples, double amplitude, double frequency) {
-    for (int k = 0; k < samples; ++k) add(amplitude * std::sin(2.0 * kPi * frequency * kPeriod * k), 0.0);
+    for (int k = 0; k < samples; ++k) add(amplitude * std::sin(2.0 * M_PI * frequency * kPeriod * k), 0.0);
   }
 
   const StrutEstimate& estimate() const { return monitor_.report().estimate; }
@@ -82,9 +81,9 @@ class DrivenStrut {
 inline std::function<double(double)> roadBetween(double begin, double end) {
   return [=](double t) {
     if (t <= begin || t >= end) return 0.0;
-    const double gentle = std::pow(std::sin(0.5 * kPi * std::min({1.0, (t - begin) / 3.0, (end - t) / 3.0})), 2);
-    return gentle * (0.02 * std::sin(2.0 * kPi * 0.55 * t) + 0.01 * std::sin(2.0 * kPi * 1.3 * t + 1.0) +
-                     0.006 * std::sin(2.0 * kPi * 2.7 * t + 2.0));
+    const double gentle = std::pow(std::sin(0.5 * M_PI * std::min({1.0, (t - begin) / 3.0, (end - t) / 3.0})), 2);
+    return gentle * (0.02 * std::sin(2.0 * M_PI * 0.55 * t) + 0.01 * std::sin(2.0 * M_PI * 1.3 * t + 1.0) +
+                     0.006 * std::sin(2.0 * M_PI * 2.7 * t + 2.0));
   };
 }
 

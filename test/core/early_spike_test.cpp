@@ -21,7 +21,7 @@ TEST(EarlySpike, IsKeptOut) {
         const auto sample = grid.push(Side::kUnsprung, samples[i].stamp, samples[i].unsprung_acceleration);
         if (sample) monitor.addSample(*sample);
       }
-      EXPECT_EQ(grid.rejected().count(RejectReason::kAbsurd), 10u);
+      EXPECT_EQ(grid.streams().rejected().count(RejectReason::kAbsurd), 10u);
       EXPECT_TRUE(monitor.report().ls.valid() && monitor.report().la.valid());
       EXPECT_NEAR(monitor.report().la.damping_to_mass, kPaperB1, 0.3);
     }

@@ -10,7 +10,6 @@
 
 #include "hidden_effect.h"
 #include "recorded_drive.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
@@ -59,7 +58,7 @@ TEST(EffectSearchOnPaperDrives, DataLossAndEndStopsGiveNoFalseName) {
 // linear force. Integrated here, by the classical Runge-Kutta method in steps of 1/40 sample.
 class Oscillator {
  public:
-  static constexpr double kPeriod = 1.0 / 610.0, kB0 = 4.0 * kPi * kPi * 68.0 * 68.0, kB1 = 85.0, kCubic = 8e5;
+  static constexpr double kPeriod = 1.0 / 610.0, kB0 = 4.0 * M_PI * M_PI * 68.0 * 68.0, kB1 = 85.0, kCubic = 8e5;
 
   DriveRecord drive(double noise) {
     RandomStream random(4, RandomPurpose::kSprungNoise);
@@ -81,7 +80,7 @@ class Oscillator {
 
   static double wheel(double t) {  // 5 to 180 Hz
     double sum = 0.0;
-    for (int i = 0; i < 80; ++i) sum += std::sin(2.0 * kPi * (5.0 + 2.19 * i) * t + 1.7 * i * i);
+    for (int i = 0; i < 80; ++i) sum += std::sin(2.0 * M_PI * (5.0 + 2.19 * i) * t + 1.7 * i * i);
     return 2000.0 * sum;
   }
 

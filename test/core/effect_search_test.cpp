@@ -11,7 +11,6 @@
 #include "hidden_effect.h"
 #include "recorded_drive.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -118,13 +117,13 @@ SearchResult searchWithDisturbance(double (*force)(double t)) {
 }
 
 TEST(EffectSearch, AForceFromElsewhereStaysUnexplained) {
-  const SearchResult sine = searchWithDisturbance([](double t) { return 0.4 * std::sin(2.0 * kPi * 3.3 * t); });
+  const SearchResult sine = searchWithDisturbance([](double t) { return 0.4 * std::sin(2.0 * M_PI * 3.3 * t); });
   EXPECT_EQ(sine.verdict, Verdict::kUnexplained);
   EXPECT_TRUE(sine.selected.empty());
   EXPECT_FALSE(sine.extended);
   EXPECT_GT(sine.structured_share, 0.5);
   const SearchResult bursts = searchWithDisturbance([](double t) {
-    return 0.6 * std::sin(2.0 * kPi * (0.9 * t + 0.7 * std::sin(0.31 * t))) * std::sin(0.17 * t * t);
+    return 0.6 * std::sin(2.0 * M_PI * (0.9 * t + 0.7 * std::sin(0.31 * t))) * std::sin(0.17 * t * t);
   });
   EXPECT_EQ(bursts.verdict, Verdict::kUnexplained);
   EXPECT_TRUE(bursts.selected.empty());

@@ -1,9 +1,8 @@
 // What a workshop is told of every effect: nothing is left out, and what is a sensor's fault is no strut's.
-#include "suspension_health_monitor/internal/wording/effect_sentences.h"
-
 #include <gtest/gtest.h>
 
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/model/effect_settings.h"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,11 +1,9 @@
-#include "suspension_health_monitor/internal/fit/folded_motion.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "recorded_drive.h"
-#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 namespace suspension_health_monitor {
@@ -23,7 +21,7 @@ double foldedOf(const Wheel& wheel) {
 
 // |G| at half the rate, from G(s) = (b1 s + b0) / (s^2 + b1 s + b0).
 double passed() {
-  const double omega = kPi / kPeriod;
+  const double omega = M_PI / kPeriod;
   return std::hypot(40.0, 4.0 * omega) / std::hypot(40.0 - omega * omega, 4.0 * omega);
 }
 
@@ -43,11 +41,11 @@ TEST(ShareAtSamplingLimit, IsOneOfWhiteMotionAndNoneOfWhatEndsBelow) {
     return shareAtSamplingLimit({&record});
   };
   EXPECT_NEAR(shareOf([&](int) { return 3.0 * random.gaussian(); }), 1.0, 0.06);
-  EXPECT_LT(shareOf([](int k) { return 3.0 * std::sin(2.0 * kPi * 0.31 * k); }), 1e-3);
+  EXPECT_LT(shareOf([](int k) { return 3.0 * std::sin(2.0 * M_PI * 0.31 * k); }), 1e-3);
 }
 
 TEST(FoldedMotion, IsNoneWhereTheWheelEndsBelowHalfTheRate) {
-  const double folded = foldedOf([](int k) { return 3.0 * std::sin(2.0 * kPi * 0.31 * k); });
+  const double folded = foldedOf([](int k) { return 3.0 * std::sin(2.0 * M_PI * 0.31 * k); });
   EXPECT_LT(folded, 1e-3 * passed());
 }
 

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "paper_free_run.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -27,9 +26,9 @@ std::complex<double> transferFunction(double b1, double b0, double omega) {
 // Relative error of the interpolation of w'' up to half of Nyquist's frequency and up to three quarters, see
 // bandlimited_interpolator.h; its images at 2 pi / T - omega and beyond pass through the strut as well.
 double interpolationTolerance(double b1, double b0, double omega, double period) {
-  const double error = omega * period < 0.5 * kPi ? 2e-4 : 1e-3;
+  const double error = omega * period < 0.5 * M_PI ? 2e-4 : 1e-3;
   return error * (std::abs(transferFunction(b1, b0, omega)) +
-                  2.0 * std::abs(transferFunction(b1, b0, 2.0 * kPi / period - omega)));
+                  2.0 * std::abs(transferFunction(b1, b0, 2.0 * M_PI / period - omega)));
 }
 
 void expectTransferFunction(double b1, double b0, double omega, double step_error) {
@@ -47,7 +46,6 @@ void expectTransferFunction(double b1, double b0, double omega, double step_erro
     // d'' = w'' - z''
     const std::complex<double> travel = (1.0 - g) / -(omega * omega) * phasor;
     ASSERT_NEAR(run.travel(), travel.real(), tolerance * std::abs((1.0 - g) / (omega * omega * g)) + 1e-9);
-    ASSERT_NEAR(run.unsprungAcceleration(), phasor.real(), 1e-12);
   }
 }
 
@@ -121,11 +119,10 @@ TEST(FreeRun, RefusesModelsThatAreUnstableOrTooFastForTheSampling) {
       {kPaperB1, -1.0}, {kPaperB1, 0.0}, {kPaperB1, kNan}, {kPaperB1, kInfinity}, {kPaperB1, kTooFast * kTooFast}};
   FreeRun run = paperFreeRun(), untouched = paperFreeRun();
   for (const auto& [b1, b0] : refused) {
-    EXPECT_FALSE(run.accepts(b1, b0)) << b1 << ", " << b0;
     EXPECT_FALSE(run.trySetModel(b1, b0)) << b1 << ", " << b0;
     EXPECT_THROW(run.setModel(b1, b0), std::invalid_argument) << b1 << ", " << b0;
   }
-  EXPECT_TRUE(run.accepts(kTooFast * 0.9, kPaperB0));
+  EXPECT_TRUE(paperFreeRun().trySetModel(kTooFast * 0.9, kPaperB0));
   for (int k = 0; k < 40; ++k) EXPECT_EQ(run.push(k), untouched.push(k));
   EXPECT_THROW(FreeRun(0.0), std::invalid_argument);
   EXPECT_THROW(FreeRun{kNan}, std::invalid_argument);

@@ -9,7 +9,6 @@
 #include "recorded_drive.h"
 #include "simulated_drive.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 namespace suspension_health_monitor {
@@ -17,13 +16,13 @@ namespace {
 
 constexpr double kPeriod = 0.01;
 constexpr int kEnd = BandlimitedInterpolator::kHalfWidth;
-const double kHalfSecond = std::pow(2.0 * kPi / 0.5, 2);  // b0 of a natural period of 50 samples
+const double kHalfSecond = std::pow(2.0 * M_PI / 0.5, 2);  // b0 of a natural period of 50 samples
 
 // 1500 usable samples: fifteen blocks of 100, of which 2, 5, 8, 11, 14 are held out; z'' is 1 in every second sample.
 DriveRecord blocks() {
   return recorded(
       1500 + 2 * kEnd, kPeriod, [](int k) { return (k - kEnd) % 2 + 0.0; },
-      [](int k) { return std::sin(0.2 * kPi * k); });
+      [](int k) { return std::sin(0.2 * M_PI * k); });
 }
 
 std::vector<std::vector<double>> unitResidualAt(std::size_t k) {
@@ -134,7 +133,7 @@ TEST(HoldOut, ColouredResidualsAreWorthFewerIndependentSquares) {
 
 TEST(HoldOut, TooShortADriveCannotBeSplit) {
   const DriveRecord record = blocks();
-  EXPECT_FALSE(splitHoldOut({&record}, std::pow(2.0 * kPi / 1.0, 2)));  // 5 stretches of 1 s
+  EXPECT_FALSE(splitHoldOut({&record}, std::pow(2.0 * M_PI / 1.0, 2)));  // 5 stretches of 1 s
 }
 
 TEST(HoldOut, WhatIsHeldOutDoesNotReachTheFit) {

@@ -11,7 +11,6 @@
 #include "paper_drive.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -19,7 +18,7 @@ namespace {
 struct RoughStrut {
   double b1, b0;
 
-  double naturalFrequency() const { return std::sqrt(b0) / (2.0 * kPi); }
+  double naturalFrequency() const { return std::sqrt(b0) / (2.0 * M_PI); }
 };
 
 constexpr RoughStrut kStruts[] = {{3.0, 13.8}, {6.0, 63.3},  {5.0, 120.0}, {4.0, 40.0},
@@ -32,17 +31,17 @@ TEST(Transmissibility, Is1AtRestAndAtRootTwoTimesTheNaturalFrequencyWhateverTheD
     EXPECT_GT(transmissibility(strut.b1, strut.b0, strut.naturalFrequency()), 1.0);
   }
   // |b1 j w + b0| / |b1 j w| at the natural frequency.
-  EXPECT_NEAR(transmissibility(3.0, 13.8, std::sqrt(13.8) / (2.0 * kPi)), std::hypot(3.0, std::sqrt(13.8)) / 3.0,
+  EXPECT_NEAR(transmissibility(3.0, 13.8, std::sqrt(13.8) / (2.0 * M_PI)), std::hypot(3.0, std::sqrt(13.8)) / 3.0,
               1e-12);
 }
 
 // Amplitude of the filter's answer to a sine, from two outputs a quarter of a period apart.
 double measuredFilterMagnitude(int horizon, int samples_per_wave) {
   LinearIntegralFilter filter(2, {horizon, 1.0, IntegrationRule::kBandLimited});
-  for (int k = 0; k < 4 * horizon; ++k) filter.push(std::sin(2.0 * kPi * k / samples_per_wave));
+  for (int k = 0; k < 4 * horizon; ++k) filter.push(std::sin(2.0 * M_PI * k / samples_per_wave));
   const double first = filter.output(0);
   for (int k = 4 * horizon; k < 4 * horizon + samples_per_wave / 4; ++k)
-    filter.push(std::sin(2.0 * kPi * k / samples_per_wave));
+    filter.push(std::sin(2.0 * M_PI * k / samples_per_wave));
   return std::hypot(first, filter.output(0)) / (horizon * horizon);
 }
 

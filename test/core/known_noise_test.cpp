@@ -6,7 +6,6 @@
 #include <functional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 #include "suspension_health_monitor/internal/statistics.h"
 

@@ -21,8 +21,8 @@ std::vector<double> taps() {
   std::vector<double> h;
   double sum = 0.0;
   for (int k = -kReach; k <= kReach; ++k) {
-    const double x = 2.0 * kPi * kCutOff * k / kRate;
-    h.push_back((k == 0 ? 1.0 : std::sin(x) / x) * (0.5 + 0.5 * std::cos(kPi * k / (kReach + 1))));
+    const double x = 2.0 * M_PI * kCutOff * k / kRate;
+    h.push_back((k == 0 ? 1.0 : std::sin(x) / x) * (0.5 + 0.5 * std::cos(M_PI * k / (kReach + 1))));
     sum += h.back();
   }
   for (double& each : h) each /= sum;
@@ -58,7 +58,7 @@ TEST(LowPassed, IsTheSumOverTheTapsAndItsEndsGoOn) {
 TEST(LowPassed, HasTheGainOfItsTapsAndNoDelay) {
   const std::vector<double> h = taps();
   for (const double frequency : {1.0, 8.0, 13.0}) {
-    const double w = 2.0 * kPi * frequency / kRate;
+    const double w = 2.0 * M_PI * frequency / kRate;
     double gain = h[kReach];
     for (int k = 1; k <= kReach; ++k) gain += 2.0 * h[static_cast<std::size_t>(kReach + k)] * std::cos(w * k);
     std::vector<double> signal;
@@ -70,7 +70,7 @@ TEST(LowPassed, HasTheGainOfItsTapsAndNoDelay) {
 }
 
 TEST(DriveRecord, BehindAFilterIsDrivenByTheWheelBeforeItAndLosesWhatTheFilterReachesOver) {
-  constexpr double kOmega = 2.0 * kPi * 5.0;  // 20 samples a period
+  constexpr double kOmega = 2.0 * M_PI * 5.0;  // 20 samples a period
   Drive drive;
   for (int k = 0; k < 400; ++k) {
     drive.samples.push_back({fromSeconds(k / kRate), 3.0 + k, 9.81 + (k % 2 == 0 ? 0.1 : -0.1)});

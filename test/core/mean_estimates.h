@@ -33,7 +33,7 @@ inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignmen
     if (!reading) return;
     const double measured = reading->acceleration + kGravity;
     auto sample = grid.push(side, reading->stamp, measured);
-    if (grid.taken()) monitor.addReading(side, *grid.taken(), measured);
+    if (grid.streams().taken()) monitor.addReading(side, *grid.streams().taken(), measured);
     for (; sample; sample = grid.next()) {
       const MonitorReport* report = monitor.addGridSample(*sample);
       if (report == nullptr || toSeconds(sample->stamp) < kSettled) continue;
@@ -55,7 +55,7 @@ inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignmen
   for (double* value : {&mean.damping, &mean.stiffness, &mean.la_damping, &mean.la_stiffness, &mean.ls_damping,
                         &mean.ls_stiffness, &mean.stiffness_stddev, &mean.valid})
     *value /= count;
-  mean.resampled = grid.resamples();
+  mean.resampled = grid.streams().resamples();
   return mean;
 }
 

@@ -9,7 +9,6 @@
 
 #include "hidden_effect.h"
 #include "recorded_drive.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/record/motion_scale.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
@@ -81,7 +80,7 @@ EffectLibrary only(const char* name) { return {{findEffect(forceEffects(), name)
 // A damper with 1.6 m/s^2 of dry friction: as heavy as all that is linear. Least squares sees a b1 of 100 for 20.
 double frictionRig(double d, double v) { return 20.0 * v + 67.0 * d + 1.6 * std::tanh(v / 0.008); }
 
-double twoSines(double t) { return 2.0 * std::sin(2.0 * kPi * 0.9 * t) + 1.5 * std::sin(2.0 * kPi * 1.37 * t + 1.0); }
+double twoSines(double t) { return 2.0 * std::sin(2.0 * M_PI * 0.9 * t) + 1.5 * std::sin(2.0 * M_PI * 1.37 * t + 1.0); }
 
 const StrutModel kTooDamped{100.0, 120.0, {}, {}};
 
@@ -97,7 +96,7 @@ TEST(MeasuredRecordRules, FrictionThatCarriesMostOfTheForceIsFoundFromItsSecondS
 TEST(MeasuredRecordRules, WhatExplainsMostButNotAllIsTheMainSuspectWithItsModel) {
   // Beside the friction a force that comes from elsewhere.
   const Rig rig{[](double d, double v, double, double t) {
-                  return frictionRig(d, v) + 0.12 * std::sin(2.0 * kPi * (2.1 * t + 0.7 * std::sin(0.31 * t)));
+                  return frictionRig(d, v) + 0.12 * std::sin(2.0 * M_PI * (2.1 * t + 0.7 * std::sin(0.31 * t)));
                 },
                 twoSines};
   SearchResult result = search({rig.drive(6000)}, kTooDamped, withoutSensorFaultsOfOtherAxes());
@@ -145,7 +144,7 @@ TEST(MeasuredRecordRules, ADriftGoesOnFromDriveToDrive) {
   constexpr double duration = 60.0;
   const auto roughRoad = [](double t) {
     double sum = 0.0;
-    for (int i = 0; i < 12; ++i) sum += std::sin(2.0 * kPi * (0.7 + 0.83 * i) * t + 1.7 * i * i);
+    for (int i = 0; i < 12; ++i) sum += std::sin(2.0 * M_PI * (0.7 + 0.83 * i) * t + 1.7 * i * i);
     return 0.8 * sum;
   };
   const auto wearing = [&](double before) {
@@ -167,7 +166,7 @@ TEST(MeasuredRecordRules, ASweepTellsNoDriftFromAnAnswerToFrequency) {
   // A mount in series: the damping falls with the frequency, which rises with time from 0.5 to 6 Hz.
   constexpr double duration = 120.0;
   const Rig rig{[](double d, double v, double s, double) { return 4.0 * v + 63.0 * d + 40.0 * (d - s); },
-                [](double t) { return 4.0 * std::sin(2.0 * kPi * (0.5 * t + 5.5 / (2.0 * duration) * t * t)); },
+                [](double t) { return 4.0 * std::sin(2.0 * M_PI * (0.5 * t + 5.5 / (2.0 * duration) * t * t)); },
                 [](double d, double s) { return (d - s) / 0.1; }};
   const std::vector<Drive> sweep{rig.drive(static_cast<int>(duration / kPeriod))};
   const StrutModel start{6.0, 70.0, {}, {}};

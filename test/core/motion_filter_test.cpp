@@ -7,8 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -52,7 +50,7 @@ Response responseAt(double frequency) {
   Response response{};
   for (std::size_t k = 0; k < answer.size(); ++k) {
     const double late = static_cast<double>(k) - 2.0 * delay();  // by how much, in samples
-    const double angle = 2.0 * kPi * frequency * late;
+    const double angle = 2.0 * M_PI * frequency * late;
     response.low_pass += answer[k].value * std::cos(angle);
     response.low_pass_odd += answer[k].value * std::sin(angle);
     response.derivative -= answer[k].rate * std::sin(angle);
@@ -79,7 +77,7 @@ TEST(MotionFilter, DifferentiatesWhatTheLowPassFilterLeavesAtAllFrequencies) {
   for (int i = 0; i <= 500; ++i) {
     const double frequency = 0.001 * i;
     const Response response = responseAt(frequency);
-    EXPECT_NEAR(kT * response.derivative, 2.0 * kPi * frequency * response.low_pass, 1e-4) << frequency;
+    EXPECT_NEAR(kT * response.derivative, 2.0 * M_PI * frequency * response.low_pass, 1e-4) << frequency;
   }
 }
 
@@ -96,7 +94,7 @@ TEST(MotionFilter, PassesGravityAndTheRateOfARamp) {
 
 // A motion and its derivative, both in closed form: the sign, the unit and the instant.
 TEST(MotionFilter, GivesASineAndItsDerivativeAtTheInstantOfTheStamp) {
-  const double frequency = 2.0 * kPi * 12.0;
+  const double frequency = 2.0 * M_PI * 12.0;
   MotionFilter filter(kPeriod, 1, 1);
   int instants = 0;
   for (int k = 0; k < 200; ++k) {
@@ -123,7 +121,7 @@ TEST(MotionFilter, HasItsBandInHertz) {
   EXPECT_EQ(slow.delay(), 12);
 
   MotionFilter fast(std::chrono::milliseconds(1), 1, 1);
-  const double within = 2.0 * kPi * 12.0, beyond = 2.0 * kPi * 40.0;
+  const double within = 2.0 * M_PI * 12.0, beyond = 2.0 * M_PI * 40.0;
   for (int k = 0; k < 2000; ++k) {
     const double t = 1e-3 * k, sine = std::sin(within * t) + std::sin(beyond * t);
     const MotionFilter::Instant* instant = fast.push(k * std::chrono::milliseconds(1), {sine, sine});

@@ -1,6 +1,6 @@
-#include "suspension_health_monitor/internal/health/outliers.h"
-
 #include <gtest/gtest.h>
+
+#include "suspension_health_monitor/internal/health/assessment.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -8,9 +8,9 @@ namespace {
 bool present(double tails, int updates) {
   StrutEstimate ls;
   ls.tails = tails;
-  Outliers outliers;
-  for (int i = 0; i < updates; ++i) outliers.update(ls);
-  return outliers.arePresent();
+  HealthAssessment assessment{HealthOptions()};
+  for (int i = 0; i < updates; ++i) assessment.watch(ls);
+  return assessment.update(Stamp(), StrutEstimate(), false).outliers;
 }
 
 TEST(Outliers, ArePresentWhereTailsAreHeavyForLong) {

@@ -7,7 +7,6 @@
 
 #include "simulated_drive.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -26,7 +25,7 @@ class RockedCar {
     double body = 0.0, wheel = 0.0;
     for (int step = 0; step < kSteps; ++step, t_ += h) {
       const double strut = 63.3 * (w_ - z_) + 6.0 * (w_rate_ - z_rate_);
-      body = strut + force_ * std::sin(2.0 * kPi * frequency_ * t_);
+      body = strut + force_ * std::sin(2.0 * M_PI * frequency_ * t_);
       wheel = -(strut + kTyre * w_) / kWheelMass;
       z_ += h * (z_rate_ += h * body);
       w_ += h * (w_rate_ += h * wheel);

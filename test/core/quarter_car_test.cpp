@@ -1,11 +1,11 @@
-#include "suspension_health_monitor/internal/model/quarter_car.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <complex>
 #include <stdexcept>
 #include <string>
+
+#include "reference/quarter_car_forms.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,6 +1,6 @@
-#include "suspension_health_monitor/internal/wording/readable_unit.h"
-
 #include <gtest/gtest.h>
+
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <random>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kPeriod = 0.01;
 
-double signal(double t) { return std::sin(2.0 * kPi * 4.0 * t) + 0.5 * std::sin(2.0 * kPi * 11.0 * t); }
+double signal(double t) { return std::sin(2.0 * M_PI * 4.0 * t) + 0.5 * std::sin(2.0 * M_PI * 11.0 * t); }
 
 /// How a stream is taken and stamped, each off the regular time by chance (standard deviation, in periods).
 struct Way {
@@ -23,7 +21,6 @@ struct Way {
 
 struct Times {
   double off = 0.0;     // root mean square of what take() is off by, but for its mean, in periods
-  double said = 0.0;    // what variance() says, likewise
   double stamps = 0.0;  // what stamps are off by, likewise
   double share = 0.0;
 };
@@ -52,8 +49,8 @@ Times run(const Way& way, int readings = 20000) {
     stamps += (stamped - taken) * (stamped - taken);
     count += 1.0;
   }
-  return {std::sqrt(square / count - sum * sum / count / count) / kPeriod, std::sqrt(clock.variance()) / kPeriod,
-          std::sqrt(stamps / count) / kPeriod, clock.share()};
+  return {std::sqrt(square / count - sum * sum / count / count) / kPeriod, std::sqrt(stamps / count) / kPeriod,
+          clock.share()};
 }
 
 TEST(ReadingClock, KnowsWhenReadingsThatAreStampedIrregularlyWereTaken) {
@@ -61,8 +58,6 @@ TEST(ReadingClock, KnowsWhenReadingsThatAreStampedIrregularlyWereTaken) {
     const Times found = run({0.0, stamped});
     EXPECT_LT(found.share, 0.1) << stamped;
     EXPECT_LT(found.off, 0.1 * found.stamps) << stamped;  // 2 / sqrt(1000) of them, and periods that are taken back
-    EXPECT_LT(found.said, 0.3 * found.stamps) << stamped;
-    EXPECT_GT(found.said, 0.5 * found.off) << stamped;
   }
 }
 
@@ -71,7 +66,6 @@ TEST(ReadingClock, TakesReadingsThatAreTakenIrregularlyAtTheirStamps) {
     const Times found = run({taken, 0.0});
     EXPECT_GT(found.share, 0.8) << taken;
     EXPECT_LT(found.off, 1e-6) << taken;  // nanoseconds
-    EXPECT_LT(found.said, 0.6 * taken) << taken;
   }
 }
 
@@ -80,7 +74,6 @@ TEST(ReadingClock, TellsHowMuchOfBothThereIs) {
   const Times found = run({0.05, 0.1});
   EXPECT_NEAR(found.share, 0.2, 0.05);
   EXPECT_NEAR(found.off, 0.05, 0.01);
-  EXPECT_NEAR(found.said, found.off, 0.2 * found.off);
 }
 
 TEST(ReadingClock, FindsBackAfterLostReadings) {
@@ -90,7 +83,7 @@ TEST(ReadingClock, FindsBackAfterLostReadings) {
   }
 }
 
-// Of a signal that is at rest, or all noise, nobody knows: stamps are taken at their word, and may be all wrong.
+// Of a signal that is at rest, or all noise, nobody knows: stamps are taken at their word.
 TEST(ReadingClock, DoesNotKnowBeforeReadingsTell) {
   ReadingClock clock;
   std::mt19937_64 random(3);
@@ -99,7 +92,6 @@ TEST(ReadingClock, DoesNotKnowBeforeReadingsTell) {
     const Stamp stamp = fromSeconds(kPeriod * (k + 0.1 * normal(random)));
     EXPECT_EQ(clock.take(stamp, 9.81), stamp);
   }
-  EXPECT_NEAR(std::sqrt(clock.variance()), 0.1 * kPeriod, 0.01 * kPeriod);
 }
 
 // Times go forward whatever becomes known of the stamps, and a pause or another clock begins a line of its own.
@@ -161,7 +153,6 @@ TEST(ReadingClock, FollowsAnotherRate) {
       found = clock.take(fromSeconds(t), signal(t));
     }
     EXPECT_NEAR(toSeconds(found), t, 1e-6) << factor;
-    EXPECT_LT(clock.missing(), 0.01) << factor;
   }
 }
 

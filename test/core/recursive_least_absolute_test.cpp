@@ -9,6 +9,7 @@
 
 #include "paper_drive.h"
 #include "random_rows.h"
+#include "reference/batch_estimators.h"
 
 namespace suspension_health_monitor {
 namespace {

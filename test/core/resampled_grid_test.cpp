@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "interleaved.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
@@ -22,9 +21,9 @@ struct Message {
   double acceleration;
 };
 
-double body(double t) { return 9.81 + std::sin(2.0 * kPi * 1.7 * t); }
-double wheel(double t) { return 9.81 + 3.0 * std::sin(2.0 * kPi * 11.0 * t + 1.0); }
-double road(double t) { return 5.0 * std::sin(2.0 * kPi * 15.0 * t + 2.0); }
+double body(double t) { return 9.81 + std::sin(2.0 * M_PI * 1.7 * t); }
+double wheel(double t) { return 9.81 + 3.0 * std::sin(2.0 * M_PI * 11.0 * t + 1.0); }
+double road(double t) { return 5.0 * std::sin(2.0 * M_PI * 15.0 * t + 2.0); }
 
 double signal(Side side, double t) {
   if (side == Side::kRoad) return road(t);
@@ -101,9 +100,9 @@ TEST(ResampledGrid, GivesBothSensorsAtTheInstantsOfOneUniformSeries) {
   EXPECT_GT(samples.size(), 1000u - 2 * StreamResampler::kHalfWidth - 4);
   EXPECT_TRUE(jumps(samples).empty());
   for (const CornerSample& sample : samples) expectTrue(sample);
-  EXPECT_GT(grid.bridged(), 20u);
-  EXPECT_LT(grid.bridged(), 120u);  // 2 % of 2665 readings: 53
-  EXPECT_EQ(grid.rejected().total(), 0u);
+  EXPECT_GT(grid.streams().bridged(), 20u);
+  EXPECT_LT(grid.streams().bridged(), 120u);  // 2 % of 2665 readings: 53
+  EXPECT_EQ(grid.streams().rejected().total(), 0u);
 }
 
 TEST(ResampledGrid, DoesNotDependOnTheOrderInWhichTheStreamsInterleave) {
@@ -135,7 +134,7 @@ TEST(ResampledGrid, BridgesThreeLostReadingsAndBeginsAnewAfterMore) {
     UniformGrid grid(kPeriod, kResampled);
     const std::vector<CornerSample> samples = feed(grid, byTime(sprung, messages.of(Side::kUnsprung, 333.0, 1.0, 3.0)));
     for (const CornerSample& sample : samples) expectTrue(sample);
-    EXPECT_EQ(grid.bridged(), lost == 3 ? 3u : 0u);
+    EXPECT_EQ(grid.streams().bridged(), lost == 3 ? 3u : 0u);
     if (lost == 3) {
       EXPECT_TRUE(jumps(samples).empty());
     } else {  // the hole, and half a window to either side of it
@@ -157,7 +156,7 @@ TEST(ResampledGrid, GoesOnAfterPausesLoopsAndSilenceOfOne) {
   EXPECT_GT(looped.size(), 375u);
   for (const CornerSample& sample : looped) expectTrue(sample);
   feed(grid, messages.of(Side::kSprung, 200.0, 102.0, 202.0));  // more than the ring holds
-  EXPECT_GT(grid.rejected().count(RejectReason::kMissingPartner), 10000u);
+  EXPECT_GT(grid.streams().rejected().count(RejectReason::kMissingPartner), 10000u);
   EXPECT_GT(both(202.0, 204.0).size(), 375u);
 }
 
@@ -167,7 +166,7 @@ TEST(ResampledGrid, KeepsOutASensorThatIsStuck) {
   for (std::size_t i = 200; i < 400; ++i) unsprung[i].acceleration = 9.81;
   UniformGrid grid(kPeriod, kResampled);
   const std::size_t samples = feed(grid, byTime(messages.of(Side::kSprung, 200.0, 1.0, 3.0), unsprung)).size();
-  const std::uint64_t stuck = grid.rejected().count(RejectReason::kStuck);
+  const std::uint64_t stuck = grid.streams().rejected().count(RejectReason::kStuck);
   EXPECT_NEAR(static_cast<double>(stuck), 180 * 200.0 / 333.0, 2.0);  // 20 readings pass before it shows
   EXPECT_NEAR(static_cast<double>(samples + stuck), 400 - 2 * StreamResampler::kHalfWidth, 3.0);
 }
@@ -207,9 +206,9 @@ TEST(AlignmentAuto, ResamplesWhenTheStampsShowThatPairingDoesBadly) {
     const std::vector<CornerSample> samples =
         feed(grid, byTime(messages.of(Side::kSprung, 200.0, 1.0, 31.0, it.jitter, it.lost),
                           messages.of(Side::kUnsprung, it.rate, 1.0 + it.phase, 31.0, it.jitter, it.lost)));
-    EXPECT_EQ(grid.resamples(), *it.words != 0) << it.words;
-    EXPECT_NE(grid.why().find(it.words), std::string::npos) << grid.why() << ", not " << it.words;
-    EXPECT_EQ(grid.why().empty(), !grid.resamples());
+    EXPECT_EQ(grid.streams().resamples(), *it.words != 0) << it.words;
+    EXPECT_NE(grid.streams().why().find(it.words), std::string::npos) << grid.streams().why() << ", not " << it.words;
+    EXPECT_EQ(grid.streams().why().empty(), !grid.streams().resamples());
     for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_LT(samples[i - 1].stamp, samples[i].stamp);
   }
 }
@@ -222,7 +221,7 @@ TEST(AlignmentAuto, APauseOfBothOrASilenceOfOneIsNoReason) {
                       messages.of(Side::kUnsprung, 200.0, 10.0 * k, 10.0 * k + 2.0)));
     feed(grid, messages.of(Side::kSprung, 200.0, 10.0 * k + 2.0, 10.0 * k + 3.0));
   }
-  EXPECT_FALSE(grid.resamples());
+  EXPECT_FALSE(grid.streams().resamples());
 }
 
 TEST(AlignmentAuto, TheSwitchIsOneGap) {
@@ -230,7 +229,7 @@ TEST(AlignmentAuto, TheSwitchIsOneGap) {
   UniformGrid grid(kPeriod, kAuto);
   const std::vector<CornerSample> samples = feed(
       grid, byTime(messages.of(Side::kSprung, 200.0, 1.0, 11.0), messages.of(Side::kUnsprung, 200.0, 1.001, 11.0)));
-  ASSERT_TRUE(grid.resamples());
+  ASSERT_TRUE(grid.streams().resamples());
   EXPECT_EQ(jumps(samples).size(), 1u);
   EXPECT_LT(jumps(samples).front(), 2.0 * StreamResampler::kHalfWidth);
   expectTrue(samples.back());
@@ -242,18 +241,19 @@ TEST(AlignmentAuto, NamesTheMeasuredRateWhereSamplePeriodIsTooShortAndNothingIsL
     Messages messages(8);
     UniformGrid grid(kPeriod, kAuto);
     feed(grid, byTime(messages.of(Side::kSprung, rate, 1.0, 11.0), messages.of(Side::kUnsprung, rate, 1.0, 11.0)));
-    EXPECT_TRUE(grid.resamples());
-    EXPECT_EQ(grid.why(), grid.whatIsTooSlow());
-    EXPECT_NE(grid.why().find(rate == 100.0 ? "every 0.01 s (100 Hz), but sample_period = 0.005" : "(120 Hz)"),
-              std::string::npos)
-        << grid.why();
+    EXPECT_TRUE(grid.streams().resamples());
+    EXPECT_EQ(grid.streams().why(), grid.streams().whatIsTooSlow());
+    EXPECT_NE(
+        grid.streams().why().find(rate == 100.0 ? "every 0.01 s (100 Hz), but sample_period = 0.005" : "(120 Hz)"),
+        std::string::npos)
+        << grid.streams().why();
   }
   Messages messages(9);
   UniformGrid lossy(kPeriod, kAuto);
   feed(lossy, byTime(messages.of(Side::kSprung, 200.0, 1.0, 31.0, 0.0, 0.04),
                      messages.of(Side::kUnsprung, 200.0, 1.0, 31.0, 0.0, 0.04)));
-  EXPECT_EQ(lossy.whatIsTooSlow(), "");
-  EXPECT_NE(lossy.why().find("lost"), std::string::npos) << lossy.why();
+  EXPECT_EQ(lossy.streams().whatIsTooSlow(), "");
+  EXPECT_NE(lossy.streams().why().find("lost"), std::string::npos) << lossy.streams().why();
 }
 
 }  // namespace

@@ -6,8 +6,7 @@
 #include <random>
 
 #include "suspension_health_monitor/internal/compare/residual_analysis.h"
-#include "suspension_health_monitor/internal/pi.h"
-#include "suspension_health_monitor/internal/wording/failure_sentences.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -106,7 +105,7 @@ TEST(ResidualViews, LocalErrorsOfTheParametersFollowADrift) {
 
 TEST(ResidualViews, TheSpectrumHoldsTheMeanSquare) {
   const ComparedSegment segment =
-      segmentWith([](double t, double, double) { return 0.2 * std::sin(2.0 * kPi * 11.0 * t); });
+      segmentWith([](double t, double, double) { return 0.2 * std::sin(2.0 * M_PI * 11.0 * t); });
   const ResidualViews views = viewsOf(segment);
   ASSERT_TRUE(views.spectrum);
   const ResidualSpectrum& spectrum = *views.spectrum;
@@ -209,7 +208,7 @@ TEST(FindFailures, ANoisyMinuteIsNamedByItsTime) {
 
 TEST(FindFailures, ATremorIsNamedByItsFrequency) {
   const auto where =
-      failuresIn(segmentWith([](double t, double, double) { return 0.1 * std::sin(2.0 * kPi * 11.0 * t); }));
+      failuresIn(segmentWith([](double t, double, double) { return 0.1 * std::sin(2.0 * M_PI * 11.0 * t); }));
   const auto found = std::find_if(where.begin(), where.end(),
                                   [](const FailureRegion& region) { return region.view == FailureView::kFrequency; });
   ASSERT_NE(found, where.end());

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "braked_road.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -68,7 +67,7 @@ std::vector<double> heightSpectrum(Road road, double speed, double spacing, std:
   std::vector<double> heights(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double x = static_cast<double>(i);
-    const double window = 0.5 - 0.5 * std::cos(2.0 * kPi * x / static_cast<double>(count));
+    const double window = 0.5 - 0.5 * std::cos(2.0 * M_PI * x / static_cast<double>(count));
     heights[i] = window * road(x * spacing / speed).height;
   }
   std::vector<std::complex<double>> transform;
@@ -144,8 +143,8 @@ TEST(BrakedPaperRoad, ComesToAStandWithTheDerivativesOfItsHeight) {
   const Road road = brakedPaperRoad(kStop, kBrake);
   for (const double t : {20.0, 57.5, kMiddle, 59.7, 61.0}) expectDerivativesAgree(road, t, 1e-4, 1e-6);
   EXPECT_EQ(road(20.0).height, paperRoad(20.0).height);
-  EXPECT_NEAR(road(kMiddle).height, paperRoad(kStop + (0.25 + 0.5 / kPi) * kBrake).height, 1e-12);
-  EXPECT_NEAR(road(kMiddle).rate, 0.5 * paperRoad(kStop + (0.25 + 0.5 / kPi) * kBrake).rate, 1e-12);
+  EXPECT_NEAR(road(kMiddle).height, paperRoad(kStop + (0.25 + 0.5 / M_PI) * kBrake).height, 1e-12);
+  EXPECT_NEAR(road(kMiddle).rate, 0.5 * paperRoad(kStop + (0.25 + 0.5 / M_PI) * kBrake).rate, 1e-12);
   EXPECT_EQ(road(61.0).height, paperRoad(kStop + 0.5 * kBrake).height);
   EXPECT_NEAR(road(61.0).rate, 0.0, 1e-12);
 }

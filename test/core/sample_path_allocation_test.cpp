@@ -117,7 +117,7 @@ TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {
             0);
   EXPECT_GT(monitor.input().gaps, 2u);
   EXPECT_EQ(monitor.input().restarts, 1u);
-  EXPECT_GT(grid.rejected().count(RejectReason::kMissingPartner), 2u);
+  EXPECT_GT(grid.streams().rejected().count(RejectReason::kMissingPartner), 2u);
 }
 
 TEST(SamplePath, AllocatesNothingInTheTyreTrackerWhateverTheInput) {
@@ -154,7 +154,7 @@ TEST(SamplePath, AllocatesNothingInAGridThatTurnsToResampling) {
               push(Side::kRoad, 19);
             }),
             0);
-  EXPECT_TRUE(grid.resamples());
+  EXPECT_TRUE(grid.streams().resamples());
   EXPECT_GT(samples, 900);
 }
 

@@ -9,7 +9,6 @@
 
 #include "simulated_drive.h"
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/strut_monitor.h"
 
 namespace suspension_health_monitor {
@@ -44,9 +43,9 @@ std::vector<double> decimated(const std::vector<double>& values, bool filtered) 
   std::vector<double> taps(kTaps, 0.0), result;
   for (int i = 0; i < kTaps; ++i) {
     const double x = 2.0 * 35.0 / kSimulated * (i - kMiddle);
-    const double window = 0.54 + 0.46 * std::cos(kPi * (i - kMiddle) / kMiddle);
+    const double window = 0.54 + 0.46 * std::cos(M_PI * (i - kMiddle) / kMiddle);
     taps[static_cast<std::size_t>(i)] =
-        2.0 * 35.0 / kSimulated * window * (x == 0.0 ? 1.0 : std::sin(kPi * x) / (kPi * x));
+        2.0 * 35.0 / kSimulated * window * (x == 0.0 ? 1.0 : std::sin(M_PI * x) / (M_PI * x));
   }
   for (std::size_t k = kMiddle; k + kMiddle < values.size(); k += kDecimation) {
     double sum = filtered ? 0.0 : values[k];
@@ -90,7 +89,7 @@ Said listen(const std::vector<double>& body, const std::vector<double>& wheel, d
   double phase = 0.0;
   for (std::size_t k = 0; k < body.size(); ++k) {
     const double time = static_cast<double>(k) / rate;
-    phase += 2.0 * kPi * (25.0 + 15.0 * std::fmod(time, 60.0) / 60.0) / rate;
+    phase += 2.0 * M_PI * (25.0 + 15.0 * std::fmod(time, 60.0) / 60.0) / rate;
     const Stamp stamp = fromSeconds(1.0 + time);
     monitor.push(Side::kSprung, stamp, 9.81 + body[k] + engine * std::sin(phase) + noise(random));
     monitor.push(Side::kUnsprung, stamp, 9.81 + wheel[k] + noise_of_wheel(random));

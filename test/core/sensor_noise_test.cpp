@@ -66,7 +66,7 @@ TEST(SensorNoise, OfAGyroGrowsWithTheFrequency) {
   const StrutDrives drive = makeNoiseDrive(noiseOfStrutTops(channels, kPeriod, 100.0), kT);
   const MotionFilter filter(kPeriod, 1, 1);
   const auto expected = [](double end) {
-    return 100.0 * 2.0 * 2.0 * kPi * std::sqrt(end * end * end / 3.0 / (0.5 / kT));
+    return 100.0 * 2.0 * 2.0 * M_PI * std::sqrt(end * end * end / 3.0 / (0.5 / kT));
   };
   EXPECT_GT(rms(drive[0], &CornerSample::sprung_acceleration), expected(filter.flat()));
   EXPECT_LT(rms(drive[0], &CornerSample::sprung_acceleration), expected(filter.stop()));
@@ -84,7 +84,7 @@ TEST(SensorNoise, LeavesOutTheBodysImuWhereNoStrutNeedsIt) {
 TEST(WhiteLevel, IsThatOfTheNoise) {
   WhiteLevel level(1.0);
   RandomStream random(3, RandomPurpose::kSprungNoise);
-  for (int k = 0; k < 20000; ++k) level.add(30.0 * std::sin(2.0 * kPi * 1.5 * kT * k) + 0.03 * random.gaussian());
+  for (int k = 0; k < 20000; ++k) level.add(30.0 * std::sin(2.0 * M_PI * 1.5 * kT * k) + 0.03 * random.gaussian());
   EXPECT_NEAR(level.deviation(), 0.03, 0.03 * 0.05);
 }
 

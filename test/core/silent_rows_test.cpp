@@ -1,6 +1,6 @@
-#include "suspension_health_monitor/internal/monitor/silent_rows.h"
-
 #include <gtest/gtest.h>
+
+#include "suspension_health_monitor/internal/monitor/validity_gate.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -151,14 +151,14 @@ int samplesWhileStuck(UniformGrid& grid, bool both) {
 TEST(UniformGrid, KeepsOutASensorThatIsStuckWhileTheOtherOneMoves) {
   UniformGrid grid(0.01);
   EXPECT_EQ(samplesWhileStuck(grid, false), 19);  // before it can be told
-  EXPECT_EQ(grid.rejected().count(RejectReason::kStuck), 81u);
-  EXPECT_EQ(grid.rejected().total(), 81u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kStuck), 81u);
+  EXPECT_EQ(grid.streams().rejected().total(), 81u);
 }
 
 TEST(UniformGrid, LetsSensorsPassThatStandStillTogether) {
   UniformGrid grid(0.01);
   EXPECT_EQ(samplesWhileStuck(grid, true), 100);
-  EXPECT_EQ(grid.rejected().total(), 0u);
+  EXPECT_EQ(grid.streams().rejected().total(), 0u);
 }
 
 }  // namespace

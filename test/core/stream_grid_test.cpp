@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
@@ -34,7 +33,7 @@ struct Instant {
 
 double signal(std::size_t stream, double t) {
   const double i = static_cast<double>(stream);
-  return 9.81 + (1.0 + i) * std::sin(2.0 * kPi * (3.0 + 2.0 * i) * t + i);
+  return 9.81 + (1.0 + i) * std::sin(2.0 * M_PI * (3.0 + 2.0 * i) * t + i);
 }
 
 std::vector<StreamOptions> sensors(std::size_t count) {

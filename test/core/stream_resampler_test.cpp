@@ -9,8 +9,6 @@
 #include <random>
 #include <vector>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -65,7 +63,7 @@ double worst(const std::vector<double>& values, const std::function<double(doubl
 }
 
 std::function<double(double)> sine(double frequency) {
-  return [frequency](double t) { return std::sin(2.0 * kPi * frequency * t + 0.3); };
+  return [frequency](double t) { return std::sin(2.0 * M_PI * frequency * t + 0.3); };
 }
 
 const std::vector<Sampling> kSamplings{
@@ -120,7 +118,8 @@ TEST(StreamResampler, GivesTwoStreamsOfDifferentRateTheSameAmplitudeAndPhase) {
     const std::vector<double> values = resampled(timesOf(sampling, 4), sine(frequency));
     std::complex<double> sum;
     for (std::size_t i = 0; i < values.size(); ++i)
-      sum += 2.0 / kCount * values[i] * std::polar(1.0, -2.0 * kPi * frequency * kPeriod * static_cast<double>(i + 10));
+      sum +=
+          2.0 / kCount * values[i] * std::polar(1.0, -2.0 * M_PI * frequency * kPeriod * static_cast<double>(i + 10));
     return sum;
   };
   for (const double frequency : {2.0, 10.0, 25.0, 40.0, 60.0}) {  // whole numbers of periods in kCount
@@ -166,7 +165,7 @@ TEST(StreamResampler, LowersNoiseByTheShareOfTheBandThatItKeeps) {
       for (int line = 3; line < 180; line += 3) {  // of 300 up to the Nyquist frequency
         std::complex<double> component;
         for (int i = 0; i < kCount; ++i)
-          component += values[static_cast<std::size_t>(i)] * std::polar(1.0, -2.0 * kPi * line * i / kCount);
+          component += values[static_cast<std::size_t>(i)] * std::polar(1.0, -2.0 * M_PI * line * i / kCount);
         low += std::norm(component) / (kRuns * kCount * 59);
       }
     }

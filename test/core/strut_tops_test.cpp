@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -26,12 +24,12 @@ struct MovingBody {
 
   Matrix3d orientation(double t) const {  // of the body's axes in the world
     const auto turn = [](double angle, const Vector3d& axis) { return Eigen::AngleAxisd(angle, axis).matrix(); };
-    return turn(yaw * std::sin(2.0 * kPi * 0.6 * t), Vector3d::UnitZ()) *
-           turn(pitch * std::sin(2.0 * kPi * 2.1 * t), Vector3d::UnitY()) *
-           turn(roll * std::sin(2.0 * kPi * 3.4 * t + 1.0), Vector3d::UnitX());
+    return turn(yaw * std::sin(2.0 * M_PI * 0.6 * t), Vector3d::UnitZ()) *
+           turn(pitch * std::sin(2.0 * M_PI * 2.1 * t), Vector3d::UnitY()) *
+           turn(roll * std::sin(2.0 * M_PI * 3.4 * t + 1.0), Vector3d::UnitX());
   }
   Vector3d position(const Vector3d& point, double t) const {
-    return Vector3d(0.5 * std::sin(3.0 * t), 0.2 * std::cos(5.0 * t), heave * std::sin(2.0 * kPi * 1.6 * t)) +
+    return Vector3d(0.5 * std::sin(3.0 * t), 0.2 * std::cos(5.0 * t), heave * std::sin(2.0 * M_PI * 1.6 * t)) +
            orientation(t) * point;
   }
   /// What an accelerometer and a gyro there read, in the body's axes.
@@ -81,7 +79,7 @@ const double kLast = 0.01 * (59 - MotionFilter(kPeriod, 1, 1).delay());
 const auto kAtRest = [](double) { return Vector3d(0.0, 0.0, kGravity); };
 
 TEST(StrutTops, PitchUpLiftsTheFrontAndRollToTheRightLiftsTheLeft) {
-  const double w = 2.0 * kPi * 2.0;
+  const double w = 2.0 * M_PI * 2.0;
   const VehicleChannels channels = bodyImuFor({{1.3, 0.7, 0.0}, {-1.5, -0.6, 0.0}});
   // Positive pitch, about the axis to the left, turns the nose down (REP 103).
   const std::vector<double> pitching =
@@ -115,7 +113,7 @@ TEST(StrutTops, AreThoseOfTheMovingBody) {
   const Vector3d imu(-0.4, 0.25, 0.6);
   VehicleChannels channels = bodyImuFor({});
   for (std::size_t i = 0; i < tops.size(); ++i) channels.struts.push_back({6 + i, {}, tops[i] - imu});
-  channels.body_mount = (Eigen::AngleAxisd(0.9, Vector3d::UnitZ()) * Eigen::AngleAxisd(kPi - 0.3, Vector3d::UnitX()) *
+  channels.body_mount = (Eigen::AngleAxisd(0.9, Vector3d::UnitZ()) * Eigen::AngleAxisd(M_PI - 0.3, Vector3d::UnitX()) *
                          Eigen::AngleAxisd(0.2, Vector3d::UnitY()))
                             .matrix();
   StrutTops vehicle(kPeriod, channels);
@@ -146,7 +144,7 @@ TEST(StrutTops, OfOneMotionAgreeHoweverTheyAreMeasuredUpToHalfTheSamplingRate) {
     channels.struts = {{6, {}, position}, {6, 7, position}};
     channels.known_forces = {7};
     StrutTops tops(kPeriod, channels);
-    const double w = 2.0 * kPi * frequency;
+    const double w = 2.0 * M_PI * frequency;
     for (int k = 0; k < 200; ++k) {
       const double t = 0.01 * k;
       const Vector3d alpha(2.0 * std::cos(w * t), -3.0 * std::sin(w * t), 0.0);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "../../benchmark/field_monitor.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -15,7 +14,7 @@ TEST_P(TiltedWheelImu, NeitherBlamesAStrutNorIsWrongWithConfidence) {
   FieldDrive drive;
   drive.vehicle = kFieldVehicles[static_cast<std::size_t>(GetParam())];
   drive.stops = true;
-  drive.tilt = 2.0 * kPi / 180.0;
+  drive.tilt = 2.0 * M_PI / 180.0;
   drive.seed = 40 + static_cast<unsigned>(GetParam());
   double valid = 0.0, wrong = 0.0, reports = 0.0;
   follow(drive, {}, 1800.0, [&](double time, const MonitorReport& report) {

@@ -26,14 +26,14 @@ class Streams : public testing::Test {
 
 TEST_F(Streams, GoOnAfterABagThatLoops) {
   for (int pass = 0; pass < 5; ++pass) EXPECT_GE(run(500000, 300), 299);
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kTimeWentBack), 4u);
+  EXPECT_EQ(grid_.streams().rejected().count(RejectReason::kTimeWentBack), 4u);
 }
 
 TEST_F(Streams, GoOnAfterAStampFarInTheFuture) {
   run(1000, 10);
   grid_.push(Side::kUnsprung, std::chrono::hours(24 * 365), 7.0);
   for (int k = 0; k < 10; ++k) grid_.push(Side::kUnsprung, std::chrono::hours(24 * 365), 7.0);  // stuck there
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kRepeatedStamp), 10u);
+  EXPECT_EQ(grid_.streams().rejected().count(RejectReason::kRepeatedStamp), 10u);
   for (int k = 0; k < 100; ++k) EXPECT_FALSE(grid_.push(Side::kSprung, at(1200 + 20 * k), k));
   EXPECT_GE(run(3200, 50), 49);
 }
@@ -46,16 +46,16 @@ TEST_F(Streams, GoOnAfterAStampSomewhatInTheFuture) {
 
 TEST_F(Streams, SilenceOfOneFillsNoMemoryAndIsMadeGood) {
   run(0, 10);
-  const int many = 3 * static_cast<int>(UniformGrid::kMostWaiting);
+  const int many = 3 * static_cast<int>(StreamGrid::kMostWaiting);
   for (int k = 0; k < many; ++k) EXPECT_FALSE(grid_.push(Side::kSprung, at(200 + 20 * k), 0.01 * k));
   // All but the capacity is gone already, the rest goes when the other one comes back.
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kMissingPartner), 2 * UniformGrid::kMostWaiting);
+  EXPECT_EQ(grid_.streams().rejected().count(RejectReason::kMissingPartner), 2 * StreamGrid::kMostWaiting);
   EXPECT_EQ(run(200 + 20 * many, 100), 100);
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kMissingPartner), 3 * UniformGrid::kMostWaiting);
+  EXPECT_EQ(grid_.streams().rejected().count(RejectReason::kMissingPartner), 3 * StreamGrid::kMostWaiting);
 }
 
 TEST_F(Streams, OneMayRunAheadByTheCapacity) {
-  const int most = static_cast<int>(UniformGrid::kMostWaiting);
+  const int most = static_cast<int>(StreamGrid::kMostWaiting);
   for (int k = 0; k < most; ++k) grid_.push(Side::kSprung, at(20 * k), 0.01 * k);
   for (int k = 0; k < most; ++k) {
     const auto sample = grid_.push(Side::kUnsprung, at(20 * k), -0.01 * k);

@@ -42,7 +42,7 @@ TEST_F(WithRoad, ASampleWaitsForTheRoadsReadingAndGivesItsValue) {
   EXPECT_EQ(stamps_, (std::vector{0, 20, 40}));
   EXPECT_TRUE(std::isnan(road_[1]));
   EXPECT_EQ(road_[2], 9.0);
-  EXPECT_EQ(grid_.rejected().count(RejectReason::kMissingPartner), 1u);
+  EXPECT_EQ(grid_.streams().rejected().count(RejectReason::kMissingPartner), 1u);
 }
 
 TEST_F(WithRoad, ASilentRoadHoldsTheStrutUpForALimitedTimeOnly) {

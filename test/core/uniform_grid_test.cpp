@@ -48,7 +48,7 @@ TEST(UniformGrid, GivesTheSampleWithTheReadingThatCompletesItStampedByTheBody) {
   EXPECT_EQ(sample->unsprung_acceleration, 2.0);
   EXPECT_FALSE(grid.push(Side::kSprung, at(20), 3.0));
   EXPECT_EQ(grid.push(Side::kUnsprung, at(23), 4.0)->stamp, at(20));
-  EXPECT_EQ(grid.rejected().total(), 0u);
+  EXPECT_EQ(grid.streams().rejected().total(), 0u);
 }
 
 TEST(UniformGrid, PairsStampsUpToHalfASampleApart) {
@@ -58,7 +58,7 @@ TEST(UniformGrid, PairsStampsUpToHalfASampleApart) {
     EXPECT_TRUE(on_the_boundary.push(Side::kUnsprung, at(100 + sign * 10), 2.0));
     beyond.push(Side::kSprung, at(100), 1.0);
     EXPECT_FALSE(beyond.push(Side::kUnsprung, at(100 + sign * 10) + sign * Stamp(1), 2.0));
-    EXPECT_EQ(beyond.rejected().count(RejectReason::kMissingPartner), 1u);  // the older of the two
+    EXPECT_EQ(beyond.streams().rejected().count(RejectReason::kMissingPartner), 1u);  // the older of the two
   }
 }
 
@@ -73,8 +73,8 @@ TEST(UniformGrid, LeavesOutWhatHasNoPartnerAndGoesOn) {
                                                          {Side::kUnsprung, at(80), 14.0},
                                                          {Side::kSprung, at(80), 4.0}});
   expectEqual(samples, {{at(0), 0.0, 10.0}, {at(40), 2.0, 12.0}, {at(80), 4.0, 14.0}});
-  EXPECT_EQ(grid.rejected().count(RejectReason::kMissingPartner), 2u);
-  EXPECT_EQ(grid.rejected().total(), 2u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kMissingPartner), 2u);
+  EXPECT_EQ(grid.streams().rejected().total(), 2u);
 }
 
 TEST(UniformGrid, TakesTwoRatesByTheSlowerOne) {
@@ -125,7 +125,7 @@ TEST_F(Interleaving, OfTheStreamsDoesNotMatter) {
       UniformGrid grid(0.02);
       expectEqual(pairs(grid, merged(body, wheel, bias)), expected);
       for (const auto reason : {RejectReason::kNotFinite, RejectReason::kRepeatedStamp, RejectReason::kTimeWentBack})
-        EXPECT_EQ(grid.rejected().count(reason), body_first.rejected().count(reason));
+        EXPECT_EQ(grid.streams().rejected().count(reason), body_first.streams().rejected().count(reason));
     }
   }
 }
@@ -141,18 +141,18 @@ TEST(UniformGrid, CountsEveryReasonToRefuseAReading) {
   grid.push(Side::kSprung, at(1000), 1.0);
   grid.push(Side::kSprung, at(1020), std::nan(""));
   grid.push(Side::kSprung, at(1020), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(grid.rejected().count(RejectReason::kNotFinite), 2u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kNotFinite), 2u);
   grid.push(Side::kSprung, Stamp::zero(), 1.0);
-  EXPECT_EQ(grid.rejected().count(RejectReason::kZeroStamp), 1u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kZeroStamp), 1u);
   grid.push(Side::kSprung, at(1000), 2.0);
-  EXPECT_EQ(grid.rejected().count(RejectReason::kRepeatedStamp), 1u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kRepeatedStamp), 1u);
   grid.push(Side::kSprung, at(980), 2.0);
-  EXPECT_EQ(grid.rejected().count(RejectReason::kTimeWentBack), 1u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kTimeWentBack), 1u);
   grid.push(Side::kUnsprung, at(1040), 2.0);
-  EXPECT_EQ(grid.rejected().count(RejectReason::kMissingPartner), 1u);
-  EXPECT_EQ(grid.rejected().total(), 6u);
-  EXPECT_EQ(grid.rejected().count(RejectReason::kNotMeasured), 0u);
-  EXPECT_EQ(grid.rejected().count(RejectReason::kTooSoon), 0u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kMissingPartner), 1u);
+  EXPECT_EQ(grid.streams().rejected().total(), 6u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kNotMeasured), 0u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kTooSoon), 0u);
   // None of them stands in the way of what comes next.
   EXPECT_TRUE(grid.push(Side::kSprung, at(1040), 1.0));
 }
@@ -169,7 +169,7 @@ TEST(UniformGrid, SeriesMayStartAtStampZeroButNotStayThere) {
   grid.push(Side::kSprung, Stamp::zero(), 1.0);
   EXPECT_TRUE(grid.push(Side::kUnsprung, Stamp::zero(), 1.0));
   for (int k = 0; k < 10; ++k) EXPECT_FALSE(grid.push(Side::kSprung, Stamp::zero(), 1.0));
-  EXPECT_EQ(grid.rejected().count(RejectReason::kZeroStamp), 10u);
+  EXPECT_EQ(grid.streams().rejected().count(RejectReason::kZeroStamp), 10u);
 }
 
 TEST(UniformGrid, RefusesAPeriodThatIsNone) {
@@ -200,7 +200,7 @@ TEST(UniformGrid, KeepsOutWhatNoVehicleSurvivesAndWhatStandsBetween) {
   EXPECT_FALSE(sensors.push(9.82, 1e15));
   for (int k = 0; k < 9; ++k) EXPECT_FALSE(sensors.push(9.81 + 0.01 * (k % 2), 9.0 + 0.01 * (k % 2))) << k;
   EXPECT_TRUE(sensors.push(9.81, 9.0));
-  EXPECT_EQ(sensors.grid.rejected().count(RejectReason::kAbsurd), 12u);
+  EXPECT_EQ(sensors.grid.streams().rejected().count(RejectReason::kAbsurd), 12u);
 }
 
 // Parked, gravity taken out: the first bump is a hundred thousand times the usual.
@@ -208,7 +208,7 @@ TEST(UniformGrid, TakesTheFirstBumpOfAVehicleThatHasStoodStill) {
   TwoSensors sensors;
   for (int k = 0; k < 20000; ++k) ASSERT_TRUE(sensors.push(0.003 * std::sin(k), 0.003 * std::cos(k)));
   EXPECT_TRUE(sensors.push(50.0, 500.0));
-  EXPECT_EQ(sensors.grid.rejected().total(), 0u);
+  EXPECT_EQ(sensors.grid.streams().rejected().total(), 0u);
 }
 
 TEST(UniformGrid, TakesSensorsThatReadInAnotherUnitSoonAfterTheStart) {

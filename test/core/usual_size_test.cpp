@@ -1,9 +1,9 @@
-#include "suspension_health_monitor/internal/signal/usual_size.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include "suspension_health_monitor/internal/signal/stream_gate.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "simulated_drive.h"
 #include "simulated_vehicle.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -24,9 +23,9 @@ TEST(VehicleModels, AreValidAndPlausibleAtEveryStrut) {
     for (const VehicleStrut& strut : vehicle.struts) {
       const double b1 = vehicle.mobility(strut, strut) * strut.damping;
       const double b0 = vehicle.mobility(strut, strut) * strut.stiffness;
-      const double hop = std::sqrt((strut.tyre_stiffness + strut.stiffness) / strut.wheel_mass) / (2.0 * kPi);
-      EXPECT_GT(std::sqrt(b0) / (2.0 * kPi), 1.0) << name << ' ' << strut.name;
-      EXPECT_LT(std::sqrt(b0) / (2.0 * kPi), 3.0) << name << ' ' << strut.name;
+      const double hop = std::sqrt((strut.tyre_stiffness + strut.stiffness) / strut.wheel_mass) / (2.0 * M_PI);
+      EXPECT_GT(std::sqrt(b0) / (2.0 * M_PI), 1.0) << name << ' ' << strut.name;
+      EXPECT_LT(std::sqrt(b0) / (2.0 * M_PI), 3.0) << name << ' ' << strut.name;
       EXPECT_GT(b1 / (2.0 * std::sqrt(b0)), 0.2) << name << ' ' << strut.name;
       EXPECT_LT(b1 / (2.0 * std::sqrt(b0)), 0.4) << name << ' ' << strut.name;
       EXPECT_GT(hop, 8.0) << name << ' ' << strut.name;
@@ -54,7 +53,7 @@ std::vector<double> coherenceOf(const std::string& tracks, double distance, cons
   axle.struts[1].y = -distance / 2.0;
   const auto size = static_cast<Eigen::Index>(kLength / kStep);
   const Eigen::VectorXd places = Eigen::VectorXd::LinSpaced(size, 0.0, kStep * static_cast<double>(size - 1));
-  const Eigen::ArrayXd window = 1.0 - (2.0 * kPi / kLength * places.array()).cos();
+  const Eigen::ArrayXd window = 1.0 - (2.0 * M_PI / kLength * places.array()).cos();
   Eigen::MatrixXd rates(size, 2 * 24);  // left, right of every seed
   for (Eigen::Index k = 0; k < rates.cols(); k += 2) {
     std::vector<Road> roads = tracksOf(axle, tracks, static_cast<int>(k));
@@ -65,7 +64,7 @@ std::vector<double> coherenceOf(const std::string& tracks, double distance, cons
   for (const double frequency : frequencies) {
     double cross = 0.0, square = 0.0;
     for (double n = 0.85 * frequency; n < 1.15 * frequency; n += 1.0 / kLength) {
-      const Eigen::ArrayXd angle = 2.0 * kPi * n * places.array();
+      const Eigen::ArrayXd angle = 2.0 * M_PI * n * places.array();
       const Eigen::RowVectorXd real = (window * angle.cos()).matrix().transpose() * rates;
       const Eigen::RowVectorXd imaginary = (window * angle.sin()).matrix().transpose() * rates;
       for (Eigen::Index k = 0; k < rates.cols(); k += 2) {
@@ -83,7 +82,7 @@ TEST(Tracks, AreCoherentAsLinesOfAnIsotropicSurface) {
   for (const double distance : {0.5, 1.5}) {
     const std::vector<double> shares = coherenceOf("coherent", distance, frequencies);
     for (std::size_t i = 0; i < frequencies.size(); ++i) {
-      const double x = 2.0 * kPi * frequencies[i] * distance;
+      const double x = 2.0 * M_PI * frequencies[i] * distance;
       EXPECT_NEAR(shares[i], x * std::cyl_bessel_k(1.0, x), 0.06) << distance << " m, " << frequencies[i] << " / m";
     }
   }

@@ -16,16 +16,15 @@
 #include <vector>
 
 #include "ros/vehicle_file.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/signal/motion_filter.h"
-#include "tools/errors.h"
+#include "tools/command.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kRate = 100.0, kGravity = 9.81;
-constexpr double kTimeout = 2.0;                         // [s]
-constexpr double kPitch = 0.2, kTurn = 2.0 * kPi * 2.0;  // largest angular rate [rad/s], and its frequency [rad/s]
+constexpr double kTimeout = 2.0;                          // [s]
+constexpr double kPitch = 0.2, kTurn = 2.0 * M_PI * 2.0;  // largest angular rate [rad/s], and its frequency [rad/s]
 
 class VehicleBags : public testing::Test {
  protected:
@@ -66,9 +65,9 @@ const char* const kVehicle =
     "  middle: {unsprung_imu: /wheel/middle, position: [0.5, -0.3, 0.1]}\n"
     "  rear: {unsprung_imu: /wheel/rear, frame: rear_strut}\n";
 
-double wheel(int strut, double t) { return kGravity + (2.0 + strut) * std::sin(2.0 * kPi * 5.0 * t + strut); }
+double wheel(int strut, double t) { return kGravity + (2.0 + strut) * std::sin(2.0 * M_PI * 5.0 * t + strut); }
 
-double pull(double t) { return 300.0 * std::cos(2.0 * kPi * 1.5 * t); }  // [N]
+double pull(double t) { return 300.0 * std::cos(2.0 * M_PI * 1.5 * t); }  // [N]
 
 sensor_msgs::Imu message(double t, double z) {
   sensor_msgs::Imu imu;

@@ -18,9 +18,6 @@ class EveryN {
     return true;
   }
 
-  /// The next call is let through.
-  void restart() { left_ = 0; }
-
  private:
   int n_;
   int left_ = 0;  // calls until the next one is let through

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -11,7 +10,8 @@
 
 namespace suspension_health_monitor {
 
-/// A list that is none of texts, or a group with nothing in it. No option takes it: it is refused as any other wrong value is.
+/// A list that is none of texts, or a group with nothing in it. No option takes it: it is refused as any other wrong
+/// value is.
 struct UnusableList {
   std::string text;  ///< as it was written
   bool operator==(const UnusableList& other) const { return text == other.text; }

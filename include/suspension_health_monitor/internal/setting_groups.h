@@ -8,6 +8,10 @@
 
 namespace suspension_health_monitor {
 
+/// Takes settings `PREFIX/KEY` out of `values`.
+/// @return the settings KEY.
+OptionMap takePrefixed(OptionMap& values, const std::string& prefix);
+
 /// Takes settings `PREFIX/NAME/KEY` out of `values`.
 /// @return by NAME the settings KEY.
 /// @throws std::invalid_argument  on a setting `PREFIX/NAME`.

@@ -12,8 +12,9 @@ constexpr double square(double x) { return x * x; }
 inline constexpr double kFalseAlarm = 0.001;
 
 /// @return the middle value; of an even number the upper of the middle two, of none 0.
-inline double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
+template <class Value>
+Value median(std::vector<Value> values) {
+  if (values.empty()) return Value{};
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;

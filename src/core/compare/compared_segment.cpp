@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/compare/residual_analysis.h"
-#include "suspension_health_monitor/internal/fit/band_noise.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/initial_states.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "residual_series.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -75,7 +74,7 @@ std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& seg
   }
   series.begins.push_back(series.size());
   if (series.size() < kFewest || !(sumOfSquares(series.rate) > 0.0)) return std::nullopt;
-  series.natural_period = 2.0 * kPi / std::sqrt(noise.stiffness_to_mass) / series.period;
+  series.natural_period = 2.0 * M_PI / std::sqrt(noise.stiffness_to_mass) / series.period;
   series.offset = centre(series.residual);
   centre(series.missing);
   centre(series.wheel);

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/fit/band_noise.h"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,7 +7,6 @@
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/periodogram.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -67,20 +64,14 @@ std::optional<PartSpectra> spectraOf(const Residuals& residuals, double natural_
 /// offset, and what wanders.
 /// @param in_spectra  the power that these have.
 double shareOfSlow(const Residuals& residuals, double in_spectra, const PartSpectra& spectra) {
-  double squares = 0.0, count = 0.0;
-  for (const std::vector<double>& segment : residuals)
-    for (const double r : segment) {
-      squares += square(r);
-      count += 1.0;
-    }
-  const double shown = in_spectra / spectra.unit, whole = squares / count;
+  const double shown = in_spectra / spectra.unit, whole = meanSquare(residuals);
   return whole > shown ? 1.0 - shown / whole : 0.0;
 }
 
 }  // namespace
 
 double bandNoiseShare(const Residuals& residuals, double period, const StrutModel& model) {
-  const double natural_period = 2.0 * kPi / (std::sqrt(model.stiffness_to_mass) * period);
+  const double natural_period = 2.0 * M_PI / (std::sqrt(model.stiffness_to_mass) * period);
   const std::optional<PartSpectra> spectra = spectraOf(residuals, natural_period);
   if (!spectra) return 0.0;
   BandSums sums;

@@ -1,7 +1,6 @@
-#include "drive_sizes.h"
-
 #include <cmath>
 
+#include "parameterization.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {

@@ -1,8 +1,7 @@
-#include "suspension_health_monitor/internal/fit/folded_motion.h"
-
 #include <cmath>
 #include <complex>
 
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/periodogram.h"
 #include "suspension_health_monitor/internal/statistics.h"

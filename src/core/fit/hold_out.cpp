@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -42,7 +41,7 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
   HoldOut result;
   double sum = 0.0, squares = 0.0;
   for (const DriveRecord* record : records) {
-    const double natural_period = std::round(2.0 * kPi / std::sqrt(stiffness_to_mass) / record->period());
+    const double natural_period = std::round(2.0 * M_PI / std::sqrt(stiffness_to_mass) / record->period());
     const double longest = static_cast<double>(record->numSamples());  // then nothing is held out
     const auto period = static_cast<std::size_t>(std::max(4.0, std::min(natural_period, longest)));
     const std::size_t block = std::max<std::size_t>(1, record->numSamples() / kBlocks);

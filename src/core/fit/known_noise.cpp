@@ -39,15 +39,6 @@ FitOutcome leftOfNoise(const std::vector<CornerSample>& noise, double period, co
   return withoutFit(pointersTo(records), linear);
 }
 
-double rmsOf(const Residuals& residuals) {
-  double squares = 0.0, count = 0.0;
-  for (const std::vector<double>& segment : residuals) {
-    for (const double r : segment) squares += square(r);
-    count += static_cast<double>(segment.size());
-  }
-  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
-}
-
 }  // namespace
 
 double floorOfKnownNoise(const Records& records, const StrutModel& model) {
@@ -59,7 +50,7 @@ double floorOfKnownNoise(const Records& records, const StrutModel& model) {
   std::vector<double> levels;
   for (std::size_t f = 0; f < known.size(); ++f)
     if (known[f] > kNone * mean) levels.push_back(left[f] / known[f]);
-  return std::sqrt(median(levels)) * rmsOf(noise->residuals);
+  return std::sqrt(median(levels)) * std::sqrt(meanSquare(noise->residuals));
 }
 
 }  // namespace suspension_health_monitor

@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "suspension_health_monitor/internal/signal/low_pass.h"

@@ -5,7 +5,6 @@
 #include <complex>
 #include <unsupported/Eigen/FFT>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -30,7 +29,7 @@ MotionError motionError(const std::vector<double>& residual, double mean, double
   std::vector<std::complex<double>> spectrum, once(length / 2 + 1), twice(length / 2 + 1);
   fft.fwd(spectrum, padded);
   for (std::size_t i = 1; i <= length / 2; ++i) {
-    const double omega = 2.0 * kPi * static_cast<double>(i) / (static_cast<double>(length) * period);
+    const double omega = 2.0 * M_PI * static_cast<double>(i) / (static_cast<double>(length) * period);
     const double kept = 1.0 / (1.0 + square(square(slowest / omega)));
     once[i] = spectrum[i] * kept / std::complex<double>(0.0, omega);
     twice[i] = -spectrum[i] * kept / square(omega);

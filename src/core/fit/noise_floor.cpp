@@ -1,14 +1,12 @@
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/hat_functions.h"
 #include "suspension_health_monitor/internal/fit/known_noise.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
-#include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
 
 namespace suspension_health_monitor {

@@ -7,9 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "drive_sizes.h"
 #include "parameterization.h"
-#include "segment_cost.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/low_pass.h"
 
@@ -175,6 +173,15 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
     if (!addResiduals(*segments[s], {initial[s][0] * scales.travel, initial[s][1] * scales.travel_rate, {}}, fit))
       return FitFailure::kRunsAway;
   return fit;
+}
+
+double meanSquare(const Residuals& residuals) {
+  double squares = 0.0, count = 0.0;
+  for (const std::vector<double>& segment : residuals) {
+    for (const double r : segment) squares += r * r;
+    count += static_cast<double>(segment.size());
+  }
+  return count > 0.0 ? squares / count : 0.0;
 }
 
 FitOutcome withoutFit(const Records& records, const StrutModel& model) {

@@ -1,12 +1,37 @@
 #pragma once
 
+#include <ceres/cost_function.h>
+
 #include <Eigen/Core>
+#include <array>
+#include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/record/motion_scale.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
+
+using Segments = std::vector<const DriveSegment*>;
+
+/// @return the mask of a segment; none if all samples are fitted.
+inline const SampleMask* maskOf(const std::vector<SampleMask>& masks, std::size_t segment) {
+  return masks.empty() ? nullptr : &masks[segment];
+}
+
+/// What a run from rest, the effects not acting yet, shows of the drives: rms values.
+struct DriveSizes {
+  double travel = 0.0, travel_rate = 0.0;
+  std::vector<double> forces;                   ///< of the effects, per unit of their coefficient
+  double acceleration = 0.0;                    ///< of the measured z'', what is fitted only
+  double residual = 0.0;                        ///< robust, what is fitted only
+  std::array<double, kNumBodyChannels> body{};  ///< 0 where a channel is not known
+};
+
+/// @return nothing if the model runs away or there is nothing to fit.
+std::optional<DriveSizes> measureSizes(const Segments& segments, const std::vector<SampleMask>& masks,
+                                       const StrutModel& start);
 
 /// A model as a vector of numbers of order 1, in the order of valuesOf(): b1 and b0 relative to their start,
 /// coefficients relative to a force of the size of the linear one, shapes by their place in their range (logistic in
@@ -41,6 +66,40 @@ class Parameterization {
 
   std::vector<Number> numbers_;
   Eigen::VectorXd initial_;
+};
+
+/// What a segment's initial state is counted in, and where a residual begins to count as an outlier.
+struct CostScales {
+  double travel = 0.0, travel_rate = 0.0;  ///< [m], [m/s]
+  double outlier = 0.0;                    ///< [m/s^2]
+};
+
+/// Residuals of one segment. Parameter blocks: the model, the segment's initial travel and travel rate.
+/// The arguments must outlive it.
+class SegmentCost : public ceres::CostFunction {
+ public:
+  /// @param mask  none: all samples.
+  SegmentCost(const DriveSegment& segment, const SampleMask* mask, const Parameterization& parameters,
+              const StrutModel& model, const CostScales& scales);
+
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override;
+
+ private:
+  bool evaluate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& residuals) const;
+
+  /// Derivative of the damped residuals with respect to `varied`, one of the two others. Row by row.
+  bool differentiate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& varied,
+                     const Eigen::VectorXd& base, double* jacobian) const;
+
+  // Smooth Huber loss as a change of the residual: half its square is a^2 (sqrt(1 + (r/a)^2) - 1).
+  double damp(double r) const;
+  double dampSlope(double r) const;
+
+  const DriveSegment& segment_;
+  const Parameterization& parameters_;
+  const StrutModel& model_;
+  CostScales scales_;
+  std::vector<std::size_t> used_;
 };
 
 }  // namespace suspension_health_monitor

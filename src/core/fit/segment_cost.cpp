@@ -1,7 +1,7 @@
-#include "segment_cost.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "parameterization.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -89,11 +89,10 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   const bool judges = estimate.tellsChanges() && is_new;
   if (judges) take(stamp, estimate);
   HealthReport now = estimate.tellsChanges() ? judged_ : HealthReport();
-  now.estimate_valid = estimate.tellsChanges();
-  now.doubt = estimate.doubt;
+  now.doubt = estimate.tellsChanges() ? EstimateDoubt::kNone : estimate.doubt;
   now.sensor = sensor_;
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
-  now.outliers = outliers_.arePresent();
+  now.outliers = outlying_ > kOutlyingOften;
   now.learned = baseline_.learned;
   if (learner_) {
     now.learning = learner_->progress();

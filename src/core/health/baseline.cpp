@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
-
-double square(double x) { return x * x; }
 
 struct ValueAndVariance {
   double value, variance;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "suspension_health_monitor/internal/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -55,7 +57,6 @@ bool hasNominal(const CornerState& corner) {
 }
 
 Change changeOf(const CornerState& corner, bool from_nominal) {
-  const auto square = [](double x) { return x * x; };
   Change change;
   change.damping = std::log(corner.damping_to_mass / (from_nominal ? *corner.nominal_damping_to_mass : 1.0));
   change.stiffness = std::log(corner.stiffness_to_mass / (from_nominal ? *corner.nominal_stiffness_to_mass : 1.0));

@@ -1,10 +1,8 @@
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -25,7 +23,7 @@ bool isOfMotion(SensorFault fault) {
 SensorCheck::SensorCheck(double gravity_tolerance, double memory, int horizon_samples)
     : tolerance_(gravity_tolerance),
       memory_(memory),
-      unread_(1.0 - 1.0 / std::max(memory, 1.0), 1.0 / (1.0 + horizon_samples / (2.0 * kPi * kBandTimes))) {}
+      unread_(1.0 - 1.0 / std::max(memory, 1.0), 1.0 / (1.0 + horizon_samples / (2.0 * M_PI * kBandTimes))) {}
 
 void SensorCheck::setTolerance(double gravity_tolerance) {
   if (gravity_tolerance == tolerance_) return;

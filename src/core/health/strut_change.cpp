@@ -40,10 +40,8 @@ LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
   const Eigen::Matrix2d information = covariance.inverse();
   const Eigen::Vector2d measured(both.damping->size, both.stiffness->size), load_moves(-1.0, -1.0);
   const Eigen::Vector2d weights = information * load_moves;
-  const double best = weights.dot(measured) / weights.dot(load_moves);
   LoadAlone load;
-  load.log_mass = std::clamp(best, range.least, range.most);
-  load.at_end = load.log_mass != best;
+  load.log_mass = std::clamp(weights.dot(measured) / weights.dot(load_moves), range.least, range.most);
   const Eigen::Vector2d left = measured - load.log_mass * load_moves;
   load.distance = std::sqrt(std::max(left.dot(information * left), 0.0));  // of NaN, which is not known, NaN
   return load;

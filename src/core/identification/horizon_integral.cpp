@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
@@ -29,7 +28,7 @@ std::vector<double> endCorrections() {
   WithCondition right = WithCondition::Zero();
   const Corrections k = Corrections::LinSpaced(1.0, kCorrections);
   for (int i = 1; i <= kFrequencies; ++i) {
-    const double w = kBand * kPi * i / kFrequencies, weight = std::pow(w, -6);
+    const double w = kBand * M_PI * i / kFrequencies, weight = std::pow(w, -6);
     const Corrections made = 2.0 * w * (w * k).array().sin().matrix();
     system.topLeftCorner<kCorrections, kCorrections>() += weight * made * made.transpose();
     right.head<kCorrections>() += weight * (1.0 - 0.5 * w / std::tan(0.5 * w)) * made;

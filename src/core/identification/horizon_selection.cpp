@@ -6,8 +6,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -42,13 +40,13 @@ double halfPower(double c) {
 }  // namespace
 
 double transmissibility(double damping_to_mass, double stiffness_to_mass, double frequency_hz) {
-  const std::complex<double> s(0.0, 2.0 * kPi * frequency_hz);
+  const std::complex<double> s(0.0, 2.0 * M_PI * frequency_hz);
   const std::complex<double> force = damping_to_mass * s + stiffness_to_mass;
   return std::abs(force / (s * s + force));
 }
 
 double integralFilterMagnitude(double horizon, double frequency_hz) {
-  const double x = kPi * frequency_hz * horizon;
+  const double x = M_PI * frequency_hz * horizon;
   const double sinc = x == 0.0 ? 1.0 : std::sin(x) / x;
   return sinc * sinc;
 }
@@ -58,7 +56,7 @@ HorizonProposal proposeHorizon(double damping_to_mass, double stiffness_to_mass)
   requireAboveZero("stiffness_to_mass", stiffness_to_mass, "1/s^2");
   const double c = damping_to_mass / stiffness_to_mass * damping_to_mass;
   const double omega = std::sqrt(stiffness_to_mass * halfPower(c));
-  HorizonProposal proposal{2.0 * kFilterHalfPower / omega, omega / (2.0 * kPi), {}};
+  HorizonProposal proposal{2.0 * kFilterHalfPower / omega, omega / (2.0 * M_PI), {}};
   for (int i = 0; i < kCurvePoints; ++i) {
     const double decades = kCurveDecades * (2.0 * i / (kCurvePoints - 1) - 1.0);
     const double frequency = proposal.bandwidth_hz * std::pow(10.0, decades);

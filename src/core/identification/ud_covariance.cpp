@@ -1,7 +1,5 @@
 #include "suspension_health_monitor/internal/identification/ud_covariance.h"
 
-#include <algorithm>
-
 namespace suspension_health_monitor {
 
 UdCovariance::UdCovariance(int size)

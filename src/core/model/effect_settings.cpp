@@ -1,13 +1,11 @@
-#include "suspension_health_monitor/internal/model/effect_settings.h"
-
 #include <sstream>
 #include <stdexcept>
 
 #include "find_by_name.h"
-#include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/model/shape_range.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {

@@ -1,13 +1,11 @@
 #include "suspension_health_monitor/internal/model/free_run.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/model/shape_range.h"
-#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
@@ -76,10 +74,6 @@ FreeRun::FreeRun(double period) : period_(period) {
   splits();
 }
 
-bool FreeRun::accepts(double damping_to_mass, double stiffness_to_mass) const {
-  return isFewEnough(exactSteps(period_, damping_to_mass, std::sqrt(stiffness_to_mass)));
-}
-
 bool FreeRun::trySetModel(double damping_to_mass, double stiffness_to_mass) {
   const double frequency = std::sqrt(stiffness_to_mass);
   const double steps = exactSteps(period_, damping_to_mass, frequency);
@@ -89,7 +83,7 @@ bool FreeRun::trySetModel(double damping_to_mass, double stiffness_to_mass) {
   model_.stiffness_to_mass = stiffness_to_mass;
   if (!hasModel() || !(steps <= steps_.count && 2 * steps > steps_.count)) split(steps);
   decay_rate_ = slowestDecay(damping_to_mass, stiffness_to_mass);
-  mean_.memory = kMeanMemory * 2 * kPi / (period_ * frequency);
+  mean_.memory = kMeanMemory * 2 * M_PI / (period_ * frequency);
   return true;
 }
 

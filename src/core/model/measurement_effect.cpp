@@ -5,7 +5,6 @@
 
 #include "find_by_name.h"
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -16,8 +15,8 @@ constexpr int kReach = 12;  // samples on either side that a value between sampl
 /// differentiate by the delay; good to 3e-3 up to 3/4 of Nyquist's frequency, where a rough road still shakes a car.
 double weightAt(double x) {
   if (std::abs(x) >= kReach) return 0.0;
-  const double window = std::cos(kPi * x / (2.0 * kReach));
-  return x == 0.0 ? 1.0 : window * window * std::sin(kPi * x) / (kPi * x);
+  const double window = std::cos(M_PI * x / (2.0 * kReach));
+  return x == 0.0 ? 1.0 : window * window * std::sin(M_PI * x) / (M_PI * x);
 }
 
 /// y(t - tau); beyond its ends the series goes on as its mirror image turned over.

@@ -6,8 +6,6 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/model/effect_settings.h"
-#include "suspension_health_monitor/internal/model/strut_integrator.h"
 
 namespace suspension_health_monitor {
 namespace {

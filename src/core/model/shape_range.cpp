@@ -1,7 +1,7 @@
-#include "suspension_health_monitor/internal/model/shape_range.h"
-
 #include <sstream>
 #include <stdexcept>
+
+#include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,7 +1,5 @@
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
 
-#include <algorithm>
-
 namespace suspension_health_monitor {
 namespace {
 

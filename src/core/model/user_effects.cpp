@@ -6,9 +6,8 @@
 #include <stdexcept>
 
 #include "law_expression.h"
-#include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/setting_groups.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <utility>
 
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 

@@ -7,6 +7,12 @@
 namespace suspension_health_monitor {
 namespace {
 
+// LA has the least mean absolute residual that there is, but for a few memories after wrong readings, which LS follows.
+// Where LS has half of it for longer, LA is lost: one absurd reading may send it further than its covariance lets it
+// come back from.
+constexpr double kLost = 2.0;
+constexpr double kMostLost = 10.0;  // memories
+
 RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
   RecursiveOptions recursive = options.recursive(2 * horizon_samples);
   if (options.estimators.sensors == SensorColumns::kDriftingOffset) recursive.drifting = kStiffnessToMass;
@@ -43,14 +49,23 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       sensors_(options.estimators.sensors),
       forgets_unexcited_(options.estimators.forgets_unexcited),
       regression_(filter_, 0, sensors_),
-      estimators_(sensors_, recursiveOf(options, filter_.horizon_samples), options.leastAbsolute()),
+      least_squares_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples)),
+      least_absolute_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples),
+                      options.leastAbsolute()),
       silent_rows_(filter_.horizon_samples),
       rows_(std::numeric_limits<double>::infinity()) {  // the plain columns are there from the first row on
   setForgetting(options);
 }
 
 void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
-  estimators_.changeEffects(effects);
+  std::vector<ColumnOrigin> columns{{kDampingToMass, 0.0}, {kStiffnessToMass, 0.0}};
+  for (ColumnOrigin effect : effects) {
+    if (effect.before) *effect.before += kNumStrutParameters;
+    columns.push_back(effect);
+  }
+  for (int j = 0; j < count(sensors_); ++j) columns.push_back({numModelColumns() + j, 0.0});
+  least_squares_.changeColumns(columns);
+  least_absolute_.changeColumns(columns);
   regression_ = SuspensionRegression(filter_, effects.size(), sensors_);
   has_row_ = false;
   rows_ = 0.0;
@@ -64,15 +79,22 @@ void StrutIdentifier::add(const CornerSample& sample, const double* effect_force
   // Rows that LA hits exactly would weigh so much that it could not leave them for minutes.
   if (!silent_rows_.moves()) return;
   rows_ += 1.0;
-  if (holds_)
-    estimators_.observe(*row);
-  else
-    estimators_.update(*row);
+  if (!holds_) return update(*row);
+  least_squares_.observe(*row);
+  least_absolute_.observe(*row);
+}
+
+void StrutIdentifier::update(const RegressionRow& row) {
+  least_squares_.update(row);
+  least_absolute_.update(row);
+  const bool is_lost = kLost * least_squares_.meanAbsoluteResidual() < least_absolute_.meanAbsoluteResidual();
+  lost_memories_ = is_lost ? lost_memories_ + 1.0 - forgettingFactor() : 0.0;
+  if (lost_memories_ > kMostLost) least_absolute_.beginAgain(least_squares_);
 }
 
 void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) const {
-  describeParameters(estimators_.leastSquares(), estimators_.numModelColumns(), ls);
-  describeParameters(estimators_.leastAbsolute(), estimators_.numModelColumns(), la);
+  describeParameters(least_squares_, numModelColumns(), ls);
+  describeParameters(least_absolute_, numModelColumns(), la);
 }
 
 EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
@@ -86,12 +108,15 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
 
 void StrutIdentifier::startNewSeries() {
   regression_.reset();
-  estimators_.interrupt();
+  least_squares_.interrupt();
+  least_absolute_.interrupt();
   has_row_ = false;
 }
 
 void StrutIdentifier::setForgetting(const MonitorSettings& options) {
-  estimators_.setForgettingFactor(options.forgettingFactor(filter_.period));
+  const double factor = options.forgettingFactor(filter_.period);
+  least_squares_.setForgettingFactor(factor);
+  least_absolute_.setForgettingFactor(factor);
   fewest_rows_ = options.fewestRows(kFewestHorizons, filter_.period);
 }
 

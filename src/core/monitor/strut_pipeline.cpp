@@ -90,7 +90,7 @@ void StrutPipeline::replayEarly() {
 
 void StrutPipeline::take(Side side, Stamp stamp, double acceleration) {
   auto sample = grid_->push(side, stamp, acceleration);
-  if (const std::optional<Stamp> taken = grid_->taken(); taken && side != Side::kRoad)
+  if (const std::optional<Stamp> taken = grid_->streams().taken(); taken && side != Side::kRoad)
     monitor_->addReading(side, *taken, acceleration);
   for (; sample; sample = grid_->next()) {
     if (tyre_) {
@@ -105,7 +105,7 @@ void StrutPipeline::take(Side side, Stamp stamp, double acceleration) {
 
 RejectCounts StrutPipeline::rejected() const {
   RejectCounts all = early_.rejected();
-  if (grid_) all += grid_->rejected();
+  if (grid_) all += grid_->streams().rejected();
   if (monitor_) all += monitor_->rejected();
   return all;
 }

@@ -6,12 +6,11 @@
 
 #include "explanation.h"
 #include "model_evaluator.h"
+#include "rivals.h"
 #include "selection.h"
 #include "separating_drive.h"
-#include "suspension_health_monitor/internal/fit/folded_motion.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/statistics.h"
-#include "tilt_rival.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "body_turning.h"
-#include "suspension_health_monitor/internal/fit/band_noise.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/statistics.h"
 

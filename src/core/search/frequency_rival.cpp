@@ -1,10 +1,8 @@
-#include "frequency_rival.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "rivals.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -17,7 +15,7 @@ struct Window {
 };
 
 std::vector<Window> windowsOf(const Records& records, double stiffness_to_mass) {
-  const double length_in_time = kWindow * 2.0 * kPi / std::sqrt(stiffness_to_mass);
+  const double length_in_time = kWindow * 2.0 * M_PI / std::sqrt(stiffness_to_mass);
   std::vector<Window> windows;
   for (const DriveSegment* segment : segmentsOf(records)) {
     const MotionError wheel = motionError(segment->unsprung, 0.0, segment->period, stiffness_to_mass);

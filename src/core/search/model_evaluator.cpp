@@ -4,12 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "frequency_rival.h"
 #include "parallel.h"
+#include "rivals.h"
 #include "row_start.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
-#include "wandering.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -225,7 +223,7 @@ bool ModelEvaluator::isToldByFrequency(const EvaluatedModel& candidate, const Ev
 bool ModelEvaluator::wanders(const EvaluatedModel& candidate, const EvaluatedModel& current) const {
   const StrutModel& model = candidate.ranked.model;
   if (!candidate.ranked.significant || model.reading.size() == current.ranked.model.reading.size()) return false;
-  const double natural_period = 2.0 * kPi / std::sqrt(model.stiffness_to_mass) / records_.front()->period();
+  const double natural_period = 2.0 * M_PI / std::sqrt(model.stiffness_to_mass) / records_.front()->period();
   return isWanderingOffset(current.fit.residuals, candidate.fit.residuals, natural_period);
 }
 

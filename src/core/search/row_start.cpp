@@ -7,7 +7,6 @@
 #include "shape_scan.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/rough_model.h"
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/signal/low_pass.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
@@ -49,7 +48,7 @@ RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelF
     for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment.sprung[k];
     const MotionError motion = motionError(relative, mean(relative), segment.period, b0);
     const auto length =
-        static_cast<std::size_t>(std::ceil(kStretchPeriods * 2.0 * kPi / (std::sqrt(b0) * segment.period)));
+        static_cast<std::size_t>(std::ceil(kStretchPeriods * 2.0 * M_PI / (std::sqrt(b0) * segment.period)));
     for (const auto& [first, end] : stretchesOf(segment.size(), length, kMostRows / samples)) {
       for (std::size_t k = first; k < end; ++k) {
         motion_.push_back({motion.travel[k], motion.travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});

@@ -1,7 +1,6 @@
 #include "separating_drive.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace suspension_health_monitor {

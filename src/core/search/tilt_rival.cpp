@@ -1,7 +1,7 @@
-#include "tilt_rival.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "rivals.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,9 +1,8 @@
-#include "wandering.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "model_evaluator.h"
+#include "rivals.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -22,7 +20,7 @@ double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
 // Weighted mean of cos(omega x) over the bands.
 double bandMean(double x) {
   double sum = 0.0;
-  for (const Band& band : kBands) sum += band.weight * band.edge * sinc(band.edge * kPi * x);
+  for (const Band& band : kBands) sum += band.weight * band.edge * sinc(band.edge * M_PI * x);
   return sum;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 
 namespace suspension_health_monitor {
@@ -23,7 +22,8 @@ struct FilterPair {
 /// @param flat, stop  in cycles per sample.
 FilterPair makePair(int delay, double flat, double stop) {
   const int unknowns = 2 * delay + 1;  // h_0 .. h_delay, g_1 .. g_delay
-  const Eigen::ArrayXd frequencies = Eigen::ArrayXd::LinSpaced(kFrequencies + 1, 0.0, 0.5), q = 2.0 * kPi * frequencies;
+  const Eigen::ArrayXd frequencies = Eigen::ArrayXd::LinSpaced(kFrequencies + 1, 0.0, 0.5),
+                       q = 2.0 * M_PI * frequencies;
   Eigen::MatrixXd low_pass = Eigen::MatrixXd::Zero(q.size(), unknowns), difference = low_pass;
   low_pass.col(0).setOnes();
   for (int n = 1; n <= delay; ++n) low_pass.col(n) = 2.0 * (n * q).cos();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "suspension_health_monitor/internal/statistics.h"
+
 namespace suspension_health_monitor {
 
 bool PeriodMeasurement::add(std::size_t stream, Stamp stamp) {
@@ -17,15 +19,12 @@ std::optional<double> PeriodMeasurement::period() const {
     if (is_required_[i] && streams_[i].spacings.size() < spacings_wanted_) return std::nullopt;
   double slowest = 0.0;
   for (const Stream& stream : streams_) {
-    std::vector<Stamp> spacings = stream.spacings;
-    if (spacings.empty()) continue;  // not required
-    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-    std::nth_element(spacings.begin(), middle, spacings.end());
-    const Stamp median = *middle;
+    if (stream.spacings.empty()) continue;  // not required
+    const Stamp usual = median(stream.spacings);
     Stamp sum{};
     int count = 0;
-    for (const Stamp spacing : spacings) {
-      if (2 * spacing <= median || 2 * spacing >= 3 * median) continue;
+    for (const Stamp spacing : stream.spacings) {
+      if (2 * spacing <= usual || 2 * spacing >= 3 * usual) continue;
       sum += spacing;
       ++count;
     }

@@ -20,7 +20,7 @@ constexpr double kPriorVariance = 1.0;  // of b: anything from 0 to 1, and taken
 
 }  // namespace
 
-ReadingClock::ReadingClock() : size_(StreamTiming::kMemory), share_variance_(kPriorVariance) {}
+ReadingClock::ReadingClock() : size_(StreamTiming::kMemory) {}
 
 void ReadingClock::passOver(Stamp stamp) {
   if (stamp != last_stamp_) regular_.passOver();
@@ -85,7 +85,6 @@ void ReadingClock::closeBlock() {
   const double trust = blocks_ * blocks_ / (blocks_ * blocks_ + kPriorBlocks * kPriorBlocks);
   const double information = trust * all_.rr / scores_ * all_.rr, prior = 1.0 / kPriorVariance;
   share_ = std::clamp((prior + information * slope) / (prior + information), 0.0, 1.0);
-  share_variance_ = 1.0 / (prior + information);
 }
 
 }  // namespace suspension_health_monitor

@@ -1,7 +1,7 @@
-#include "suspension_health_monitor/internal/signal/reading_statistics.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "suspension_health_monitor/internal/signal/stream_gate.h"
 
 namespace suspension_health_monitor {
 namespace {

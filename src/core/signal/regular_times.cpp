@@ -1,11 +1,9 @@
 #include "suspension_health_monitor/internal/signal/regular_times.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 #include <complex>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -15,8 +13,6 @@ constexpr double kLossShare = 1e-4, kAstrayShare = 1e-3, kKnown = 1000.0;  // be
 constexpr double kOneMore = 0.5;      // chance that after a lost reading the next one is lost, too
 constexpr double kTakenBack = 1e-5;   // chance that a count turns out to be too high
 constexpr double kImpossible = 14.0;  // -ln of a chance that counts for none
-constexpr double kUnlikely = 0.01;    // chance of what is left out of account
-constexpr double kLongestLoss = 5.0;  // periods; no longer one is bridged
 constexpr double kFarOff = 3.0;       // usual distances
 constexpr double kLeast = 1e-3;       // usual distance, in periods: stamps are no better
 constexpr int kRoughly = 20;          // readings whose line is as good as the one to start from
@@ -46,9 +42,9 @@ double RegularTimes::startFrom(const Line& line) {
   spacing_ = line.spacing;
   out_of_step_ = in_row_ = 0;
   beSureOfCount();
-  losses_ = astray_ = followed_ = lately_off_ = 0.0;
+  losses_ = astray_ = followed_ = 0.0;
   means_ = RunningMeans<kNumMeans>(StreamTiming::kMemory);
-  means_.add({line.variance, line.variance, 0.0, 0.0, 0.0});
+  means_.add({line.variance, line.variance});
   readings_ = line.readings;
   double sum = 0.0;
   for (const double stamp : first_) sum += std::log(follow(stamp, true) / spacing_);
@@ -65,9 +61,7 @@ double RegularTimes::follow(double stamp, bool tells_likelihood) {
   const double off = std::clamp(stamp - time_ - taken * spacing_, -most, most);
   time_ += taken * spacing_ + 2.0 * (2.0 * n - 1.0) / sum * off;
   spacing_ += 6.0 / sum * off / std::max(1.0, taken);
-  means_.add({square(stamp - time_), square(off), found.variance, taken <= kLongestLoss ? taken - 1.0 : 0.0,
-              off * lately_off_});
-  lately_off_ += (off - lately_off_) / kLately;
+  means_.add({square(stamp - time_), square(off)});
   expected_ = 1.0;
   return found.likelihood;
 }
@@ -90,7 +84,7 @@ RegularTimes::Line RegularTimes::likeliestPeriod() const {
   const double mean = (first_.back() - first_.front()) / (kFewest - 1);
   std::array<std::complex<double>, kFewest> now, turn;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    const double angle = 2.0 * kPi * (first_[i] - first_.front()) / mean;
+    const double angle = 2.0 * M_PI * (first_[i] - first_.front()) / mean;
     now[i] = std::polar(1.0, kLowest * angle);
     turn[i] = std::polar(1.0, kStep * angle);
   }
@@ -112,27 +106,12 @@ RegularTimes::Line RegularTimes::likeliestPeriod() const {
     const double before = power[best - 1], after = power[best + 1];
     place += 0.5 * (after - before) / (2.0 * power[best] - before - after);
   }
-  const double spacing = mean / (kLowest + place * kStep), radian = spacing / (2.0 * kPi);
+  const double spacing = mean / (kLowest + place * kStep), radian = spacing / (2.0 * M_PI);
   std::complex<double> sum = 0.0;
   for (const double stamp : first_) sum += std::polar(1.0, (stamp - first_.front()) / radian);
   // Of a normal angle of variance v the mean of exp(i angle) has the size exp(-v / 2).
   const double size = std::min(1.0, std::abs(sum) / kFewest);
   return {spacing, first_.front() + std::arg(sum) * radian - spacing, -2.0 * std::log(size) * square(radian), kFewest};
-}
-
-// Miscounted are as many readings in a row as it takes to find that out, from the time on when one got lost, was
-// thought so, or its stamp was off by anything. They are off alike, and beside them is a gap of a period: n of them
-// leave, in a band that is slow beside the readings, the power of (n + 1)^2 independent errors. That happens seldom, so
-// that among kFewest readings it may have happened oftener by chance (Poisson) if it is likely there at all. Of what
-// stamps are off by alike, what there is by chance does not count.
-double RegularTimes::varianceOfLine() const {
-  const double miscounted = means_.mean(kMiscounted);
-  const double in_a_row = std::max(1.0, miscounted / (lossShare() + kTakenBack + astrayShare()));
-  const double times = miscounted / in_a_row, expected = times * kFewest;
-  const double at_most = expected < kUnlikely ? times : (expected + kFarOff * std::sqrt(expected)) / kFewest;
-  const double by_chance = kFarOff / std::sqrt(2.0 * kLately * 2.0 * kMemory) * means_.mean(kUsual);
-  return 4.0 / kMemory * variance() + square((in_a_row + 1.0) * spacing_) * at_most +
-         std::max(0.0, means_.mean(kAlike) - by_chance);
 }
 
 void RegularTimes::beSureOfCount() {
@@ -182,16 +161,15 @@ RegularTimes::Count RegularTimes::infer(double off) {
   for (std::size_t j = 0; j < kStates; ++j) {
     const double away = off - (static_cast<double>(j) - kReach);
     astray += moved[j] * anything;
-    moved[j] *= std::exp(-0.5 * square(away) / usual) / std::sqrt(2.0 * kPi * usual) + anything;
+    moved[j] *= std::exp(-0.5 * square(away) / usual) / std::sqrt(2.0 * M_PI * usual) + anything;
     total += moved[j];
   }
   const auto best = std::max_element(moved.begin(), moved.end()) - moved.begin();
-  Count found{static_cast<int>(best) - kReach, 0.0, astray / total, total};
+  Count found{static_cast<int>(best) - kReach, astray / total, total};
   chances_ = {};
   for (int j = 0; j < static_cast<int>(kStates); ++j) {
     const double chance = moved[static_cast<std::size_t>(j)] / total;
     if (chance < std::exp(-kImpossible)) continue;
-    found.variance += chance * square(static_cast<double>(j - best));
     const int to = j - found.short_by;
     if (to >= 0 && to < static_cast<int>(kStates)) chances_[static_cast<std::size_t>(to)] = chance;
   }

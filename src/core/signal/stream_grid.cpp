@@ -1,11 +1,8 @@
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <string>
 
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"

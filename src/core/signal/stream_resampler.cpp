@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -22,7 +20,7 @@ using Taps = Eigen::Matrix<double, 2 * kReach + 1, 1>;
 Taps makeTaps() {
   Taps taps = Taps::Zero();
   for (int k = 1 - kReach; k < kReach; ++k) {
-    const double place = static_cast<double>(k) / (kReach - 1), angle = kPi * kCutoff * k;
+    const double place = static_cast<double>(k) / (kReach - 1), angle = M_PI * kCutoff * k;
     const double window = std::cyl_bessel_i(0.0, kKaiser * std::sqrt(1.0 - place * place));
     const double sinc = k == 0 ? 1.0 : std::sin(angle) / angle;
     taps.segment<3>(kReach + k - 1) += sinc * window * Eigen::Vector3d(1.0, 4.0, 1.0);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {
@@ -18,8 +17,8 @@ BodySway::BodySway(const SimulationOptions& options) {
     Sines sines;
     for (int i = 0; i < kNumSines; ++i) {
       const double share = (i + random.uniform()) / kNumSines;  // spread evenly by ratio
-      sines.push_back({rms * std::sqrt(2.0 / kNumSines), 2.0 * kPi * lowest * std::pow(highest / lowest, share),
-                       2.0 * kPi * random.uniform()});
+      sines.push_back({rms * std::sqrt(2.0 / kNumSines), 2.0 * M_PI * lowest * std::pow(highest / lowest, share),
+                       2.0 * M_PI * random.uniform()});
     }
     return sines;
   };

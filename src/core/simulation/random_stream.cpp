@@ -3,8 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -26,7 +24,7 @@ double RandomStream::uniform() {
 
 double RandomStream::gaussian() {
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-  return radius * std::cos(2.0 * kPi * uniform());
+  return radius * std::cos(2.0 * M_PI * uniform());
 }
 
 }  // namespace suspension_health_monitor

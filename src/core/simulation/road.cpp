@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 
@@ -47,7 +46,7 @@ RoadPoint operator+(const RoadPoint& a, const RoadPoint& b) {
 RoadPoint paperRoad(double t) {
   RoadPoint sum;
   for (const Wave& wave : kWaves) {
-    const double omega = 2.0 * kPi / wave.period;
+    const double omega = 2.0 * M_PI / wave.period;
     const double cosine = std::cos(omega * t);
     sum = sum + RoadPoint{wave.amplitude * (1.0 - cosine), wave.amplitude * omega * std::sin(omega * t),
                           wave.amplitude * omega * omega * cosine};
@@ -90,9 +89,9 @@ IsoRoad::IsoRoad(char road_class, double speed, int seed, RoadLine line)
     // The integral of a density that falls as n^-2 from low to high is low Gd(low) (1 - low / high).
     const double variance = low * isoDisplacementDensity(road_class, low) * (1.0 - low / high);
     amplitude_[i] = std::sqrt(2.0 * variance);
-    omega_[i] = 2.0 * kPi * n * speed;
+    omega_[i] = 2.0 * M_PI * n * speed;
     const double s = 2.0 * across.uniform() - 1.0;
-    phase_[i] = 2.0 * kPi * (random.uniform() + n * s / std::sqrt(1.0 - s * s) * line.lateral);
+    phase_[i] = 2.0 * M_PI * (random.uniform() + n * s / std::sqrt(1.0 - s * s) * line.lateral);
   }
   grid_step_ = 1.0 / (kPointsPerWave * kHighest * speed);
   cosine_step_ = (omega_ * grid_step_).array().cos();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/simulation/road.h"
 #include "suspension_health_monitor/internal/simulation/sensors.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 

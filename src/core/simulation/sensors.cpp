@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/simulation/sensors.h"
 
-#include <array>
 #include <cmath>
 #include <stdexcept>
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/plain_text.h"

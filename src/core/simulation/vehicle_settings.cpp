@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/model/effect_settings.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
@@ -75,11 +75,7 @@ void changeKnownForces(OptionMap& values, Vehicle& vehicle) {
 }
 
 void changeImu(OptionMap& values, Vehicle& vehicle) {
-  const std::string start = "body_imu/";
-  OptionMap settings;
-  for (auto entry = values.lower_bound(start);
-       entry != values.end() && entry->first.compare(0, start.size(), start) == 0; entry = values.erase(entry))
-    settings[entry->first.substr(start.size())] = entry->second;
+  OptionMap settings = takePrefixed(values, "body_imu");
   takeAll("body_imu", settings, kVehicleImuFields, vehicle.body_imu);
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -23,7 +22,7 @@ VehicleMotion::Signal signalOf(const KnownForce& force, int seed, unsigned index
   const double width = (force.highest_frequency - force.lowest_frequency) / kNumSines;
   for (int i = 0; i < kNumSines; ++i) {
     const double frequency = force.lowest_frequency + (i + random.uniform()) * width;
-    sines.push_back({2.0 * kPi * frequency, 2.0 * kPi * random.uniform()});
+    sines.push_back({2.0 * M_PI * frequency, 2.0 * M_PI * random.uniform()});
   }
   const double amplitude = force.rms * std::sqrt(2.0 / kNumSines);
   return [sines, amplitude](double t) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -15,7 +14,7 @@ namespace {
 constexpr double kLeastGravity = 5.0;  // [m/s^2]: half of it, which no offset is
 // A road of 9 %: steeper ones are rare. An IMU that leans by less reads so little of the gravity that pitch and roll
 // turn that b0 is wrong by 2 %.
-constexpr double kSteepestRoad = 5.0 / 180.0 * kPi;
+constexpr double kSteepestRoad = 5.0 / 180.0 * M_PI;
 
 constexpr std::ptrdiff_t kParts = 5;  // of the while: of ten seconds, shorter ones than braking takes
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/pi.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -14,7 +12,7 @@ constexpr double kLongest = 4.0;      // natural period [s]: softer is no suspen
 // That of the slowest strut [samples], even.
 int naturalPeriod(const std::vector<StrutModel>& models, double period) {
   double slowest = 0.0;
-  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * kPi / std::sqrt(model.stiffness_to_mass));
+  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
   return 2 * std::max(1, static_cast<int>(std::lround(std::min(slowest, kLongest) / (2.0 * period))));
 }
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "suspension_health_monitor/internal/fit/folded_motion.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"

@@ -1,7 +1,7 @@
-#include "suspension_health_monitor/internal/wording/effect_sentences.h"
-
 #include <algorithm>
 #include <array>
+
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,10 +1,8 @@
-#include "suspension_health_monitor/internal/wording/failure_sentences.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "suspension_health_monitor/internal/wording/readable_unit.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {

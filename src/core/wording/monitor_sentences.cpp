@@ -56,7 +56,7 @@ std::string describeJudgement(const HealthReport& report) {
            "road and that of the baseline (learn one on such a road)";
   if (report.level == HealthLevel::kStale && report.uncertain)
     return "cannot tell: estimates too uncertain to prove a change (drive on, or on a rougher road)";
-  if (report.level == HealthLevel::kStale && report.estimate_valid)
+  if (report.level == HealthLevel::kStale && report.doubt == EstimateDoubt::kNone)
     return "cannot tell yet: a new level must last for health/confirm_time";
   if (report.level == HealthLevel::kStale) return "cannot tell: " + describe(report.doubt);
   const std::string changes = describeChanges(report);
@@ -94,8 +94,12 @@ const char* nameOf(HealthLevel level) {
   return "STALE";
 }
 
+std::string describeSilent(const std::vector<std::string>& topics) {
+  return topics.empty() ? "" : join(topics) + (topics.size() == 1 ? " is" : " are") + " silent";
+}
+
 std::string describeNoReading(double seconds, const std::vector<std::string>& silent, const std::string& before) {
-  const std::string why = silent.empty() ? "" : ", " + join(silent) + (silent.size() == 1 ? " is" : " are") + " silent";
+  const std::string why = silent.empty() ? "" : ", " + describeSilent(silent);
   return formatted("cannot tell: no reading accepted for %.0f s", seconds) + why + "; before: " + before;
 }
 

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/wording/readable_unit.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -72,7 +72,7 @@ std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& g
                         std::to_string(enough) + formatted(" samples, %.3g s", enough * monitor.period()) +
                         "; usable samples in all: " + std::to_string(monitor.input().samples) +
                         ", gaps: " + std::to_string(monitor.input().gaps) + ")";
-  const std::string slow = grid.whatIsTooSlow();
+  const std::string slow = grid.streams().whatIsTooSlow();
   if (!slow.empty()) message += "; " + slow;
   return message + describeRejected(rejected);
 }

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/fit/folded_motion.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
-#include "suspension_health_monitor/internal/pi.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -132,7 +131,7 @@ const char* reasonOf(FitFailure failure) {
 // One period more than the blocks take: a record loses samples at its ends.
 static std::string enoughToHoldOut(const StrutModel& strut) {
   if (!(strut.stiffness_to_mass > 0.0)) return {};
-  return describeEnough((kEnoughPeriods + 1.0) * 2.0 * kPi / std::sqrt(strut.stiffness_to_mass));
+  return describeEnough((kEnoughPeriods + 1.0) * 2.0 * M_PI / std::sqrt(strut.stiffness_to_mass));
 }
 
 std::string reasonOf(Shortcoming shortcoming, const StrutModel& start) {

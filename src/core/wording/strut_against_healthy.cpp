@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/wording/strut_against_healthy.h"
-
 #include <cmath>
 
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"

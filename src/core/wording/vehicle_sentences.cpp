@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/pi.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -44,7 +43,7 @@ std::string describe(InertiaDoubt doubt) {
 
 std::string describe(const BodyLevel& level) {
   if (!level.isTurned()) return "";
-  const double degrees = level.lean() / kPi * 180.0;
+  const double degrees = level.lean() / M_PI * 180.0;
   return "the body's IMU leans by " + std::to_string(std::lround(degrees)) +
          " degrees: gravity tells which way is up; positions are in its own axes";
 }

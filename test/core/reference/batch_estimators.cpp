@@ -1,6 +1,7 @@
 #include "batch_estimators.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -75,6 +76,10 @@ void BatchLeastAbsoluteOptions::validate() const {
 
 double BatchLeastAbsoluteOptions::stoppingThreshold(double criterion) const {
   return stopping_rule == StoppingRule::kRelative ? min_decrease * criterion : min_decrease;
+}
+
+double boundedDivisor(double residual, SmallDivisor rule, double smallest, double residual_scale) {
+  return std::max(std::abs(residual), smallestDivisor(rule, smallest, residual_scale));
 }
 
 double leastAbsoluteCriterion(const RegressionRows& rows, const Eigen::VectorXd& weights,

@@ -60,6 +60,9 @@ struct BatchLeastAbsoluteEstimate {
   bool converged = false;      ///< stopped by min_decrease, not by max_iterations
 };
 
+/// @return max(|residual|, smallestDivisor()).
+double boundedDivisor(double residual, SmallDivisor rule, double smallest, double residual_scale);
+
 /// V = sum_i w_i |psi_i - phi_i' theta|, Eq. (18) [unit of psi].
 double leastAbsoluteCriterion(const RegressionRows& rows, const Eigen::VectorXd& weights, const Eigen::VectorXd& theta);
 

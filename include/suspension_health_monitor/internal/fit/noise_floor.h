@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
 #include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 
@@ -37,5 +39,35 @@ inline double structuredShare(double rmse, double noise_floor) {
 inline constexpr double kStructured = 0.2;
 
 inline bool isStructured(double rmse, double noise_floor) { return structuredShare(rmse, noise_floor) >= kStructured; }
+
+/// Noise that a sensor has filtered, as most do inside: white within a band, next to nothing beyond it, where an
+/// interpolation (noise_floor.h) sees none. What a free run leaves is such noise if it is white within a band of its
+/// own, and the same in every quarter of the drives; what a law leaves is strong near resonance and weak elsewhere, or
+/// goes with a sweep.
+///
+/// White noise of both sensors has the spectrum n g(f), g = 1 + |G(f)|^2 for what comes through the model. The largest
+/// that fits under the spectrum S of the residual in a band of m frequencies has n = m / sum(g / S), the harmonic mean
+/// over frequencies and quarters, which is also what an interpolation of the band would leave (Kolmogorov). The band is
+/// where n sum(g) is largest.
+/// @param residuals  of a fit of the model.
+/// @return its share of the residual's power; 0 if there are too few samples to tell.
+double bandNoiseShare(const Residuals& residuals, double period, const StrutModel& model);
+
+/// The noise floor of what a model leaves: all of it if that is white in a band of its own (isStructured()), else as it
+/// is given, but not above the rmse.
+double floorOfResidual(double rmse, double noise_floor, const Residuals& residuals, double period,
+                       const StrutModel& model);
+
+/// What a wheel that shakes beyond half the sampling rate may leave of a free run [m/s^2]: without a filter before the
+/// sampling such motion is folded back, and no model can follow it. It is taken to be white, with the density that w''
+/// has just below half the rate, and to pass the strut as it does there.
+/// @return 0 if the drives are too short to tell.
+double foldedMotion(const Records& records, const StrutModel& model);
+
+/// Above this share of its motion that is folded back a wheel is sampled too slowly for anything to be told.
+inline constexpr double kMostFolded = 0.25;
+
+/// @return rms of white motion as dense as that of w'' just below half the rate, over that of w''.
+double shareAtSamplingLimit(const Records& records);
 
 }  // namespace suspension_health_monitor

@@ -16,6 +16,9 @@ using SampleMask = std::vector<char>;
 /// measured - predicted, per segment of all records and sample [m/s^2].
 using Residuals = std::vector<std::vector<double>>;
 
+/// @return of all segments; 0 of none.
+double meanSquare(const Residuals& residuals);
+
 /// FreeRun::follow() over a segment, with the filter that its signals have passed and the faults of the reading that
 /// the model has.
 /// @param state  lead() samples before the first one.

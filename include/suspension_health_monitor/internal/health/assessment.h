@@ -1,13 +1,9 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "suspension_health_monitor/internal/health/baseline.h"
-#include "suspension_health_monitor/internal/health/change_trend.h"
-#include "suspension_health_monitor/internal/health/early_warning.h"
-#include "suspension_health_monitor/internal/health/level_confirmation.h"
-#include "suspension_health_monitor/internal/health/outliers.h"
+#include "suspension_health_monitor/internal/health/health_rules.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/health/strut_change.h"
 #include "suspension_health_monitor/monitor_options.h"
@@ -30,7 +26,7 @@ struct HealthOptions : HealthThresholds {
 /// - What is judged is the block estimate, whose standard deviations and correlation decide what is certain.
 /// - A baseline is compared as it would be on the present road (changeFrom()), a steady change without its lag
 ///   (ChangeTrend).
-/// - Residuals of LS that have heavy tails for long (Outliers) are reported.
+/// - Residuals of LS that have heavy tails for long are reported: outliers.
 /// - Payload moves both parameters, damage one (splitChange()).
 /// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation), of one
 /// estimate
@@ -53,21 +49,21 @@ class HealthAssessment {
   void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
 
   /// LS as it is now, to be called for each check of the sensors.
-  void watch(const StrutEstimate& ls) { outliers_.update(ls); }
+  void watch(const StrutEstimate& ls) { outlying_ += ((ls.tails > kHeavy ? 1.0 : 0.0) - outlying_) / kOutlyingMemory; }
 
   /// Judges by this from now on; learning ends.
   void setBaseline(const Baseline& baseline);
   const Baseline& baseline() const { return baseline_; }
+  const HealthReport& report() const { return report_; }
 
   /// Judges by other thresholds from now on; a level that is being confirmed stays so.
   /// @throws std::invalid_argument  as HealthOptions::validate(); the thresholds then stay as they were.
   void setOptions(const HealthOptions& options);
 
-  const HealthReport& report() const { return report_; }
-  const HealthOptions& options() const { return options_; }
-
  private:
-  static constexpr double kLoadCertain = 2.0, kLoadShare = 0.5;  // standard deviations; of a change that warns
+  static constexpr double kHeavy = 4.0;  // StrutEstimate::tails: 2 as Laplace's, twice that
+  static constexpr double kOutlyingOften = 0.4, kOutlyingMemory = 50.0;  // calls of watch(): ten memories of LS
+  static constexpr double kLoadCertain = 2.0, kLoadShare = 0.5;          // standard deviations; of a change that warns
 
   /// What is followed of damping or of stiffness.
   struct Parameter {
@@ -88,7 +84,7 @@ class HealthAssessment {
   Baseline baseline_;
   std::optional<BaselineLearner> learner_;
   Parameter damping_, stiffness_;
-  Outliers outliers_;
+  double outlying_ = 0.0;       // share of the newest calls of watch() in which the tails were heavy
   double known_load_ = 0.0;     // ln of the body's mass over the healthy vehicle's, when last nothing else had changed
   double since_early_ = 0.0;    // seconds since the early warning saw the newest change
   std::optional<Stamp> taken_;  // when the newest estimate came

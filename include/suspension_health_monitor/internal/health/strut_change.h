@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 namespace suspension_health_monitor {
@@ -25,7 +24,6 @@ struct LoadRange {
 /// The load that explains both changes best, and how well.
 struct LoadAlone {
   double log_mass = 0.0;
-  bool at_end = false;    ///< of the range: more of it would explain more
   double distance = 0.0;  ///< of both changes from it, in standard deviations
 };
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/small_divisor.h"
 

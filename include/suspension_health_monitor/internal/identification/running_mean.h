@@ -19,11 +19,14 @@ class RunningMeans {
     for (std::size_t i = 0; i < N; ++i) means_[i] += gain * (values[i] - means_[i]);
   }
 
+  /// Of one quantity.
+  void add(double value) { add(std::array<double, N>{value}); }
+
   /// From now on; what has been taken in keeps its weight.
   void setForgettingFactor(double forgetting_factor) { forgetting_factor_ = forgetting_factor; }
 
-  double mean(std::size_t i) const { return means_[i]; }  ///< 0 before the first values
-  double weight() const { return weight_; }               ///< sum lambda^(k-i), at most 1 / (1 - lambda)
+  double mean(std::size_t i = 0) const { return means_[i]; }  ///< 0 before the first values
+  double weight() const { return weight_; }                   ///< sum lambda^(k-i), at most 1 / (1 - lambda)
 
  private:
   double forgetting_factor_;
@@ -32,16 +35,6 @@ class RunningMeans {
 };
 
 /// The mean of one quantity.
-class RunningMean {
- public:
-  explicit RunningMean(double forgetting_factor) : means_(forgetting_factor) {}
-
-  void add(double value) { means_.add({value}); }
-  double mean() const { return means_.mean(0); }
-  double weight() const { return means_.weight(); }
-
- private:
-  RunningMeans<1> means_;
-};
+using RunningMean = RunningMeans<1>;
 
 }  // namespace suspension_health_monitor

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 namespace suspension_health_monitor {
 
@@ -17,11 +16,6 @@ enum class SmallDivisor {
 ///         threshold of 0 has a weight whose square is still a number.
 inline double smallestDivisor(SmallDivisor rule, double smallest, double residual_scale) {
   return std::max(rule == SmallDivisor::kRelative ? smallest * residual_scale : smallest, 1e-100);
-}
-
-/// @return max(|residual|, smallestDivisor()).
-inline double boundedDivisor(double residual, SmallDivisor rule, double smallest, double residual_scale) {
-  return std::max(std::abs(residual), smallestDivisor(rule, smallest, residual_scale));
 }
 
 }  // namespace suspension_health_monitor

@@ -50,12 +50,9 @@ class FreeRun {
   /// @param period  sampling time T > 0 [s].
   explicit FreeRun(double period);
 
-  /// @return true if the linear part is stable and the sampling can follow it: b1 > 0, b0 > 0, at most 32 steps per
-  /// sample.
-  bool accepts(double damping_to_mass, double stiffness_to_mass) const;
-
-  /// Changes the linear part if it is acceptable. The spring's force b0 d and the travel rate go on.
-  /// @return accepts(); if false, the model stays as it was.
+  /// Changes the linear part if it is stable and the sampling can follow it: b1 > 0, b0 > 0, at most 32 steps per
+  /// sample. The spring's force b0 d and the travel rate go on.
+  /// @return whether it is so; if false, the model stays as it was.
   bool trySetModel(double damping_to_mass, double stiffness_to_mass);
 
   /// As trySetModel().
@@ -91,13 +88,12 @@ class FreeRun {
 
   /// How often the run has left all bounds: the force of an effect was not usable (isUsable()), a prediction was not
   /// finite, or larger than a thousand times the largest w'' of the run. Effects can do that, whose coefficients
-  /// accepts() does not judge. The run then starts anew.
+  /// trySetModel() does not judge. The run then starts anew.
   std::uint64_t runaways() const { return runaways_; }
 
   /// At the sample that the last prediction belongs to:
-  double travel() const { return state_.travel; }                            ///< d [m]; with effects less a / b0
-  double travelRate() const { return state_.travel_rate; }                   ///< v [m/s]
-  double unsprungAcceleration() const { return input_.data()[kDelay - 1]; }  ///< w'' as measured [m/s^2]
+  double travel() const { return state_.travel; }           ///< d [m]; with effects less a / b0
+  double travelRate() const { return state_.travel_rate; }  ///< v [m/s]
   /// f_j, one per effect, per unit of its coefficient.
   const double* effectForces() const { return forces_.data(); }
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"

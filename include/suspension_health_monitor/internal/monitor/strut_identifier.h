@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/paired_estimators.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
-#include "suspension_health_monitor/internal/monitor/silent_rows.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 #include "suspension_health_monitor/internal/monitor_settings.h"
 #include "suspension_health_monitor/monitor_report.h"
@@ -14,7 +14,9 @@
 namespace suspension_health_monitor {
 
 /// The paper's estimation, row by row: integral filter and regression rows (9), (28)-(30), then LS (15)-(17) and LA
-/// (24)-(26) of them side by side. Cost per sample: O(1) whatever the horizon; no allocation.
+/// (24)-(26) of them side by side: they have the same columns, b1, b0, those of the effects, those of the sensors, and
+/// forget by the same factor, and LS tells whether LA is lost. Cost per sample: O(1) whatever the horizon; no
+/// allocation.
 class StrutIdentifier {
  public:
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
@@ -55,19 +57,24 @@ class StrutIdentifier {
   void setForgetting(const MonitorSettings& options);
 
   /// @return the factor that rows are forgotten by.
-  double forgettingFactor() const { return estimators_.forgettingFactor(); }
+  double forgettingFactor() const { return least_absolute_.forgettingFactor(); }
 
   /// @return c_j of LA [unit of the effect's coefficient].
   double coefficient(std::size_t j) const {
-    return estimators_.leastAbsolute().parameters()[kNumStrutParameters + static_cast<Eigen::Index>(j)];
+    return least_absolute_.parameters()[kNumStrutParameters + static_cast<Eigen::Index>(j)];
   }
 
  private:
+  int numModelColumns() const { return least_absolute_.numParameters() - count(sensors_); }  // all but the sensors'
+  void update(const RegressionRow& row);
+
   IntegralFilterOptions filter_;
   SensorColumns sensors_;
   bool forgets_unexcited_;  // true: rows of a parked vehicle count, too
   SuspensionRegression regression_;
-  PairedEstimators estimators_;
+  RecursiveLeastSquares least_squares_;
+  RecursiveLeastAbsolute least_absolute_;
+  double lost_memories_ = 0.0;  // that LS has explained far more than LA for
   SilentRows silent_rows_;
   bool has_row_ = false;
   bool holds_ = false;

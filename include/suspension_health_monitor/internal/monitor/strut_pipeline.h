@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -63,7 +62,7 @@ class StrutPipeline {
 
   MonitorSettings settings_;
   Sinks sinks_;
-  EarlyReadings<double> early_{PeriodMeasurement::kOfOneStrut, UniformGrid::kMostWaiting};
+  EarlyReadings<double> early_{PeriodMeasurement::kOfOneStrut, StreamGrid::kMostWaiting};
   bool is_refused_ = false;            // the settings do not fit the sample period that was measured
   std::vector<ActiveEffect> effects_;  // until there is a monitor, as is the baseline
   std::optional<LinearStrut> strut_;   // that belongs to them

@@ -53,7 +53,6 @@ class DriveRecord {
   DriveRecord(const Drive& drive, double period, int steps = 1, double driven_before = 0.0);
 
   double period() const { return period_; }
-  int steps() const { return steps_; }
   const std::vector<DriveSegment>& segments() const { return segments_; }
   std::size_t numSamples() const;
   double gravity() const { return mean_wheel_; }

@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"

@@ -5,8 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "suspension_health_monitor/drive.h"
-
 namespace suspension_health_monitor {
 
 inline constexpr std::size_t kMostStreams = 3;  ///< of one strut, see Side

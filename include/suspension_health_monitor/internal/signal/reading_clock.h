@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
@@ -17,9 +16,9 @@ namespace suspension_health_monitor {
 /// The readings tell b. With x(t) the signal, a reading is x_k = x(regular) + b x' d_k. Fourth differences D take the
 /// signal out of that as far as it is slow, so that b is the slope of e = D x_k over r = D (x'_k d_k), by least squares
 /// of all readings, of which rough driving counts most: there it matters. x' is that of readings taken regularly; where
-/// they are not it is noisy, and b too small by a tenth or two. Its variance is the sandwich over blocks of readings,
-/// since neighbouring differences share readings. Beforehand stamps are taken at their word, b = 1.
-/// Cost per reading: O(1), no allocation.
+/// they are not it is noisy, and b too small by a tenth or two. How much that is to be trusted is told by how the
+/// blocks of readings scatter, since neighbouring differences share readings. Beforehand stamps are taken at their
+/// word, b = 1. Cost per reading: O(1), no allocation.
 class ReadingClock {
  public:
   ReadingClock();
@@ -37,16 +36,7 @@ class ReadingClock {
   /// @return b in [0, 1]: of what the stamps are irregular by that the readings are, too [-].
   double share() const { return share_; }
 
-  /// @return as RegularTimes::missing().
-  double missing() const { return regular_.missing(); }
-
-  /// @return variance of what take() is off by, for stamps that are off independently of each other [s^2]: of the share
-  /// of the distances that is not as it was taken for, and of the line.
-  double variance() const {
-    const double of_line = followsStamps() ? 0.0 : regular_.varianceOfLine();
-    return regular_.variance() * (std::min(share_, 1.0 - share_) + share_variance_) + of_line;
-  }
-
+ private:
  private:
   static constexpr int kReach = 3;  // of a derivative, to either side
   static constexpr int kHalf = 2;   // of a fourth difference
@@ -69,7 +59,7 @@ class ReadingClock {
   Products block_, all_;
   int rows_ = 0;                        // of the block
   double scores_ = 0.0, blocks_ = 0.0;  // sum of squares of blocks' scores; blocks
-  double share_ = 1.0, share_variance_;
+  double share_ = 1.0;
 };
 
 }  // namespace suspension_health_monitor

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -38,27 +37,17 @@ class RegularTimes {
   double spacing() const { return spacing_; }               ///< by the line [s]
   double variance() const { return means_.mean(kSquare); }  ///< of stamps about the line [s^2]
 
-  /// @return the share of readings that are not there, pauses left out [-].
-  double missing() const { return std::max(0.0, means_.mean(kMissing)); }
-
-  /// @return variance of next() [s^2], as of independent errors: of the end of the line, for stamps that are off
-  /// independently of each other; of readings that may be of another period than they were taken for; and of what a
-  /// stamp is off by like the kLately ones before it, which the line follows.
-  double varianceOfLine() const;
-
  private:
   static constexpr double kMemory = 1.0 / (1.0 - StreamTiming::kMemory);  // readings
   static constexpr int kFewest = 256;
-  static constexpr double kLately = 20.0;  // stamps
-  static constexpr int kReach = 16;        // periods that a count may be short of, or have too many
+  static constexpr int kReach = 16;  // periods that a count may be short of, or have too many
   static constexpr std::size_t kStates = 2 * kReach + 1;
 
-  enum Mean : std::size_t { kSquare, kUsual, kMiscounted, kMissing, kAlike, kNumMeans };
+  enum Mean : std::size_t { kSquare, kUsual, kNumMeans };
 
-  /// What is known of a reading's period: by how many the count is short of it, and the variance of that.
+  /// What is known of a reading's period: by how many the count is short of it.
   struct Count {
     int short_by = 0;
-    double variance = 0.0;
     double astray = 0.0;      // chance that the stamp is off by anything
     double likelihood = 1.0;  // of the stamp [1/period]; of one that leaves no doubt it is not told
   };
@@ -88,7 +77,6 @@ class RegularTimes {
   double expected_ = 1.0;                // periods to the next reading, if none gets lost
   int in_row_ = 0, out_of_step_ = 0;
   RunningMeans<kNumMeans> means_;
-  double lately_off_ = 0.0;                              // the newest kLately stamps from the line, on average [s]
   std::array<double, kStates> chances_{};                // of the states, after the newest reading
   double losses_ = 0.0, astray_ = 0.0, followed_ = 0.0;  // times that readings got lost; stamps, readings
 };

@@ -1,16 +1,122 @@
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/signal/range_end.h"
-#include "suspension_health_monitor/internal/signal/reading_statistics.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/signal/stream_timing.h"
-#include "suspension_health_monitor/internal/signal/usual_size.h"
 
 namespace suspension_health_monitor {
+
+/// What a sensor's readings are like as a rule.
+struct UsualReadings {
+  double mean = 0.0, deviation = 0.0;  ///< deviation: mean distance from the mean
+  double finest_step = 0.0;            ///< smallest step other than 0 from one reading to the next
+  double span = 0.0;                   ///< highest less lowest
+  double repeated = 0.0;               ///< share of readings that equal the one before, in [0, 1]
+  bool known = false;                  ///< from enough readings
+};
+
+/// The upper or the lower end of what one sensor has read: do its readings stop there because its range does?
+///
+/// Signs of a range that ends: flat tops, kFlatTop equal readings in a row or more, at the very extreme; and more
+/// readings at the extreme than within a narrow band below it. Of a signal that turns by itself the band holds more,
+/// however coarsely it is quantised: a parabola stays in the kBandSteps steps of resolution below its top
+/// sqrt(1 + kBandSteps) - 1 times as long as in the top one. Far from the mean one flat top is enough; near it, where
+/// heavy clipping has its limit, kAgain are, since a sensor may be stuck anywhere. One flat top that lasts is no limit
+/// but a sensor that is stuck. A sensor that repeats its readings must show tops that are flat for it.
+/// Cost per reading: O(1), no allocation.
+class RangeEnd {
+ public:
+  static constexpr int kStuck = 20;  ///< equal readings in a row; fewer occur where the resolution is coarse
+
+  /// @param sign  1: the upper end, -1: the lower one.
+  explicit RangeEnd(double sign) : sign_(sign) {}
+
+  /// Takes in the next reading.
+  /// @param equal_in_a_row  readings of this value without a break, this one included.
+  /// @param usual  of the readings so far, this one included.
+  void add(double reading, int equal_in_a_row, const UsualReadings& usual);
+
+  /// @return the farthest reading so far; none before the first one.
+  const std::optional<double>& extreme() const { return extreme_; }
+
+  /// @return where the range ends, as long as no reading goes beyond.
+  const std::optional<double>& limit() const { return limit_; }
+
+ private:
+  static constexpr int kFlatTop = 3;
+  static constexpr int kAgain = 5;
+
+  void count(double reading, double band);
+  void countFlatTops(double reading, int equal_in_a_row, double repeated);
+
+  double sign_;
+  std::optional<double> extreme_, limit_;
+  double at_ = 0.0, near_ = 0.0;  // readings at the extreme; within the band below
+  int flat_tops_ = 0;             // counts up to kAgain
+  bool in_flat_top_ = false;
+};
+
+/// What the readings of one sensor are like, the newest thousand of them. Cost per reading: O(1), no allocation.
+class ReadingStatistics {
+ public:
+  /// @param is_extreme  it equals the highest or the lowest reading so far, which a range may have cut off.
+  void add(double reading, bool is_extreme);
+
+  /// @param span  highest less lowest of all readings.
+  UsualReadings usual(double span) const;
+
+  /// @return how many of the last readings are of one value, without a break; as far as RangeEnd::kStuck.
+  int equalInARow() const { return equal_in_a_row_; }
+
+  double mean() const { return mean_.mean(); }
+  double deviation() const { return deviation_.mean(); }  ///< mean distance from the mean
+
+ private:
+  std::optional<double> last_;
+  int equal_in_a_row_ = 0;
+  double finest_step_ = 0.0;                     // other than 0
+  RunningMean repeated_{StreamTiming::kMemory};  // 1 for a reading that equals the one before, both extremes left out
+  RunningMean mean_{StreamTiming::kMemory}, deviation_{StreamTiming::kMemory};
+};
+
+/// How large a sensor's readings usually are: their running median.
+///
+/// It is followed on a logarithmic scale by steps of one size, up for a reading above it and down for one below, so
+/// that 1e300 moves it as little as the next larger reading. Readings that are wrong for a while move it by what half
+/// of the readings of that time would; those that stay, as of a sensor that reads in another unit from now on, become
+/// the usual ones.
+/// Cost per reading: O(1), no allocation.
+class UsualSize {
+ public:
+  /// @param period  from one reading to the next, above 0 [s].
+  explicit UsualSize(double period) : slowest_step_(period / kFoldTime) {}
+
+  /// @param size  of the next reading, finite and not negative.
+  void add(double size) {
+    readings_ = std::min(readings_ + 1.0, kStart / slowest_step_);
+    if (median_ == 0.0) median_ = size;
+    const double factor = std::exp(kStart / readings_);
+    median_ = std::clamp(size > median_ ? median_ * factor : median_ / factor, kSmallest, kLargest);
+  }
+
+  /// @return the median; none as long as there are fewer than kFewest readings.
+  double median() const { return readings_ >= kFewest ? median_ : 0.0; }
+
+ private:
+  static constexpr double kFoldTime = 13.0;  // [s] to e times the size, at the fastest: ten times in half a minute
+  static constexpr double kStart = 5.0;      // steps 5, 5/2, 5/3, ..: a first reading of 1e12 is left after 200 more
+  static constexpr double kFewest = 10.0;
+  static constexpr double kSmallest = 1e-100, kLargest = 1e100;  // its logarithm stays a number
+
+  double slowest_step_;
+  double readings_ = 0.0;
+  double median_ = 0.0;
+};
 
 /// Lets the readings of one sensor pass that can be true, by their stamps and values, and counts the others by reason.
 ///

@@ -36,8 +36,6 @@ class StreamSilence {
   /// @return how long a stream has been silent by now; 0 if it is not.
   Stamp lasting(std::size_t stream) const;
 
-  std::size_t numStreams() const { return last_.size(); }
-
  private:
   void begin(Stamp stamp);
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "suspension_health_monitor/internal/identification/limited_mean.h"
-#include "suspension_health_monitor/internal/pi.h"
 
 namespace suspension_health_monitor {
 
@@ -38,7 +37,7 @@ class WhiteLevel {
   std::size_t count() const { return count_; }  ///< values that the deviation is known from
 
   /// Of a normal distribution, as far as that is known.
-  double deviation() const { return std::sqrt(kPi / 2.0) * size_.mean(); }
+  double deviation() const { return std::sqrt(M_PI / 2.0) * size_.mean(); }
 
  private:
   std::array<double, 8> differences_{};

@@ -21,4 +21,30 @@ std::string percent(double share);
 /// @return to be read after what is too short.
 std::string describeEnough(double seconds);
 
+/// Writes numbers of one kind so that they read well: three digits at most, no exponent, all with the same SI prefix.
+class ReadableUnit {
+ public:
+  /// The prefix that brings `typical` between 1 and 1000, e.g. mm for the travel of a car.
+  /// @param unit  without prefix, e.g. "m".
+  ReadableUnit(double typical, const std::string& unit);
+
+  /// The same, but without a prefix as long as `typical` is between 0.01 and 100 000: m/s^2, Hz, s.
+  static ReadableUnit plain(double typical, const std::string& unit);
+
+  /// @return number and unit, e.g. "21.3 mm".
+  std::string operator()(double value) const { return number(value) + " " + unit_; }
+
+  /// @return the number alone, in unit().
+  std::string number(double value) const;
+
+  const std::string& unit() const { return unit_; }
+
+ private:
+  ReadableUnit(double typical, double prefixed, const std::string& unit);
+
+  std::string unit_;
+  double size_ = 1.0;  // of the unit, in the one without prefix
+  int most_decimals_ = 3;
+};
+
 }  // namespace suspension_health_monitor

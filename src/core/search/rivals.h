@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "suspension_health_monitor/internal/fit/hold_out.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/strut_model.h"
+
+namespace suspension_health_monitor {
+
+inline constexpr const char* kTilt = "mount_tilt";
+
+/// A sensor that is tilted by an angle reads its cosine of all that happens along the strut, gravity above all. What
+/// leaks in from across need not show it: of the wheel's IMU nothing else is known.
+/// @return true if a fault of the model's reading is an offset or a gain that a tilt of up to 30 degrees makes as well,
+/// in drives whose sensors read gravity.
+bool mayBeTilt(const StrutModel& model, const std::string& fault, const Records& records);
+
+/// @return true if the force depends on time at some motion.
+bool dependsOnTime(const ActiveEffect& active);
+
+/// The rival of a law that changes with time: the same with the time that the frequency of the wheel's motion tells.
+/// Where that does as well, as on a sweep, nobody can tell a part that wears from one that answers to frequency.
+/// Frequency: ln of rms velocity over rms position of the wheel (motionError() of w'') in windows of four natural
+/// periods. It tells the mean time of the two windows that are next in frequency; in straight lines between the
+/// middles.
+ForceEffect frequencyRival(const ForceEffect& effect, const Records& records, double stiffness_to_mass);
+
+/// How far a residual wanders more slowly than the strut moves [m/s^2, rms]. Any strut passes what is slow as it is, so
+/// that no law of one leaves this: it is a reading that wanders, as that of a body that leans does, or of a sensor that
+/// drifts. It is what the means over neighbouring windows of a natural period have in common; noise has nothing.
+/// @param natural_period  [samples].
+double wandering(const Residuals& residuals, double natural_period);
+
+/// @return true if a fault of the reading makes an offset above all, and that is not larger than what wanders beside
+/// it: then it is no constant, and no fault of a sensor.
+bool isWanderingOffset(const Residuals& before, const Residuals& after, double natural_period);
+
+}  // namespace suspension_health_monitor
