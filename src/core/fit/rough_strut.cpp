@@ -16,8 +16,8 @@ struct Trial {
   double lag;     // of that length
 };
 // A short drive has no three blocks of that length. Struts that bounce far slower or faster than it is for come last.
-constexpr Trial kTrials[] = {{1.0, 0.0},         {1.0, kLag}, {1.0, -kLag}, {1.0, 2.0 * kLag},
-                             {1.0, -2.0 * kLag}, {0.5, 0.0},  {8.0, 0.0},   {0.125, 0.0}};
+constexpr Trial kTrials[] = {{1.0, 0.0}, {1.0, kLag}, {1.0, -kLag}, {1.0, 2.0 * kLag}, {1.0, -2.0 * kLag},
+                             {0.5, 0.0}, {8.0, 0.0},  {0.125, 0.0}, {1.0 / 32.0, 0.0}};
 
 std::optional<RoughStrut> find(const std::vector<Drive>& drives, double period, double length, double lag) {
   BlockOptions options;
