@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "suspension_health_monitor/internal/signal/early_readings.h"
@@ -109,10 +110,12 @@ std::string describeSuspicions(const UniformGrid& grid, const IdentifiedStrut& l
 }
 
 std::string describeSuspicions(const UniformGrid& grid, const std::vector<Drive>& drives, double period) {
+  constexpr double kHorizon = 0.2, kAllOfIt = 1e6;  // [s]: short, so that the sign of the damping shows in many rows
   constexpr int kFewestSamples = 6;
   IdentifyOptions options;
   options.sample_period = period;
-  options.horizon_samples = std::max(kFewestSamples, MonitorSettings().horizonSamples(period));
+  options.horizon_samples = std::max(kFewestSamples, static_cast<int>(std::lround(kHorizon / period)));
+  options.memory = kAllOfIt;
   return describeSuspicions(grid, identify(drives, options).ls);
 }
 
