@@ -77,7 +77,7 @@ struct CompareOptions {
   std::optional<double> sample_period;  ///< T [s]; nothing: the median spacing of the samples
   std::optional<int>
       horizon_samples;              ///< L of the integral filter for the one-step error; nothing: chosen by the strut
-  std::optional<StrutModel> model;  ///< nothing: the linear strut, b1 and b0 by least squares
+  std::optional<StrutModel> model;  ///< nothing: the linear strut, b1 and b0 by blocks
   /// true: b1, b0, coefficients and shapes are fitted by output error, from the model as the first guess.
   /// false: the model's numbers are judged as they are; only the initial state of every segment is estimated.
   bool fit = true;

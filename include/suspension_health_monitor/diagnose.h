@@ -38,9 +38,9 @@ struct FittedModel {
 
 struct DiagnoseOptions {
   std::optional<double> sample_period;  ///< T [s]; nothing: the median spacing of the samples
-  std::optional<int> horizon_samples;   ///< L of the integral filter of the first guess; nothing: chosen by the drives
+  std::optional<int> horizon_samples;   ///< L for how fast a strut the first guess is sought; nothing: a car's
   /// Where to start: effects that it has stay in the model and are fitted again, and the search is for what is missing
-  /// beside them. Nothing: the linear strut, b1 and b0 by least squares.
+  /// beside them. Nothing: the linear strut, b1 and b0 by blocks of the drives.
   std::optional<StrutModel> model;
   EffectLibrary candidates = builtInEffects();
   int threads = 2;       ///< the result is the same for any number

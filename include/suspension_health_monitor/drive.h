@@ -70,7 +70,7 @@ struct Drive {
 /// Why nothing can be said of some drives.
 enum class Shortcoming {
   kNone,
-  kNoDampedSpring,   ///< least squares gives b1 or b0 that is not above 0: parked, swapped sensors, an axis upside down
+  kNoDampedSpring,   ///< no b1 and b0 above 0 are found: parked, swapped sensors, an axis upside down
   kTooFast,          ///< the model is too stiff for the sampling: more than 32 integration steps per sample
   kTooShort,         ///< too few samples between gaps, or nothing moves
   kNoStableFit,      ///< no stable damped spring fits them; or the model given runs away on them

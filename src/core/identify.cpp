@@ -1,16 +1,15 @@
 #include "suspension_health_monitor/identify.h"
 
-#include <limits>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 int proposeHorizon(const std::vector<Drive>& drives, double period) {
-  if (const auto samples = surveyHorizon(drives, period, std::numeric_limits<std::size_t>::max())) return *samples;
+  if (const auto rough = roughStrut(drives, period)) return rough->horizonSamples(period);
   throw std::invalid_argument("horizon_samples is not given, and none can be proposed: the data show no damped spring");
 }
 

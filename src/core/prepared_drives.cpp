@@ -1,12 +1,11 @@
 #include "prepared_drives.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
-#include "suspension_health_monitor/internal/fit/rough_model.h"
-#include "suspension_health_monitor/internal/identification/clock_lag.h"
-#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/monitor_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
@@ -24,16 +23,15 @@ double periodOf(const std::vector<Drive>& drives, const std::optional<double>& s
   return *sample_period;
 }
 
-StrutModel roughStart(const std::vector<Drive>& drives, double period, std::optional<int> horizon_samples) {
+// A horizon that is given tells how long the first blocks have to be.
+std::optional<RoughStrut> roughStart(const std::vector<Drive>& drives, double period,
+                                     const std::optional<int>& horizon_samples) {
   if (horizon_samples && !(*horizon_samples >= 1 && *horizon_samples <= kMostHorizonSamples))
     throw std::invalid_argument("horizon_samples = " + std::to_string(*horizon_samples) + ", must be in [1, " +
                                 std::to_string(kMostHorizonSamples) + "]");
-  if (!horizon_samples) horizon_samples = surveyHorizon(drives, period, HorizonSurvey::kEnough);
-  if (!horizon_samples) return {};
-  IntegralFilterOptions filter;
-  filter.period = period;
-  filter.horizon_samples = *horizon_samples;
-  return roughModel(drives, filter);
+  MonitorSettings settings;
+  if (horizon_samples) settings.integration_horizon = *horizon_samples * period;
+  return roughStrut(drives, period, settings.presentBlockLength());
 }
 
 PreparedDrives lacking(Shortcoming shortcoming, const StrutModel& start) {
@@ -47,16 +45,17 @@ PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::option
   const double period = periodOf(drives, sample_period);
   for (const Drive& drive : drives) drive.low_pass.validate(drive.samples.size());
   if (model) requireUsable(model->effects);
-  StrutModel start = model ? *model : roughStart(drives, period, horizon_samples);
-  const std::optional<LaggedStrut> lagged = model ? std::nullopt : lookForClockLag(drives, period);
-  if (lagged && !isDampedSpring(start))
-    start = {lagged->model.damping_to_mass, lagged->model.stiffness_to_mass, {}, {}};
+  const std::optional<RoughStrut> rough = model ? std::nullopt : roughStart(drives, period, horizon_samples);
+  StrutModel start = model.value_or(StrutModel());
+  if (rough) start = {rough->strut.damping_to_mass, rough->strut.stiffness_to_mass, {}, {}};
   // What a fit leaves to the linear damping may be less than nothing where an effect of the model damps.
-  const bool is_spring = model ? start.stiffness_to_mass > 0.0 : isDampedSpring(start);
-  if (!is_spring) return lacking(Shortcoming::kNoDampedSpring, start);
+  if (!(start.stiffness_to_mass > 0.0)) return lacking(Shortcoming::kNoDampedSpring, start);
   if (!canFollow(start, period)) return lacking(Shortcoming::kTooFast, start);
   PreparedDrives prepared{Shortcoming::kNone, "", start, makeRecords(drives, period, start), std::nullopt};
-  if (lagged) prepared.lagged = lagged->model;
+  if (rough && rough->clocksDiffer(period)) {
+    prepared.lagged = start;
+    prepared.lagged->reading.push_back({findEffect(measurementEffects(), "clock_offset"), {rough->clock_offset}});
+  }
   const std::optional<UntestableEffect> untestable = findUntestable(start, pointersTo(prepared.records));
   if (!untestable) return prepared;
   PreparedDrives refused = lacking(Shortcoming::kModelUntestable, start);

@@ -13,7 +13,7 @@ namespace suspension_health_monitor {
 struct PreparedDrives {
   Shortcoming shortcoming = Shortcoming::kNone;
   std::string reason;                ///< to be read after "the drives"
-  StrutModel start;                  ///< the model given, or a rough one by least squares
+  StrutModel start;                  ///< the model given, or a rough one by blocks
   std::deque<DriveRecord> records;   ///< one per drive; none if there is a shortcoming
   std::optional<StrutModel> lagged;  ///< a rough one with clock_offset, if the clocks seem to differ
 };

@@ -1,11 +1,10 @@
-#include <limits>
 #include <stdexcept>
 
 #include "bindings.h"
 #include "options.h"
 #include "readings.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
@@ -18,15 +17,14 @@ namespace {
 double proposeHorizon(const Recordings& recordings, const MonitorOptions& options, double period, Stamp shift,
                       LongWork& work) {
   const std::vector<Drive> drives = toDrives(recordings, options, period, shift, work);
-  const HorizonSurvey survey = surveyOf(drives, period, std::numeric_limits<std::size_t>::max());
-  if (const auto samples = survey.horizonSamples()) return *samples * period;
+  if (const auto rough = roughStrut(drives, period)) return rough->horizonSamples(period) * period;
   UniformGrid grid(period, MonitorSettings(options).grid(period));
   recordings.front().forEach([&](Side side, Stamp stamp, double value) {
     if (side == Side::kRoad) return;
     for (auto sample = grid.push(side, stamp + shift, value); sample;) sample = grid.next();
   });
   throw std::invalid_argument("no horizon can be proposed: the data show no damped spring" +
-                              describeSuspicions(grid, survey.dampingIsNegative()) +
+                              describeSuspicions(grid, drives, period) +
                               "; give integration_horizon to look at them all the same");
 }
 

@@ -74,11 +74,10 @@ void printEnd(const DriveIdentification& identification, const IdentifyResult& f
   }
 }
 
-std::string suspicions(const DriveIdentification& identification, const IdentifiedStrut& found) {
+std::string suspicions(const DriveIdentification& identification, const IdentifiedStrut& ls) {
   const SensorReport& sensor = identification.monitor().report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated) return "; " + describe(sensor);
-  constexpr double kCertain = 5.0;  // standard deviations
-  return describeSuspicions(identification.grid(), found.damping_to_mass < -kCertain * found.damping_to_mass_stddev);
+  return describeSuspicions(identification.grid(), ls);
 }
 
 }  // namespace
@@ -143,7 +142,7 @@ void identify(const Arguments& arguments) {
     for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
   printWritten(*values, not_nominal.empty() ? outputs : std::vector<std::string>{"csv", "json"});
   if (settings && !not_nominal.empty() && !reason) throw TooLittleError("no settings are written: " + not_nominal);
-  if (reason) throw TooLittleError(*reason + suspicions(identification, result.estimate) + describeRejected(rejected));
+  if (reason) throw TooLittleError(*reason + suspicions(identification, result.ls) + describeRejected(rejected));
 }
 
 }  // namespace suspension_health_monitor

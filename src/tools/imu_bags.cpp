@@ -62,16 +62,9 @@ Places findPlaces(const BagFile& file, const ImuBags& bags) {
 /// Which recording times [ns] are read.
 struct Range {
   std::uint64_t first = 0, last = std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t interval = 0, length = 0;  // of the stretches from `first` on; 0: all
 
-  bool contains(std::uint64_t time) const {
-    return time >= first && time <= last && (interval == 0 || (time - first) % interval < length);
-  }
-  bool overlaps(const BagChunk& chunk) const {
-    if (chunk.end < first || chunk.start > last) return false;
-    const std::uint64_t start = std::max(chunk.start, first);
-    return contains(start) || (interval != 0 && (start - first) / interval != (chunk.end - first) / interval);
-  }
+  bool contains(std::uint64_t time) const { return time >= first && time <= last; }
+  bool overlaps(const BagChunk& chunk) const { return chunk.end >= first && chunk.start <= last; }
 };
 
 Range toRange(const ImuBags& bags, std::uint64_t beginning) {
@@ -80,10 +73,6 @@ Range toRange(const ImuBags& bags, std::uint64_t beginning) {
   Range range;
   range.first = beginning + nanoseconds(std::min(bags.start, kFarFuture));
   if (bags.end < kFarFuture) range.last = beginning + nanoseconds(bags.end);
-  if (bags.stretches) {
-    range.interval = std::max<std::uint64_t>(1, nanoseconds(bags.stretches->interval));
-    range.length = nanoseconds(bags.stretches->length);
-  }
   return range;
 }
 
@@ -202,23 +191,6 @@ std::vector<std::string> neededTopics(const ImuBags& bags) {
 }
 
 }  // namespace
-
-double duration(const ImuBags& bags) {
-  double sum = 0.0;
-  for (const std::string& path : bags.paths) {
-    const BagFile file(path);
-    const std::vector<BagChunk>& chunks = file.chunks();
-    if (chunks.empty()) continue;
-    std::uint64_t first = std::numeric_limits<std::uint64_t>::max(), last = 0;
-    for (const BagChunk& chunk : chunks) {
-      first = std::min(first, chunk.start);
-      last = std::max(last, chunk.end);
-    }
-    const double end = std::min(1e-9 * static_cast<double>(last - first), bags.end);
-    sum += std::max(0.0, end - bags.start);
-  }
-  return sum;
-}
 
 void readTopics(const ImuBags& bags, const TopicSinks& take) {
   for (const std::string& path : bags.paths) {

@@ -31,20 +31,10 @@ struct ImuBags {
   double end = std::numeric_limits<double>::infinity();
   std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted
 
-  /// Of each part only stretches of `length` seconds, one after every `interval` seconds: a sample of the whole.
-  struct Stretches {
-    double interval = 0.0, length = 0.0;
-  };
-  std::optional<Stretches> stretches;
-
   TopicGaps* gaps = nullptr;   ///< told of all that is read, if it is given; outlives the reading
   bool reads_ahead = true;     ///< in a second thread
   std::size_t not_needed = 0;  ///< of `topics` so many, the last: their silence is none
 };
-
-/// @return time that the bags span, the part of each that is to be read, by their tables of contents [s].
-/// @throws InputError  as readImuMessages().
-double duration(const ImuBags& bags);
 
 /// @return the static transforms (/tf_static) of all bags.
 /// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.

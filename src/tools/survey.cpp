@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,8 +11,7 @@
 #include "../ros/conversions.h"
 #include "bag_samples.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/identification/clock_lag.h"
-#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
@@ -25,11 +23,10 @@ namespace {
 // Of each topic: the mean of n spacings has 1/n of a stamp's jitter.
 constexpr std::size_t kMessagesForPeriod = 10000, kCheckedMessages = 1000;
 
-// A horizon is proposed from stretches that lie all over the drive: it may begin parked, or be rough for a short time
-// only. What stands still weighs little beside what moves.
-constexpr int kStretch = 2500;  // [samples]
+// Relative standard deviation of b1 and b0 that proposes a horizon: that is off by half as much.
+constexpr double kEnough = 0.15;
 
-constexpr std::size_t kLookedAt = 40000;  // samples, for an offset of the clocks
+constexpr std::size_t kLookedAt = 40000;  // samples, where blocks show no strut at once
 
 // Two bounces of the slowest body, whose springs a weight presses down by a metre [s]: 2 * 2 pi sqrt(1 m / g).
 constexpr double kTwoBounces = 4.0;
@@ -49,84 +46,74 @@ std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
   return measurement.period();
 }
 
-/// What a survey came across.
+/// What was read until the blocks knew the strut, or to the end.
 struct Surveyed {
-  Drive drive;
+  std::optional<RoughStrut> rough;
+  bool clocks_differ;  // so that blocks show no strut before they are set right
+  Drive drive;         // its beginning
   UniformGrid grid;
-  double period;
   std::size_t samples, gaps;
   std::size_t longest;  // samples in one piece
   RejectCounts rejected;
 };
 
-Surveyed readInto(HorizonSurvey& survey, const ImuBags& bags, const PipelineOptions& options) {
-  const Stamp period = fromSeconds(*options.monitor.sample_period);
+Surveyed survey(const ImuBags& bags, const PipelineOptions& options) {
+  const double period = *options.monitor.sample_period;
+  StrutBlocks blocks({}, period);
+  std::optional<RoughStrut> rough;
   std::optional<Stamp> last;
   std::size_t count = 0, gaps = 0, piece = 0, longest = 0;
   RejectCounts too_soon;
   Drive drive;
   ReadSamples read = readSamples(bags, options, [&](const CornerSample& sample) {
-    const Continuity follows = last ? continuity(sample.stamp - *last, period) : Continuity::kContinues;
-    const bool is_extra = follows == Continuity::kTooSoon;
-    if (follows == Continuity::kGap || follows == Continuity::kClockJumped) {
-      ++gaps;
-      piece = 0;
-      survey.interrupt();
-    }
-    if (is_extra) too_soon.add(RejectReason::kTooSoon);
-    if (!is_extra) {
-      survey.push(sample);
-      longest = std::max(longest, ++piece);
-      if (count < kLookedAt) drive.samples.push_back(sample);
-    }
+    const Continuity follows = last ? continuity(sample.stamp - *last, fromSeconds(period)) : Continuity::kContinues;
     last = sample.stamp;
     ++count;
-    return true;
+    if (follows == Continuity::kTooSoon) {
+      too_soon.add(RejectReason::kTooSoon);
+      return true;
+    }
+    if (follows != Continuity::kContinues) {
+      ++gaps;
+      piece = 0;
+    }
+    longest = std::max(longest, ++piece);
+    if (count < kLookedAt) drive.samples.push_back(sample);
+    const BlockEstimate* estimate = blocks.push(sample);
+    if (estimate != nullptr && estimate->worst() < kEnough) rough.emplace(*estimate);
+    return !rough;
   });
+  if (const auto all = blocks.overTheDrive(); all && !rough) rough.emplace(*all);
+  const bool is_seen = rough.has_value();
+  if (!is_seen) rough = roughStrut({drive}, period);
+  const bool clocks_differ = !is_seen && rough && rough->clocksDiffer(period);
   read.rejected += too_soon;
-  return {std::move(drive), std::move(read.grid), *options.monitor.sample_period, count, gaps, longest, read.rejected};
+  return {rough, clocks_differ, std::move(drive), std::move(read.grid), count, gaps, longest, read.rejected};
 }
 
-std::string describeClockLag(double lag) {
-  char text[120];
-  std::snprintf(text, sizeof text, "; the clocks of the IMUs seem to differ by about %.0f ms: diagnose tells",
-                1e3 * std::abs(lag));
-  return text;
+std::string describeClockOffset(double offset) {
+  return formatted("; the clocks of the IMUs seem to differ by about %.0f ms: diagnose tells", 1e3 * std::abs(offset));
 }
 
-[[noreturn]] void refuse(const Surveyed& surveyed, const HorizonSurvey& survey,
-                         const std::optional<LaggedStrut>& lagged) {
-  const bool is_short = static_cast<double>(surveyed.longest) * surveyed.period < kTwoBounces;
+[[noreturn]] void refuse(const Surveyed& surveyed, double period) {
+  const bool is_short = static_cast<double>(surveyed.longest) * period < kTwoBounces;
   throw TooLittleError(
       "no horizon can be proposed: " +
       std::string(surveyed.samples == 0 ? "no pair of readings can be used" : "the data show no damped spring") +
       " (samples " + std::to_string(surveyed.samples) +
-      formatted(" in %.3g s", static_cast<double>(surveyed.samples) * surveyed.period) + ", gaps " +
+      formatted(" in %.3g s", static_cast<double>(surveyed.samples) * period) + ", gaps " +
       std::to_string(surveyed.gaps) + (is_short ? "; two bounces of the body in one piece are enough" : "") +
       describeRejected(surveyed.rejected) + ")" +
-      (lagged ? describeClockLag(lagged->model.reading.front().coefficients.front())
-              : describeSuspicions(surveyed.grid, survey.dampingIsNegative())) +
+      (surveyed.rough ? describeClockOffset(surveyed.rough->clock_offset)
+                      : describeSuspicions(surveyed.grid, {surveyed.drive}, period)) +
       "; give integration_horizon (--set integration_horizon=0.6) to look at them all the same");
 }
 
 int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options, bool clocks_may_differ) {
   const double period = *options.monitor.sample_period;
-  const IntegrationRule rule = MonitorSettings(options.monitor).estimators.rule;
-  const double share = HorizonSurvey::kEnough * period / duration(bags);
-  if (share < 1.0) {
-    ImuBags stretches = bags;
-    stretches.stretches = ImuBags::Stretches{kStretch * period / share, kStretch * period};
-    HorizonSurvey survey(period, rule, kStretch / 2);
-    readInto(survey, stretches, options);
-    if (survey.isClear()) return *survey.horizonSamples();
-  }
-  HorizonSurvey survey(period, rule, HorizonSurvey::kLongest);
-  const Surveyed surveyed = readInto(survey, bags, options);
-  const std::optional<int> samples = survey.horizonSamples();
-  if (samples) return *samples;
-  const std::optional<LaggedStrut> lagged = lookForClockLag({surveyed.drive}, period);
-  if (!lagged || !clocks_may_differ) refuse(surveyed, survey, lagged);
-  return lagged->horizon_samples;
+  const Surveyed surveyed = survey(bags, options);
+  if (!surveyed.rough || (surveyed.clocks_differ && !clocks_may_differ)) refuse(surveyed, period);
+  return surveyed.rough->horizonSamples(period);
 }
 
 }  // namespace

@@ -6,12 +6,13 @@
 namespace suspension_health_monitor {
 
 /// @return the mean spacing of the stamps at the beginning of the bags, of the slowest topic that is needed [s].
-/// @throws InputError  as readTopics(), or it is no sample_period.  @throws TooLittleError  if there are too few messages.
+/// @throws InputError  as readTopics(), or it is no sample_period.  @throws TooLittleError  if there are too few
+/// messages.
 double measurePeriod(const ImuBags& bags);
 
-/// Measures what the settings leave open: sample_period by measurePeriod(), the horizon by matching the filter to the
-/// strut (horizon_survey.h) in stretches that lie all over the drive, or, if these show no strut clearly, in all of it.
-/// @param clocks_may_differ  true: a horizon that shows a strut once the clocks are set right (clock_lag.h) will do.
+/// Measures what the settings leave open: sample_period by measurePeriod(), the horizon by proposeHorizon() with what
+/// blocks tell of the strut: those of the beginning, as soon as they know it well enough.
+/// @param clocks_may_differ  true: a strut that blocks see once the clocks are set right (rough_strut.h) will do.
 /// @throws InputError  as readImuMessages().  @throws TooLittleError  if there are too few messages to tell.
 void measureOpenSettings(const ImuBags& bags, PipelineOptions& options, bool clocks_may_differ);
 

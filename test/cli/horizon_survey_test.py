@@ -1,4 +1,4 @@
-"""The horizon that identify proposes: from stretches of long drives, wherever these are rough."""
+"""The horizon that identify proposes: as soon as the drive tells it, wherever it is rough."""
 import json
 
 import numpy as np
@@ -7,7 +7,7 @@ import pytest
 import imu_bag
 
 ROUGH = 1200  # samples of the paper's drive before readings are lost
-LONG = 60000  # samples, of which two thirds are surveyed
+LONG = 60000  # samples
 
 
 def proposed(program, tmp_path, drive):
@@ -22,7 +22,6 @@ def expected(program, tmp_path_factory):
     return proposed(program, tmp_path_factory.mktemp("rough"), [column[:ROUGH] for column in imu_bag.paper_drive()])
 
 
-# Stretches of 2500 samples are surveyed, 3750 apart: the second rough part lies where nothing is.
 @pytest.mark.parametrize("begin", [0, 2700, 40000, LONG - ROUGH])
 def test_a_parked_drive_with_a_short_rough_part_gets_the_horizon_of_that_part(program, tmp_path, expected, begin):
     noise = np.random.default_rng(1).normal(0.0, 1e-3, (2, LONG))

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
@@ -72,9 +72,9 @@ void measure(const CleanDrive& drive, double noise, unsigned seed, const Take& t
 }
 
 inline int proposedHorizon(const CleanDrive& drive, double noise) {
-  HorizonSurvey survey(drive.period, IntegrationRule::kBandLimited, 4096);
-  measure(drive, noise, 1, [&](const CornerSample& sample) { survey.push(sample); });
-  return survey.horizonSamples().value();
+  Drive measured;
+  measure(drive, noise, 1, [&](const CornerSample& sample) { measured.samples.push_back(sample); });
+  return roughStrut({measured}, drive.period).value().horizonSamples(drive.period);
 }
 
 /// Valid estimates whose windows share no reading.

@@ -2,15 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "paper_drive.h"
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/fit/rough_model.h"
-#include "suspension_health_monitor/internal/identification/horizon_survey.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
@@ -73,16 +71,16 @@ TEST(SensorOffset, ChangesNoEstimate) {
 TEST(SensorOffset, ChangesNeitherHorizonNorRecordedDrives) {
   for (const Road& road : kRoads) {
     Drive drive{driveOn(road), {}};
-    const int horizon = surveyHorizon({drive}, 1.0 / road.rate, std::numeric_limits<std::size_t>::max()).value();
+    const RoughStrut rough = roughStrut({drive}, 1.0 / road.rate).value();
     const IdentifyResult expected = identify({drive});
     for (CornerSample& sample : drive.samples) sample.unsprung_acceleration += 0.5;
-    EXPECT_EQ(surveyHorizon({drive}, 1.0 / road.rate, std::numeric_limits<std::size_t>::max()), horizon);
     const IdentifyResult found = identify({drive});
     EXPECT_NEAR(found.estimate.stiffness_to_mass, expected.estimate.stiffness_to_mass,
                 1e-3 * expected.estimate.stiffness_to_mass);
     EXPECT_NEAR(found.ls.damping_to_mass, expected.ls.damping_to_mass, 1e-3 * expected.ls.damping_to_mass);
-    const IntegralFilterOptions filter{horizon, 1.0 / road.rate, IntegrationRule::kBandLimited};
-    EXPECT_NEAR(roughModel({drive}, filter).stiffness_to_mass, expected.estimate.stiffness_to_mass,
+    const RoughStrut with_offset = roughStrut({drive}, 1.0 / road.rate).value();
+    EXPECT_EQ(with_offset.horizonSamples(1.0 / road.rate), rough.horizonSamples(1.0 / road.rate));
+    EXPECT_NEAR(with_offset.strut.stiffness_to_mass, expected.estimate.stiffness_to_mass,
                 0.1 * expected.estimate.stiffness_to_mass);
   }
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/corner_sample.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -82,6 +84,13 @@ const BlockEstimate* StrutBlocks::push(Side side, Stamp stamp, double accelerati
     streams_[1].push(time, &acceleration);
   }
   return takeBlocks();
+}
+
+const BlockEstimate* StrutBlocks::push(const CornerSample& sample, Stamp lag) {
+  if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) return nullptr;
+  const BlockEstimate* of_body = push(Side::kSprung, sample.stamp - lag, sample.sprung_acceleration);
+  const BlockEstimate* of_wheel = push(Side::kUnsprung, sample.stamp, sample.unsprung_acceleration);
+  return of_wheel != nullptr ? of_wheel : of_body;
 }
 
 const BlockEstimate* StrutBlocks::pushForces(Stamp stamp, const double* forces) {

@@ -6,7 +6,7 @@
 
 #include "shape_scan.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
-#include "suspension_health_monitor/internal/fit/rough_model.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/signal/low_pass.h"
 #include "suspension_health_monitor/internal/statistics.h"
 

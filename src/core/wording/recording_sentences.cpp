@@ -1,5 +1,7 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "suspension_health_monitor/internal/signal/early_readings.h"
@@ -95,15 +97,26 @@ std::string describeReference(const Baseline& baseline, const std::string& file)
          values;
 }
 
-std::string describeSuspicions(const UniformGrid& grid, bool negative_damping) {
+std::string describeSuspicions(const UniformGrid& grid, const IdentifiedStrut& ls) {
+  constexpr double kCertain = 5.0;  // standard deviations
   const StreamGate &body = grid.gate(Side::kSprung), &wheel = grid.gate(Side::kUnsprung);
   std::string text = describeStillness("sprung", body) + describeStillness("unsprung", wheel);
   text += describeSpike("sprung", body) + describeSpike("unsprung", wheel);
   if (body.deviation() > kMuchLarger * wheel.deviation() && wheel.deviation() > 0.0)
     text += "; the sprung IMU shakes far more than the unsprung one: swapped, or not in m/s^2?";
-  else if (negative_damping)
+  else if (ls.damping_to_mass < -kCertain * ls.damping_to_mass_stddev)
     text += "; damping comes out negative: the IMUs swapped, or an axis the wrong way up?";
   return text;
+}
+
+std::string describeSuspicions(const UniformGrid& grid, const std::vector<Drive>& drives, double period) {
+  constexpr double kHorizon = 0.2, kAllOfIt = 1e6;  // [s]: short, so that the sign of the damping shows in many rows
+  constexpr int kFewestSamples = 6;
+  IdentifyOptions options;
+  options.sample_period = period;
+  options.horizon_samples = std::max(kFewestSamples, static_cast<int>(std::lround(kHorizon / period)));
+  options.memory = kAllOfIt;
+  return describeSuspicions(grid, identify(drives, options).ls);
 }
 
 }  // namespace suspension_health_monitor

@@ -138,7 +138,8 @@ std::string reasonOf(Shortcoming shortcoming, const StrutModel& start) {
   const std::string numbers =
       formatted("damping/mass %.4g, stiffness/mass %.4g", start.damping_to_mass, start.stiffness_to_mass);
   switch (shortcoming) {
-    case Shortcoming::kNoDampedSpring: return "show no damped spring (" + numbers + ")";
+    case Shortcoming::kNoDampedSpring:
+      return "show no damped spring" + (start.stiffness_to_mass != 0.0 ? " (" + numbers + ")" : "");
     case Shortcoming::kTooFast: return "are sampled too slowly for so stiff a strut (" + numbers + ")";
     case Shortcoming::kTooShort:
       return "are too short or too calm: nothing can be held out to judge a model by" + enoughToHoldOut(start);

@@ -33,6 +33,10 @@ class StrutBlocks {
   /// @return the estimate if this reading completes a block; nullptr else.
   const BlockEstimate* push(Side side, Stamp stamp, double acceleration);
 
+  /// Takes in both sensors' readings of one instant, if both are numbers.
+  /// @param lag  by which the body's clock is late, as far as it is known.
+  const BlockEstimate* push(const CornerSample& sample, Stamp lag = {});
+
   /// Takes in the effects' forces over the body's mass at one instant, by their present coefficients' unit.
   const BlockEstimate* pushForces(Stamp stamp, const double* forces);
 

@@ -27,7 +27,7 @@ struct SearchResult : Diagnosis {
 /// diagnose() of drives that are prepared already.
 /// @param start  a damped spring, e.g. of LS: effects that it has stay.
 /// @param options  its period, horizon and model are not looked at.
-/// @param lagged  where a fit with clock_offset may begin, see clock_lag.h. With it the search goes on even where no
+/// @param lagged  where a fit with clock_offset may begin, see rough_strut.h. With it the search goes on even where no
 /// stable strut fits the drives without it: the base is then b1 and b0 of `lagged` as they are.
 SearchResult searchEffects(const Records& records, const StrutModel& start, const DiagnoseOptions& options = {},
                            const std::optional<StrutModel>& lagged = {});

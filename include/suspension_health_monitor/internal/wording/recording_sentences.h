@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
@@ -20,7 +21,12 @@ std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut
 std::string describeRejected(const RejectCounts& rejected);
 
 /// @return what in the readings may be why they show no strut: "; ..." for each suspicion, empty without any.
-std::string describeSuspicions(const UniformGrid& grid, bool negative_damping);
+/// @param ls  the strut by least squares.
+std::string describeSuspicions(const UniformGrid& grid, const IdentifiedStrut& ls);
+
+/// The same of drives that no horizon can be proposed for.
+/// @param period  sampling time [s].
+std::string describeSuspicions(const UniformGrid& grid, const std::vector<Drive>& drives, double period);
 
 /// @param where  there are too few readings: "on one of the topics".
 /// @return why `count` readings tell no sample period.

@@ -1,6 +1,4 @@
 // Clocks that differ by more than a small part of the strut's period.
-#include "suspension_health_monitor/internal/identification/clock_lag.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "hidden_effect.h"
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 
 namespace suspension_health_monitor {
@@ -33,7 +32,7 @@ Drive lateBody(int quarters, int seed = 1) {
   return result;
 }
 
-TEST(ClockLag, OffsetsUpTo50MsAreNamedWithTheirValue) {
+TEST(ClockOffset, OffsetsUpTo50MsAreNamedWithTheirValue) {
   for (const int quarters : {-20, -12, -6, 6, 12, 20}) {
     const double offset = quarters * kPeriod / kFiner;
     const Diagnosis found = diagnose({lateBody(quarters)});
@@ -45,9 +44,9 @@ TEST(ClockLag, OffsetsUpTo50MsAreNamedWithTheirValue) {
   }
 }
 
-TEST(ClockLag, ClocksThatAgreeAndSensorsThatAreWrongShowNone) {
+TEST(ClockOffset, ClocksThatAgreeAndSensorsThatAreWrongShowNone) {
   const Drive right = lateBody(0);
-  EXPECT_FALSE(lookForClockLag({right}, kPeriod));
+  EXPECT_FALSE(roughStrut({right}, kPeriod).value().clocksDiffer(kPeriod));
   Drive swapped = right, turned = right, unrelated = right;
   const Drive other = lateBody(0, 2);
   for (std::size_t k = 0; k < right.samples.size(); ++k) {
@@ -61,11 +60,15 @@ TEST(ClockLag, ClocksThatAgreeAndSensorsThatAreWrongShowNone) {
   }
 }
 
-TEST(ClockLag, IsLookedForByStepsOfASample) {
-  const std::optional<LaggedStrut> late = lookForClockLag({lateBody(12)}, kPeriod);
-  ASSERT_TRUE(late);
-  EXPECT_NEAR(late->model.reading.at(0).coefficients.at(0), 0.03, kPeriod / 2.0);
-  EXPECT_NEAR(late->model.stiffness_to_mass, 63.3, 6.0);
+TEST(ClockOffset, IsKnownWithTheRoughStrut) {
+  for (const int quarters : {-20, -12, -1, 1, 12, 20}) {
+    const double offset = quarters * kPeriod / kFiner;
+    const std::optional<RoughStrut> late = roughStrut({lateBody(quarters)}, kPeriod);
+    ASSERT_TRUE(late) << offset;
+    EXPECT_NEAR(late->clock_offset, offset, 1e-4);
+    EXPECT_NEAR(late->strut.stiffness_to_mass, 63.3, 1.0) << offset;
+    EXPECT_EQ(late->clocksDiffer(kPeriod), std::abs(quarters) > 1) << offset;  // by more than half a sample
+  }
 }
 
 }  // namespace

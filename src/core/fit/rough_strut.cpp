@@ -1,0 +1,61 @@
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kLag = 0.01;
+
+/// The first blocks that are tried, and by how much the body's clock is taken for late.
+struct Trial {
+  double length;  // over the length that is asked for
+  double lag;     // of that length
+};
+// A short drive has no three blocks of that length. Struts that bounce far slower or faster than it is for come last.
+constexpr Trial kTrials[] = {{1.0, 0.0}, {1.0, kLag}, {1.0, -kLag}, {1.0, 2.0 * kLag}, {1.0, -2.0 * kLag},
+                             {0.5, 0.0}, {8.0, 0.0},  {0.125, 0.0}, {1.0 / 32.0, 0.0}};
+
+std::optional<RoughStrut> find(const std::vector<Drive>& drives, double period, double length, double lag) {
+  BlockOptions options;
+  options.length = length;
+  StrutBlocks blocks(options, period);
+  for (const Drive& drive : drives) {
+    blocks.restart();
+    for (const CornerSample& sample : drive.samples) blocks.push(sample, fromSeconds(lag));
+  }
+  if (const std::optional<BlockEstimate> all = blocks.overTheDrive()) return RoughStrut(*all, lag);
+  if (blocks.estimate() != nullptr) return RoughStrut(*blocks.estimate(), lag);  // by blocks of another length
+  return std::nullopt;
+}
+
+}  // namespace
+
+RoughStrut::RoughStrut(const BlockEstimate& estimate, double lag) {
+  const double b1 = estimate.theta[kBlockDamping], b0 = estimate.theta[kBlockStiffness];
+  const double friction = estimate.frictionGain() * estimate.theta[kNumBlockParameters];
+  strut = {leastDamping(b1 + friction, b0), b0};
+  clock_offset = lag - estimate.theta[kBlockDelay];
+  clock_offset_stddev = std::sqrt(estimate.covariance(kBlockDelay, kBlockDelay));
+}
+
+bool RoughStrut::clocksDiffer(double period) const {
+  constexpr double kCertain = 4.0, kLeast = 0.0025;  // standard deviations, [s]
+  return std::abs(clock_offset) > std::max({kLeast, period / 2.0, kCertain * clock_offset_stddev});
+}
+
+int RoughStrut::horizonSamples(double period) const {
+  return suspension_health_monitor::horizonSamples(
+      proposeHorizon(strut.damping_to_mass, strut.stiffness_to_mass).horizon, period);
+}
+
+std::optional<RoughStrut> roughStrut(const std::vector<Drive>& drives, double period, double length) {
+  for (const Trial& trial : kTrials)
+    if (auto found = find(drives, period, trial.length * length, trial.lag * length)) return found;
+  return std::nullopt;
+}
+
+}  // namespace suspension_health_monitor
