@@ -119,8 +119,8 @@ TEST(DriveRecords, EveryDriveIsARecordInStepsThatTheStrutNeeds) {
   EXPECT_EQ(pointersTo(records)[1], &records[1]);
   EXPECT_EQ(records[0].numSamples(), records[1].numSamples());
   EXPECT_GT(records[0].numSamples(), 2900U);
-  EXPECT_EQ(records[0].steps(), 1);
-  EXPECT_EQ(makeRecords({samples}, kPeriod, fast).front().steps(), 6);  // 0.02 s * 100 1/s / 0.35
+  EXPECT_EQ(records[0].segments().front().steps, 1);
+  EXPECT_EQ(makeRecords({samples}, kPeriod, fast).front().segments().front().steps, 6);  // 0.02 s * 100 1/s / 0.35
 }
 
 TEST(MotionScale, IsTheMotionOfTheStrut) {

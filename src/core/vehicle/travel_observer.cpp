@@ -7,7 +7,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kMeans = 3;                // of a mean of a mean
-constexpr double kMeanMemory = 40.0;      // [s]
+constexpr double kOffsetMemory = 40.0;      // [s]
 constexpr double kWashout = 1.0 / 200.0;  // of the natural frequency
 constexpr double kDamping = 0.7;
 // A washout of so many over the age of a series: what its start left is forgotten as fast as anything can be told.
@@ -24,7 +24,7 @@ TravelObserver::TravelObserver(double period, double stiffness_to_mass, int natu
       washout_(kWashout * std::sqrt(stiffness_to_mass)),
       horizon_(std::pow(natural_period * period, kMeans)),
       step_(0.0, 1.0, period),
-      offset_(std::exp(-period / kMeanMemory)),
+      offset_(std::exp(-period / kOffsetMemory)),
       slow_(now_.size(), LinearIntegralFilter(kMeans, {natural_period, period, IntegrationRule::kTrapezoid}, 0)),
       recent_(now_.size(), boost::circular_buffer<double>(static_cast<std::size_t>(kMeans * natural_period / 2) + 1)) {}
 
