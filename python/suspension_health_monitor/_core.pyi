@@ -9,12 +9,14 @@ def __getattr__(name: str) -> Any: ...  # what only the wrapper calls
 
 class Baseline:
     def __init__(self, damping_to_mass: Optional[float] = ..., stiffness_to_mass: Optional[float] = ...) -> None: ...
+    damping_scatter: float
     damping_to_mass: Optional[float]
     damping_to_mass_stddev: float
     friction: Optional[DryFriction]
     learned: bool
     learned_from: float
     learned_to: float
+    stiffness_scatter: float
     stiffness_to_mass: Optional[float]
     stiffness_to_mass_stddev: float
 

@@ -30,7 +30,7 @@ def test_identify_tells_every_strut_its_own(program, vehicle, tmp_path):
         assert la["damping_to_mass"] == pytest.approx(damping, rel=0.03)
         assert la["stiffness_to_mass"] == pytest.approx(stiffness, rel=0.03)
     assert set(found["coupling"]) == {"front", "rear"} and set(found["coupling"]["front"]) == {"rear"}
-    assert 1.0 <= found["condition"] < 20.0
+    assert 0.0 < found["model_error"] < 0.01
 
 
 SEDAN = {"mass": 1350.0, "pitch_inertia": 2100.0, "roll_inertia": 480.0}

@@ -64,7 +64,7 @@ class ParkedVehicle : public testing::Test {
       EXPECT_NEAR(estimate.stiffness_to_mass, kPaperB0, 0.4);
     }
     EXPECT_TRUE(std::isfinite(monitor_.report().comparison.rmse));
-    EXPECT_EQ(monitor_.report().health.level, HealthLevel::kOk);
+    EXPECT_EQ(monitor_.report().health.level, HealthLevel::kOk) << describe(monitor_.report().health);
   }
 
   void expectParkingIsSurvived(const std::function<Readings()>& readings) {

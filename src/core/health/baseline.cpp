@@ -87,15 +87,18 @@ void BaselineLearner::Half::add(const StrutEstimate& estimate, double new_second
   seconds += new_seconds;
   const double gain = new_seconds / seconds;
   const auto mix = [gain](double& of, double value) { of += gain * (value - of); };
-  const auto spread = [gain](double& variance, double mean_of, double value) {
-    variance = (1.0 - gain) * (variance + gain * square(value - mean_of));
+  // A few that are far off, as the first after a stop, are no scatter.
+  const auto spread = [gain](double& variance, double mean_of, double value, double stddev) {
+    constexpr double kMost = 4.0;  // standard deviations
+    const double off = std::clamp(value - mean_of, -kMost * stddev, kMost * stddev);
+    variance = (1.0 - gain) * (variance + gain * square(off));
   };
   const auto mixStddev = [gain](double& of, double value) {
     of = std::sqrt(square(of) + gain * (square(value) - square(of)));
   };
   if (mean.isEmpty()) mean = baselineOf(estimate, {});
-  spread(damping_variance, *mean.damping_to_mass, estimate.damping_to_mass);
-  spread(stiffness_variance, *mean.stiffness_to_mass, estimate.stiffness_to_mass);
+  spread(damping_variance, *mean.damping_to_mass, estimate.damping_to_mass, estimate.damping_to_mass_stddev);
+  spread(stiffness_variance, *mean.stiffness_to_mass, estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev);
   mix(*mean.damping_to_mass, estimate.damping_to_mass);
   mix(*mean.stiffness_to_mass, estimate.stiffness_to_mass);
   mixStddev(mean.damping_to_mass_stddev, estimate.damping_to_mass_stddev);
