@@ -10,6 +10,7 @@
 #include "../tools/command.h"
 #include "../tools/healthy_strut.h"
 #include "../tools/recorded_vehicle.h"
+#include "../tools/survey.h"
 #include "../tools/strut_files.h"
 #include "../tools/vehicle_bags.h"
 #include "../tools/vehicle_tables.h"
@@ -53,6 +54,7 @@ struct RecordedMonitor {
       : gaps(options.common.shell.input_timeout) {
     ImuBags bags = readBags(values, options.common.shell);
     const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
+    if (options.common.monitor.sample_period) requireFittingPeriod(bags, *options.common.monitor.sample_period);
     bags.gaps = &gaps;
     struts.emplace(
         options, streams, watched, bags.transforms.get(), [](std::size_t, const HealthMoment&, const Baseline&) {},

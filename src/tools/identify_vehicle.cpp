@@ -10,6 +10,7 @@
 #include "report_page.h"
 #include "row_table.h"
 #include "strut_settings.h"
+#include "survey.h"
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "vehicle_bags.h"
 #include "vehicle_tables.h"
@@ -62,6 +63,7 @@ void identifyStruts(const boost::program_options::variables_map& values) {
   TopicGaps gaps(settings.common.shell.input_timeout);
   ImuBags bags = readBags(values, settings.common.shell);
   const VehicleStreams streams = streamsOf(bags, settings.common, vehicle.layout);
+  if (settings.common.monitor.sample_period) requireFittingPeriod(bags, *settings.common.monitor.sample_period);
   bags.gaps = &gaps;
   std::vector<RowTable> rows;
   for (std::size_t i = 0; i < vehicle.names.size(); ++i)
