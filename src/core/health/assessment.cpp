@@ -23,7 +23,9 @@ EarlyWarning earlyWarning(const HealthOptions& options) {
 // |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.
 double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); }
 
-constexpr double kDecisive = 1.5;   // times the significance that a level needs: no second estimate has to confirm it
+// Times the significance that a level needs: no second estimate has to confirm it. Of 4 standard deviations 5, by chance
+// once in a month of estimates every 2 s.
+constexpr double kDecisive = 1.25;
 constexpr double kHeldShare = 0.5;  // of the significance that a level began with
 
 /// A change of one parameter, and what it is judged by.
