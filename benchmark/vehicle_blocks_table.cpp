@@ -58,7 +58,6 @@ struct Told {
 struct Run {
   std::vector<std::vector<Told>> told;  // by strut
   std::vector<std::optional<WindowEstimate>> all;
-  std::vector<TopDoubt> doubts;
   std::optional<BodyFitResult> body;
   double worst = 0.0, total = 0.0;  // CPU [us]
   long readings = 0;
@@ -101,10 +100,7 @@ Run run(const Case& test) {
     if (test.has_force) taken([&] { return blocks.pushForce(0, stamp, now.force); }, now.time);
     if (has_body || now.time < std::min(test.change_at - 1.0, test.instants.back().time - 1.0)) continue;
     has_body = true;
-    for (std::size_t i = 0; i < n; ++i) {
-      result.all.push_back(blocks.overTheDrive(i));
-      result.doubts.push_back(blocks.doubt(i));
-    }
+    for (std::size_t i = 0; i < n; ++i) result.all.push_back(blocks.overTheDrive(i));
     if (BodyRows rows; blocks.rows(rows))
       result.body = BodyFit(test.places, pairsOf(test.places)).fit(rows, blocks.rowsOfHalves());
   }
@@ -188,9 +184,7 @@ void print(const Case& test, const Run& run) {
   } else {
     std::printf("    - -    - |");
   }
-  int alike = 0;
-  for (const TopDoubt doubt : run.doubts) alike += doubt == TopDoubt::kTracksAlike ? 1 : 0;
-  std::printf(" %d | %4.2f %5.0f\n", alike, run.total / static_cast<double>(run.readings), run.worst);
+  std::printf(" %4.2f %5.0f\n", run.total / static_cast<double>(run.readings), run.worst);
   std::fflush(stdout);
 }
 
@@ -282,7 +276,7 @@ Case record(const std::string& file, bool by_body) {
 void printHead() {
   std::printf(
       "                       valid wide | drive: worst | windows: rms |  in 95 | phi bars |abs. in | abs. sd   |"
-      " seen others  | alike | us, worst us\n");
+      " seen others  | us, worst us\n");
 }
 
 void linearTables(unsigned seeds) {

@@ -20,7 +20,7 @@ constexpr double kGravity = 9.81;
 /// A drive and what was told of it.
 struct Told {
   std::vector<std::vector<TopEstimate>> estimates;  // by strut
-  std::vector<TopDoubt> doubts;
+  StrutPair most_alike{};
   std::vector<std::optional<WindowEstimate>> over_the_drive;
 };
 
@@ -61,10 +61,8 @@ Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Drive& dri
     }
     if (drive.pull > 0.0) keep(blocks.pushForce(0, stamp, record.pull[k]));
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    told.doubts.push_back(blocks.doubt(i));
-    told.over_the_drive.push_back(blocks.overTheDrive(i));
-  }
+  for (std::size_t i = 0; i < n; ++i) told.over_the_drive.push_back(blocks.overTheDrive(i));
+  told.most_alike = blocks.mostAlike();
   return told;
 }
 
@@ -151,7 +149,11 @@ TEST(VehicleBlocks, IdenticalTracksAreSaid) {
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_TRUE(by_body.estimates[i].empty());
     EXPECT_FALSE(by_body.over_the_drive[i]);
-    EXPECT_NE(by_body.doubts[i], TopDoubt::kNone);
+  }
+  for (const Told& told : {own, by_body}) {
+    const auto [first, second] = told.most_alike;
+    EXPECT_NE(first, second);
+    EXPECT_EQ(first / 2, second / 2) << "left and right of one axle";
   }
 }
 

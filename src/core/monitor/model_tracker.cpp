@@ -186,7 +186,7 @@ StrutEstimate ModelTracker::judged(const std::optional<BlockEstimate>& blocks,
   estimate.damping_model_stddev = model_stddev[0];
   estimate.stiffness_model_stddev = model_stddev[1];
   EstimateFacts facts = blockFacts(estimate);
-  facts.has_row = blocks.has_value();
+  facts.has_row = blocks || (blocks_ && blocks_->estimator().hasBlocks());
   estimate.doubt = doubtOf(facts);
   return estimate;
 }

@@ -14,8 +14,7 @@ constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;  // of the bounce in 
 // Instruments need not be exact: a model that is wrong by this share of a row's largest coefficient costs its square of
 // the information.
 constexpr double kStaleRows = 0.1;
-constexpr double kChanged = 2.0;      // standard deviations from which a neighbour counts as changed
-constexpr double kMostlyAlike = 0.5;  // of the variance
+constexpr double kChanged = 2.0;  // standard deviations from which a neighbour counts as changed
 
 std::size_t checked(const VehicleTops& tops) {
   requireNumStruts(tops.size());
@@ -35,7 +34,6 @@ VehicleBlocks::VehicleBlocks(const VehicleTops& tops, const BlockOptions& option
                2 * (static_cast<int>(checked(tops)) - 1)},
       estimates_(tops.size()),
       has_(tops.size(), false),
-      doubts_(tops.size(), TopDoubt::kFewBlocks),
       blocks_(tops.size()),
       last_(2 * tops.size() + tops.known_forces + 1),
       modulation_(BlockBand(length_, period)) {
@@ -205,20 +203,7 @@ const TopEstimate* VehicleBlocks::update(std::size_t strut) {
   BlockEstimator& estimator = estimators_[strut];
   scaleNeighbours(strut);
   const WindowEstimate* found = estimator.update();
-  doubts_[strut] = TopDoubt::kNone;
-  if (found != nullptr && !has_model_) {
-    doubts_[strut] = TopDoubt::kFewBlocks;
-    return nullptr;
-  }
-  if (found == nullptr) {
-    const WindowEstimate* refused = estimator.refused();
-    const bool are_few = estimator.count() < BlockEstimator::kWindows.front();
-    doubts_[strut] = are_few ? TopDoubt::kFewBlocks
-                     : refused != nullptr && refused->alike > std::sqrt(kMostlyAlike) * refused->worst()
-                         ? TopDoubt::kTracksAlike
-                         : TopDoubt::kUncertain;
-    return nullptr;
-  }
+  if (found == nullptr || !has_model_) return nullptr;
   TopEstimate& estimate = estimates_[strut];
   static_cast<WindowEstimate&>(estimate) = *found;
   estimate.length = length_;

@@ -29,14 +29,6 @@ struct TopEstimate : BlockEstimate {
   double frictionDamping() const { return frictionGain() * friction; }
 };
 
-/// Why there is no estimate of a strut.
-enum class TopDoubt {
-  kNone,
-  kFewBlocks,    ///< too few blocks yet
-  kTracksAlike,  ///< struts move so much alike that their wheels' noise is what tells them apart
-  kUncertain,    ///< too little motion, or too much of it is not explained
-};
-
 /// From the readings of all sensors of a vehicle, each on its own stamps, to estimates of every strut after every half
 /// block: VehicleSpectra -> StrutBlock -> BlockEstimator, one per strut top. The rows of a top hold the travel and
 /// travel rate of all struts, since all move it through the body, (B20) in doc/equations.md:
@@ -64,7 +56,6 @@ class VehicleBlocks {
 
   /// @return the newest estimate of a strut; nullptr: none yet.
   const TopEstimate* estimate(std::size_t strut) const { return has_[strut] ? &estimates_[strut] : nullptr; }
-  TopDoubt doubt(std::size_t strut) const { return doubts_[strut]; }
 
   /// @return the estimate of a strut over all blocks since restart(); nothing if they do not tell, or if tracks are too
   /// much alike. Not for the sample path.
@@ -114,7 +105,6 @@ class VehicleBlocks {
   std::vector<SlidingFriction> friction_;
   std::vector<TopEstimate> estimates_;
   std::vector<bool> has_;
-  std::vector<TopDoubt> doubts_;
   std::vector<const StrutBlock*> blocks_;
   std::vector<std::optional<Stamp>> last_;  // by sensor: wheels, tops, forces, the body's IMU
   Modulation modulation_;
