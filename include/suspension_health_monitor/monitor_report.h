@@ -183,12 +183,12 @@ struct Baseline {
   std::optional<double> stiffness_to_mass;  ///< b0 [1/s^2]
   double damping_to_mass_stddev = 0.0;      ///< [1/s]
   double stiffness_to_mass_stddev = 0.0;    ///< [1/s^2]
-  /// By how much windows of the healthy strut scatter beyond their own standard deviations: as side forces in bends make
-  /// of it [1/s], [1/s^2]. In the standard deviation of every change.
+  /// By how much windows of the healthy strut scatter beyond their own standard deviations: as side forces in bends
+  /// make of it [1/s], [1/s^2]. In the standard deviation of every change.
   double damping_scatter = 0.0, stiffness_scatter = 0.0;
   std::optional<DryFriction> friction;  ///< when it was learned; empty: it is not known
-  bool learned = false;                     ///< from a drive; false: nominal values
-  Stamp from{}, to{};                       ///< the drive that it was learned from
+  bool learned = false;                 ///< from a drive; false: nominal values
+  Stamp from{}, to{};                   ///< the drive that it was learned from
 
   bool isEmpty() const { return !damping_to_mass && !stiffness_to_mass; }
 };

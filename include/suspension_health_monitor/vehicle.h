@@ -70,7 +70,7 @@ struct VehicleCoupling {
   std::vector<AntiRollBarFound> bars;        ///< that are part of it
   std::vector<KnownForceCoefficients> forces;
   double model_error = std::nan("");  ///< of any rigid body on linear struts, in the largest coefficient of a top [-]
-  std::string reason;      ///< why the ratios are not known, to be read after "the drives"; empty if they are
+  std::string reason;  ///< why the ratios are not known, to be read after "the drives"; empty if they are
 
   explicit operator bool() const { return reason.empty(); }
 };
@@ -85,7 +85,6 @@ struct SeparatedVehicle {
   std::vector<std::vector<Drive>> struts;  ///< by strut the drives of a quarter car with its b1 and b0; empty without
                                            ///< a coupling
   std::vector<StrutModel> models;          ///< of each: as it was known, else b1, b0 by least squares over all drives
-  std::vector<LinearStrut> model_stddevs;  ///< what the coupling's errors alone make of b1, b0
 };
 
 /// @param drives  of one vehicle, each with all of its struts.

@@ -10,8 +10,8 @@
 #include "../tools/command.h"
 #include "../tools/healthy_strut.h"
 #include "../tools/recorded_vehicle.h"
-#include "../tools/survey.h"
 #include "../tools/strut_files.h"
+#include "../tools/survey.h"
 #include "../tools/vehicle_bags.h"
 #include "../tools/vehicle_tables.h"
 #include "../tools/watched_vehicle.h"
@@ -50,15 +50,14 @@ struct RecordedMonitor {
   std::optional<WatchedVehicle> struts;
 
   RecordedMonitor(const po::variables_map& values, AskedVehicle& vehicle, VehicleOptions& options,
-                  const std::vector<WatchedStrut>& watched, const WatchedVehicle::Report& report)
+                  const std::vector<WatchedStrut>& watched, bool period_must_fit, const WatchedVehicle::Report& report)
       : gaps(options.common.shell.input_timeout) {
     ImuBags bags = readBags(values, options.common.shell);
     const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
-    if (options.common.monitor.sample_period) requireFittingPeriod(bags, *options.common.monitor.sample_period);
+    if (period_must_fit && options.common.monitor.sample_period)
+      requireFittingPeriod(bags, *options.common.monitor.sample_period);
     bags.gaps = &gaps;
-    struts.emplace(
-        options, streams, watched, bags.transforms.get(), [](std::size_t, const HealthMoment&, const Baseline&) {},
-        report);
+    struts.emplace(options, streams, watched, bags.transforms.get(), WatchedVehicle::Row(), report);
     struts->read(bags);
   }
 };
@@ -68,12 +67,13 @@ ByStrut<Identification> identifyStrutsOf(const Arguments& arguments, LongWork& w
   const po::variables_map values = parsed(arguments);
   AskedVehicle vehicle = readVehicle(values);
   VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
-  const std::vector<WatchedStrut> watched(vehicle.names.size(), WatchedStrut{LiveModel({}, ""), {}});
+  const std::vector<WatchedStrut> watched = plainStruts(vehicle.names.size());
   std::vector<Course> courses(vehicle.names.size());
-  RecordedMonitor recorded(values, vehicle, settings, watched, [&](std::size_t strut, const MonitorReport& report) {
-    if (report.has_row) courses[strut].add(report);
-    work.step();
-  });
+  RecordedMonitor recorded(values, vehicle, settings, watched, true,
+                           [&](std::size_t strut, const MonitorReport& report) {
+                             if (report.has_row) courses[strut].add(report);
+                             work.step();
+                           });
   VehicleIdentification found;
   recorded.gaps.explain([&] { found = recorded.struts->identified(vehicle.names, settings.forceNames()); });
   ByStrut<Identification> results;
@@ -141,7 +141,7 @@ ByStrut<HealthSummary> watchStrutsOf(const Arguments& arguments, LongWork& work)
   VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
   const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
   std::vector<Course> courses(vehicle.names.size());
-  RecordedMonitor read(values, vehicle, options, watched, [&](std::size_t strut, const MonitorReport& report) {
+  RecordedMonitor read(values, vehicle, options, watched, false, [&](std::size_t strut, const MonitorReport& report) {
     if (report.has_row) courses[strut].add(report);
   });
   const WatchedVehicle& recorded = *read.struts;

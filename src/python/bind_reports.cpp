@@ -95,8 +95,7 @@ void bindCondition(py::module& module) {
           [](const Baseline& self) {
             return py::make_tuple(self.damping_to_mass, self.stiffness_to_mass, self.damping_to_mass_stddev,
                                   self.stiffness_to_mass_stddev, self.damping_scatter, self.stiffness_scatter,
-                                  toNumbers(self.friction), self.learned,
-                                  self.from.count(), self.to.count());
+                                  toNumbers(self.friction), self.learned, self.from.count(), self.to.count());
           },
           [](const py::tuple& state) {
             return Baseline{state[0].cast<std::optional<double>>(),

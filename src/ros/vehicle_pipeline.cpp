@@ -30,9 +30,10 @@ void VehiclePipeline::start(double period) {
     settings.back().sample_period = period;
   }
   period_ = period;
-  grid_.emplace(period, streams_, MonitorSettings(options_.common.monitor).grid(period),
-                [this](const VehicleSample& sample) { take(sample); },
-                [this](const VehicleReading& reading) { monitor_->addReading(grid_->tops(), reading); });
+  grid_.emplace(
+      period, streams_, MonitorSettings(options_.common.monitor).grid(period),
+      [this](const VehicleSample& sample) { take(sample); },
+      [this](const VehicleReading& reading) { monitor_->addReading(grid_->tops(), reading); });
   const double kept = std::ceil(options_.common.shell.diagnose_window / period) + 1.0;
   const auto capacity = static_cast<std::size_t>(std::min(kept, kMostKept));
   recent_.assign(settings.size(), Recent<StrutSample>(capacity));

@@ -70,10 +70,9 @@ void identifyStruts(const boost::program_options::variables_map& values) {
     rows.emplace_back(csv && (!vehicle.only || *vehicle.only == i) ? csv->stream() : nullptr,
                       vehicle.only ? "" : vehicle.names[i]);
   if (csv) RowTable::writeHead(csv->stream(), !vehicle.only);
-  const std::vector<WatchedStrut> watched(vehicle.names.size(), WatchedStrut{LiveModel({}, ""), {}});
-  WatchedVehicle recorded(
-      settings, streams, watched, bags.transforms.get(), [](std::size_t, const HealthMoment&, const Baseline&) {},
-      [&](std::size_t strut, const MonitorReport& report) { rows[strut].add(report); });
+  const std::vector<WatchedStrut> watched = plainStruts(vehicle.names.size());
+  WatchedVehicle recorded(settings, streams, watched, bags.transforms.get(), {},
+                          [&](std::size_t strut, const MonitorReport& report) { rows[strut].add(report); });
   recorded.read(bags);
   for (RowTable& table : rows) table.finish();
   recorded.printInput();

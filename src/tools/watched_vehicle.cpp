@@ -25,6 +25,10 @@ std::vector<WatchedStrut> readWatched(const boost::program_options::variables_ma
   return watched;
 }
 
+std::vector<WatchedStrut> plainStruts(std::size_t count) {
+  return std::vector<WatchedStrut>(count, WatchedStrut{LiveModel({}), {}});
+}
+
 WatchedVehicle::WatchedVehicle(const VehicleOptions& options, const VehicleStreams& streams,
                                const std::vector<WatchedStrut>& watched, const tf2::BufferCore* transforms,
                                const Row& row, const Report& report)
@@ -38,7 +42,9 @@ WatchedVehicle::WatchedVehicle(const VehicleOptions& options, const VehicleStrea
                  }}) {
   for (std::size_t i = 0; i < watched.size(); ++i)
     logs_.emplace_back(fromSeconds(options.common.shell.input_timeout), topics_,
-                       [this, i, row](const HealthMoment& moment) { row(i, moment, baselineOf(i)); });
+                       [this, i, row](const HealthMoment& moment) {
+                         if (row) row(i, moment, baselineOf(i));
+                       });
 }
 
 std::vector<Stamp> WatchedVehicle::read(const ImuBags& bags) {

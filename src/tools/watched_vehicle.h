@@ -28,13 +28,16 @@ struct WatchedStrut {
 std::vector<WatchedStrut> readWatched(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
                                       VehicleOptions& options);
 
+/// @return so many struts with the plain model, to be judged by their settings.
+std::vector<WatchedStrut> plainStruts(std::size_t count);
+
 /// The monitor of VehicleNodelet over recorded drives, with a log for every strut.
 class WatchedVehicle {
  public:
   using Row = std::function<void(std::size_t strut, const HealthMoment&, const Baseline&)>;
   using Report = std::function<void(std::size_t strut, const MonitorReport&)>;
 
-  /// @param row  called as HealthLog calls its sink, with what the strut is judged by then.
+  /// @param row  called as HealthLog calls its sink, with what the strut is judged by then, if it is given.
   /// @param report  called with every report, if it is given.
   WatchedVehicle(const VehicleOptions& options, const VehicleStreams& streams, const std::vector<WatchedStrut>& watched,
                  const tf2::BufferCore* transforms, const Row& row, const Report& report = {});

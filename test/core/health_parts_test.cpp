@@ -164,13 +164,12 @@ TEST(BaselineLearner, OfLessThanAWindowIsNoSurerThanAnEstimate) {
   EXPECT_NEAR(learned->damping_to_mass_stddev, 0.02, 1e-12);
 }
 
-// Values that alternate by 0.06 either way are 3 standard deviations of 0.02 apart: sqrt(0.06^2 - 0.02^2) more than they
-// say.
+// Values that alternate by 0.06 either way are 3 standard deviations of 0.02 apart: sqrt(0.06^2 - 0.02^2) more than
+// they say.
 TEST(BaselineLearner, KnowsByHowMuchHealthyWindowsScatter) {
   BaselineLearner learner(100.0);
   std::optional<Baseline> learned;
-  for (int k = 0; !learned; ++k)
-    learned = learner.add(fromSeconds(5.0 + k), estimate(k % 2 ? 3.06 : 2.94, 13.8), 1.0);
+  for (int k = 0; !learned; ++k) learned = learner.add(fromSeconds(5.0 + k), estimate(k % 2 ? 3.06 : 2.94, 13.8), 1.0);
   const double scatter = std::sqrt(0.06 * 0.06 - 0.02 * 0.02);
   EXPECT_NEAR(learned->damping_scatter, scatter, 0.05 * scatter);
   EXPECT_EQ(learned->stiffness_scatter, 0.0);

@@ -8,10 +8,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kStepsOfFriction = 4096.0;  // per block: a thousand and more per bounce
-constexpr double kFewestReadings = 33.0;     // of a block: fewer are a gap each, see FourierIntegrals
-constexpr double kBlocksOfMean = 2.0;        // memory of the wheel's slow mean
-constexpr double kUsualDamping = 0.6;        // b1 over the bounce: a damping ratio of 0.3
+constexpr double kFewestReadings = 33.0;  // of a block: fewer are a gap each, see FourierIntegrals
+constexpr double kUsualDamping = 0.6;     // b1 over the bounce: a damping ratio of 0.3
 
 }  // namespace
 
@@ -36,7 +34,7 @@ void StrutBlocks::begin(double length) {
   if (effects_ > 0) streams_.emplace_back(band, effects_);
   friction_.reset();
   if (effects_ == 0) {
-    friction_.emplace(length / kStepsOfFriction, kBlocksOfMean * length);
+    friction_ = SlidingFriction::ofBlocks(length);
     // Until there is an estimate: a usual strut in the middle of the bounces that this length is for.
     const double bounce = 2.0 * M_PI * std::sqrt(kLeastUpperEdge / (1.0 + kUsualDamping) * kMostPeriods) / length;
     friction_->setStrut(kUsualDamping * bounce, bounce * bounce, 0.0);
@@ -134,11 +132,7 @@ const BlockEstimate* StrutBlocks::takeBlocks() {
 void StrutBlocks::fill(long half, StrutBlock& block) {
   const BlockBand& band = estimator_->equations().band();
   const auto whole = [&](std::size_t stream, Eigen::Index channel, auto&& result) {
-    const auto &first = *streams_[stream].half(half - 1), &second = *streams_[stream].half(half);
-    for (Eigen::Index i = 0; i < first.rows(); ++i) {
-      const bool is_odd = (band.first - 1 + i) % 2 != 0;
-      result[i] = first(i, channel) + (is_odd ? -second(i, channel) : second(i, channel));
-    }
+    streams_[stream].sumHalves(half, channel, result);
   };
   block.end = static_cast<double>(half + 1) * band.length / 2.0;
   whole(1, 0, block.wheel);

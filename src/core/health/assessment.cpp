@@ -23,8 +23,8 @@ EarlyWarning earlyWarning(const HealthOptions& options) {
 // |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.
 double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); }
 
-// Times the significance that a level needs: no second estimate has to confirm it. Of 4 standard deviations 5, by chance
-// once in a month of estimates every 2 s.
+// Times the significance that a level needs: no second estimate has to confirm it. Of 4 standard deviations 5, by
+// chance once in a month of estimates every 2 s.
 constexpr double kDecisive = 1.25;
 constexpr double kHeldShare = 0.5;  // of the significance that a level began with
 

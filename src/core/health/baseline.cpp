@@ -48,27 +48,25 @@ Baseline baselineOf(const StrutEstimate& estimate, Stamp stamp) {
           stamp};
 }
 
-ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& estimate) {
+ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now) {
   ChangeFromBaseline result;
   // The model's error is the same at all times, but nominal values know nothing of it.
-  StrutEstimate now = estimate;
-  now.damping_to_mass_stddev = std::hypot(
-      healthy.learned ? estimate.damping_to_mass_stddev : estimate.dampingAbsoluteStddev(), healthy.damping_scatter);
-  now.stiffness_to_mass_stddev =
-      std::hypot(healthy.learned ? estimate.stiffness_to_mass_stddev : estimate.stiffnessAbsoluteStddev(),
-                 healthy.stiffness_scatter);
+  const double damping_stddev =
+      std::hypot(healthy.learned ? now.damping_to_mass_stddev : now.dampingAbsoluteStddev(), healthy.damping_scatter);
+  const double stiffness_stddev = std::hypot(
+      healthy.learned ? now.stiffness_to_mass_stddev : now.stiffnessAbsoluteStddev(), healthy.stiffness_scatter);
   MeasuredChange& change = result.change;
   if (healthy.stiffness_to_mass)
-    change.stiffness = logChange({now.stiffness_to_mass, square(now.stiffness_to_mass_stddev)},
+    change.stiffness = logChange({now.stiffness_to_mass, square(stiffness_stddev)},
                                  {*healthy.stiffness_to_mass, square(healthy.stiffness_to_mass_stddev)});
   if (!healthy.damping_to_mass) return result;
-  ValueAndVariance damper{now.damping_to_mass, square(now.damping_to_mass_stddev)};
+  ValueAndVariance damper{now.damping_to_mass, square(damping_stddev)};
   ValueAndVariance healthy_damper{*healthy.damping_to_mass, square(healthy.damping_to_mass_stddev)};
   double by_law = 0.0;
   if (healthy.friction && now.friction) {
     const DryFriction &present = *now.friction, &learned = *healthy.friction;
     const double between = (present.damping_gain + learned.damping_gain) / 2.0;
-    damper = dampingAt(between, now.damping_to_mass, now.damping_to_mass_stddev, present);
+    damper = dampingAt(between, now.damping_to_mass, damping_stddev, present);
     healthy_damper = dampingAt(between, *healthy.damping_to_mass, healthy.damping_to_mass_stddev, learned);
     by_law = square((present.force - learned.force) * (present.damping_gain - learned.damping_gain) / 2.0);
     damper.variance += by_law;
@@ -77,8 +75,8 @@ ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& esti
   result.is_mostly_friction = by_law > 0.5 * damper.variance;
   // The error of b1 that it shares with b0; what friction adds it does not share.
   if (change.damping && change.stiffness && change.damping->stddev > 0.0 && change.stiffness->stddev > 0.0)
-    change.correlation = now.correlation * now.damping_to_mass_stddev / damper.value * now.stiffness_to_mass_stddev /
-                         now.stiffness_to_mass / (change.damping->stddev * change.stiffness->stddev);
+    change.correlation = now.correlation * damping_stddev / damper.value * stiffness_stddev / now.stiffness_to_mass /
+                         (change.damping->stddev * change.stiffness->stddev);
   change.correlation = std::clamp(change.correlation, -0.99, 0.99);
   return result;
 }
@@ -136,6 +134,14 @@ double BaselineLearner::Half::stiffnessScatter() const {
   return scatterBeyond(stiffness_variance, mean.stiffness_to_mass_stddev, seconds / window);
 }
 
+double BaselineLearner::Half::dampingStddev() const {
+  return std::hypot(mean.damping_to_mass_stddev, dampingScatter());
+}
+
+double BaselineLearner::Half::stiffnessStddev() const {
+  return std::hypot(mean.stiffness_to_mass_stddev, stiffnessScatter());
+}
+
 bool BaselineLearner::drifts() const {
   const auto& [a, b] = halves_;
   const auto apart = [&](double first, double first_stddev, double second, double second_stddev) {
@@ -149,10 +155,8 @@ bool BaselineLearner::drifts() const {
   const auto damping = [&](const Baseline& mean) {
     return *mean.damping_to_mass + (mean.friction ? mean.friction->force * gain : 0.0);
   };
-  return apart(damping(a.mean), std::hypot(a.mean.damping_to_mass_stddev, a.dampingScatter()), damping(b.mean),
-               std::hypot(b.mean.damping_to_mass_stddev, b.dampingScatter())) ||
-         apart(*a.mean.stiffness_to_mass, std::hypot(a.mean.stiffness_to_mass_stddev, a.stiffnessScatter()),
-               *b.mean.stiffness_to_mass, std::hypot(b.mean.stiffness_to_mass_stddev, b.stiffnessScatter()));
+  return apart(damping(a.mean), a.dampingStddev(), damping(b.mean), b.dampingStddev()) ||
+         apart(*a.mean.stiffness_to_mass, a.stiffnessStddev(), *b.mean.stiffness_to_mass, b.stiffnessStddev());
 }
 
 Baseline BaselineLearner::result(Stamp to) const {
@@ -165,12 +169,10 @@ Baseline BaselineLearner::result(Stamp to) const {
   Baseline baseline;
   baseline.damping_to_mass = middle(*a.mean.damping_to_mass, *b.mean.damping_to_mass);
   baseline.stiffness_to_mass = middle(*a.mean.stiffness_to_mass, *b.mean.stiffness_to_mass);
-  const double damping = rms(a.mean.damping_to_mass_stddev, b.mean.damping_to_mass_stddev);
-  const double stiffness = rms(a.mean.stiffness_to_mass_stddev, b.mean.stiffness_to_mass_stddev);
   baseline.damping_scatter = rms(a.dampingScatter(), b.dampingScatter());
   baseline.stiffness_scatter = rms(a.stiffnessScatter(), b.stiffnessScatter());
-  baseline.damping_to_mass_stddev = share * std::hypot(damping, baseline.damping_scatter);
-  baseline.stiffness_to_mass_stddev = share * std::hypot(stiffness, baseline.stiffness_scatter);
+  baseline.damping_to_mass_stddev = stddev(a.dampingStddev(), b.dampingStddev());
+  baseline.stiffness_to_mass_stddev = stddev(a.stiffnessStddev(), b.stiffnessStddev());
   if (a.mean.friction && b.mean.friction)
     baseline.friction =
         DryFriction{middle(a.mean.friction->force, b.mean.friction->force),

@@ -196,8 +196,7 @@ void ModelTracker::takeModel(const ModelReport& report) {
   const StrutEstimate& estimate = by_blocks ? report.estimate : report.la;
   // Until the blocks know the strut LA leads, which needs no more than its own rows for that.
   const bool leads =
-      !by_blocks &&
-      (is_paper_ ? isModel(report.la) : !newest_ && isLeading(identifier_.facts(report.la)));
+      !by_blocks && (is_paper_ ? isModel(report.la) : !newest_ && isLeading(identifier_.facts(report.la)));
   if (!by_blocks && !leads) return;
   if (!free_run_.trySetModel(estimate.damping_to_mass, estimate.stiffness_to_mass)) return;
   has_own_model_ = true;

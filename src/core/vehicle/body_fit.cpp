@@ -72,6 +72,10 @@ BodyFit::BodyFit(std::size_t struts) {
   q_.setIdentity(n, n);
 }
 
+BodyFit BodyFit::of(std::size_t struts, const StrutPlaces& places) {
+  return places.empty() ? BodyFit(struts) : BodyFit(places, pairsOf(places));
+}
+
 std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
                                                 const Eigen::VectorXd& start) const {
   RigidBodyRows functor(q_, pairs_, bars, rows, phi);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kProvenBar = 3.0;  // standard deviations
 // Of a neighbour's force: such an error makes b1 and b0 wrong by a few percent, as wheels hardly ever move alike.
 constexpr double kMostOfRatio = 0.15;
-constexpr double kStep = 1e-6;   // relative, of differences
+constexpr double kStep = 1e-6;  // relative, of differences
 
 }  // namespace
 
@@ -44,11 +44,6 @@ std::vector<StrutModel> BodyRows::models() const {
   std::vector<StrutModel> models;
   for (Eigen::Index i = 0; i < size(); ++i) models.push_back({rate(i, i), travel(i, i), {}, {}});
   return models;
-}
-
-Eigen::Vector2d BodyRows::ownStddev(Eigen::Index i) const {
-  const Eigen::MatrixXd& of = covariance[static_cast<std::size_t>(i)];
-  return {std::sqrt(of(i, i)), std::sqrt(of(size() + i, size() + i))};
 }
 
 Eigen::Matrix2d BodyFitResult::absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own,
@@ -100,8 +95,12 @@ Eigen::VectorXd BodyFit::inertia(const Eigen::MatrixXd& s) const {
 BodyFitResult BodyFit::describe(const Solution& solution, BodyFitResult::Bars bars) const {
   const auto n = q_.rows();
   const BodyRows none{
-      Eigen::MatrixXd::Ones(n, n), Eigen::MatrixXd::Ones(n, n), {}, {},
-      std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(n), Eigen::MatrixXd::Identity(2 * n, 2 * n)), false};
+      Eigen::MatrixXd::Ones(n, n),
+      Eigen::MatrixXd::Ones(n, n),
+      {},
+      {},
+      std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(n), Eigen::MatrixXd::Identity(2 * n, 2 * n)),
+      false};
   const RigidBodyRows functor(q_, pairs_, bars, none, 0.0);
   BodyFitResult result;
   result.phi = solution.phi;

@@ -59,22 +59,11 @@ void Separator::learnRows(const std::vector<std::string>& names) {
   const bool are_known = rows && rows->areKnown();
   std::optional<BodyFitResult> body;
   if (are_known) {
-    const StrutPlaces& places = drives_.front().places;
-    const BodyFit fit = places.empty() ? BodyFit(names.size()) : BodyFit(places, pairsOf(places));
-    if (names.size() > 1) body = fit.fit(*rows, blocks.rowsOfHalves());
+    if (names.size() > 1) body = BodyFit::of(names.size(), drives_.front().places).fit(*rows, blocks.rowsOfHalves());
     rows_ = body ? body->combined(*rows) : *rows;
   }
   coupling_ = describe(are_known ? &rows_ : nullptr, body, whyNotCoupled(blocks.mostAlike(), names),
                        forceNames(drives_.front()));
-}
-
-std::vector<LinearStrut> Separator::modelStddevs() const {
-  std::vector<LinearStrut> stddevs;
-  for (Eigen::Index i = 0; i < rows_.size(); ++i) {
-    const Eigen::Vector2d own = rows_.ownStddev(i);
-    stddevs.push_back({own[0], own[1]});
-  }
-  return stddevs;
 }
 
 bool Separator::sharesNoise() const { return sharesSensors(drives_.front().noise); }

@@ -20,7 +20,6 @@ class Separator {
   const VehicleCoupling& coupling() const { return coupling_; }
   const std::vector<StrutModel>& models() const { return models_; }
   double period() const { return period_; }
-  std::vector<LinearStrut> modelStddevs() const;
 
   void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
 

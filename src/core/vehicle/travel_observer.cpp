@@ -6,8 +6,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kMeans = 3;                // of a mean of a mean
-constexpr double kOffsetMemory = 40.0;      // [s]
+constexpr int kMeans = 3;                 // of a mean of a mean
+constexpr double kOffsetMemory = 40.0;    // [s]
 constexpr double kWashout = 1.0 / 200.0;  // of the natural frequency
 constexpr double kDamping = 0.7;
 // A washout of so many over the age of a series: what its start left is forgotten as fast as anything can be told.

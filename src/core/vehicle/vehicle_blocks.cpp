@@ -8,8 +8,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kStepsOfFriction = 4096.0;                 // per block: a thousand and more per bounce
-constexpr double kBlocksOfMean = 2.0;                       // memory of the wheel's slow mean
 constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;  // of the bounce in a block
 // Instruments need not be exact: a model that is wrong by this share of a row's largest coefficient costs its square of
 // the information.
@@ -48,7 +46,7 @@ void VehicleBlocks::begin(double length) {
   length_ = length;
   modulation_ = Modulation(band);
   spectra_.emplace(band, tops_);
-  friction_.assign(tops_.size(), SlidingFriction(length / kStepsOfFriction, kBlocksOfMean * length));
+  friction_.assign(tops_.size(), SlidingFriction::ofBlocks(length));
   for (std::size_t i = 0; i < tops_.size(); ++i) {
     estimators_.emplace_back(band, columns_, options_);
     if (!before.empty() && before[i].hasTheta()) estimators_[i].begin(before[i].theta(), before[i].slowPrior());
@@ -181,7 +179,7 @@ void VehicleBlocks::fillNeighbours() {
 // Without a model what was measured is all there is.
 void VehicleBlocks::predict(int age) {
   for (std::size_t i = 0; i < tops_.size(); ++i) blocks_[i] = &estimators_[i].block(age);
-  if (has_model_) model_->predict(blocks_, tops_.looks_for_friction ? 1 : 0);
+  if (has_model_) model_->predict(blocks_, firstKnownForce());
   for (std::size_t i = 0; i < tops_.size(); ++i) {
     StrutBlock& block = estimators_[i].block(age);
     if (!has_model_) {
@@ -222,7 +220,7 @@ void VehicleBlocks::scaleNeighbours(std::size_t strut) {
     for (const int i : {kBlockDamping, kBlockStiffness}) {
       const double factor = now.theta[i] / all->theta[i], stddev = std::sqrt(now.covariance(i, i)) / all->theta[i];
       const bool has_changed = std::abs(factor - 1.0) > kChanged * stddev;
-      const int column = columns_.firstNeighbour() + neighbourColumn(strut, j) + i;
+      const int column = columnOf(strut, j) + i;
       estimators_[strut].scaleSlow(column, has_changed ? factor : 1.0, has_changed ? stddev : 0.0);
     }
   }
@@ -234,12 +232,12 @@ void VehicleBlocks::finishRound() {
     if (!each.hasTheta()) return;
   const std::size_t n = tops_.size();
   bool is_stale = !has_model_;
-  const int known = columns_.firstForce() + (tops_.looks_for_friction ? 1 : 0);
+  const int known = columns_.firstForce() + firstKnownForce();
   for (std::size_t i = 0; i < n; ++i) {
     const BlockVector& theta = estimators_[i].theta();
     const auto row = static_cast<Eigen::Index>(i);
     for (std::size_t j = 0; j < n; ++j) {
-      const int at = j == i ? 0 : columns_.firstNeighbour() + neighbourColumn(i, j);
+      const int at = columnOf(i, j);
       rows_.rate(row, static_cast<Eigen::Index>(j)) = theta[at];
       rows_.travel(row, static_cast<Eigen::Index>(j)) = theta[at + 1];
     }

@@ -22,8 +22,7 @@ VehicleIdentification identified(VehicleMonitor& monitor, const std::vector<std:
   monitor.fitBody();
   VehicleIdentification result{couplingOf(monitor, names, forces), {}};
   for (std::size_t i = 0; result && i < names.size(); ++i)
-    result.struts.push_back(
-        identified(*monitor.strut(i), monitor.overTheDrive(i), monitor.strut(i)->rejected()));
+    result.struts.push_back(identified(*monitor.strut(i), monitor.overTheDrive(i), monitor.strut(i)->rejected()));
   return result;
 }
 

@@ -11,7 +11,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kModelsEvery = 0.1;            // [s]
+constexpr double kModelsEvery = 0.1;                    // [s]
 constexpr Stamp kBodyEvery = std::chrono::seconds(30);  // half of the blocks that are kept are new then
 
 Stamp periodOf(const std::vector<MonitorSettings>& settings) {
@@ -114,7 +114,7 @@ void VehicleMonitor::addSample(const VehicleSample& sample) {
 // Once per block.
 void VehicleMonitor::learnRows() {
   if (!blocks_->rows(newest_rows_) || !newest_rows_.areKnown()) return;
-  rows_ = newest_rows_;
+  std::swap(rows_, newest_rows_);
   if (decoupler_) return decoupler_->setRows(rows_);
   const std::vector<StrutModel> models = rows_.models();
   decoupler_.emplace(toSeconds(period_), rows_, models);
@@ -139,9 +139,7 @@ void VehicleMonitor::takeModels() {
 void VehicleMonitor::fitBody() {
   BodyRows rows;
   if (!blocks_ || numStruts() < 2 || !blocks_->rows(rows)) return;
-  const StrutPlaces places = blocks_->tops().places();
-  const BodyFit fit = places.empty() ? BodyFit(numStruts()) : BodyFit(places, pairsOf(places));
-  body_ = fit.fit(rows, blocks_->rowsOfHalves());
+  body_ = BodyFit::of(numStruts(), blocks_->tops().places()).fit(rows, blocks_->rowsOfHalves());
 }
 
 void VehicleMonitor::fitBodyIfDue() {
@@ -152,9 +150,8 @@ void VehicleMonitor::fitBodyIfDue() {
 
 Eigen::Vector2d VehicleMonitor::modelStddev(const TopEstimate& estimate) const {
   if (!body_) return Eigen::Vector2d::Zero();
-  const Eigen::Matrix2d absolute =
-      body_->absoluteCovariance(estimate.strut, estimate.theta.head<2>(), Eigen::Matrix2d::Zero(),
-                                estimate.frictionDamping());
+  const Eigen::Matrix2d absolute = body_->absoluteCovariance(estimate.strut, estimate.theta.head<2>(),
+                                                             Eigen::Matrix2d::Zero(), estimate.frictionDamping());
   return absolute.diagonal().cwiseSqrt();
 }
 

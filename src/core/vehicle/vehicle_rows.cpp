@@ -37,7 +37,7 @@ void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, Bo
   using Selection = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostStruts, kMostBlockParameters>;
   Selection selection = Selection::Zero(2 * n, estimate.theta.size());
   for (std::size_t j = 0; j < tops_.size(); ++j) {
-    const int at = j == strut ? int{kBlockDamping} : columns_.firstNeighbour() + neighbourColumn(strut, j);
+    const int at = columnOf(strut, j);
     selection(static_cast<Eigen::Index>(j), at) = selection(n + static_cast<Eigen::Index>(j), at + 1) = 1.0;
   }
   if (tops_.looks_for_friction) selection(i, columns_.firstForce()) = estimate.frictionGain();
@@ -46,7 +46,7 @@ void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, Bo
   rows.travel.row(i) = row.tail(n).transpose();
   rows.covariance[strut].noalias() = selection * (estimate.covariance * selection.transpose()).eval();
   for (Eigen::Index k = 0; k < rows.force.cols(); ++k) {
-    const int at = columns_.firstForce() + (tops_.looks_for_friction ? 1 : 0) + static_cast<int>(k);
+    const int at = columns_.firstForce() + firstKnownForce() + static_cast<int>(k);
     rows.force(i, k) = estimate.theta[at];
     const double variance = estimate.covariance(at, at);
     rows.force_stddev(i, k) = variance > 0.0 ? std::sqrt(variance) : HUGE_VAL;  // of a force that has not changed 0
@@ -73,7 +73,7 @@ std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
   return rows;
 }
 
-// In the row that knows a coefficient worst: that one, and the one that it is told from worst.
+// In the row with the least certain coefficient: that one, and the one whose error goes with it most.
 StrutPair VehicleBlocks::mostAlike() const {
   StrutPair worst{0, 0};
   double largest = 0.0;
@@ -82,17 +82,15 @@ StrutPair VehicleBlocks::mostAlike() const {
     if (estimate == nullptr && has_[i]) estimate = &estimates_[i];
     if (estimate == nullptr) continue;
     const BlockMatrix& covariance = estimate->covariance;
-    const auto columnOf = [&](std::size_t j) {
-      return int{kBlockStiffness} + (j == i ? 0 : columns_.firstNeighbour() + neighbourColumn(i, j));
-    };
+    const auto travelOf = [&](std::size_t j) { return columnOf(i, j) + kBlockStiffness; };
     for (std::size_t j = 0; j < tops_.size(); ++j) {
-      const int at = columnOf(j);
+      const int at = travelOf(j);
       const double share = std::sqrt(covariance(at, at)) / std::abs(estimate->theta[kBlockStiffness]);
       if (!(share > largest)) continue;
       largest = share;
       double closest = 0.0;
       for (std::size_t k = 0; k < tops_.size(); ++k) {
-        const double together = std::abs(covariance(at, columnOf(k))) / std::sqrt(covariance(columnOf(k), columnOf(k)));
+        const double together = std::abs(covariance(at, travelOf(k))) / std::sqrt(covariance(travelOf(k), travelOf(k)));
         if (k == j || !(together > closest)) continue;
         closest = together;
         worst = {j, k};

@@ -60,27 +60,18 @@ long VehicleSpectra::newestOpen() const {
   return newest;
 }
 
-void VehicleSpectra::whole(const FourierIntegrals& stream, Eigen::Index channel, long half,
-                           Eigen::ArrayXcd& result) const {
-  const auto &first = *stream.half(half - 1), &second = *stream.half(half);
-  for (Eigen::Index i = 0; i < first.rows(); ++i) {
-    const bool is_odd = (band_.first - 1 + i) % 2 != 0;
-    result[i] = first(i, channel) + (is_odd ? -second(i, channel) : second(i, channel));
-  }
-}
-
 void VehicleSpectra::fill(std::size_t strut, long half, StrutBlock& block) {
   block.end = static_cast<double>(half + 1) * band_.length / 2.0;
-  whole(wheels_[strut], 0, half, block.wheel);
+  wheels_[strut].sumHalves(half, 0, block.wheel);
   Eigen::Index column = 0;
   const auto fillForce = [&](const FourierIntegrals& stream, Eigen::Index channel) {
-    whole(stream, channel, half, channel_);
+    stream.sumHalves(half, channel, channel_);
     block.forces.col(column++) = channel_;
   };
   if (tops_.looks_for_friction) fillForce(wheels_[strut], 1);
   for (const FourierIntegrals& force : forces_) fillForce(force, 0);
   if (!tops_.tops[strut].has_own) return fillByBody(*tops_.tops[strut].position, half, block);
-  whole(own_[own_of_[strut]], 0, half, channel_);
+  own_[own_of_[strut]].sumHalves(half, 0, channel_);
   for (std::size_t p = 0; p < 3; ++p) modulation_.apply(p, channel_, block.body.col(static_cast<Eigen::Index>(p)));
 }
 
@@ -98,7 +89,7 @@ void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, Stru
                         {kWx2Wy2, 0, -position.z()}};
   block.body.setZero();
   for (const Part& part : parts) {
-    whole(body_.front(), static_cast<Eigen::Index>(part.channel), half, channel_);
+    body_.front().sumHalves(half, static_cast<Eigen::Index>(part.channel), channel_);
     for (std::size_t p = 0; p < 3; ++p) {
       modulation_.apply(p + part.derivatives, channel_, derivative_);
       block.body.col(static_cast<Eigen::Index>(p)) += part.factor * derivative_;

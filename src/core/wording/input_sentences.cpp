@@ -35,7 +35,8 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kFreeRunFails:
       return "the model, driven by the wheel, fits the body's motion worse than a constant";
     case EstimateDoubt::kModelError:
-      return "the body does not move as a rigid one on linear struts: absolute values are not known to 15 %, changes are";
+      return "the body does not move as a rigid one on linear struts: absolute values are not known to 15 %, changes "
+             "are";
   }
   return "unknown";
 }

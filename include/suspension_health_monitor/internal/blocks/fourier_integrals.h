@@ -39,6 +39,17 @@ class FourierIntegrals {
   /// @return the integrals over a half block, bins first - 1 .. last + 1 by channels; nullptr if readings are missing.
   const Eigen::ArrayXXcd* half(long index) const;
 
+  /// The integrals of a channel over the block that ends with this half block, which and the one before are complete:
+  /// U_k.
+  template <class Result>
+  void sumHalves(long index, Eigen::Index channel, Result&& result) const {
+    const auto &first = *half(index - 1), &second = *half(index);
+    for (Eigen::Index i = 0; i < first.rows(); ++i) {
+      const bool is_odd = (band_.first - 1 + i) % 2 != 0;
+      result[i] = first(i, channel) + (is_odd ? -second(i, channel) : second(i, channel));
+    }
+  }
+
  private:
   struct Half {
     long index = -1;

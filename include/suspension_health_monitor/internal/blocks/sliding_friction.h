@@ -16,6 +16,13 @@ class SlidingFriction {
   /// [s].
   SlidingFriction(double longest_step, double memory) : longest_step_(longest_step), memory_(memory) {}
 
+  /// @param length  of the blocks [s].
+  static SlidingFriction ofBlocks(double length) {
+    constexpr double kSteps = 4096.0;  // per block: a thousand and more per bounce
+    constexpr double kMemory = 2.0;    // of the slow mean [blocks]
+    return {length / kSteps, kMemory * length};
+  }
+
   /// @param friction  f [m/s^2].
   void setStrut(double b1, double b0, double friction) {
     b1_ = b1;

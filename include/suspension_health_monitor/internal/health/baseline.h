@@ -51,6 +51,8 @@ class BaselineLearner {
     void add(const StrutEstimate& estimate, double seconds);
     double dampingScatter() const;    // beyond the standard deviations [1/s]
     double stiffnessScatter() const;  // likewise [1/s^2]
+    double dampingStddev() const;     // of an estimate, with that
+    double stiffnessStddev() const;
   };
 
   static constexpr double kDrift = 3.0;

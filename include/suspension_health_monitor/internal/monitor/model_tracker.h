@@ -27,7 +27,7 @@ class ModelTracker {
  public:
   /// The plain model.
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  /// @param has_own_blocks  false: its block estimates come by takeEstimate(), as of a vehicle's strut.
+  /// @param has_own_blocks  false: a vehicle gives it its block estimates, by takeEstimate().
   explicit ModelTracker(const MonitorSettings& options, bool has_own_blocks = true);
 
   /// Goes on with other effects: estimates and covariance of b1, b0 and of the effects that stay (same name and shapes)

@@ -24,7 +24,7 @@ class SuspensionMonitor {
  public:
   /// @param options  with sample_period given.
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  /// @param has_own_blocks  false: the plain model's block estimates come by takeEstimate(), as of a vehicle's strut.
+  /// @param has_own_blocks  false: a vehicle gives the plain model its block estimates, by takeEstimate().
   explicit SuspensionMonitor(const MonitorSettings& options, bool has_own_blocks = true);
 
   /// Has these effects in the model from now on; none: the plain model. Estimates carry over, coefficients are start

@@ -16,8 +16,8 @@ namespace suspension_health_monitor {
 /// The readings tell b. With x(t) the signal, a reading is x_k = x(regular) + b x' d_k. Fourth differences D take the
 /// signal out of that as far as it is slow, so that b is the slope of e = D x_k over r = D (x'_k d_k), by least squares
 /// of all readings, of which rough driving counts most: there it matters. x' is that of readings taken regularly; where
-/// they are not it is noisy, and b too small by a tenth or two. How much that is to be trusted is told by how the
-/// blocks of readings scatter, since neighbouring differences share readings. Beforehand stamps are taken at their
+/// they are not it is noisy, and b too small by a tenth or two. The scatter of blocks of readings says how
+/// certain b is, since neighbouring differences share readings. Beforehand stamps are taken at their
 /// word, b = 1. Cost per reading: O(1), no allocation.
 class ReadingClock {
  public:

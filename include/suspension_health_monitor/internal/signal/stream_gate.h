@@ -88,8 +88,8 @@ class ReadingStatistics {
 ///
 /// It is followed on a logarithmic scale by steps of one size, up for a reading above it and down for one below, so
 /// that 1e300 moves it as little as the next larger reading. Readings that are wrong for a while move it by what half
-/// of the readings of that time would; those that stay, as of a sensor that reads in another unit from now on, become
-/// the usual ones.
+/// of the readings of that time would; if they stay so, as where a sensor reads in another unit from now on, they
+/// become the usual ones.
 /// Cost per reading: O(1), no allocation.
 class UsualSize {
  public:

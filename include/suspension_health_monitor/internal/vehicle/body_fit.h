@@ -29,8 +29,6 @@ struct BodyRows {
   bool areKnown() const;
   /// @return the linear struts.
   std::vector<StrutModel> models() const;
-  /// @return standard deviations of b1_ii and b0_ii.
-  Eigen::Vector2d ownStddev(Eigen::Index i) const;
 };
 
 /// Two struts that an anti-roll bar may join.
@@ -89,14 +87,16 @@ class BodyFit {
   /// @param places  by strut, from any point of the body.  @param pairs  that a bar may join.
   BodyFit(const StrutPlaces& places, const std::vector<StrutPair>& pairs);
 
-  /// Of struts whose places are not known: forces at any two tops move one another alike, and nothing else is known.
-  explicit BodyFit(std::size_t struts);
+  /// @param places  by strut; empty: not known. Then forces at any two tops move one another alike, no more.
+  static BodyFit of(std::size_t struts, const StrutPlaces& places);
 
   /// @param halves  rows of two sets of blocks that share no reading, by which bars must agree; empty: no bar is named.
   /// @return nothing if the solver fails.
   std::optional<BodyFitResult> fit(const BodyRows& rows, const std::vector<BodyRows>& halves = {}) const;
 
  private:
+  explicit BodyFit(std::size_t struts);
+
   struct Solution {
     Eigen::VectorXd parameters;
     Eigen::MatrixXd covariance;

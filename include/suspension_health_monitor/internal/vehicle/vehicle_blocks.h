@@ -74,7 +74,7 @@ class VehicleBlocks {
   const VehicleTops& tops() const { return tops_; }
   double length() const { return length_; }  ///< T of the blocks [s]
 
-  /// @return the two struts that the newest blocks tell apart worst.
+  /// @return the two struts that the newest blocks can hardly tell apart.
   StrutPair mostAlike() const;
 
   /// Another drive: blocks are forgotten, but to overTheDrive(); estimates stay until there are new ones.
@@ -82,6 +82,12 @@ class VehicleBlocks {
 
  private:
   void begin(double length);
+  /// Column of the travel rate of strut j in the row of strut i; that of its travel is the next.
+  int columnOf(std::size_t i, std::size_t j) const {
+    return j == i ? int{kBlockDamping} : columns_.firstNeighbour() + neighbourColumn(i, j);
+  }
+  /// Of the known forces, among the forces' columns.
+  int firstKnownForce() const { return tops_.looks_for_friction ? 1 : 0; }
   std::optional<double> timeOf(std::size_t sensor, Stamp stamp);
   const TopEstimate* work();
   void takeBlock();

@@ -42,7 +42,6 @@ class VehicleSpectra {
  private:
   enum BodyChannel : std::size_t { kAz, kWx, kWy, kWzWx, kWzWy, kWx2Wy2, kBodyChannels };
 
-  void whole(const FourierIntegrals& stream, Eigen::Index channel, long half, Eigen::ArrayXcd& result) const;
   void fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block);
 
   BlockBand band_;

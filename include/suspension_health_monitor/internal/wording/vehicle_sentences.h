@@ -10,7 +10,7 @@
 
 namespace suspension_health_monitor {
 
-/// @param most_alike  the struts that are told apart worst; nothing: nothing is known.
+/// @param most_alike  the two struts that are hardest to tell apart; empty: nothing is known.
 /// @return why the rows of the struts are not known, to be read after "the drives".
 std::string whyNotCoupled(const std::optional<StrutPair>& most_alike, const std::vector<std::string>& struts);
 
