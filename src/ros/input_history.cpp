@@ -76,12 +76,12 @@ std::string ImuArrivals::whatElseThereIs(PublishedTopics& published) const {
   return " (" + type_ + " is on " + join(others, ", ") + ")";
 }
 
-void describeTiming(const StreamTiming& timing, const std::string& name, const std::optional<double>& expected_rate,
+void describeTiming(const StreamClock& clock, const std::string& name, const std::optional<double>& expected_rate,
                     ImuArrivals::Status& status) {
-  const double rate = timing.period() > 0.0 ? 1.0 / timing.period() : 0.0;
+  const double rate = clock.period() > 0.0 ? 1.0 / clock.period() : 0.0;
   status.addf(name + " rate [Hz]", "%.4g", rate);
-  status.addf(name + " jitter [s]", "%.3g", timing.jitter());
-  status.add(name + " lost", timing.lost());
+  status.addf(name + " jitter [s]", "%.3g", clock.jitter());
+  status.add(name + " lost", clock.lost());
   if (expected_rate && rate > 0.0 && std::abs(rate / *expected_rate - 1.0) > kRateTolerance)
     status.mergeSummaryf(DiagnosticStatus::WARN, "%s IMU comes at %.4g Hz, expected %.4g", name.c_str(), rate,
                          *expected_rate);

@@ -69,7 +69,7 @@ class ImuArrivals {
 
 /// The rate of one IMU as its stamps tell it.
 /// @param name  of the IMU.  @param expected_rate  [Hz]; another one is warned of.
-void describeTiming(const StreamTiming& timing, const std::string& name, const std::optional<double>& expected_rate,
+void describeTiming(const StreamClock& clock, const std::string& name, const std::optional<double>& expected_rate,
                     ImuArrivals::Status& status);
 
 /// The series of samples that a monitor has taken in.

@@ -44,7 +44,7 @@ void InputTask::describeGrid(const SuspensionMonitor* monitor, const StreamGrid*
 void InputTask::describeSensor(std::size_t sensor, const StreamGate* gate, Status& status) const {
   const Sensor& its = sensors_[sensor];
   its.arrivals.describeLag(its.name, max_lag_, status);
-  if (gate != nullptr) describeTiming(gate->timing(), its.name, its.expected_rate, status);
+  if (gate != nullptr) describeTiming(gate->clock(), its.name, its.expected_rate, status);
 }
 
 void InputTask::describeSilence(const Sensors& sensors, Status& status) {

@@ -112,10 +112,10 @@ TEST(StreamGate, MeasuresRateJitterAndLosses) {
     }
     gate.judge(at(k) + std::chrono::microseconds(jitter(generator)), std::sin(0.1 * k));
   }
-  EXPECT_EQ(gate.timing().lost(), static_cast<std::uint64_t>(lost) - 1);  // the last one is not missed yet
+  EXPECT_EQ(gate.clock().lost(), static_cast<std::uint64_t>(lost) - 1);  // the last one is not missed yet
   // Differences of independent uniform jitters of +-0.5 ms: standard deviation 1 ms / sqrt(6).
-  EXPECT_NEAR(gate.timing().jitter(), 1e-3 / std::sqrt(6.0), 0.1e-3 / std::sqrt(6.0));
-  EXPECT_NEAR(gate.timing().period(), 0.01, 5 * 1e-3 / std::sqrt(6.0) / std::sqrt(1000.0));
+  EXPECT_NEAR(gate.clock().jitter(), 1e-3 / std::sqrt(6.0), 0.1e-3 / std::sqrt(6.0));
+  EXPECT_NEAR(gate.clock().period(), 0.01, 5 * 1e-3 / std::sqrt(6.0) / std::sqrt(1000.0));
 }
 
 TEST(StreamGate, TakesALowerRateForTheRateAfterAWhile) {
@@ -123,16 +123,16 @@ TEST(StreamGate, TakesALowerRateForTheRateAfterAWhile) {
   int k = 0;
   for (; k < 1000; ++k) gate.judge(at(k), std::sin(0.1 * k));
   for (; k < 3000; k += 2) gate.judge(at(k), std::sin(0.1 * k));
-  EXPECT_NEAR(gate.timing().period(), 0.02, 1e-9);
-  EXPECT_LT(gate.timing().lost(), 10u);
+  EXPECT_NEAR(gate.clock().period(), 0.02, 1e-9);
+  EXPECT_LT(gate.clock().lost(), 10u);
 }
 
 TEST(StreamGate, CountsAPauseAsNoLoss) {
   StreamGate gate(kPeriod);
   for (int k = 0; k < 100; ++k) gate.judge(at(k), std::sin(0.1 * k));
   for (int k = 1000; k < 1100; ++k) gate.judge(at(k), std::sin(0.1 * k));
-  EXPECT_EQ(gate.timing().lost(), 0u);
-  EXPECT_NEAR(gate.timing().period(), 0.01, 1e-9);
+  EXPECT_EQ(gate.clock().lost(), 0u);
+  EXPECT_NEAR(gate.clock().period(), 0.01, 1e-9);
 }
 
 /// Both sensors of a strut, one of them stuck from sample 100 to 200. @return samples that come in these.

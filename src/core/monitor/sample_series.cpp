@@ -9,6 +9,8 @@ constexpr double kSpacings = 50.0;  // before their mean counts: jitter of half 
 
 }  // namespace
 
+SampleSeries::SampleSeries(Stamp period) : period_(period), spacing_(1.0 - 0.1 / kSpacings) {}
+
 std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
   if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) {
     rejected_.add(RejectReason::kNotFinite);
@@ -22,9 +24,9 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
   if (how == Continuity::kGap) ++status_.gaps;
   if (how == Continuity::kClockJumped) ++status_.restarts;
   if (!last_ || how != Continuity::kContinues) {
-    if (last_) countSpacings();
-    spacing_.begin(sample.stamp);
     size_ = 0;
+  } else {
+    spacing_.add(toSeconds(sample.stamp - *last_));
   }
   if (!first_ || how == Continuity::kClockJumped) first_ = sample.stamp;
   last_ = sample.stamp;
@@ -33,13 +35,8 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
   return how;
 }
 
-void SampleSeries::countSpacings() {
-  spacing_.countUntil(*last_, size_);
-  status_.mean_period = spacing_.mean();
-}
-
 void SampleSeries::judge() {
-  countSpacings();
+  status_.mean_period = spacing_.mean();
   if (spacing_.weight() < kSpacings) return;
   status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;
 }

@@ -18,13 +18,17 @@ StreamGate::Verdict StreamGate::judge(Stamp stamp, double acceleration) {
   const std::optional<RejectReason> fault = faultOfStamp(stamp);
   if (fault) rejected_.add(*fault);
   const bool went_far_back = fault == RejectReason::kTimeWentBack && *last_ - stamp > longest_overtaking_;
+  if (fault == RejectReason::kTimeWentBack && !went_far_back) clock_.passOver();
   if (fault && !went_far_back) return Verdict::kRejected;
   if (went_far_back) startNewSeries();
   const Verdict passes = went_far_back ? Verdict::kBeginsAnew : Verdict::kPasses;
 
-  if (isAbsurd(acceleration)) return reject(RejectReason::kAbsurd);
+  if (isAbsurd(acceleration)) {
+    clock_.passOver();
+    return reject(RejectReason::kAbsurd);
+  }
   last_ = stamp;
-  timing_.add(stamp);
+  taken_ = clock_.add(stamp, acceleration);
   if (is_force_) return passes;
   if (isClipped(acceleration)) return reject(RejectReason::kClipped);
   return passes;
@@ -32,7 +36,7 @@ StreamGate::Verdict StreamGate::judge(Stamp stamp, double acceleration) {
 
 void StreamGate::startNewSeries() {
   last_.reset();
-  timing_.interrupt();
+  clock_.interrupt();
 }
 
 std::optional<RejectReason> StreamGate::faultOfStamp(Stamp stamp) const {

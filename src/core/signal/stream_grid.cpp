@@ -36,15 +36,14 @@ const GridInstant* StreamGrid::push(std::size_t stream, Stamp stamp, double valu
   GridStream& its = streams_[stream];
   const StreamGate::Verdict verdict = its.gate.judge(stamp, value);
   if (verdict == StreamGate::Verdict::kRejected) {
-    its.clock.passOver(stamp);
     taken_.reset();
     return nullptr;
   }
   if (verdict == StreamGate::Verdict::kBeginsAnew) startNewSeries(stream);
   if (its.waiting.full()) dropOldest(its);
   its.is_silent = false;
-  taken_ = its.clock.take(stamp, value);
-  its.waiting.push_back({stamp, *taken_, value, its.gate.isStill(), its.gate.timing().period()});
+  taken_ = its.gate.taken();
+  its.waiting.push_back({stamp, *taken_, value, its.gate.isStill(), its.gate.clock().period()});
   return next();
 }
 
@@ -68,16 +67,14 @@ void StreamGrid::dropOldest(GridStream& full) {
 void StreamGrid::startNewSeries(std::size_t first) {
   paired_.startNewSeries(streams_);
   resampled_.startNewSeries();
-  for (std::size_t i = 0; i < streams_.size(); ++i) {
+  for (std::size_t i = 0; i < streams_.size(); ++i)
     if (i != first) streams_[i].gate.startNewSeries();
-    streams_[i].clock.interrupt();
-  }
 }
 
 std::string StreamGrid::whatIsTooSlow() const {
   double spacing = 0.0;
   for (const GridStream& each : streams_)
-    if (each.options.required) spacing = std::max(spacing, each.gate.timing().period());
+    if (each.options.required) spacing = std::max(spacing, each.gate.clock().period());
   if (spacing < 1.5 * toSeconds(period_)) return "";
   std::ostringstream text;
   text.precision(4);

@@ -27,7 +27,7 @@ std::string describeSpike(const char* side, const StreamGate& gate) {
 
 // Of readings whose fourth powers vanish nothing can be computed, see isUsable().
 std::string describeStillness(const char* side, const StreamGate& gate) {
-  if (gate.timing().period() == 0.0 || gate.deviation() > 1e-60) return {};
+  if (gate.clock().period() == 0.0 || gate.deviation() > 1e-60) return {};
   char text[120];
   std::snprintf(text, sizeof text, "; the %s readings differ by %.3g m/s^2 only: a dead sensor, or not in m/s^2?", side,
                 gate.deviation());

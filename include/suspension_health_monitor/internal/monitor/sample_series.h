@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
-#include "suspension_health_monitor/internal/signal/mean_spacing.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/monitor_report.h"
 
@@ -16,7 +16,7 @@ namespace suspension_health_monitor {
 /// one that was said. Cost per sample: O(1), no allocation.
 class SampleSeries {
  public:
-  explicit SampleSeries(Stamp period) : period_(period) {}
+  explicit SampleSeries(Stamp period);
 
   /// Takes in the next sample if it can be.
   /// @return how it follows the one before, kGap and kClockJumped beginning a new series; empty: it was rejected.
@@ -48,13 +48,12 @@ class SampleSeries {
 
  private:
   const CornerSample& at(std::size_t number) const { return recent_[number % recent_.size()]; }
-  void countSpacings();
 
   Stamp period_;
   std::optional<Stamp> first_, last_;                       // of the drive
   std::array<CornerSample, FreeRun::kDelay + 1> recent_{};  // by their number in the series, modulo
   std::size_t size_ = 0;                                    // of the series
-  MeanSpacing spacing_;
+  RunningMean spacing_;
   InputStatus status_;
   RejectCounts rejected_;
 };

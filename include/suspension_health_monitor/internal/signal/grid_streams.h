@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/signal/reading_clock.h"
 #include "suspension_health_monitor/internal/signal/reading_queue.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
 #include "suspension_health_monitor/internal/signal/stream_gate.h"
@@ -47,7 +46,6 @@ struct GridStream {
 
   StreamOptions options;
   StreamGate gate;
-  ReadingClock clock;
   ReadingQueue waiting;
   RejectCounts rejected;     ///< of those that passed the gate
   std::uint64_t missed = 0;  ///< readings of others and instants that were lost for want of a reading of this stream

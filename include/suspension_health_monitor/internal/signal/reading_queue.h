@@ -10,10 +10,10 @@ namespace suspension_health_monitor {
 /// One reading of one stream that has passed its StreamGate.
 struct SensorReading {
   Stamp stamp{};
-  Stamp taken{};               ///< when it was taken, by ReadingClock
+  Stamp taken{};               ///< when it was taken, by StreamClock
   double value = 0.0;          ///< in the stream's unit
   bool still = false;          ///< StreamGate::isStill()
-  double usual_spacing = 0.0;  ///< StreamTiming::period() of its stream by then [s]; 0: not known yet
+  double usual_spacing = 0.0;  ///< StreamClock::period() of its stream by then [s]; 0: not known yet
 };
 
 /// Readings of one stream that wait for those of another: first in, first out, of fixed capacity.

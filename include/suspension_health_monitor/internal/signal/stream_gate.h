@@ -7,7 +7,7 @@
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/signal/stream_timing.h"
+#include "suspension_health_monitor/internal/signal/stream_clock.h"
 
 namespace suspension_health_monitor {
 
@@ -79,9 +79,9 @@ class ReadingStatistics {
  private:
   std::optional<double> last_;
   int equal_in_a_row_ = 0;
-  double finest_step_ = 0.0;                     // other than 0
-  RunningMean repeated_{StreamTiming::kMemory};  // 1 for a reading that equals the one before, both extremes left out
-  RunningMean mean_{StreamTiming::kMemory}, deviation_{StreamTiming::kMemory};
+  double finest_step_ = 0.0;                    // other than 0
+  RunningMean repeated_{StreamClock::kMemory};  // 1 for a reading that equals the one before, both extremes left out
+  RunningMean mean_{StreamClock::kMemory}, deviation_{StreamClock::kMemory};
 };
 
 /// How large a sensor's readings usually are: their running median.
@@ -158,7 +158,10 @@ class StreamGate {
   double farthest() const;
 
   const RejectCounts& rejected() const { return rejected_; }
-  const StreamTiming& timing() const { return timing_; }
+  const StreamClock& clock() const { return clock_; }
+
+  /// @return when the last reading that passed was taken (StreamClock).
+  Stamp taken() const { return taken_; }
 
  private:
   static constexpr int kBelievedAgain = 10;  // readings: what stands between absurd ones is as wrong as they are
@@ -176,7 +179,8 @@ class StreamGate {
   ReadingStatistics statistics_;       // of all readings that passed, the clipped ones included
   RangeEnd upper_{1.0}, lower_{-1.0};  // likewise
   RejectCounts rejected_;
-  StreamTiming timing_;
+  StreamClock clock_;
+  Stamp taken_{};
 };
 
 }  // namespace suspension_health_monitor

@@ -40,7 +40,7 @@ class StreamGrid {
   /// @return the next instant that the readings so far complete, likewise.
   const GridInstant* next();
 
-  /// @return when the newest reading was taken (ReadingClock); empty if it was kept out.
+  /// @return when the newest reading was taken (StreamClock); empty if it was kept out.
   const std::optional<Stamp>& taken() const { return taken_; }
 
   /// @return true if the streams are resampled; why() tells the reason in words, if it was found out.
