@@ -60,7 +60,7 @@ HealthyFound measureHealthy(const FamilyDrive& drive) {
   const FieldDrive& field = drive.field;
   HealthyFound found;
   HealthLevel before = HealthLevel::kStale;
-  StrutPipeline pipeline = pipelineFor(field);
+  VehiclePipeline pipeline = pipelineFor(field);
   follow({field, drive.delivery}, drive.seconds, pipeline, [&](double time, const MonitorReport& report) {
     const StrutEstimate& estimate = judged(report);
     const HealthLevel level = report.health.level;
@@ -148,7 +148,7 @@ struct ChangeFound {
 ChangeFound measureChange(const FamilyDrive& drive) {
   ChangeFound found;
   HealthLevel before = HealthLevel::kStale;
-  StrutPipeline pipeline = pipelineFor(drive.field);
+  VehiclePipeline pipeline = pipelineFor(drive.field);
   follow({drive.field, drive.delivery}, drive.seconds, pipeline, [&](double time, const MonitorReport& report) {
     const double since = time - drive.changes_at;
     const HealthLevel level = report.health.level;
@@ -204,7 +204,7 @@ struct FrictionFound {
 
 FrictionFound measureFriction(const FamilyDrive& drive) {
   FrictionFound found;
-  StrutPipeline pipeline(MonitorOptions{}, {});
+  VehiclePipeline pipeline(MonitorOptions{});
   follow({drive.field, drive.delivery}, drive.seconds, pipeline, [&](double time, const MonitorReport& report) {
     if (time <= drive.changes_at) return void(found.baseline = pipeline.baseline());
     for (std::size_t i = 0; i < 4; ++i) found.levels[i].add(i == static_cast<std::size_t>(report.health.level));

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "field_drive.h"
-#include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 
 namespace suspension_health_monitor {
 
@@ -35,10 +35,10 @@ void follow(const FieldDrive& drive, std::optional<double> memory, double second
 }
 
 /// @return a pipeline with the true values as the nominal ones, and no other setting.
-inline StrutPipeline pipelineFor(const FieldDrive& drive) {
+inline VehiclePipeline pipelineFor(const FieldDrive& drive) {
   MonitorSettings settings = settingsFor(drive);
   settings.sample_period.reset();
-  return StrutPipeline(settings, {});
+  return VehiclePipeline(settings);
 }
 
 /// What happens to the readings of two IMUs on their way.
@@ -57,7 +57,7 @@ class FieldReadings {
       : simulator_(drive), delivery_(delivery), random_(1000003U * (drive.seed + 1)) {}
 
   /// @param steps  of the integration that are driven.
-  void push(int steps, StrutPipeline& pipeline) {
+  void push(int steps, VehiclePipeline& pipeline) {
     for (int i = 0; i < steps; ++i) {
       simulator_.advance();
       ++steps_;
@@ -69,7 +69,7 @@ class FieldReadings {
   double time() const { return simulator_.time(); }
 
  private:
-  void deliver(Side side, double reading, StrutPipeline& pipeline) {
+  void deliver(Side side, double reading, VehiclePipeline& pipeline) {
     constexpr double kGravity = 9.81;
     const bool is_wheel = side == Side::kUnsprung;
     const double stamp = time() + (is_wheel ? delivery_.late : 0.0) + delivery_.jitter * normal_(random_);
@@ -92,12 +92,12 @@ class FieldReadings {
 /// Calls look(time, report) ten times per second of a drive, with the newest report; with an empty one if there was
 /// none in the last second.
 template <class Look>
-void follow(FieldReadings readings, double seconds, StrutPipeline& pipeline, const Look& look) {
+void follow(FieldReadings readings, double seconds, VehiclePipeline& pipeline, const Look& look) {
   constexpr double kFresh = 1.0;  // [s]
   while (readings.time() < seconds) {
     readings.push(kFieldRate / 10, pipeline);
     MonitorReport report;
-    if (pipeline.monitor() != nullptr) report = pipeline.monitor()->report();
+    if (pipeline.strut() != nullptr) report = pipeline.strut()->report();
     look(readings.time(), readings.time() - toSeconds(report.stamp) < kFresh ? report : MonitorReport{});
   }
 }

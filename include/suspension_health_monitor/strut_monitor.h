@@ -13,7 +13,7 @@
 
 namespace suspension_health_monitor {
 
-class StrutPipeline;
+class VehiclePipeline;
 
 /// Watches one strut live: readings of two accelerometers in, estimates, comparison and health out. It is all that the
 /// nodelet does, without messages.
@@ -72,7 +72,7 @@ class StrutMonitor {
   std::optional<double> samplePeriod() const;
 
  private:
-  std::unique_ptr<StrutPipeline> pipeline_;
+  std::unique_ptr<VehiclePipeline> pipeline_;
 };
 
 }  // namespace suspension_health_monitor

@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 
 namespace suspension_health_monitor {
 
 StrutMonitor::StrutMonitor(const MonitorOptions& options, Sink sink)
-    : pipeline_(std::make_unique<StrutPipeline>(options, StrutPipeline::Sinks{std::move(sink), {}})) {}
+    : pipeline_(std::make_unique<VehiclePipeline>(options, std::move(sink))) {}
 
 StrutMonitor::~StrutMonitor() = default;
 StrutMonitor::StrutMonitor(StrutMonitor&& other) noexcept = default;
@@ -22,7 +22,7 @@ void StrutMonitor::setBaseline(const Baseline& baseline) { pipeline_->setBaselin
 Baseline StrutMonitor::baseline() const { return pipeline_->baseline(); }
 
 MonitorReport StrutMonitor::report() const {
-  return pipeline_->monitor() != nullptr ? pipeline_->monitor()->report() : MonitorReport{};
+  return pipeline_->strut() != nullptr ? pipeline_->strut()->report() : MonitorReport{};
 }
 
 std::optional<TyreReport> StrutMonitor::tyre() const {
@@ -31,14 +31,13 @@ std::optional<TyreReport> StrutMonitor::tyre() const {
 }
 
 InputStatus StrutMonitor::input() const {
-  return pipeline_->monitor() != nullptr ? pipeline_->monitor()->input() : InputStatus{};
+  return pipeline_->strut() != nullptr ? pipeline_->strut()->input() : InputStatus{};
 }
 
 std::map<std::string, std::uint64_t> StrutMonitor::rejected() const { return pipeline_->rejected().byName(); }
 
 std::optional<double> StrutMonitor::samplePeriod() const {
-  if (pipeline_->monitor() == nullptr) return std::nullopt;
-  return pipeline_->monitor()->period();
+  return pipeline_->period();
 }
 
 }  // namespace suspension_health_monitor

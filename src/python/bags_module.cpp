@@ -35,7 +35,7 @@ Identification identifyBags(const Arguments& arguments, LongWork& work) {
   tools.tellReading(options.bags.paths.size());
   recorded.read(gaps);
   DriveIdentification& made = recorded.made();
-  gaps.explain([&] { requireRows(made.monitor(), made.grid(), recorded.rejected()); });
+  gaps.explain([&] { requireRows(made.monitor(), made.grid().streams(), recorded.rejected()); });
   Identification found = Identification::of(made, recorded.rejected(), course);
   found.change = describeChange(found, knownHealthy(options.healthy, options.pipeline), options.pipeline.monitor);
   return found;

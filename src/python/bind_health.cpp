@@ -21,11 +21,10 @@ HealthSummary watch(const Recordings& recordings, const ArrayOptions& options, c
   its.tyre = false;
   HealthLog log(fromSeconds(options.input_timeout), {"the body's sensor", "the wheel carrier's sensor"});
   Course course(shift);
-  StrutPipeline strut(its, {[&](const MonitorReport& report) {
-                              log.addReport(report);
-                              if (report.has_row) course.add(report);
-                            },
-                            {}});
+  VehiclePipeline strut(its, [&](const MonitorReport& report) {
+    log.addReport(report);
+    if (report.has_row) course.add(report);
+  });
   if (healthy) strut.setBaseline(*healthy);
   const auto take = [&](Side side, Stamp stamp, double value) {
     if (side == Side::kRoad) return;
@@ -33,11 +32,12 @@ HealthSummary watch(const Recordings& recordings, const ArrayOptions& options, c
     strut.push(side, stamp, value);
   };
   forEachReading(recordings, shift, work, take, [&] { log.finishRecording(); });
-  if (strut.monitor() == nullptr)
+  const SuspensionMonitor* monitor = strut.strut();
+  if (monitor == nullptr)
     throw std::invalid_argument(describeNoStart("of one of the sensors") + describeRejected(strut.rejected()));
-  const std::string nothing = describeNoRow(*strut.monitor(), *strut.grid(), strut.rejected());
+  const std::string nothing = describeNoRow(*monitor, strut.grid()->streams(), strut.rejected());
   if (!nothing.empty()) throw std::invalid_argument(nothing);
-  return HealthSummary::of(log, *strut.monitor(), healthy ? std::optional(file) : std::nullopt, strut.rejected(),
+  return HealthSummary::of(log, *monitor, healthy ? std::optional(file) : std::nullopt, strut.rejected(),
                            course, shift);
 }
 

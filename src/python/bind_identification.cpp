@@ -5,6 +5,7 @@
 #include "readings.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
+#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
@@ -24,7 +25,7 @@ double proposeHorizon(const Recordings& recordings, const MonitorOptions& option
     for (auto sample = grid.push(side, stamp + shift, value); sample;) sample = grid.next();
   });
   throw std::invalid_argument("no horizon can be proposed: the data show no damped spring" +
-                              describeSuspicions(grid, drives, period) +
+                              describeSuspicions(grid.streams(), drives, period) +
                               "; give integration_horizon to look at them all the same");
 }
 

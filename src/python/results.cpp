@@ -22,7 +22,7 @@ std::vector<HealthMoment> shifted(std::vector<HealthMoment> moments, Stamp shift
 
 Identification Identification::of(DriveIdentification& made, const RejectCounts& rejected, const Course& course) {
   const SuspensionMonitor& monitor = made.monitor();
-  const std::string nothing = describeNoRow(monitor, made.grid(), rejected);
+  const std::string nothing = describeNoRow(monitor, made.grid().streams(), rejected);
   if (!nothing.empty()) throw std::invalid_argument(nothing);
   Identification found;
   static_cast<IdentifyResult&>(found) = made.result();

@@ -18,17 +18,18 @@ void InputDiagnostics::restart() {
   rejected_ = {};
 }
 
-void InputDiagnostics::describe(const ImuPipeline& pipeline, Status& status) {
-  const UniformGrid* grid = pipeline.strut().grid();
-  const bool any_usable = pipeline.monitor() != nullptr && pipeline.monitor()->input().samples > 0;
+void InputDiagnostics::describe(const MessagePipeline& pipeline, Status& status) {
+  const VehicleGrid* grid = pipeline.grid();
+  const SuspensionMonitor* monitor = pipeline.strut();
+  const bool any_usable = monitor != nullptr && monitor->input().samples > 0;
   if (!any_usable && pipeline.rejected().total() > 0)
     status.summary(DiagnosticStatus::WARN, "no usable pair of readings yet");
   else
-    summarize(all_sensors_, pipeline.monitor() != nullptr, "both IMUs arrive as expected", status);
-  describeGrid(pipeline.monitor(), grid != nullptr ? &grid->streams() : nullptr, status);
+    summarize(all_sensors_, monitor != nullptr, "both IMUs arrive as expected", status);
+  describeGrid(monitor, grid != nullptr ? &grid->streams() : nullptr, status);
   for (const Side side : {Side::kSprung, Side::kUnsprung}) {
-    describeSensor(indexOf(side), grid != nullptr ? &grid->gate(side) : nullptr, status);
-    if (grid != nullptr) status.add(sensors_[indexOf(side)].name + " rejected", grid->gate(side).rejected().total());
+    describeSensor(indexOf(side), grid != nullptr ? &grid->gate(indexOf(side)) : nullptr, status);
+    if (grid != nullptr) status.add(sensors_[indexOf(side)].name + " rejected", grid->gate(indexOf(side)).rejected().total());
   }
   if (const std::string newly = rejected_.describe(pipeline.rejected(), "", status); !newly.empty())
     status.mergeSummary(DiagnosticStatus::WARN, "readings rejected: " + newly);
@@ -37,9 +38,9 @@ void InputDiagnostics::describe(const ImuPipeline& pipeline, Status& status) {
   clock_.describe(status);
 }
 
-void InputDiagnostics::describeTransforms(const ImuPipeline& pipeline, Status& status) const {
+void InputDiagnostics::describeTransforms(const MessagePipeline& pipeline, Status& status) const {
   for (const Side side : {Side::kSprung, Side::kUnsprung})
-    if (const std::string& frame = pipeline.mount(side).missingTransform(); !frame.empty())
+    if (const std::string& frame = pipeline.missingTransform(indexOf(side)); !frame.empty())
       status.mergeSummary(DiagnosticStatus::ERROR,
                           "no static transform from " + frame + " to target_frame " + target_frame_ + " (/tf_static)");
 }

@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
-#include "imu_pipeline.h"
 #include "input_task.h"
+#include "message_pipeline.h"
 
 namespace suspension_health_monitor {
 
@@ -15,11 +15,11 @@ class InputDiagnostics : public InputTask {
   /// @param topics  of the sprung and the unsprung IMU.
   InputDiagnostics(const ShellOptions& options, const std::array<std::string, 2>& topics);
 
-  void restart();
-  void describe(const ImuPipeline& pipeline, Status& status);
+  void restart() override;
+  void describe(const MessagePipeline& pipeline, Status& status);
 
  private:
-  void describeTransforms(const ImuPipeline& pipeline, Status& status) const;
+  void describeTransforms(const MessagePipeline& pipeline, Status& status) const;
 
   std::string target_frame_;
   RejectHistory rejected_;

@@ -21,6 +21,8 @@ namespace suspension_health_monitor {
 /// what came since the last report.
 class InputTask {
  public:
+  virtual ~InputTask() = default;
+
   void noteMessage(std::size_t sensor, const ros::Time& stamp) {
     sensors_[sensor].arrivals.note(stamp);
     silent_.add(sensor, toStamp(stamp));
@@ -28,6 +30,9 @@ class InputTask {
 
   /// @return the topics that are silent while others go on.
   std::vector<std::string> silentTopics() const { return silent_.now(); }
+
+  /// To be called with a new pipeline: its counters start from 0, and nothing is refused yet.
+  virtual void restart();
 
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
@@ -44,9 +49,6 @@ class InputTask {
 
   /// @param topics  of the sensors.
   InputTask(const ShellOptions& options, const std::vector<std::string>& topics, std::vector<Sensor> sensors);
-
-  /// To be called with a new pipeline: its counters start from 0, and nothing is refused yet.
-  void restart();
 
   /// @param well  what there is to say if all of the sensors arrive.
   void summarize(const Sensors& sensors, bool has_monitor, const char* well, Status& status) const;

@@ -1,8 +1,11 @@
 #include "monitor_nodelet.h"
 
 #include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
+#include <utility>
 
 #include "parameters.h"
+#include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -10,137 +13,242 @@ namespace suspension_health_monitor {
 MonitorNodelet::~MonitorNodelet() {
   // Nothing may call back into members that are already gone.
   reconfigure_.reset();
+  diagnose_.reset();
   tick_.stop();
   imus_.reset();
-  strut_.reset();
+  forces_.reset();
+  reset_.shutdown();
+  struts_.clear();
 }
 
 void MonitorNodelet::onInit() {
   ros::NodeHandle node = thread_->serve(getNodeHandle()), private_node = thread_->serve(getPrivateNodeHandle());
   startOrRefuse(private_node, [&] {
-    options_ = PipelineOptions::fromValues(readParameters(private_node));
-    strut_.emplace("", options_, "", host());
-    std::vector<std::string> topics{"sprung/imu", "unsprung/imu"};  // by Side
-    if (options_.monitor.tyre) topics.emplace_back("road/imu");
-    imus_.emplace(node, topics, !options_.shell.target_frame.empty(),
-                  [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(static_cast<Side>(imu), message); });
+    options_ = optionsFrom(readParameters(private_node));
+    placement_.emplace(options_.layout);
+    const std::vector<std::string> imus = placement_->streams().topicsOfImus();
+    imus_.emplace(node, imus, !options_.common.shell.target_frame.empty() || options_.layout.hasFrames(),
+                  [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(imu, message); });
+    forces_.emplace(node, placement_->streams().topicsOfForces(),
+                    [this, first = imus.size()](std::size_t force, const geometry_msgs::WrenchStamped& message) {
+                      onMessage(first + force, message);
+                    });
+    addStruts();
     makePipeline();
   });
   thread_->run([&] { start(node, private_node); });  // there, so that no callback comes before all is set up
 }
 
-LiveStrut::Host MonitorNodelet::host() {
+void MonitorNodelet::addStruts() {
+  for (std::size_t i = 0; i < options_.struts.size(); ++i) {
+    const std::string& name = options_.layout.struts[i].name;
+    prefixed(name.empty() ? "" : "struts/" + name + ": ", [&] {
+      struts_.push_back(std::make_unique<LiveStrut>(name, options_.struts[i], options_.model_of[i], hostOf(i)));
+    });
+  }
+}
+
+LiveStrut::Host MonitorNodelet::hostOf(std::size_t i) {
   LiveStrut::Host host;
-  host.title = getName();
-  host.monitor = [this] { return pipeline_->monitor(); };
-  host.set_effects = [this](const auto& effects, const auto& strut) { pipeline_->strut().setEffects(effects, strut); };
-  host.set_baseline = [this](const Baseline& baseline) { pipeline_->strut().setBaseline(baseline); };
-  host.newest_samples = [this] { return pipeline_->newestSamples(options_.shell.diagnose_window); };
-  host.tyre = [this] { return pipeline_->strut().tyre(); };
-  if (options_.monitor.tyre)
-    host.describe_tyre = [this](LiveStrut::Status& status) { describeTyre(*pipeline_, status); };
-  host.why_none = [] { return kMeasuringPeriod; };
-  host.silent_topics = [this] { return input_->silentTopics(); };
-  host.frame = [this]() -> const std::string& { return imus_->frame(indexOf(Side::kSprung)); };
-  host.describe_input = [this](LiveStrut::Status& status) {
-    input_->describe(*pipeline_, status);
-    input_log_->note(status);
+  host.title = options_.layout.struts[i].name;
+  host.monitor = [this, i] { return pipeline_ ? pipeline_->strut(i) : nullptr; };
+  host.set_effects = [this, i](const auto& effects, const auto& strut) {
+    if (pipeline_) pipeline_->setEffects(effects, strut, i);
+  };
+  host.set_baseline = [this, i](const Baseline& baseline) {
+    if (pipeline_) pipeline_->setBaseline(baseline, i);
+  };
+  host.newest_samples = [this, i] {
+    return pipeline_ ? pipeline_->newestSamples(options_.common.shell.diagnose_window).struts[i].samples
+                     : std::vector<CornerSample>{};
+  };
+  host.why_none = [this] { return whyNoMonitor(); };
+  host.silent_topics = [this] { return input().silentTopics(); };
+  host.frame = [this, imu = placement_->streams().bodyImuOf(i)]() -> const std::string& { return imus_->frame(imu); };
+  host.describe_input = [this, i](LiveStrut::Status& status) {
+    diagnostics_->input().describeStrut(i, pipeline(), placement_->missing(), status);
   };
   host.queue = &thread_->queue();
-  host.search = [this](double window) {
-    return searchOf(giveSamples(window), [this](const Diagnosis& diagnosis) { takeDiagnosis(diagnosis); });
+  host.search = [this, i](double window) {
+    return searchOf(vehicleSamples(window), i, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
   };
   host.reset = [this] { return reset(); };
+  if (isAlone()) completeAlone(host);
   return host;
 }
 
-void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
-  const ShellOptions& shell = options_.shell;
-  input_.emplace(shell, std::array{imus_->topic(indexOf(Side::kSprung)), imus_->topic(indexOf(Side::kUnsprung))});
-  input_log_.emplace(getName() + " input", LiveStrut::Status::ERROR, shell.input_timeout);
-  strut_->start(node, private_node);
-  imus_->listen();
-  tellStart();
-  reconfigure_.emplace(private_node);  // writes down the parameters as they were given, and defaults
-  reconfigure_->setConfigMin(LiveSettings(options_).lowerEnds());
-  reconfigure_->setConfigMax(LiveSettings(options_).upperEnds());
-  reconfigure_->setCallback([this](LiveSettings& settings, std::uint32_t) { onReconfigure(settings); });
-  tick_ = node.createWallTimer(ros::WallDuration(1.0),
-                               [this](const ros::WallTimerEvent&) { strut_->publishDiagnostics(); });
+void MonitorNodelet::completeAlone(LiveStrut::Host& host) {
+  host.title = getName();
+  host.tyre = [this] { return pipeline_->tyre(); };
+  if (options_.common.monitor.tyre)
+    host.describe_tyre = [this](LiveStrut::Status& status) { describeTyre(*pipeline_, status); };
+  host.describe_input = [this](LiveStrut::Status& status) {
+    strut_input_->describe(*pipeline_, status);
+    input_log_->note(status);
+  };
+  host.search = [this](double window) {
+    return searchOf(strutSamples(window), [this](const Diagnosis& found) { takeDiagnosis(found); });
+  };
 }
 
-void MonitorNodelet::tellStart() const {
-  const MonitorOptions& options = options_.monitor;
+void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
+  if (isAlone()) {
+    strut_input_.emplace(options_.common.shell,
+                         std::array{imus_->topic(indexOf(Side::kSprung)), imus_->topic(indexOf(Side::kUnsprung))});
+    input_log_.emplace(getName() + " input", LiveStrut::Status::ERROR, options_.common.shell.input_timeout);
+  } else {
+    diagnostics_.emplace(node, private_node, getName(), options_, *placement_, topics());
+  }
+  for (const auto& strut : struts_) strut->start(node, private_node);
+  imus_->listen();
+  forces_->listen();
+  isAlone() ? startAlone(private_node) : startVehicle(private_node);
+  tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
+}
+
+void MonitorNodelet::startAlone(ros::NodeHandle& private_node) {
+  const MonitorOptions& options = options_.common.monitor;
   NODELET_INFO("listens to %s (body) and %s (wheel); sample period %s, horizon %g s, memory %g s; health against %s",
                imus_->topic(indexOf(Side::kSprung)).c_str(), imus_->topic(indexOf(Side::kUnsprung)).c_str(),
                options.sample_period ? formatted("%g s", *options.sample_period).c_str() : "measured",
                MonitorSettings(options).presentHorizon(), MonitorSettings(options).presentMemory(),
-               strut_->baseline().reference(options).c_str());
+               struts_.front()->baseline().reference(options).c_str());
+  reconfigure_.emplace(private_node);  // writes down the parameters as they were given, and defaults
+  reconfigure_->setConfigMin(LiveSettings(options_.common).lowerEnds());
+  reconfigure_->setConfigMax(LiveSettings(options_.common).upperEnds());
+  reconfigure_->setCallback([this](LiveSettings& settings, std::uint32_t) { onReconfigure(settings); });
+}
+
+void MonitorNodelet::startVehicle(ros::NodeHandle& private_node) {
+  NODELET_INFO("%zu struts (%s) listen to %s", struts_.size(), join(options_.strutNames(), ", ").c_str(),
+               join(topics(), ", ").c_str());
+  reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
+  diagnose_.emplace(private_node, thread_->queue(), [this](double window) {
+    return searchOf(vehicleSamples(window), [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
+  });
+}
+
+std::vector<std::string> MonitorNodelet::topics() const {
+  std::vector<std::string> topics;
+  const VehicleStreams& streams = placement_->streams();
+  const std::size_t num_imus = streams.topicsOfImus().size();
+  for (std::size_t i = 0; i < streams.sensors.size(); ++i)
+    topics.push_back(i < num_imus ? imus_->topic(i) : forces_->name(i - num_imus));
+  return topics;
 }
 
 void MonitorNodelet::makePipeline() {
-  pipeline_.emplace(
-      options_, [this](const MonitorReport& report) { strut_->publish(report); }, &imus_->transforms());
-  StrutPipeline& strut = pipeline_->strut();
-  strut_->begin([&](const auto& effects, const auto& linear) { strut.setEffects(effects, linear); },
-                [&](const Baseline& baseline) { strut.setBaseline(baseline); });
+  pipeline_.reset();
+  const std::optional<VehicleStreams> placed = placement_->find(options_.common.shell, imus_->transforms());
+  if (!placed) return;
+  pipeline_.emplace(options_, *placed, &imus_->transforms(),
+                    [this](std::size_t strut, const MonitorReport& report) { struts_[strut]->publish(report); });
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    struts_[i]->begin([&](const auto& effects, const auto& strut) { pipeline_->setEffects(effects, strut, i); },
+                      [&](const Baseline& baseline) { pipeline_->setBaseline(baseline, i); });
 }
 
-void MonitorNodelet::onReconfigure(LiveSettings& settings) {
+void MonitorNodelet::onImu(std::size_t imu, const sensor_msgs::Imu& message) {
+  if (!pipeline_ && placement_->streams().sensors[imu].place == VehicleStreams::Place::kBody)
+    placement_->noteBody(message);
+  onMessage(imu, message);
+}
+
+template <class Message>
+void MonitorNodelet::onMessage(std::size_t sensor, const Message& message) {
+  if (placement_->streams().sensors[sensor].place != VehicleStreams::Place::kRoad)
+    input().noteMessage(sensor, message.header.stamp);
+  if (!pipeline_) return;
   try {
-    const PipelineOptions changed = settings.appliedTo(options_);
-    pipeline_->strut().reconfigure(changed.monitor);
-    options_ = changed;
-    strut_->setStride(options_.shell.publish_every);
-  } catch (const std::invalid_argument& error) {
-    NODELET_WARN("%s; all settings stay as they were", error.what());
-  }
-  settings = LiveSettings(options_);
-}
-
-void MonitorNodelet::stopListening(const std::string& reason) {
-  NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
-  input_->setRefusal(reason);
-  imus_->stop();
-}
-
-void MonitorNodelet::onImu(Side side, const sensor_msgs::Imu& imu) {
-  if (side != Side::kRoad) input_->noteMessage(indexOf(side), imu.header.stamp);
-  try {
-    pipeline_->push(side, imu);
-  } catch (const std::invalid_argument& error) {  // the options do not fit the sample period that was measured
+    pipeline_->push(sensor, message);
+  } catch (const std::invalid_argument& error) {  // the options do not fit what was measured
     stopListening(error.what());
   }
 }
 
-std::string MonitorNodelet::reset() {
-  makePipeline();
-  strut_->publishModel();
-  input_->restart();
-  imus_->listen();
-  return "estimates, filters and counters start anew";
+void MonitorNodelet::onReconfigure(LiveSettings& settings) {
+  try {
+    const PipelineOptions changed = settings.appliedTo(options_.common);
+    pipeline_->reconfigure(changed.monitor);
+    options_.common = options_.struts.front() = changed;
+    struts_.front()->setStride(changed.shell.publish_every);
+  } catch (const std::invalid_argument& error) {
+    NODELET_WARN("%s; all settings stay as they were", error.what());
+  }
+  settings = LiveSettings(options_.common);
 }
 
-SearchTask MonitorNodelet::giveSamples(double window) const {
-  const double span = searchSpan(window, options_.shell.diagnose_window);
-  const SuspensionMonitor* monitor = pipeline_->monitor();
+void MonitorNodelet::stopListening(const std::string& reason) {
+  NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
+  input().setRefusal(reason);
+  imus_->stop();
+  forces_->stop();
+}
+
+void MonitorNodelet::onTick() {
+  if (!isAlone()) {
+    if (!pipeline_) makePipeline();
+    if (pipeline_ && pipeline_->monitor() != nullptr) pipeline_->monitor()->fitBodyIfDue();
+    diagnostics_->publish(pipeline());
+  }
+  for (const auto& strut : struts_) strut->publishDiagnostics();
+}
+
+std::string MonitorNodelet::reset() {
+  makePipeline();
+  for (const auto& strut : struts_) strut->publishModel();
+  input().restart();
+  imus_->listen();
+  forces_->listen();
+  return isAlone() ? "estimates, filters and counters start anew"
+                   : "estimates, coupling, filters and counters of the whole vehicle start anew";
+}
+
+bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  response.success = true;
+  response.message = reset();
+  return true;
+}
+
+SearchTask MonitorNodelet::strutSamples(double window) const {
+  const double span = searchSpan(window, options_.common.shell.diagnose_window);
+  const SuspensionMonitor* monitor = pipeline_->strut();
   if (monitor == nullptr) throw std::runtime_error("the sample period is still being measured: drive on");
   SearchTask task;
-  task.drive = {pipeline_->newestSamples(span), pipeline_->newestBodyMotion(span)};
+  task.drive = pipeline_->newestSamples(span).struts.front();
   task.options.sample_period = monitor->period();
   task.options.horizon_samples = monitor->horizonSamples();
-  task.options.candidates = strut_->model().library();
+  const LiveModel& model = struts_.front()->model();
+  task.options.candidates = model.library();
   const StrutEstimate& estimate = monitor->modelEstimate();
-  if (!strut_->model().effects().empty() && estimate.valid())
+  if (!model.effects().empty() && estimate.valid())
     task.options.model = StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor->effects(), {}};
   return task;
 }
 
-void MonitorNodelet::takeDiagnosis(const Diagnosis& diagnosis) {
-  strut_->setDiagnosis(diagnosis);
-  strut_->publishDiagnostics();
+VehicleSearchTask MonitorNodelet::vehicleSamples(double window) const {
+  const double span = searchSpan(window, options_.common.shell.diagnose_window);
+  if (!pipeline_ || pipeline_->monitor() == nullptr) throw std::runtime_error(whyNoMonitor() + ": drive on");
+  VehicleSearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};
+  pipeline_->grid()->describe(task.drive);
+  if (task.drive.struts.front().samples.empty()) throw std::runtime_error("there are no samples yet: drive on");
+  task.options.sample_period = pipeline_->period();
+  task.options.candidates = struts_.front()->model().library();
+  return task;
+}
+
+void MonitorNodelet::takeDiagnosis(const Diagnosis& found) {
+  struts_.front()->setDiagnosis(found);
+  onTick();
+}
+
+void MonitorNodelet::takeDiagnosis(const VehicleDiagnosis& found) {
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    if (found.struts[i]) struts_[i]->setDiagnosis(found.struts[i]);
+  onTick();
 }
 
 }  // namespace suspension_health_monitor
 
 PLUGINLIB_EXPORT_CLASS(suspension_health_monitor::MonitorNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(suspension_health_monitor::VehicleNodelet, nodelet::Nodelet)

@@ -1,58 +1,97 @@
 #pragma once
 
 #include <dynamic_reconfigure/server.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
+#include <std_srvs/Trigger.h>
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "imu_pipeline.h"
 #include "imu_topics.h"
 #include "input_diagnostics.h"
 #include "live_settings.h"
 #include "live_strut.h"
+#include "message_pipeline.h"
+#include "message_topics.h"
 #include "monitor_thread.h"
 #include "strut_search.h"
 #include "task_log.h"
+#include "vehicle_diagnostics.h"
+#include "vehicle_options.h"
+#include "vehicle_placement.h"
+#include "vehicle_search.h"
 
 namespace suspension_health_monitor {
 
-/// Two IMU topics in; estimates, comparison, health and diagnostics out. One per strut.
-/// Every callback comes from one thread, that of all monitors of the process, so nothing here needs a lock; ~diagnose
-/// works beside it.
+/// All IMUs and known forces of a vehicle in; estimates, comparison and health of every strut out, below the strut's
+/// name, and how the struts move one another. One strut alone is a vehicle with one strut, whose topics are those of
+/// the node and whose settings may change while it runs. Every callback comes from one thread, that of all monitors of
+/// the process, so nothing here needs a lock; ~diagnose works beside it.
 class MonitorNodelet : public nodelet::Nodelet {
  public:
   ~MonitorNodelet() override;
 
  private:
-  /// @throws std::invalid_argument  on a wrong parameter, after logging it: the loader drops the nodelet and lives on.
+  /// @throws std::invalid_argument  on a wrong parameter or vehicle file, after logging it: the loader drops the
+  /// nodelet and lives on.
   void onInit() override;
 
-  void start(ros::NodeHandle node, ros::NodeHandle private_node);
-  void tellStart() const;
+  virtual VehicleOptions optionsFrom(const OptionMap& values) const { return VehicleOptions::ofOneStrut(values); }
+  bool isAlone() const { return options_.layout.struts.front().name.empty(); }
 
-  LiveStrut::Host host();
+  void start(ros::NodeHandle node, ros::NodeHandle private_node);
+  void startAlone(ros::NodeHandle& private_node);
+  void startVehicle(ros::NodeHandle& private_node);
+  void addStruts();
+  LiveStrut::Host hostOf(std::size_t i);
+  void completeAlone(LiveStrut::Host& host);
+  std::vector<std::string> topics() const;
   void makePipeline();
 
-  void onImu(Side side, const sensor_msgs::Imu& imu);
+  void onImu(std::size_t imu, const sensor_msgs::Imu& message);
+  template <class Message>
+  void onMessage(std::size_t sensor, const Message& message);
   void onReconfigure(LiveSettings& settings);
+  void onTick();
   std::string reset();
-  SearchTask giveSamples(double window) const;
-  void takeDiagnosis(const Diagnosis& diagnosis);
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  SearchTask strutSamples(double window) const;
+  VehicleSearchTask vehicleSamples(double window) const;
+  void takeDiagnosis(const Diagnosis& found);
+  void takeDiagnosis(const VehicleDiagnosis& found);
   void stopListening(const std::string& reason);
 
+  std::string whyNoMonitor() const { return isAlone() ? kMeasuringPeriod : diagnostics_->whyNoMonitor(pipeline()); }
+  InputTask& input() { return isAlone() ? static_cast<InputTask&>(*strut_input_) : diagnostics_->input(); }
+  const MessagePipeline* pipeline() const { return pipeline_ ? &*pipeline_ : nullptr; }
+
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
-  PipelineOptions options_;
-  std::optional<LiveStrut> strut_;
+  VehicleOptions options_;
+  std::optional<VehiclePlacement> placement_;
   std::optional<ImuTopics> imus_;
-  std::optional<ImuPipeline> pipeline_;
-  std::optional<InputDiagnostics> input_;
+  std::optional<MessageTopics<geometry_msgs::WrenchStamped>> forces_;
+  std::optional<MessagePipeline> pipeline_;  // none while the struts have no places
+  std::vector<std::unique_ptr<LiveStrut>> struts_;
+  ros::WallTimer tick_;
+  // Of one strut alone:
+  std::optional<InputDiagnostics> strut_input_;
   std::optional<TaskLog> input_log_;
   std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
-  ros::WallTimer tick_;
+  // Of a vehicle:
+  std::optional<VehicleDiagnostics> diagnostics_;
+  ros::ServiceServer reset_;
+  std::optional<DiagnoseService<DiagnoseVehicle>> diagnose_;
+};
+
+/// The same of a vehicle that the parameter `vehicle` describes.
+class VehicleNodelet : public MonitorNodelet {
+ private:
+  VehicleOptions optionsFrom(const OptionMap& values) const override { return VehicleOptions::fromValues(values); }
 };
 
 }  // namespace suspension_health_monitor

@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "imu_pipeline.h"
+#include "shell_options.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
@@ -48,7 +49,7 @@ class TyreOutput {
 };
 
 /// The task "Tyre".
-void describeTyre(const ImuPipeline& pipeline, diagnostic_updater::DiagnosticStatusWrapper& status);
+void describeTyre(const VehiclePipeline& pipeline, diagnostic_updater::DiagnosticStatusWrapper& status);
 
 /// What is told of every sample: ~estimate, ~ls, ~la, ~comparison, ~health and those of the tyre; and ~model, when it
 /// changes.

@@ -38,15 +38,15 @@ void TyreOutput::publish(const TyreTracker& tracker, const StrutEstimate& strut,
   if (la_.getNumSubscribers() > 0) la_.publish(toMsg(tracker.report().la, "la", strut, header));
 }
 
-void describeTyre(const ImuPipeline& pipeline, diagnostic_updater::DiagnosticStatusWrapper& status) {
-  if (pipeline.strut().tyre() == nullptr) {
+void describeTyre(const VehiclePipeline& pipeline, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (pipeline.tyre() == nullptr) {
     status.summary(DiagnosticStatus::STALE, kMeasuringPeriod);
     return;
   }
-  const WheelEstimate& la = pipeline.strut().tyre()->report().la;
+  const WheelEstimate& la = pipeline.tyre()->report().la;
   if (la.valid())
     status.summary(DiagnosticStatus::OK, "wheel and tyre are known");
-  else if (!pipeline.strut().grid()->roadAcceleration())
+  else if (std::isnan(pipeline.roadAcceleration()))
     status.summary(DiagnosticStatus::WARN, "the road's IMU is silent");
   else
     status.summary(DiagnosticStatus::STALE, "cannot tell: no valid estimate (starting, parked, or poor input)");
@@ -54,9 +54,9 @@ void describeTyre(const ImuPipeline& pipeline, diagnostic_updater::DiagnosticSta
   status.addf("la stiffness_to_wheel_mass [1/s^2]", "%.5g", la.stiffness_to_wheel_mass);
   status.addf("la tyre_to_wheel_mass [1/s^2]", "%.5g", la.tyre_to_wheel_mass);
   status.addf("wheel hop [Hz]", "%.4g", la.wheelHopFrequency());
-  if (const auto ratio = massRatio(pipeline.monitor()->report().estimate, la))
+  if (const auto ratio = massRatio(pipeline.strut()->report().estimate, la))
     status.addf("wheel mass / body mass", "%.4g", *ratio);
-  status.addf("horizon_samples", "%d", pipeline.strut().tyre()->horizonSamples());
+  status.addf("horizon_samples", "%d", pipeline.tyre()->horizonSamples());
 }
 
 }  // namespace suspension_health_monitor

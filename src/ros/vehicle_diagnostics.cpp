@@ -9,7 +9,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-const VehicleMonitor* monitorOf(const VehiclePipeline* pipeline) {
+const VehicleMonitor* monitorOf(const MessagePipeline* pipeline) {
   return pipeline != nullptr ? pipeline->monitor() : nullptr;
 }
 
@@ -39,7 +39,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
   });
 }
 
-void VehicleDiagnostics::publish(const VehiclePipeline* pipeline) {
+void VehicleDiagnostics::publish(const MessagePipeline* pipeline) {
   coupling_.publish(monitorOf(pipeline), whyNoMonitor(pipeline),
                     pipeline != nullptr ? toRosTime(pipeline->newest()) : ros::Time());
   pipeline_ = pipeline;
@@ -47,7 +47,7 @@ void VehicleDiagnostics::publish(const VehiclePipeline* pipeline) {
   pipeline_ = nullptr;
 }
 
-std::string VehicleDiagnostics::whyNoMonitor(const VehiclePipeline* pipeline) const {
+std::string VehicleDiagnostics::whyNoMonitor(const MessagePipeline* pipeline) const {
   if (pipeline == nullptr) return placement_.missing();
   const VehicleMonitor* monitor = pipeline->monitor();
   if (monitor == nullptr) return kMeasuringPeriod;

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "coupling_output.h"
+#include "message_pipeline.h"
 #include "task_log.h"
 #include "vehicle_input.h"
 #include "vehicle_options.h"
-#include "vehicle_pipeline.h"
 #include "vehicle_placement.h"
 
 namespace suspension_health_monitor {
@@ -26,10 +26,10 @@ class VehicleDiagnostics {
   VehicleInput& input() { return input_; }
 
   /// @param pipeline  nullptr: none, as the struts have no places yet.
-  void publish(const VehiclePipeline* pipeline);
+  void publish(const MessagePipeline* pipeline);
 
   /// @return why the struts have no monitors.
-  std::string whyNoMonitor(const VehiclePipeline* pipeline) const;
+  std::string whyNoMonitor(const MessagePipeline* pipeline) const;
 
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -40,7 +40,7 @@ class VehicleDiagnostics {
   VehicleInput input_;
   TaskLog input_log_, coupling_log_;
   CouplingOutput coupling_;
-  const VehiclePipeline* pipeline_ = nullptr;  // during publish() only
+  const MessagePipeline* pipeline_ = nullptr;  // during publish() only
   diagnostic_updater::Updater updater_;
 };
 

@@ -42,7 +42,7 @@ void VehicleInput::restart() {
   told_of_vehicle_ = told_of_strut_ = Told(sensors_.size());
 }
 
-void VehicleInput::describe(const VehiclePipeline* pipeline, const std::string& missing, Status& status) {
+void VehicleInput::describe(const MessagePipeline* pipeline, const std::string& missing, Status& status) {
   summarizeVehicle(all_sensors_, pipeline, missing, status);
   if (pipeline != nullptr && pipeline->monitor() != nullptr) {
     describeGrid(pipeline->monitor()->strut(0), &pipeline->grid()->streams(), status);
@@ -53,19 +53,19 @@ void VehicleInput::describe(const VehiclePipeline* pipeline, const std::string& 
   clock_.describe(status);
 }
 
-void VehicleInput::describeStrut(std::size_t strut, const VehiclePipeline* pipeline, const std::string& missing,
+void VehicleInput::describeStrut(std::size_t strut, const MessagePipeline* pipeline, const std::string& missing,
                                  Status& status) {
   summarizeVehicle(own_sensors_[strut], pipeline, missing, status);
   describeSensors(own_sensors_[strut], pipeline, told_of_strut_, status);
 }
 
-void VehicleInput::summarizeVehicle(const Sensors& sensors, const VehiclePipeline* pipeline, const std::string& missing,
+void VehicleInput::summarizeVehicle(const Sensors& sensors, const MessagePipeline* pipeline, const std::string& missing,
                                     Status& status) const {
   if (pipeline == nullptr) return status.summary(DiagnosticStatus::ERROR, missing);
   summarize(sensors, pipeline->monitor() != nullptr, "all sensors arrive as expected", status);
 }
 
-void VehicleInput::describeSensors(const Sensors& sensors, const VehiclePipeline* pipeline, Told& told,
+void VehicleInput::describeSensors(const Sensors& sensors, const MessagePipeline* pipeline, Told& told,
                                    Status& status) {
   for (const std::size_t sensor : sensors) {
     if (pipeline == nullptr) break;

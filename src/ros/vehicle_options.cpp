@@ -109,6 +109,10 @@ VehicleOptions VehicleOptions::fromValues(VehicleLayout layout, OptionMap values
   return options;
 }
 
+VehicleOptions VehicleOptions::ofOneStrut(const PipelineOptions& options) {
+  return {VehicleLayout::ofOneStrut(options.monitor.tyre), options, {options}, {""}};
+}
+
 std::vector<std::string> VehicleOptions::forceNames() const {
   std::vector<std::string> names;
   for (const VehicleLayout::KnownForce& force : layout.known_forces) names.push_back(force.name);

@@ -23,6 +23,10 @@ struct VehicleOptions {
   /// The same with the sensors that were read already; `values` are without `vehicle`.
   static VehicleOptions fromValues(VehicleLayout layout, OptionMap values);
 
+  /// One strut alone: `values` are those of config/monitor.yaml.
+  static VehicleOptions ofOneStrut(const OptionMap& values) { return ofOneStrut(PipelineOptions::fromValues(values)); }
+  static VehicleOptions ofOneStrut(const PipelineOptions& options);
+
   std::vector<std::string> strutNames() const;
   std::vector<std::string> forceNames() const;  ///< of known forces
 };

@@ -15,7 +15,9 @@ VehicleSensors::VehicleSensors(const VehicleStreams& streams, const ShellOptions
                                const tf2::BufferCore* transforms) {
   const std::array<ImuMount, kMostStreams> mounts = ImuMount::of(options, transforms);
   for (const VehicleStreams::Sensor& sensor : streams.sensors) {
-    const Side side = sensor.place == Place::kUnsprung ? Side::kUnsprung : Side::kSprung;
+    const Side side = sensor.place == Place::kRoad       ? Side::kRoad
+                      : sensor.place == Place::kUnsprung ? Side::kUnsprung
+                                                         : Side::kSprung;
     sensors_.push_back({sensor.place, mounts[indexOf(side)], sensor.fields, {}});
   }
   values_.reserve(6);

@@ -27,6 +27,8 @@ class VehicleSensors {
   const std::vector<double>& read(std::size_t sensor, const sensor_msgs::Imu& message);
   const std::vector<double>& read(std::size_t sensor, const geometry_msgs::WrenchStamped& message);
 
+  const ImuMount& mount(std::size_t sensor) const { return sensors_[sensor].mount; }  ///< of an IMU
+
   /// @return messages of a sensor that were kept out so far.
   const RejectCounts& rejected(std::size_t sensor) const { return sensors_[sensor].rejected; }
 

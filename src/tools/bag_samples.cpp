@@ -32,7 +32,7 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
   });
   RejectCounts rejected = sensors.rejected();
   rejected += grid.streams().rejected();
-  return {std::move(grid), rejected};
+  return {grid.streams(), rejected};
 }
 
 }  // namespace suspension_health_monitor

@@ -6,13 +6,13 @@
 #include "imu_bags.h"
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 namespace suspension_health_monitor {
 
 /// What came of reading samples.
 struct ReadSamples {
-  UniformGrid grid;  ///< after the last reading
+  StreamGrid grid;  ///< after the last reading
   RejectCounts rejected;
 };
 

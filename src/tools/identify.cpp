@@ -77,7 +77,7 @@ void printEnd(const DriveIdentification& identification, const IdentifyResult& f
 std::string suspicions(const DriveIdentification& identification, const IdentifiedStrut& ls) {
   const SensorReport& sensor = identification.monitor().report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated) return "; " + describe(sensor);
-  return describeSuspicions(identification.grid(), ls);
+  return describeSuspicions(identification.grid().streams(), ls);
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ void identify(const Arguments& arguments) {
   recorded.read(gaps);
   DriveIdentification& identification = recorded.made();
   const RejectCounts rejected = recorded.rejected();
-  gaps.explain([&] { requireRows(identification.monitor(), identification.grid(), rejected); });
+  gaps.explain([&] { requireRows(identification.monitor(), identification.grid().streams(), rejected); });
   table.finish();
 
   const IdentifyResult result = identification.result();
@@ -133,7 +133,7 @@ void identify(const Arguments& arguments) {
     settings->commit(settingsOf(*strut, gatherOptions(*values), fileNames(options.bags.paths)));
   const SuspensionMonitor& monitor = identification.monitor();
   gaps.print();
-  printInput(monitor, identification.grid(), options, rejected);
+  printInput(monitor, identification.grid().streams(), options, rejected);
   printTable(digest.items());
   printEnd(identification, result, pipeline.monitor.sprung_mass);
   printChange(change);

@@ -33,7 +33,7 @@ std::string describeHop(const WheelEstimate& estimate) {
 
 }  // namespace
 
-void printInput(const SuspensionMonitor& monitor, const UniformGrid& grid, const BagOptions& options,
+void printInput(const SuspensionMonitor& monitor, const StreamGrid& grid, const BagOptions& options,
                 const RejectCounts& rejected) {
   const InputStatus& input = monitor.input();
   std::printf("sample period %.6g s%s, horizon %d samples = %.4g s%s\n", monitor.period(),
@@ -41,15 +41,15 @@ void printInput(const SuspensionMonitor& monitor, const UniformGrid& grid, const
               monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
   std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
               input.rows, input.gaps, input.restarts);
-  if (grid.streams().resamples()) std::printf(", bridged %" PRIu64, grid.streams().bridged());
+  if (grid.resamples()) std::printf(", bridged %" PRIu64, grid.bridged());
   if (rejected.total() == 0) std::printf(", rejected 0");
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
       std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
-  std::printf("\nreadings %s\n\n", grid.streams().describeAlignment().c_str());
+  std::printf("\nreadings %s\n\n", grid.describeAlignment().c_str());
 }
 
-void requireRows(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected) {
+void requireRows(const SuspensionMonitor& monitor, const StreamGrid& grid, const RejectCounts& rejected) {
   const std::string nothing = describeNoRow(monitor, grid, rejected);
   if (!nothing.empty()) throw TooLittleError(nothing);
 }

@@ -13,11 +13,11 @@
 namespace suspension_health_monitor {
 
 /// What a monitor made of the bags: period and horizon, samples, what was kept out, how readings were aligned.
-void printInput(const SuspensionMonitor& monitor, const UniformGrid& grid, const BagOptions& options,
+void printInput(const SuspensionMonitor& monitor, const StreamGrid& grid, const BagOptions& options,
                 const RejectCounts& rejected);
 
 /// @throws TooLittleError  saying why, if the bags have not given one regression row.
-void requireRows(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected);
+void requireRows(const SuspensionMonitor& monitor, const StreamGrid& grid, const RejectCounts& rejected);
 
 /// Estimates over time, a line per report; "-" for what is not known.
 void printTable(const std::vector<MonitorReport>& reports);

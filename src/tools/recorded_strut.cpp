@@ -39,16 +39,15 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, const Row& row,
     : options_(options),
       healthy_(beforehand(options.healthy, options.pipeline)),
       log_(fromSeconds(options.pipeline.shell.input_timeout), {options.bags.topics[0], options.bags.topics[1]},
-           [this, row](const HealthMoment& moment) { row(moment, pipeline_.strut().baseline()); }),
-      pipeline_(
-          options.pipeline,
-          [this, report](const MonitorReport& newest) {
-            log_.addReport(newest);
-            if (report) report(newest);
-          },
-          options.bags.transforms.get()) {
-  pipeline_.strut().setEffects(LiveModel(options.pipeline.shell).effects());
-  if (healthy_) pipeline_.strut().setBaseline(healthy_->baseline);
+           [this, row](const HealthMoment& moment) { row(moment, pipeline_.baseline()); }),
+      pipeline_(VehicleOptions::ofOneStrut(options.pipeline),
+                VehicleStreams(VehicleLayout::ofOneStrut(options.pipeline.monitor.tyre)), options.bags.transforms.get(),
+                [this, report](std::size_t, const MonitorReport& newest) {
+                  log_.addReport(newest);
+                  if (report) report(newest);
+                }) {
+  pipeline_.setEffects(LiveModel(options.pipeline.shell).effects());
+  if (healthy_) pipeline_.setBaseline(healthy_->baseline);
 }
 
 std::vector<HealthContent::Recording> RecordedMonitor::read(TopicGaps& gaps) {
@@ -60,7 +59,7 @@ std::vector<HealthContent::Recording> RecordedMonitor::read(TopicGaps& gaps) {
     bag.gaps = &gaps;
     readImuMessages(bag, [&](Side side, const sensor_msgs::Imu& imu, Stamp recorded) {
       if (side != Side::kRoad) log_.addReading(indexOf(side), toStamp(imu.header.stamp), recorded);
-      pipeline_.push(side, imu);
+      if (side != Side::kRoad || options_.pipeline.monitor.tyre) pipeline_.push(indexOf(side), imu);
       return true;
     });
     log_.finishRecording();
@@ -69,7 +68,7 @@ std::vector<HealthContent::Recording> RecordedMonitor::read(TopicGaps& gaps) {
 }
 
 void RecordedMonitor::requireEnough() const {
-  if (pipeline_.monitor() == nullptr)
+  if (pipeline_.strut() == nullptr)
     throw TooLittleError(describeNoStart("on one of the topics") + describeRejected(rejected()));
   requireRows(monitor(), grid(), rejected());
 }

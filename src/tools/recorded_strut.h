@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../ros/imu_mount.h"
-#include "../ros/imu_pipeline.h"
+#include "../ros/message_pipeline.h"
 #include "bag_options.h"
 #include "health_page.h"
 #include "suspension_health_monitor/compare.h"
@@ -54,8 +54,8 @@ class RecordedMonitor {
   std::vector<HealthContent::Recording> read(TopicGaps& gaps);
 
   const HealthLog& log() const { return log_; }
-  const SuspensionMonitor& monitor() const { return *pipeline_.monitor(); }
-  const UniformGrid& grid() const { return *pipeline_.strut().grid(); }
+  const SuspensionMonitor& monitor() const { return *pipeline_.strut(); }
+  const StreamGrid& grid() const { return pipeline_.grid()->streams(); }
   RejectCounts rejected() const { return pipeline_.rejected(); }
 
   /// @return the file that the baseline was read from; empty: none was.
@@ -68,7 +68,7 @@ class RecordedMonitor {
   BagOptions options_;
   std::optional<HealthyStrut> healthy_;  // known beforehand
   HealthLog log_;
-  ImuPipeline pipeline_;
+  MessagePipeline pipeline_;
 };
 
 /// @return the options as a live monitor would have them, with the healthy strut of --baseline.

@@ -51,7 +51,7 @@ struct Surveyed {
   std::optional<RoughStrut> rough;
   bool clocks_differ;  // so that blocks show no strut before they are set right
   Drive drive;         // its beginning
-  UniformGrid grid;
+  StreamGrid grid;
   std::size_t samples, gaps;
   std::size_t longest;  // samples in one piece
   RejectCounts rejected;

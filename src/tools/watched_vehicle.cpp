@@ -32,19 +32,20 @@ std::vector<WatchedStrut> plainStruts(std::size_t count) {
 WatchedVehicle::WatchedVehicle(const VehicleOptions& options, const VehicleStreams& streams,
                                const std::vector<WatchedStrut>& watched, const tf2::BufferCore* transforms,
                                const Row& row, const Report& report)
-    : watched_(watched),
-      topics_(topicsOf(streams)),
-      pipeline_(options, streams, transforms,
-                {[this](VehicleMonitor& monitor) { begin(monitor); },
-                 [this, report](std::size_t strut, const MonitorReport& newest) {
-                   logs_[strut].addReport(newest);
-                   if (report) report(strut, newest);
-                 }}) {
-  for (std::size_t i = 0; i < watched.size(); ++i)
+    : topics_(topicsOf(streams)),
+      pipeline_(options, streams, transforms, [this, report](std::size_t strut, const MonitorReport& newest) {
+        logs_[strut].addReport(newest);
+        if (report) report(strut, newest);
+      }) {
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    const LiveModel& model = watched[i].model;
+    pipeline_.setEffects(model.effects(), model.strutFor(model.effects()), i);
+    if (watched[i].healthy) pipeline_.setBaseline(watched[i].healthy->baseline, i);
     logs_.emplace_back(fromSeconds(options.common.shell.input_timeout), topics_,
                        [this, i, row](const HealthMoment& moment) {
                          if (row) row(i, moment, baselineOf(i));
                        });
+  }
 }
 
 std::vector<Stamp> WatchedVehicle::read(const ImuBags& bags) {
@@ -94,17 +95,8 @@ VehicleIdentification WatchedVehicle::identified(const std::vector<std::string>&
   return suspension_health_monitor::identified(*pipeline_.monitor(), names, forces);
 }
 
-void WatchedVehicle::begin(VehicleMonitor& monitor) const {
-  for (std::size_t i = 0; i < watched_.size(); ++i) {
-    const LiveModel& model = watched_[i].model;
-    monitor.setEffects(i, model.effects(), model.strutFor(model.effects()));
-    if (watched_[i].healthy) monitor.setBaseline(i, watched_[i].healthy->baseline);
-  }
-}
-
 Baseline WatchedVehicle::baselineOf(std::size_t strut) const {
-  const VehicleMonitor* monitor = pipeline_.monitor();
-  return monitor != nullptr && monitor->isCoupled() ? monitor->strut(strut)->baseline() : Baseline{};
+  return pipeline_.strut(strut) != nullptr ? pipeline_.baseline(strut) : Baseline{};
 }
 
 }  // namespace suspension_health_monitor

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../ros/live_model.h"
-#include "../ros/vehicle_pipeline.h"
+#include "../ros/message_pipeline.h"
 #include "healthy_strut.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
@@ -67,13 +67,11 @@ class WatchedVehicle {
   const HealthLog& log(std::size_t strut) const { return logs_[strut]; }
 
  private:
-  void begin(VehicleMonitor& monitor) const;
   Baseline baselineOf(std::size_t strut) const;
 
-  const std::vector<WatchedStrut>& watched_;
   std::vector<std::string> topics_;
   std::vector<HealthLog> logs_;
-  VehiclePipeline pipeline_;
+  MessagePipeline pipeline_;
 };
 
 }  // namespace suspension_health_monitor

@@ -45,6 +45,8 @@ const VehicleSample* StrutTops::push(const GridInstant& instant) {
   collect(instant);
   if (!filter_) {
     sample_.stamp = instant.stamp;
+    if (channels_.road)
+      sample_.road = instant.measured[*channels_.road] ? instant.values[*channels_.road] : std::nan("");
     spread(signals_, {});
     return &sample_;
   }

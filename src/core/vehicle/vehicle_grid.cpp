@@ -57,22 +57,23 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
   waiting_.reserve(kMostWindows * level_window_);
 }
 
-void VehicleGrid::push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) {
+void VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
   const Channels& channels = channels_[sensor];
+  const std::size_t count = channels.end - channels.first;
   bool is_taken = true;
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     auto instant = grid_.push(channels.first + i, stamp, values[i]);
     is_taken = is_taken && grid_.taken();
-    if (is_taken && i + 1 == values.size()) lead(channels, values, *grid_.taken());
+    if (is_taken && i + 1 == count) lead(channels, values, *grid_.taken());
     for (; instant != nullptr; instant = grid_.next()) take(*instant);
   }
 }
 
-void VehicleGrid::lead(const Channels& channels, const std::vector<double>& values, Stamp taken) {
+void VehicleGrid::lead(const Channels& channels, const double* values, Stamp taken) {
   if (!readings_) return;
   VehicleReading reading{channels.sensor, channels.place, taken, {}};
   if (channels.sensor != Sensor::kForce) {
-    std::copy(values.begin(), values.end(), reading.values.begin());
+    std::copy_n(values, channels.end - channels.first, reading.values.begin());
     return give(reading);
   }
   for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k) {

@@ -188,6 +188,13 @@ void checkTopics(const VehicleLayout& layout) {
 
 }  // namespace
 
+VehicleLayout VehicleLayout::ofOneStrut(bool has_road) {
+  VehicleLayout layout;
+  layout.struts.push_back({"", "unsprung/imu", "sprung/imu", {}, {}});
+  if (has_road) layout.road_imu = "road/imu";
+  return layout;
+}
+
 bool VehicleLayout::hasFrames() const {
   return std::any_of(struts.begin(), struts.end(), [](const Strut& strut) { return strut.frame.has_value(); });
 }

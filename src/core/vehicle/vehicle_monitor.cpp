@@ -14,28 +14,30 @@ namespace {
 constexpr double kModelsEvery = 0.1;                    // [s]
 constexpr Stamp kBodyEvery = std::chrono::seconds(30);  // half of the blocks that are kept are new then
 
-Stamp periodOf(const std::vector<MonitorSettings>& settings) {
-  requireNumStruts(settings.size());
-  for (const MonitorSettings& each : settings) {
+Stamp periodOf(const std::vector<VehicleMonitor::Start>& starts) {
+  requireNumStruts(starts.size());
+  const std::optional<double>& period = starts.front().settings.sample_period;
+  for (const VehicleMonitor::Start& start : starts) {
+    const MonitorSettings& each = start.settings;
     if (!each.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
-    if (*each.sample_period != *settings.front().sample_period)
+    if (*each.sample_period != *period)
       throw std::invalid_argument("sample_period differs between struts, must be the same for all of a vehicle");
     each.validate();
   }
-  return fromSeconds(*settings.front().sample_period);
+  return fromSeconds(*period);
 }
 
 int samplesOf(double seconds, double period) { return std::max(1, static_cast<int>(std::lround(seconds / period))); }
 
 }  // namespace
 
-VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces)
-    : period_(periodOf(settings)),
+VehicleMonitor::VehicleMonitor(std::vector<Start> starts, Sink sink, int num_forces)
+    : period_(periodOf(starts)),
       sink_(std::move(sink)),
+      starts_(std::move(starts)),
       num_forces_(num_forces),
       models_due_(samplesOf(kModelsEvery, toSeconds(period_))),
-      is_alone_(settings.size() == 1 && num_forces == 0) {
-  for (const MonitorSettings& each : settings) starts_.push_back({each, {}, {}, {}});
+      is_alone_(starts_.size() == 1 && num_forces == 0) {
   if (is_alone_) beginStruts();
 }
 
@@ -60,6 +62,13 @@ void VehicleMonitor::setBaseline(std::size_t strut, const Baseline& baseline) {
   starts_[strut].baseline = baseline;
 }
 
+void VehicleMonitor::reconfigure(std::size_t strut, MonitorSettings settings) {
+  settings.sample_period = toSeconds(period_);
+  if (!settings.integration_horizon) settings.integration_horizon = starts_[strut].settings.integration_horizon;
+  if (isCoupled()) struts_[strut].reconfigure(settings);
+  starts_[strut].settings = settings;
+}
+
 void VehicleMonitor::addReading(const VehicleTops& tops, const VehicleReading& reading) {
   if (is_alone_) {
     const Side side = reading.sensor == VehicleReading::Sensor::kWheel ? Side::kUnsprung : Side::kSprung;
@@ -79,7 +88,7 @@ void VehicleMonitor::addReading(const VehicleTops& tops, const VehicleReading& r
 
 void VehicleMonitor::addGridSample(const VehicleSample& sample) {
   const Continuity how = last_ ? continuity(sample.stamp - *last_, period_) : Continuity::kGap;
-  if (how == Continuity::kTooSoon) return;
+  if (how == Continuity::kTooSoon && !is_alone_) return;
   last_ = sample.stamp;
   if (how != Continuity::kContinues && decoupler_) decoupler_->startNewSeries();
   const VehicleSample* own = &sample;

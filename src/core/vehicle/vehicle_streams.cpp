@@ -14,7 +14,7 @@ constexpr std::size_t kSixAxes = 6;
 VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
   const auto add = [&](const std::string& topic, Place place, std::size_t count, const std::string& setting) {
     sensors.push_back({topic, place, options.size(), setting});
-    options.insert(options.end(), count, StreamOptions{sensors.size() - 1, true});
+    options.insert(options.end(), count, StreamOptions{sensors.size() - 1, place != Place::kRoad});
     return sensors.back().stream;
   };
   const bool needs_body = std::any_of(layout.struts.begin(), layout.struts.end(),
@@ -34,6 +34,7 @@ VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
     its.unsprung = add(strut.unsprung_imu, Place::kUnsprung, 1, where + "/unsprung_imu");
     channels.struts.push_back(its);
   }
+  if (layout.road_imu) channels.road = add(*layout.road_imu, Place::kRoad, 1, "road_imu");
   addForces(layout.known_forces);
 }
 

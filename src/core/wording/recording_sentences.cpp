@@ -67,14 +67,14 @@ std::string describeNoStart(const std::string& where) {
          std::to_string(EarlyReadings<double>::kSpacings + 1) + " of each are enough)";
 }
 
-std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected) {
+std::string describeNoRow(const SuspensionMonitor& monitor, const StreamGrid& grid, const RejectCounts& rejected) {
   if (monitor.input().rows > 0) return {};
   const int enough = MonitorSettings(monitor.options()).samplesOfRow(monitor.period());
   std::string message = "no regression row: an uninterrupted stretch of more than two horizons is needed (" +
                         std::to_string(enough) + formatted(" samples, %.3g s", enough * monitor.period()) +
                         "; usable samples in all: " + std::to_string(monitor.input().samples) +
                         ", gaps: " + std::to_string(monitor.input().gaps) + ")";
-  const std::string slow = grid.streams().whatIsTooSlow();
+  const std::string slow = grid.whatIsTooSlow();
   if (!slow.empty()) message += "; " + slow;
   return message + describeRejected(rejected);
 }
@@ -97,9 +97,9 @@ std::string describeReference(const Baseline& baseline, const std::string& file)
          values;
 }
 
-std::string describeSuspicions(const UniformGrid& grid, const IdentifiedStrut& ls) {
+std::string describeSuspicions(const StreamGrid& grid, const IdentifiedStrut& ls) {
   constexpr double kCertain = 5.0;  // standard deviations
-  const StreamGate &body = grid.gate(Side::kSprung), &wheel = grid.gate(Side::kUnsprung);
+  const StreamGate &body = grid.gate(indexOf(Side::kSprung)), &wheel = grid.gate(indexOf(Side::kUnsprung));
   std::string text = describeStillness("sprung", body) + describeStillness("unsprung", wheel);
   text += describeSpike("sprung", body) + describeSpike("unsprung", wheel);
   if (body.deviation() > kMuchLarger * wheel.deviation() && wheel.deviation() > 0.0)
@@ -109,7 +109,7 @@ std::string describeSuspicions(const UniformGrid& grid, const IdentifiedStrut& l
   return text;
 }
 
-std::string describeSuspicions(const UniformGrid& grid, const std::vector<Drive>& drives, double period) {
+std::string describeSuspicions(const StreamGrid& grid, const std::vector<Drive>& drives, double period) {
   constexpr double kHorizon = 0.2, kAllOfIt = 1e6;  // [s]: short, so that the sign of the damping shows in many rows
   constexpr int kFewestSamples = 6;
   IdentifyOptions options;

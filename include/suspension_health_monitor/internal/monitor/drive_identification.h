@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 
 namespace suspension_health_monitor {
 
@@ -23,7 +23,7 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
                           const RejectCounts& rejected);
 
 /// Identifies the strut of a recorded drive reading by reading: what identify() does with arrays and `suspension_bag
-/// identify` with bags of any length. LS, LA and the tyre are those of a StrutPipeline, as live; its blocks
+/// identify` with bags of any length. LS, LA and the tyre are those of a VehiclePipeline, as live; its blocks
 /// give the estimate over the whole drive. Cost per reading: O(1) amortised; memory does not grow with the drive.
 class DriveIdentification {
  public:
@@ -33,12 +33,12 @@ class DriveIdentification {
   /// @param sink  called with the monitor's report after every sample that was taken in.
   /// @throws std::invalid_argument  as MonitorOptions::validate().
   explicit DriveIdentification(const MonitorSettings& settings, Sink sink = {})
-      : strut_(settings, {std::move(sink), {}}) {}
+      : strut_(settings, std::move(sink)) {}
 
   /// @throws std::invalid_argument  as SuspensionMonitor::setEffects().
   void setEffects(const std::vector<ActiveEffect>& effects) { strut_.setEffects(effects); }
 
-  /// As StrutPipeline::push().
+  /// As VehiclePipeline::push().
   void push(Side side, Stamp stamp, double acceleration) { strut_.push(side, stamp, acceleration); }
 
   /// @return what is known so far.
@@ -47,12 +47,12 @@ class DriveIdentification {
   /// @return readings that were kept out so far.
   RejectCounts rejected() const { return strut_.rejected(); }
 
-  const SuspensionMonitor& monitor() const { return *strut_.monitor(); }
-  const UniformGrid& grid() const { return *strut_.grid(); }
+  const SuspensionMonitor& monitor() const { return *strut_.strut(); }
+  const VehicleGrid& grid() const { return *strut_.grid(); }
   const TyreTracker* tyre() const { return strut_.tyre(); }
 
  private:
-  StrutPipeline strut_;
+  VehiclePipeline strut_;
 };
 
 }  // namespace suspension_health_monitor

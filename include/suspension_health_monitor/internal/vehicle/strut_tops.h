@@ -11,7 +11,7 @@
 
 namespace suspension_health_monitor {
 
-/// Which streams of a StreamGrid are what on a vehicle. All of them must be required ones.
+/// Which streams of a StreamGrid are what on a vehicle. All of them but the road must be required ones.
 struct VehicleChannels {
   struct Strut {
     std::size_t unsprung = 0;           ///< stream of w''
@@ -26,6 +26,7 @@ struct VehicleChannels {
   /// Turns what the body's IMU reads into axes whose z is up, those of the positions: column i is that of its axis i.
   Eigen::Matrix3d body_mount = Eigen::Matrix3d::Identity();
   std::vector<std::size_t> known_forces;  ///< streams
+  std::optional<std::size_t> road;        ///< stream, that is not required: of the road under the one strut
 };
 
 /// From the streams of a vehicle to what all its struts do, some measured at the strut's top, others from one six-axis

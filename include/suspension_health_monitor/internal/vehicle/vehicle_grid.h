@@ -29,7 +29,7 @@ class VehicleGrid {
 
   /// @param options  of a strut; before an instant is of use the filter of the strut tops fills, too.
   /// @param sink  called with every sample.
-  /// @param readings  called with every reading that was taken in, with the time at which it was taken (ReadingClock);
+  /// @param readings  called with every reading that was taken in, with the time at which it was taken (StreamClock);
   /// those of the body's IMU are turned upright.
   /// @throws std::invalid_argument  as StreamGrid and StrutTops.
   VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink,
@@ -37,7 +37,8 @@ class VehicleGrid {
 
   /// Takes in one message of a sensor.
   /// @param sensor  its place in VehicleStreams::sensors.  @param values  of its streams.
-  void push(std::size_t sensor, Stamp stamp, const std::vector<double>& values);
+  void push(std::size_t sensor, Stamp stamp, const double* values);
+  void push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) { push(sensor, stamp, values.data()); }
 
   /// After the last reading: what waits is led on.
   void finish();
@@ -74,7 +75,7 @@ class VehicleGrid {
     std::size_t place;  // of the strut
   };
 
-  void lead(const Channels& channels, const std::vector<double>& values, Stamp taken);
+  void lead(const Channels& channels, const double* values, Stamp taken);
   void give(VehicleReading reading);
   void take(const GridInstant& instant);
   void lead(const GridInstant& instant);

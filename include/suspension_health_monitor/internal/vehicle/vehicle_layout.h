@@ -36,6 +36,10 @@ struct VehicleLayout {
   std::optional<std::string> body_imu;  ///< topic, as are the others
   std::vector<Strut> struts;            ///< by the alphabet
   std::vector<KnownForce> known_forces;
+  std::optional<std::string> road_imu;  ///< of the road under a strut alone
+
+  /// One strut without a name, whose topics are those of a monitor of one strut.
+  static VehicleLayout ofOneStrut(bool has_road);
 
   /// @return true if transforms are to tell where a strut is.
   bool hasFrames() const;

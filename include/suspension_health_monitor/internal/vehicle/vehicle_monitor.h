@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/every_n.h"
@@ -27,11 +28,23 @@ class VehicleMonitor {
   /// @param strut  its place.
   using Sink = std::function<void(std::size_t strut, const MonitorReport& report)>;
 
-  /// @param settings  of each strut, with sample_period given, the same in all.
+  /// What a strut is to be begun with.
+  struct Start {
+    explicit Start(const MonitorSettings& its) : settings(its) {}
+
+    MonitorSettings settings;
+    std::vector<ActiveEffect> effects;
+    std::optional<LinearStrut> strut;  ///< that belongs to the effects
+    std::optional<Baseline> baseline;
+  };
+
+  /// @param starts  of each strut, with sample_period given, the same in all.
   /// @param sink  called with the report of every strut after every sample that gave one.
   /// @param num_forces  known forces in every sample.
   /// @throws std::invalid_argument  as SuspensionMonitor; without a strut, or with more than kMostStruts.
-  VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0);
+  VehicleMonitor(std::vector<Start> starts, Sink sink, int num_forces = 0);
+  VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0)
+      : VehicleMonitor(std::vector<Start>(settings.begin(), settings.end()), std::move(sink), num_forces) {}
 
   /// Takes in one reading of one sensor on its own stamp.
   /// @param tops  of the vehicle; those of the first reading count.
@@ -47,6 +60,7 @@ class VehicleMonitor {
   void setEffects(std::size_t strut, const std::vector<ActiveEffect>& effects,
                   const std::optional<LinearStrut>& start = {});
   void setBaseline(std::size_t strut, const Baseline& baseline);
+  void reconfigure(std::size_t strut, MonitorSettings settings);
 
   /// Fits a rigid body to the rows (BodyFit): from then on absolute values carry the model's error. Takes 2 ms for four
   /// struts: not for the sample path.
@@ -76,14 +90,6 @@ class VehicleMonitor {
   StrutEstimate overTheDrive(std::size_t strut);
 
  private:
-  /// What a strut is to be begun with.
-  struct Start {
-    MonitorSettings settings;
-    std::vector<ActiveEffect> effects;
-    std::optional<LinearStrut> strut;
-    std::optional<Baseline> baseline;
-  };
-
   void learnRows();
   void beginStruts();
   void takeModels();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 
 #include "suspension_health_monitor/drive.h"
@@ -35,6 +36,7 @@ struct VehicleSample {
   ForceVector forces;    ///< known forces, in any unit
   /// w_i'' before the low-pass filter that everything else here has passed [m/s^2]; empty: nothing has been filtered.
   StrutVector unfiltered{};
+  double road = std::nan("");  ///< acceleration of the road [m/s^2]; NaN: not measured near this instant
 
   /// @return what the two accelerometers of strut i read.
   CornerSample ofStrut(std::size_t i) const {

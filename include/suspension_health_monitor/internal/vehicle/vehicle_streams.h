@@ -11,9 +11,9 @@
 namespace suspension_health_monitor {
 
 /// The streams of a vehicle, numbered: those of the body's IMU if a strut needs it, then of every strut its sprung IMU,
-/// if it has one, and its unsprung IMU, then the known forces, those of one topic after another.
+/// if it has one, and its unsprung IMU, then that of the road, then the known forces, those of one topic after another.
 struct VehicleStreams {
-  enum class Place { kBody, kSprung, kUnsprung, kForce };
+  enum class Place { kBody, kSprung, kUnsprung, kForce, kRoad };
 
   /// An IMU, or what measures known forces.
   struct Sensor {
@@ -29,7 +29,7 @@ struct VehicleStreams {
   /// @throws std::invalid_argument  if a strut without a sprung IMU has no position: its frame has not been looked up.
   explicit VehicleStreams(const VehicleLayout& layout);
 
-  std::vector<StreamOptions> options;  ///< by stream, all required
+  std::vector<StreamOptions> options;  ///< by stream, all required but the road
   VehicleChannels channels;
   std::vector<Sensor> sensors;  ///< the IMUs, then the others
 

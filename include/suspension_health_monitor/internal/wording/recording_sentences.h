@@ -8,7 +8,7 @@
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 namespace suspension_health_monitor {
 
@@ -21,12 +21,12 @@ std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut
 std::string describeRejected(const RejectCounts& rejected);
 
 /// @return what in the readings may be why they show no strut: "; ..." for each suspicion, empty without any.
-/// @param ls  the strut by least squares.
-std::string describeSuspicions(const UniformGrid& grid, const IdentifiedStrut& ls);
+/// @param grid  of a strut, whose streams are numbered by Side.  @param ls  the strut by least squares.
+std::string describeSuspicions(const StreamGrid& grid, const IdentifiedStrut& ls);
 
 /// The same of drives that no horizon can be proposed for.
 /// @param period  sampling time [s].
-std::string describeSuspicions(const UniformGrid& grid, const std::vector<Drive>& drives, double period);
+std::string describeSuspicions(const StreamGrid& grid, const std::vector<Drive>& drives, double period);
 
 /// @param where  there are too few readings: "on one of the topics".
 /// @return why `count` readings tell no sample period.
@@ -37,7 +37,7 @@ std::string describeNoPeriod(const std::string& where, std::size_t count);
 std::string describeNoStart(const std::string& where);
 
 /// @return why the readings have not given one regression row; empty if they have.
-std::string describeNoRow(const SuspensionMonitor& monitor, const UniformGrid& grid, const RejectCounts& rejected);
+std::string describeNoRow(const SuspensionMonitor& monitor, const StreamGrid& grid, const RejectCounts& rejected);
 
 /// @param spacing  of the stamps [s]; nothing: they tell none.
 /// @return why a sample period is so far below the spacing that nearly all samples would be made up; empty if it is

@@ -1,0 +1,91 @@
+#include "message_pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "conversions.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kMostKept = 4000000.0;  // samples of one strut, of 40 bytes each
+
+std::vector<MonitorSettings> settingsOf(const VehicleOptions& options) {
+  std::vector<MonitorSettings> settings;
+  for (const PipelineOptions& strut : options.struts) settings.emplace_back(strut.monitor);
+  return settings;
+}
+
+}  // namespace
+
+MessagePipeline::MessagePipeline(const VehicleOptions& options, const VehicleStreams& streams,
+                                 const tf2::BufferCore* transforms, VehicleMonitor::Sink report)
+    : VehiclePipeline(settingsOf(options), streams,
+                      {std::move(report), [this](const VehicleSample& sample) { keep(sample); }}),
+      sensors_(streams, options.common.shell, transforms),
+      forces_(options.forceNames()),
+      num_struts_(options.struts.size()),
+      num_sensors_(streams.sensors.size()),
+      kept_span_(options.common.shell.diagnose_window) {}
+
+void MessagePipeline::push(std::size_t sensor, const sensor_msgs::Imu& message) {
+  const std::vector<double>& values = sensors_.read(sensor, message);
+  if (values.empty()) return;
+  if (recent_body_ && sensor == indexOf(Side::kSprung))
+    if (const BodyMotion motion = sensors_.mount(sensor).across(message); recent_body_->isNewer(motion))
+      recent_body_->push(motion);
+  VehiclePipeline::push(sensor, toStamp(message.header.stamp), values.data());
+}
+
+void MessagePipeline::push(std::size_t sensor, const geometry_msgs::WrenchStamped& message) {
+  VehiclePipeline::push(sensor, toStamp(message.header.stamp), sensors_.read(sensor, message).data());
+}
+
+void MessagePipeline::keep(const VehicleSample& sample) {
+  if (recent_.empty()) {
+    const double kept = std::ceil(kept_span_ / *period()) + 1.0;
+    const auto capacity = static_cast<std::size_t>(std::min(kept, kMostKept));
+    recent_.assign(num_struts_, Recent<StrutSample>(capacity));
+    if (!forces_.empty()) recent_forces_.emplace(capacity);
+    if (num_struts_ == 1) recent_body_.emplace(capacity);
+  }
+  for (std::size_t i = 0; i < recent_.size(); ++i) {
+    StrutSample strut{sample.ofStrut(i), {}};
+    if (!isUsable(strut.sprung_acceleration) || !isUsable(strut.unsprung_acceleration)) return;
+    if (sample.unfiltered.size() > 0) strut.unfiltered = sample.unfiltered[static_cast<Eigen::Index>(i)];
+    if (recent_body_ && !recent_[i].isNewer(strut)) recent_body_->clear();  // the clock went back
+    recent_[i].push(strut);
+  }
+  if (recent_forces_) recent_forces_->push({sample.stamp, sample.forces});
+}
+
+VehicleDrive MessagePipeline::newestSamples(double span) const {
+  VehicleDrive drive{StrutDrives(num_struts_)};
+  for (std::size_t i = 0; i < recent_.size(); ++i)
+    for (const StrutSample& sample : recent_[i].newest(fromSeconds(span))) {
+      drive.struts[i].samples.push_back(sample);
+      if (sample.unfiltered) drive.struts[i].low_pass.unfiltered.push_back(*sample.unfiltered);
+    }
+  if (recent_body_) drive.struts.front().body = recent_body_->newest(fromSeconds(span));
+  if (!recent_forces_) return drive;
+  for (const std::string& name : forces_) drive.forces.push_back({name, {}});
+  for (const Forces& forces : recent_forces_->newest(fromSeconds(span)))
+    for (std::size_t k = 0; k < drive.forces.size(); ++k)
+      drive.forces[k].values.push_back(forces.values[static_cast<Eigen::Index>(k)]);
+  return drive;
+}
+
+RejectCounts MessagePipeline::rejected(std::size_t sensor) const {
+  RejectCounts all = sensors_.rejected(sensor);
+  all += VehiclePipeline::rejected(sensor);
+  return all;
+}
+
+RejectCounts MessagePipeline::rejected() const {
+  RejectCounts all = VehiclePipeline::rejected();
+  for (std::size_t i = 0; i < num_sensors_; ++i) all += sensors_.rejected(i);
+  return all;
+}
+
+}  // namespace suspension_health_monitor
