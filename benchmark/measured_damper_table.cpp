@@ -7,7 +7,6 @@
 #include <string>
 
 #include "suspension_health_monitor/diagnose.h"
-#include "suspension_health_monitor/internal/fit/initial_states.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"

@@ -123,14 +123,7 @@ struct Assigner {
 namespace option_table {
 
 std::optional<OptionValue> valueOf(const Bound& option) {
-  struct Reader {
-    std::optional<OptionValue> operator()(const bool* b) const { return *b; }
-    std::optional<OptionValue> operator()(const int* i) const { return *i; }
-    std::optional<OptionValue> operator()(const double* d) const { return *d; }
-    std::optional<OptionValue> operator()(const std::string* s) const { return *s; }
-    std::optional<OptionValue> operator()(const std::optional<double>* d) const { return *d; }
-  };
-  return std::visit(Reader{}, option.member);
+  return std::visit([](const auto* value) -> std::optional<OptionValue> { return *value; }, option.member);
 }
 
 void assign(const Bound& option, const OptionValue& value) {

@@ -10,6 +10,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr std::size_t kLongestNameOfOne = 64;  // [characters]
+
 struct Number {
   double value = 0.0;
 };
@@ -59,6 +61,15 @@ double toNumber(const std::string& name, const OptionValue& value, double min, d
   Number number{min};
   takeOptions(one, fields, number);
   return number.value;
+}
+
+void requireName(const std::string& where, const std::string& name) {
+  static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  if (name.find_first_of(letters) != 0 || name.find_first_not_of(letters + "0123456789_") != std::string::npos)
+    throw std::invalid_argument(where + ": the name must be letters, digits and _, a letter first");
+  if (name.size() > kLongestNameOfOne)
+    throw std::invalid_argument(where + ": the name must be at most " + std::to_string(kLongestNameOfOne) +
+                                " characters");
 }
 
 }  // namespace suspension_health_monitor

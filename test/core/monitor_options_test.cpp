@@ -118,7 +118,6 @@ TEST(MonitorSettings, AreRefusedByNameAndValue) {
               "forgetting_factor = 1.2 [-], must be in");
   expectWords(complaint([](MonitorSettings& o) { o.forgetting_factor = std::nan(""); }), "forgetting_factor = nan");
   expectWords(complaint([](MonitorSettings& o) { o.preset = "default paper"; }), "preset = \"default paper\"");
-  expectWords(complaint([](MonitorSettings& o) { o.estimators.least_absolute.start_rows = 0; }), "start_rows = 0");
   expectWords(complaint([](MonitorSettings& o) { o.sprung_mass = 0.0; }), "sprung_mass = 0 [kg]");
 }
 

@@ -9,7 +9,7 @@
 #include "hidden_effect.h"
 #include "recorded_drive.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
-#include "suspension_health_monitor/internal/fit/initial_states.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
 
 namespace suspension_health_monitor {
 namespace {

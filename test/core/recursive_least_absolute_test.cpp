@@ -139,13 +139,5 @@ TEST(SmallDivisorRule, BoundsTheDivisorAbsolutelyOrByTheResidualScale) {
   EXPECT_GT(boundedDivisor(0.0, SmallDivisor::kRelative, 0.1, 0.0), 0.0);
 }
 
-TEST(RecursiveLeastAbsolute, RefusesWrongOptions) {
-  const RecursiveOptions recursive;
-  EXPECT_THROW(RecursiveLeastAbsolute(2, recursive, {0, SmallDivisor::kRelative, 0.2, true}), std::invalid_argument);
-  EXPECT_THROW(RecursiveLeastAbsolute(2, recursive, {150, SmallDivisor::kRelative, -0.1, true}), std::invalid_argument);
-  EXPECT_THROW(RecursiveLeastAbsolute(2, recursive, {150, SmallDivisor::kRelative, std::nan(""), true}),
-               std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace suspension_health_monitor

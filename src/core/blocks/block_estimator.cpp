@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "suspension_health_monitor/internal/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
 

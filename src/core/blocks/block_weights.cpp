@@ -23,12 +23,6 @@ double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const 
   return of(power.array());
 }
 
-double medianInPlace(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta) {
   const Eigen::Index p = theta.size();
   BlockVector linear = theta;

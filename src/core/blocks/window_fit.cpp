@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "suspension_health_monitor/internal/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -265,8 +267,8 @@ double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blo
     distances_.push_back(apart.dot(covariance.inverse() * apart));
   }
   if (distances_.size() < 5) return 1.0;
-  constexpr double kMedianOfChiSquare = 1.386;  // 2 ln 2, of two degrees of freedom
-  return std::max(1.0, medianInPlace(distances_) / kMedianOfChiSquare);
+  // Of chi square of two degrees of freedom the median is 2 ln 2.
+  return std::max(1.0, medianInPlace(distances_) / (2.0 * std::log(2.0)));
 }
 
 }  // namespace suspension_health_monitor

@@ -7,15 +7,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-double meanResidual(const std::vector<ComparedSegment>& segments) {
-  double sum = 0.0, count = 0.0;
-  for (const ComparedSegment& segment : segments) {
-    for (std::size_t k = 0; k < segment.size(); ++k) sum += segment.residual(k);
-    count += static_cast<double>(segment.size());
-  }
-  return count > 0.0 ? sum / count : 0.0;
-}
-
 /// @param taps  of the filter that the drive has passed.
 void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
                      const std::vector<double>& taps, ComparedSegment& segment) {
@@ -60,6 +51,12 @@ std::vector<double> ComparedSegment::residuals() const {
   return all;
 }
 
+Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
+  Residuals residuals;
+  for (const ComparedSegment& segment : segments) residuals.push_back(segment.residuals());
+  return residuals;
+}
+
 std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
                                               const std::vector<StrutState>& initial) {
   ComparedDrives drives;
@@ -73,7 +70,7 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
       segments.back().record = r;
       segments.back().predicted = std::move(predicted);
     }
-  const double mean = meanResidual(segments);
+  const double mean = joined(residualsOf(segments)).mean();
   const std::vector<const DriveSegment*> sources = segmentsOf(records);
   for (std::size_t i = 0; i < segments.size(); ++i)
     addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);

@@ -5,7 +5,6 @@
 
 #include "suspension_health_monitor/internal/compare/residual_analysis.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
-#include "suspension_health_monitor/internal/fit/initial_states.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
@@ -25,12 +24,6 @@ std::optional<std::vector<StrutState>> settleModel(const Records& records, const
   comparison.model = fit->model;
   comparison.stddev = fit->stddev;
   return std::move(fit->initial);
-}
-
-Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
-  Residuals residuals;
-  for (const ComparedSegment& segment : segments) residuals.push_back(segment.residuals());
-  return residuals;
 }
 
 /// What a free-form law of travel and travel rate, fitted to the rest, would take of what was held out.

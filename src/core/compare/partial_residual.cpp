@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "residual_series.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
 
 namespace suspension_health_monitor {
@@ -9,8 +10,7 @@ namespace {
 
 constexpr std::size_t kBins = 28;
 constexpr std::size_t kColumns = 18, kRows = 14;
-constexpr std::size_t kFewestInBin = 8, kFewestInCell = 3;
-constexpr double kCutAtEachEnd = 0.003;  // of the samples: single extremes would stretch the axis
+constexpr std::size_t kFewestInCell = 3;
 constexpr std::size_t kProbes = 200;
 constexpr double kNoInfluence = 1e-9;  // of the force
 
@@ -66,13 +66,11 @@ std::vector<double> edgesOver(const std::vector<Sample>& samples, ForceVariable 
   std::vector<double> values;
   values.reserve(samples.size());
   for (const Sample& sample : samples) values.push_back(valueOf(sample.motion, variable));
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  const double low = values[static_cast<std::size_t>(kCutAtEachEnd * last)];
-  const double high = values[static_cast<std::size_t>((1.0 - kCutAtEachEnd) * last)];
+  // Single extremes would stretch the axis.
+  const std::vector<double> ends = quantiles(std::move(values), {0.5 * (1.0 - kCovered), 0.5 * (1.0 + kCovered)});
   std::vector<double> edges;
   for (std::size_t i = 0; i <= bins; ++i)
-    edges.push_back(low + (high - low) * static_cast<double>(i) / static_cast<double>(bins));
+    edges.push_back(ends[0] + (ends[1] - ends[0]) * static_cast<double>(i) / static_cast<double>(bins));
   return edges;
 }
 

@@ -9,9 +9,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kFewest = 64;
 constexpr double kMemoryPeriods = 3.0;  // natural periods that a correlation is followed over
-constexpr double kMostLags = 1000.0;
 
 void append(std::vector<double>& values, const std::vector<double>& more) {
   values.insert(values.end(), more.begin(), more.end());
@@ -29,8 +27,7 @@ double centre(std::vector<double>& values) {
 /// 1 + 2 sum of rho over the lags before the correlation first vanishes: by so much the variance of a mean grows.
 double memoryOf(const ResidualSeries& series, const std::vector<double>& values) {
   const double vanished = normalQuantile(0.025) / std::sqrt(static_cast<double>(values.size()));
-  const double most =
-      std::min({kMemoryPeriods * series.natural_period, kMostLags, 0.125 * static_cast<double>(values.size())});
+  const double most = std::min(kMemoryPeriods * series.natural_period, 0.125 * static_cast<double>(values.size()));
   const Correlation correlation(series, values, values);
   double sum = 1.0;
   for (int lag = 1; lag <= static_cast<int>(most); ++lag) {
@@ -73,7 +70,7 @@ std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& seg
     append(series.wheel, segment.wheel);
   }
   series.begins.push_back(series.size());
-  if (series.size() < kFewest || !(sumOfSquares(series.rate) > 0.0)) return std::nullopt;
+  if (!(sumOfSquares(series.rate) > 0.0)) return std::nullopt;
   series.natural_period = 2.0 * M_PI / std::sqrt(noise.stiffness_to_mass) / series.period;
   series.offset = centre(series.residual);
   centre(series.missing);

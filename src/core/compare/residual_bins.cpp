@@ -13,9 +13,7 @@ constexpr double kShortestTimeBin = 4.0;  // natural periods
 const std::vector<double> kShares{0.0, 0.01, 0.03, 0.06, 0.1,  0.2,  0.3,  0.4, 0.5,
                                   0.6, 0.7,  0.8,  0.9,  0.94, 0.97, 0.99, 1.0};
 const std::vector<double> kLoopShares{0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.0};
-constexpr int kCells = 12;         // of the force surface, either way; even: one edge is 0
-constexpr double kCovered = 0.99;  // of the samples, by the inner edges
-constexpr std::size_t kFewestInLoop = 8;
+constexpr int kCells = 12;  // of the force surface, either way; even: one edge is 0
 
 /// Sums over the samples of a bin.
 struct BinSums {
@@ -42,14 +40,6 @@ struct BinSums {
     bin.standard_error = standardError(memory);
   }
 };
-
-std::vector<double> quantiles(std::vector<double> values, const std::vector<double>& shares) {
-  std::sort(values.begin(), values.end());
-  std::vector<double> edges;
-  for (const double share : shares)
-    edges.push_back(values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))]);
-  return edges;
-}
 
 /// The bin of a value; the outermost take in what lies beyond.
 std::size_t binOf(const std::vector<double>& edges, double value) {
@@ -88,7 +78,7 @@ class LocalFit {
 
   void fill(double memory, TimeBin& bin) const {
     const Eigen::LDLT<Eigen::Matrix2d> factors(gram_);
-    if (bin.count < 8 || !(factors.rcond() > 1e-14)) return;
+    if (bin.count < kFewestInBin || !(factors.rcond() > 1e-14)) return;
     const Eigen::Vector2d solution = factors.solve(moment_);
     const double left = std::max(0.0, square_ - moment_.dot(solution)) / (static_cast<double>(bin.count) - 2.0);
     const Eigen::Matrix2d covariance = left * memory * factors.solve(Eigen::Matrix2d::Identity());
@@ -121,6 +111,14 @@ std::vector<DriveSpan> spansOf(const std::vector<ComparedSegment>& segments) {
 }
 
 }  // namespace
+
+std::vector<double> quantiles(std::vector<double> values, const std::vector<double>& shares) {
+  std::sort(values.begin(), values.end());
+  std::vector<double> edges;
+  for (const double share : shares)
+    edges.push_back(values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))]);
+  return edges;
+}
 
 std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<ComparedSegment>& segments) {
   const std::vector<DriveSpan> spans = spansOf(segments);
@@ -171,7 +169,7 @@ DirectionLoop compareDirections(const ResidualSeries& series) {
   for (std::size_t i = 0; i < forth.size(); ++i) {
     const ResidualBin& c = loop.compressing[i];
     const ResidualBin& e = loop.extending[i];
-    if (std::min(c.count, e.count) < kFewestInLoop) continue;
+    if (std::min(c.count, e.count) < kFewestInBin) continue;
     const auto count = static_cast<double>(c.count + e.count);
     weight += count;
     loop.gap += count * (c.mean - e.mean);

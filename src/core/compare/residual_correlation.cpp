@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unsupported/Eigen/MatrixFunctions>
 
 #include "noise_test.h"
 #include "residual_series.h"
@@ -9,26 +10,21 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kFewestLags = 20.0, kMostLags = 500.0;
-constexpr double kOutside = 0.05;                     // of the lags, by chance
-const double kBand = normalQuantile(0.5 * kOutside);  // half the band's width, in standard deviations
-const double kUnlikely = normalQuantile(0.01);        // of the number of lags outside
+constexpr double kOutside = 0.05;                         // of the lags, by chance
+const double kHalfBand = normalQuantile(0.5 * kOutside);  // half the band's width, in standard deviations
+const double kUnlikely = normalQuantile(0.01);            // of the number of lags outside
 
 /// Response of z'' to a unit sample of w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): e^{At}, held over a sample.
 std::vector<double> impulseResponse(const ExpectedNoise& noise, double period, std::size_t length) {
   const double b1 = noise.damping_to_mass, b0 = noise.stiffness_to_mass;
-  const double fastest = std::max(b1, std::sqrt(b0));
-  const int steps = std::max(1, static_cast<int>(std::ceil(10.0 * fastest * period)));
-  const double h = period / steps;
-  double travel = 0.5 * period * period, rate = period;  // after one sample of w'' = 1
+  Eigen::Matrix2d slope;  // of travel and travel rate
+  slope << 0.0, 1.0, -b0, -b1;
+  const Eigen::Matrix2d step = (period * slope).exp();
+  Eigen::Vector2d motion(0.5 * period * period, period);  // after one sample of w'' = 1
   std::vector<double> response(length);
   for (double& value : response) {
-    value = b1 * rate + b0 * travel;
-    for (int i = 0; i < steps; ++i) {  // midpoint rule
-      const double middle_travel = travel + 0.5 * h * rate;
-      const double middle_rate = rate - 0.5 * h * (b1 * rate + b0 * travel);
-      travel += h * middle_rate;
-      rate -= h * (b1 * middle_rate + b0 * middle_travel);
-    }
+    value = b0 * motion[0] + b1 * motion[1];
+    motion = step * motion;
   }
   return response;
 }
@@ -38,7 +34,7 @@ std::vector<double> impulseResponse(const ExpectedNoise& noise, double period, s
 /// lags widens the spread of their number.
 void countOutside(double band, double dependence, ResidualCorrelation& result) {
   const auto lags = static_cast<double>(result.value.size());
-  const double far = band * (NoiseTest::limitFor(lags) / kBand - 1.0);  // beyond the band
+  const double far = band * (NoiseTest::limitFor(lags) / kHalfBand - 1.0);  // beyond the band
   double outside = 0.0;
   bool far_outside = false;
   for (std::size_t i = 0; i < result.value.size(); ++i) {
@@ -77,7 +73,7 @@ ResidualCorrelations correlate(const ResidualSeries& series, const ExpectedNoise
     expected.push_back(share * std::inner_product(through.begin() + lag, through.end(), through.begin(), 0.0));
     squares += expected.back() * expected.back();
   }
-  const double band = kBand * std::sqrt((1.0 + 2.0 * squares) / count);
+  const double band = kHalfBand * std::sqrt((1.0 + 2.0 * squares) / count);
   double cross_variance = 1.0, wheel_squares = 0.0;
   for (std::size_t lag = 1; lag < residual.size(); ++lag) {
     addLag(static_cast<int>(lag), series.period, residual[lag], expected[lag], band, result.whiteness);
@@ -86,7 +82,7 @@ ResidualCorrelations correlate(const ResidualSeries& series, const ExpectedNoise
   }
   countOutside(band, 1.0 + 2.0 * squares, result.whiteness);
 
-  const double cross_band = kBand * std::sqrt(std::max(1.0, cross_variance) / count);
+  const double cross_band = kHalfBand * std::sqrt(std::max(1.0, cross_variance) / count);
   const Correlation cross(series, series.residual, series.wheel);
   const double sizes = std::sqrt(sumOfSquares(series.residual) * sumOfSquares(series.wheel)) / count;
   for (int lag = -lags; lag <= lags; ++lag) {

@@ -20,8 +20,11 @@ struct ResidualSeries {
   std::size_t size() const { return residual.size(); }
 };
 
-/// @return nothing if there are fewer than 64 samples, or nothing moves.
+/// @return nothing if nothing moves.
 std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise);
+
+inline constexpr double kCovered = 0.99;        ///< of the samples, by even edges
+inline constexpr std::size_t kFewestInBin = 8;  ///< samples that a mean is taken of
 
 double sumOfSquares(const std::vector<double>& values);
 
@@ -40,6 +43,9 @@ class Correlation {
   const std::vector<double>& b_;
   double scale_;
 };
+
+/// @return the values below which the shares of all lie, each one of the values.
+std::vector<double> quantiles(std::vector<double> values, const std::vector<double>& shares);
 
 /// @param segments  those of the series.
 std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<ComparedSegment>& segments);

@@ -8,12 +8,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-std::vector<std::size_t> sizesOf(const ResidualSeries& series) {
-  std::vector<std::size_t> sizes;
-  for (std::size_t s = 0; s + 1 < series.begins.size(); ++s) sizes.push_back(series.begins[s + 1] - series.begins[s]);
-  return sizes;
-}
-
 /// Sums over all windows, by frequency.
 struct SpectralSums {
   explicit SpectralSums(std::size_t count) : residual(count), measured(count), wheel(count), cross(count) {}
@@ -35,7 +29,8 @@ struct SpectralSums {
 
 std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series, const std::vector<ComparedSegment>& segments,
                                            const ExpectedNoise& noise) {
-  const std::vector<std::size_t> sizes = sizesOf(series);
+  std::vector<std::size_t> sizes;
+  for (const ComparedSegment& segment : segments) sizes.push_back(segment.size());
   const std::size_t length = Periodogram::lengthFor(sizes, series.natural_period);
   const std::size_t windows = Periodogram::windowsIn(sizes, length);
   if (windows < 2) return std::nullopt;

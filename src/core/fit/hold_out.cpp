@@ -8,8 +8,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kBlocks = 15;  // per record; longer than a natural period, the five held out have two stretches
-static_assert(kBlocks == kEnoughPeriods);
 constexpr std::size_t kFewestStretches = 8;
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
 
@@ -44,7 +42,7 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
     const double natural_period = std::round(2.0 * M_PI / std::sqrt(stiffness_to_mass) / record->period());
     const double longest = static_cast<double>(record->numSamples());  // then nothing is held out
     const auto period = static_cast<std::size_t>(std::max(4.0, std::min(natural_period, longest)));
-    const std::size_t block = std::max<std::size_t>(1, record->numSamples() / kBlocks);
+    const std::size_t block = std::max<std::size_t>(1, record->numSamples() / static_cast<std::size_t>(kEnoughPeriods));
     std::size_t position = 0;  // in the record
     for (const DriveSegment& segment : record->segments()) {
       const std::size_t index = result.training.size();

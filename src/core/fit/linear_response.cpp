@@ -9,36 +9,11 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kMotionStep = 1e-4;  // of the rms motion, for the slopes of the force
-constexpr int kMemorySteps = 4;       // per sample
 
 double rms(const std::vector<StrutMotion>& motion, double StrutMotion::*member) {
   double sum = 0.0;
   for (const StrutMotion& m : motion) sum += square(m.*member);
   return std::sqrt(sum / static_cast<double>(motion.size()));
-}
-
-/// The memory after a sample in which the motion goes from one point to the next in a straight line (classical
-/// Runge-Kutta).
-double advanceMemory(const ForceEffect& effect, const double* shapes, const StrutMotion& from, const StrutMotion& to,
-                     double memory) {
-  const double h = (to.time - from.time) / kMemorySteps;
-  const auto rate = [&](double share, double state) {
-    return effect.memory_rate(
-        {from.travel + share * (to.travel - from.travel),
-         from.travel_rate + share * (to.travel_rate - from.travel_rate), from.time + share * (to.time - from.time),
-         state, from.body_acceleration + share * (to.body_acceleration - from.body_acceleration)},
-        shapes);
-  };
-  for (int step = 0; step < kMemorySteps; ++step) {
-    const double start = static_cast<double>(step) / kMemorySteps;
-    const double middle = (step + 0.5) / kMemorySteps;
-    const double k1 = rate(start, memory);
-    const double k2 = rate(middle, memory + h / 2 * k1);
-    const double k3 = rate(middle, memory + h / 2 * k2);
-    const double k4 = rate((step + 1.0) / kMemorySteps, memory + h * k3);
-    memory += h / 6 * (k1 + 2 * (k2 + k3) + k4);
-  }
-  return memory;
 }
 
 }  // namespace
@@ -93,18 +68,30 @@ void LinearResponse::measureSizes() {
 
 Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
                            const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends) {
+  const StrutModel alone{0.0, 0.0, {{effect, 1.0, shapes}}, {}};
   Eigen::VectorXd force(static_cast<Eigen::Index>(motion.size()));
   std::size_t k = 0;
   for (const std::size_t end : ends) {
-    double memory = 0.0;
+    std::array<double, kMostEffects> memory{};
     for (; k < end; ++k) {
       StrutMotion here = motion[k];
-      here.memory = memory;
+      here.memory = memory[0];
       force[static_cast<Eigen::Index>(k)] = effect.force(here, shapes.data());
-      if (effect.memory_rate && k + 1 < end) memory = advanceMemory(effect, shapes.data(), here, motion[k + 1], memory);
+      if (k + 1 < end) followMemories(alone, here, motion[k + 1], motion[k + 1].time - here.time, memory);
     }
   }
   return force;
+}
+
+Eigen::MatrixXd forcesAlong(const StrutModel& model, const std::vector<StrutMotion>& motion,
+                            const std::vector<std::size_t>& ends) {
+  Eigen::MatrixXd columns(motion.size(), 2 + model.effects.size());
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    columns.row(static_cast<Eigen::Index>(k)).head<2>() << motion[k].travel_rate, motion[k].travel;
+  for (std::size_t j = 0; j < model.effects.size(); ++j)
+    columns.col(2 + static_cast<Eigen::Index>(j)) =
+        forceAlong(model.effects[j].effect, model.effects[j].shapes, motion, ends);
+  return columns;
 }
 
 // Trapezoidal rule: stable however stiff the model is.

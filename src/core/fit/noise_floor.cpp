@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/hat_functions.h"
-#include "suspension_health_monitor/internal/fit/known_noise.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
 
@@ -92,12 +91,6 @@ struct Regression {
   double deviation() const { return robustDeviation({error.data(), error.data() + error.size()}); }
 };
 
-Series sprungOf(const Segments& segments) {
-  Series series;
-  for (const DriveSegment* segment : segments) series.push_back(segment->sprung);
-  return series;
-}
-
 /// Laws that a model may lack, along its free run: a free-form force of travel rate, with nodes that lie closer the
 /// nearer to 0, where friction turns; one of travel; one of both; and both times time.
 class FreeFormLaws {
@@ -180,7 +173,7 @@ double untold(const Segments& segments, const StrutModel& model) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());
   if (count <= 2.0 * kTerms) return 0.0;
-  Series series = sprungOf(segments);
+  Series series = seriesOf(segments, &DriveSegment::sprung);
   Regression interpolation(interpolationRows(segments, places, series));
   const double plain = interpolation.deviation() * std::sqrt(count / (count - kTerms));
   FreeFormLaws laws(segments);
@@ -216,7 +209,7 @@ double lostInSampling(const Records& records, const ModelFit& fit) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());
   if (count <= 2.0 * kTerms) return 0.0;
-  Series predicted = sprungOf(segments);
+  Series predicted = seriesOf(segments, &DriveSegment::sprung);
   for (std::size_t s = 0; s < predicted.size(); ++s)
     for (std::size_t k = 0; k < predicted[s].size(); ++k) predicted[s][k] -= fit.residuals[s][k];
   const Regression interpolation(interpolationRows(segments, places, predicted));
@@ -225,12 +218,8 @@ double lostInSampling(const Records& records, const ModelFit& fit) {
 }
 
 double accuracyOfFreeRuns(const Records& records) {
-  double squares = 0.0, count = 0.0;
-  for (const DriveSegment* segment : segmentsOf(records)) {
-    for (const double y : segment->sprung) squares += square(y);
-    count += static_cast<double>(segment->size());
-  }
-  return BandlimitedInterpolator::kAccuracy * std::sqrt(squares / count);
+  const double power = meanSquare(seriesOf(segmentsOf(records), &DriveSegment::sprung));
+  return BandlimitedInterpolator::kAccuracy * std::sqrt(power);
 }
 
 }  // namespace suspension_health_monitor

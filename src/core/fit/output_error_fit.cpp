@@ -70,8 +70,7 @@ std::vector<double> standardDeviations(const ceres::Problem& problem, const Para
 /// @return the model's standard deviations; nothing if the solver fails.
 std::optional<std::vector<double>> solve(const Segments& segments, const std::vector<SampleMask>& masks,
                                          const StrutModel& start, const Parameterization& parameters,
-                                         const CostScales& scales, int max_iterations, Eigen::VectorXd& x,
-                                         LocalStates& initial) {
+                                         const CostScales& scales, Eigen::VectorXd& x, LocalStates& initial) {
   ceres::Problem problem;
   auto* ordering = new ceres::ParameterBlockOrdering;  // the solver's options own it
   ceres::Solver::Options solver;
@@ -83,7 +82,7 @@ std::optional<std::vector<double>> solve(const Segments& segments, const std::ve
   }
   ordering->AddElementToGroup(x.data(), 1);
   solver.linear_solver_type = ceres::DENSE_SCHUR;
-  solver.max_num_iterations = max_iterations;
+  solver.max_num_iterations = 25;
   solver.function_tolerance = 1e-7;
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -142,11 +141,11 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
 }
 
 FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>& masks, const StrutModel& guess,
-                          const FitOptions& options) {
+                          const std::vector<StrutState>& guessed_states) {
   const Segments segments = segmentsOf(records);
   StrutModel start = guess;
   if (!(start.stiffness_to_mass > 0.0)) return FitFailure::kNoSpring;
-  if (!tame(segments, options.initial, start)) return FitFailure::kRunsAway;
+  if (!tame(segments, guessed_states, start)) return FitFailure::kRunsAway;
   const std::optional<DriveSizes> sizes = measureSizes(segments, masks, start);
   if (!sizes) return FitFailure::kRunsAway;
   const auto coefficient_scales = coefficientScales(start, *sizes, records.front()->period());
@@ -157,9 +156,9 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
                           std::max(kOutlierScale * sizes->residual, 1e-9 * sizes->acceleration)};
   Eigen::VectorXd x = parameters.initial();
   LocalStates initial(segments.size(), {0.0, 0.0});
-  for (std::size_t s = 0; s < options.initial.size(); ++s)
-    initial[s] = {options.initial[s].travel / scales.travel, options.initial[s].travel_rate / scales.travel_rate};
-  auto stddev = solve(segments, masks, start, parameters, scales, options.max_iterations, x, initial);
+  for (std::size_t s = 0; s < guessed_states.size(); ++s)
+    initial[s] = {guessed_states[s].travel / scales.travel, guessed_states[s].travel_rate / scales.travel_rate};
+  auto stddev = solve(segments, masks, start, parameters, scales, x, initial);
   if (!stddev) return FitFailure::kNotSolved;
 
   ModelFit fit;
@@ -176,12 +175,8 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
 }
 
 double meanSquare(const Residuals& residuals) {
-  double squares = 0.0, count = 0.0;
-  for (const std::vector<double>& segment : residuals) {
-    for (const double r : segment) squares += r * r;
-    count += static_cast<double>(segment.size());
-  }
-  return count > 0.0 ? squares / count : 0.0;
+  const Eigen::VectorXd all = joined(residuals);
+  return all.size() > 0 ? all.squaredNorm() / static_cast<double>(all.size()) : 0.0;
 }
 
 FitOutcome withoutFit(const Records& records, const StrutModel& model) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -43,7 +44,7 @@ RoughStrut::RoughStrut(const BlockEstimate& estimate, double lag) {
 }
 
 bool RoughStrut::clocksDiffer(double period) const {
-  constexpr double kCertain = 4.0, kLeast = 0.0025;  // standard deviations, [s]
+  constexpr double kLeast = 0.0025;  // [s]
   return std::abs(clock_offset) > std::max({kLeast, period / 2.0, kCertain * clock_offset_stddev});
 }
 

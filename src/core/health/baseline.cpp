@@ -19,14 +19,6 @@ ValueAndVariance dampingAt(double m, double b1, double stddev, const DryFriction
           std::max(0.0, variance + 2.0 * m * friction.damping_covariance + square(m * friction.stddev))};
 }
 
-// By how much estimates scatter beyond their own standard deviations, if that is no chance: of n windows a variance is
-// known to sqrt(2 / n) of itself.
-double scatterBeyond(double variance, double stddev, double windows) {
-  constexpr double kCertain = 2.0;  // standard deviations
-  const double expected = square(stddev);
-  return variance > expected * (1.0 + kCertain * std::sqrt(2.0 / windows)) ? std::sqrt(variance - expected) : 0.0;
-}
-
 std::optional<LogChange> logChange(const ValueAndVariance& now, const ValueAndVariance& healthy) {
   if (!(now.value > 0.0 && healthy.value > 0.0)) return std::nullopt;
   return LogChange{std::log(now.value / healthy.value),
@@ -81,32 +73,35 @@ ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now)
   return result;
 }
 
+void BaselineLearner::Parameter::add(double value, double its_stddev, double gain) {
+  // A few that are far off, as the first after a stop, are no scatter.
+  const double off = std::clamp(value - mean, -kCertain * its_stddev, kCertain * its_stddev);
+  variance = (1.0 - gain) * (variance + gain * square(off));
+  mean += gain * (value - mean);
+  stddev = std::sqrt(square(stddev) + gain * (square(its_stddev) - square(stddev)));
+}
+
+// If that is no chance: of n windows a variance is known to sqrt(2 / n) of itself.
+double BaselineLearner::Parameter::scatter(double windows) const {
+  const double expected = square(stddev);
+  const bool is_chance = variance <= expected * (1.0 + normalQuantile(0.025) * std::sqrt(2.0 / windows));
+  return is_chance ? 0.0 : std::sqrt(variance - expected);
+}
+
 void BaselineLearner::Half::add(const StrutEstimate& estimate, double new_seconds) {
+  if (seconds == 0.0) friction = estimate.friction;
   seconds += new_seconds;
   const double gain = new_seconds / seconds;
+  damping.add(estimate.damping_to_mass, estimate.damping_to_mass_stddev, gain);
+  stiffness.add(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev, gain);
   const auto mix = [gain](double& of, double value) { of += gain * (value - of); };
-  // A few that are far off, as the first after a stop, are no scatter.
-  const auto spread = [gain](double& variance, double mean_of, double value, double stddev) {
-    constexpr double kMost = 4.0;  // standard deviations
-    const double off = std::clamp(value - mean_of, -kMost * stddev, kMost * stddev);
-    variance = (1.0 - gain) * (variance + gain * square(off));
-  };
-  const auto mixStddev = [gain](double& of, double value) {
-    of = std::sqrt(square(of) + gain * (square(value) - square(of)));
-  };
-  if (mean.isEmpty()) mean = baselineOf(estimate, {});
-  spread(damping_variance, *mean.damping_to_mass, estimate.damping_to_mass, estimate.damping_to_mass_stddev);
-  spread(stiffness_variance, *mean.stiffness_to_mass, estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev);
-  mix(*mean.damping_to_mass, estimate.damping_to_mass);
-  mix(*mean.stiffness_to_mass, estimate.stiffness_to_mass);
-  mixStddev(mean.damping_to_mass_stddev, estimate.damping_to_mass_stddev);
-  mixStddev(mean.stiffness_to_mass_stddev, estimate.stiffness_to_mass_stddev);
   mix(window, estimate.window);
-  if (!estimate.friction || !mean.friction) return mean.friction.reset();
-  mix(mean.friction->force, estimate.friction->force);
-  mix(mean.friction->damping_gain, estimate.friction->damping_gain);
-  mix(mean.friction->damping_covariance, estimate.friction->damping_covariance);
-  mixStddev(mean.friction->stddev, estimate.friction->stddev);
+  if (!estimate.friction || !friction) return friction.reset();
+  mix(friction->force, estimate.friction->force);
+  mix(friction->damping_gain, estimate.friction->damping_gain);
+  mix(friction->damping_covariance, estimate.friction->damping_covariance);
+  friction->stddev =
+      std::sqrt(square(friction->stddev) + gain * (square(estimate.friction->stddev) - square(friction->stddev)));
 }
 
 std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& estimate, double seconds) {
@@ -126,37 +121,20 @@ std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& e
   return learned;
 }
 
-double BaselineLearner::Half::dampingScatter() const {
-  return scatterBeyond(damping_variance, mean.damping_to_mass_stddev, seconds / window);
-}
-
-double BaselineLearner::Half::stiffnessScatter() const {
-  return scatterBeyond(stiffness_variance, mean.stiffness_to_mass_stddev, seconds / window);
-}
-
-double BaselineLearner::Half::dampingStddev() const {
-  return std::hypot(mean.damping_to_mass_stddev, dampingScatter());
-}
-
-double BaselineLearner::Half::stiffnessStddev() const {
-  return std::hypot(mean.stiffness_to_mass_stddev, stiffnessScatter());
-}
-
 bool BaselineLearner::drifts() const {
   const auto& [a, b] = halves_;
-  const auto apart = [&](double first, double first_stddev, double second, double second_stddev) {
+  const auto apart = [&](double first, double second, const Parameter& of_first, const Parameter& of_second) {
     const double difference = std::abs(second - first);
-    const double variance = square(first_stddev) * std::min(1.0, a.window / a.seconds) +
-                            square(second_stddev) * std::min(1.0, b.window / b.seconds);
-    return difference > kLeastDrift * std::abs(first) && difference > kDrift * std::sqrt(variance);
+    const double variance = square(of_first.spread(a.windows())) * std::min(1.0, 1.0 / a.windows()) +
+                            square(of_second.spread(b.windows())) * std::min(1.0, 1.0 / b.windows());
+    return difference > kLeastDrift * std::abs(first) && difference > kProven * std::sqrt(variance);
   };
-  const double gain =
-      a.mean.friction && b.mean.friction ? (a.mean.friction->damping_gain + b.mean.friction->damping_gain) / 2.0 : 0.0;
-  const auto damping = [&](const Baseline& mean) {
-    return *mean.damping_to_mass + (mean.friction ? mean.friction->force * gain : 0.0);
+  const double gain = a.friction && b.friction ? (a.friction->damping_gain + b.friction->damping_gain) / 2.0 : 0.0;
+  const auto damping = [&](const Half& half) {
+    return half.damping.mean + (half.friction ? half.friction->force * gain : 0.0);
   };
-  return apart(damping(a.mean), a.dampingStddev(), damping(b.mean), b.dampingStddev()) ||
-         apart(*a.mean.stiffness_to_mass, a.stiffnessStddev(), *b.mean.stiffness_to_mass, b.stiffnessStddev());
+  return apart(damping(a), damping(b), a.damping, b.damping) ||
+         apart(a.stiffness.mean, b.stiffness.mean, a.stiffness, b.stiffness);
 }
 
 Baseline BaselineLearner::result(Stamp to) const {
@@ -167,18 +145,17 @@ Baseline BaselineLearner::result(Stamp to) const {
   const auto rms = [&](double first, double second) { return std::sqrt(middle(square(first), square(second))); };
   const auto stddev = [&](double first, double second) { return share * rms(first, second); };
   Baseline baseline;
-  baseline.damping_to_mass = middle(*a.mean.damping_to_mass, *b.mean.damping_to_mass);
-  baseline.stiffness_to_mass = middle(*a.mean.stiffness_to_mass, *b.mean.stiffness_to_mass);
-  baseline.damping_scatter = rms(a.dampingScatter(), b.dampingScatter());
-  baseline.stiffness_scatter = rms(a.stiffnessScatter(), b.stiffnessScatter());
-  baseline.damping_to_mass_stddev = stddev(a.dampingStddev(), b.dampingStddev());
-  baseline.stiffness_to_mass_stddev = stddev(a.stiffnessStddev(), b.stiffnessStddev());
-  if (a.mean.friction && b.mean.friction)
+  baseline.damping_to_mass = middle(a.damping.mean, b.damping.mean);
+  baseline.stiffness_to_mass = middle(a.stiffness.mean, b.stiffness.mean);
+  baseline.damping_scatter = rms(a.damping.scatter(a.windows()), b.damping.scatter(b.windows()));
+  baseline.stiffness_scatter = rms(a.stiffness.scatter(a.windows()), b.stiffness.scatter(b.windows()));
+  baseline.damping_to_mass_stddev = stddev(a.damping.spread(a.windows()), b.damping.spread(b.windows()));
+  baseline.stiffness_to_mass_stddev = stddev(a.stiffness.spread(a.windows()), b.stiffness.spread(b.windows()));
+  if (a.friction && b.friction)
     baseline.friction =
-        DryFriction{middle(a.mean.friction->force, b.mean.friction->force),
-                    stddev(a.mean.friction->stddev, b.mean.friction->stddev),
-                    middle(a.mean.friction->damping_gain, b.mean.friction->damping_gain),
-                    square(share) * middle(a.mean.friction->damping_covariance, b.mean.friction->damping_covariance)};
+        DryFriction{middle(a.friction->force, b.friction->force), stddev(a.friction->stddev, b.friction->stddev),
+                    middle(a.friction->damping_gain, b.friction->damping_gain),
+                    square(share) * middle(a.friction->damping_covariance, b.friction->damping_covariance)};
   baseline.learned = true;
   baseline.from = from_;
   baseline.to = to;

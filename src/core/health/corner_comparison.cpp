@@ -11,9 +11,9 @@ namespace {
 
 /// One corner on a logarithmic scale.
 struct Change {
-  double damping = 0.0, stiffness = 0.0;                // ln(b / reference)
-  double variance = 0.0;                                // of damping - stiffness, correlation neglected
-  double strut() const { return damping - stiffness; }  // free of the load
+  double damping = 0.0, stiffness = 0.0;  // ln(b / reference)
+  double strut = 0.0;                     // damping - stiffness, free of the load
+  double variance = 0.0;                  // of that, correlation neglected
 };
 
 using Changes = std::array<Change, kNumCorners>;
@@ -25,17 +25,12 @@ double medianOf(std::vector<double> values) {
   return values.size() % 2 != 0 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-template <class Quantity>
-double medianOfOthers(const Changes& changes, const Members& members, std::size_t corner, Quantity quantity) {
+double medianOfOthers(const Changes& changes, const Members& members, std::size_t corner, double Change::*quantity) {
   std::vector<double> values;
   for (const std::size_t other : members)
-    if (other != corner) values.push_back(quantity(changes[other]));
+    if (other != corner) values.push_back(changes[other].*quantity);
   return medianOf(std::move(values));
 }
-
-double damping(const Change& change) { return change.damping; }
-double stiffness(const Change& change) { return change.stiffness; }
-double strut(const Change& change) { return change.strut(); }
 
 constexpr std::size_t sameAxle(std::size_t corner) { return corner ^ 1u; }
 
@@ -60,6 +55,7 @@ Change changeOf(const CornerState& corner, bool from_nominal) {
   Change change;
   change.damping = std::log(corner.damping_to_mass / (from_nominal ? *corner.nominal_damping_to_mass : 1.0));
   change.stiffness = std::log(corner.stiffness_to_mass / (from_nominal ? *corner.nominal_stiffness_to_mass : 1.0));
+  change.strut = change.damping - change.stiffness;
   change.variance = square(corner.damping_to_mass_stddev / corner.damping_to_mass) +
                     square(corner.stiffness_to_mass_stddev / corner.stiffness_to_mass);
   return change;
@@ -78,7 +74,7 @@ Members takeOutDamaged(const Changes& changes, Members members, const CornerComp
                        CornerComparisonReport& report) {
   while (members.size() >= 3) {
     const auto deviation = [&](std::size_t corner) {
-      return changes[corner].strut() - medianOfOthers(changes, members, corner, strut);
+      return changes[corner].strut - medianOfOthers(changes, members, corner, &Change::strut);
     };
     const std::size_t worst = *std::max_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
       return std::abs(deviation(a)) < std::abs(deviation(b));
@@ -91,9 +87,9 @@ Members takeOutDamaged(const Changes& changes, Members members, const CornerComp
     const std::size_t partner = sameAxle(worst);
     const bool paired = has(members, partner);
     const double reference_damping =
-        paired ? changes[partner].damping : medianOfOthers(changes, members, worst, damping);
+        paired ? changes[partner].damping : medianOfOthers(changes, members, worst, &Change::damping);
     const double reference_stiffness =
-        paired ? changes[partner].stiffness : medianOfOthers(changes, members, worst, stiffness);
+        paired ? changes[partner].stiffness : medianOfOthers(changes, members, worst, &Change::stiffness);
     accuse(report, worst, changes[worst].damping - reference_damping, changes[worst].stiffness - reference_stiffness);
   }
   return members;
@@ -104,7 +100,7 @@ void findLoad(const Changes& changes, const Members& healthy, const CornerCompar
               CornerComparisonReport& report) {
   std::vector<double> stiffness_changes, strut_changes;
   for (const std::size_t corner : healthy) {
-    strut_changes.push_back(changes[corner].strut());
+    strut_changes.push_back(changes[corner].strut);
     if (!counts(changes[corner].stiffness, changes[corner].variance, options)) continue;
     report.verdicts[corner] = CornerVerdict::kLoad;
     stiffness_changes.push_back(changes[corner].stiffness);
@@ -158,9 +154,10 @@ CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>
   if (report.by_nominal) {
     for (const std::size_t corner : valid) {
       const Change& change = changes[corner];
-      report.damping_deviation[corner] = std::expm1(change.damping - medianOfOthers(changes, valid, corner, damping));
+      report.damping_deviation[corner] =
+          std::expm1(change.damping - medianOfOthers(changes, valid, corner, &Change::damping));
       report.stiffness_deviation[corner] =
-          std::expm1(change.stiffness - medianOfOthers(changes, valid, corner, stiffness));
+          std::expm1(change.stiffness - medianOfOthers(changes, valid, corner, &Change::stiffness));
     }
     const Members healthy = takeOutDamaged(changes, valid, options, report);
     findLoad(changes, healthy, options, report);

@@ -45,23 +45,22 @@ void EarlyWarning::Sum::add(double step, double threshold) {
 
 LogChange ChangeTrend::carryOn(const LogChange& change, double age, double now, double window, double certain) {
   if (now < last_) restart();
-  const double spacing = count_ > 0 ? now - last_ : window;
+  const double spacing = points_.empty() ? window : now - last_;
   last_ = now;
   const double new_share = std::min(1.0, spacing / window);
-  points_[count_++ % kChanges] = {now - age, change.size, new_share / (change.stddev * change.stddev)};
+  points_.push_back({now - age, change.size, new_share / (change.stddev * change.stddev)});
   double weight = 0.0, time = 0.0, size = 0.0;
-  const std::size_t kept = std::min(count_, kChanges);
-  for (std::size_t i = 0; i < kept; ++i) {
-    weight += points_[i].weight;
-    time += points_[i].weight * points_[i].time;
-    size += points_[i].weight * points_[i].size;
+  for (const Point& point : points_) {
+    weight += point.weight;
+    time += point.weight * point.time;
+    size += point.weight * point.size;
   }
   time /= weight;
   size /= weight;
   double information = 0.0, product = 0.0;
-  for (std::size_t i = 0; i < kept; ++i) {
-    information += points_[i].weight * std::pow(points_[i].time - time, 2);
-    product += points_[i].weight * (points_[i].time - time) * (points_[i].size - size);
+  for (const Point& point : points_) {
+    information += point.weight * std::pow(point.time - time, 2);
+    product += point.weight * (point.time - time) * (point.size - size);
   }
   if (!(product * product > certain * certain * information)) return change;
   const double slope = product / information;

@@ -3,16 +3,14 @@
 #include <algorithm>
 
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
+#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kGravity = 9.80665;  // [m/s^2]
-constexpr double kCertain = 5.0;      // standard deviations
-constexpr double kMuchLarger = 9.0;   // variance over variance
-constexpr double kInG = 0.15;         // so near 1 is what a sensor of gravity reads that has g for its unit
+constexpr double kInG = 0.15;  // so near 1 is what a sensor of gravity reads that has g for its unit
 
-bool hasGravity(double mean) { return std::abs(mean) > kGravity / 2.0; }
+bool hasGravity(double mean) { return std::abs(mean) > kStandardGravity / 2.0; }
 
 bool isOfMotion(SensorFault fault) {
   return fault == SensorFault::kNegativeDamping || fault == SensorFault::kUnrelated;
@@ -96,8 +94,9 @@ SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
   const bool is_strut = la.explained >= least_explained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
   if (is_strut) return SensorFault::kNone;
   const bool body_moves = readings_[0].isOfStrut(), wheel_moves = readings_[1].isMotion();
-  if (body_moves && la.damping_to_mass < -kCertain * la.damping_to_mass_stddev) return SensorFault::kNegativeDamping;
-  const bool may_be_swapped = readings_[0].band > kMuchLarger * readings_[1].band;
+  if (body_moves && la.damping_to_mass < -kCertainlyNegative * la.damping_to_mass_stddev)
+    return SensorFault::kNegativeDamping;
+  const bool may_be_swapped = readings_[0].band > square(kMuchLarger) * readings_[1].band;
   return wheel_moves && (body_moves || may_be_swapped) ? SensorFault::kUnrelated : SensorFault::kNone;
 }
 
@@ -106,7 +105,7 @@ SensorFault SensorCheck::judgeMeans() const {
   if (const SensorFault fault = judgeGravity(); fault != SensorFault::kNone) return fault;
   if (isOff(readings_[0])) return SensorFault::kSprungGravity;
   if (isOff(readings_[1])) return SensorFault::kUnsprungGravity;
-  const auto clear = [](const Reading& reading) { return reading.meanNoise() < kGravity / 4.0; };
+  const auto clear = [](const Reading& reading) { return reading.meanNoise() < kStandardGravity / 4.0; };
   if (clear(readings_[0]) && clear(readings_[1]) && hasGravity(readings_[0].mean()) != hasGravity(readings_[1].mean()))
     return SensorFault::kGravityOnOneSide;
   return SensorFault::kNone;
@@ -115,7 +114,7 @@ SensorFault SensorCheck::judgeMeans() const {
 // What two means tell that each of them does not.
 SensorFault SensorCheck::judgeGravity() const {
   const auto reads_gravity = [](const Reading& reading) {
-    return hasGravity(reading.mean()) && reading.meanNoise() < kGravity / 2.0;
+    return hasGravity(reading.mean()) && reading.meanNoise() < kStandardGravity / 2.0;
   };
   const auto in_g = [](const Reading& reading) {
     const double noise = reading.meanNoise();
@@ -129,8 +128,8 @@ SensorFault SensorCheck::judgeGravity() const {
 }
 
 bool SensorCheck::isOff(const Reading& reading) const {
-  const double off = std::min(std::abs(reading.mean()), std::abs(std::abs(reading.mean()) - kGravity));
-  return off > tolerance_ * kGravity + reading.meanNoise();
+  const double off = std::min(std::abs(reading.mean()), std::abs(std::abs(reading.mean()) - kStandardGravity));
+  return off > tolerance_ * kStandardGravity + reading.meanNoise();
 }
 
 }  // namespace suspension_health_monitor

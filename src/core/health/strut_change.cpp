@@ -8,8 +8,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-double median(double a, double b, double c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
-
 LoadRange logRange(double range) { return {range < 1.0 ? std::log1p(-range) : -std::log1p(range), std::log1p(range)}; }
 
 struct Load {
@@ -18,7 +16,8 @@ struct Load {
 
 // What both have in common, as far as that is significant against the known load.
 Load commonLoad(const LogChange& damping, const LogChange& stiffness, const LoadRange& range, double known) {
-  const double common = median(known, -damping.size, -stiffness.size);
+  const auto [less, more] = std::minmax({-damping.size, -stiffness.size});
+  const double common = std::clamp(known, less, more);
   const double stddev = common == -damping.size ? damping.stddev : stiffness.stddev;
   const double noise = stddev > 0.0 ? 2.0 * stddev : 0.0;
   if (std::abs(common - known) <= noise) return {known, 0.0};

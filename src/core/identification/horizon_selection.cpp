@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <sstream>
+#include <limits>
 #include <stdexcept>
+
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -15,15 +17,11 @@ constexpr double kCurveDecades = 1.5;  // on either side of the bandwidth
 // omega h / 2 at which sinc^2 is sqrt(1/2).
 constexpr double kFilterHalfPower = 1.0019063576966072;
 
-constexpr double kMostSamples = 1e6;
-
 constexpr double kLargest = 1e12;  // [1/s], [1/s^2]: their squares stay numbers
 
 void requireAboveZero(const char* name, double value, const char* unit) {
   if (value > 0.0 && value <= kLargest) return;
-  std::ostringstream message;
-  message << name << " = " << value << " [" << unit << "], must be above 0 and at most " << kLargest;
-  throw std::invalid_argument(message.str());
+  throw std::invalid_argument(formatted("%s = %g [%s], must be above 0 and at most %g", name, value, unit, kLargest));
 }
 
 // With x = omega^2 / b0 and c = b1^2 / b0,  |G|^2 = (1 + c x) / ((1 - x)^2 + c x).
@@ -69,7 +67,7 @@ HorizonProposal proposeHorizon(double damping_to_mass, double stiffness_to_mass)
 int horizonSamples(double horizon, double period) {
   requireAboveZero("integration_horizon", horizon, "s");
   requireAboveZero("sample_period", period, "s");
-  const double samples = std::min(horizon / period, kMostSamples);
+  const double samples = std::min(horizon / period, 1.0 * std::numeric_limits<int>::max());
   return std::max(1, static_cast<int>(std::lround(samples)));
 }
 

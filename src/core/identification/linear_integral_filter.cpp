@@ -23,13 +23,6 @@ LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOption
     const int for_differences = (order - i) * (horizon_ + lateness_) + 1;
     lines_.emplace_back(i < num_integrals ? std::max(for_differences, integral.requiredHistory()) : for_differences);
   }
-  binomials_.push_back({1.0});
-  for (int r = 1; r <= order; ++r) {
-    std::vector<double> row(static_cast<std::size_t>(r) + 1, 0.0);
-    for (std::size_t j = 0; j < row.size(); ++j)
-      row[j] = (j < binomials_.back().size() ? binomials_.back()[j] : 0.0) - (j > 0 ? binomials_.back()[j - 1] : 0.0);
-    binomials_.push_back(row);
-  }
 }
 
 void LinearIntegralFilter::push(double sample) {
@@ -45,9 +38,10 @@ double LinearIntegralFilter::output(int derivative) const {
   if (derivative == 0) return line.at(0);
   if (derivative == 1) return line.at(lag) - line.at(lag + horizon_);
   if (derivative == 2) return line.at(lag) - 2.0 * line.at(lag + horizon_) + line.at(lag + 2 * horizon_);
-  double result = 0.0;
-  for (const double coefficient : binomials_[static_cast<std::size_t>(derivative)]) {
+  double result = 0.0, coefficient = 1.0;  // of q^(-jL) in (1 - q^-L)^r
+  for (int j = 0; j <= derivative; ++j) {
     result += coefficient * line.at(lag);
+    coefficient = coefficient * (j - derivative) / (j + 1);
     lag += horizon_;
   }
   return result;

@@ -2,25 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
-
-#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 
-void LeastAbsoluteOptions::validate() const {
-  if (start_rows < 1)
-    throw std::invalid_argument("start_rows = " + std::to_string(start_rows) + ", must be at least 1");
-  if (!(std::isfinite(small_divisor) && small_divisor >= 0.0))
-    throw std::invalid_argument("small_divisor = " + numberText(small_divisor) + ", must be at least 0");
-}
-
 RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive,
                                                const LeastAbsoluteOptions& options)
-    : RecursiveEstimator(num_parameters, recursive), absolute_(options), weights_(recursive.forgetting_factor) {
-  options.validate();
-}
+    : RecursiveEstimator(num_parameters, recursive), absolute_(options), weights_(recursive.forgetting_factor) {}
 
 double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;

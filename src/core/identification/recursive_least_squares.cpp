@@ -34,10 +34,7 @@ double RecursiveEstimator::innovate(const RegressionRow& row) {
 }
 
 void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
-  RecursiveOptions changed = options_;
-  changed.forgetting_factor = forgetting_factor;
-  changed.validate();
-  options_ = changed;
+  options_.forgetting_factor = forgetting_factor;
   means_.setForgettingFactor(forgetting_factor);
 }
 

@@ -11,8 +11,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kNumSplits = 6;  // a sample is 1, 2, 4, .. 32 steps
-static_assert(kMostStepsPerSample == 1 << (kNumSplits - 1));
 constexpr double kMeanMemory = 100.0;  // natural periods
 
 using Split = std::vector<WheelInterpolator>;
@@ -33,13 +31,13 @@ double slowestDecay(double damping_to_mass, double stiffness_to_mass) {
 
 bool isFewEnough(double steps) { return steps > 0.0 && steps <= kMostStepsPerSample; }  // not NaN
 
-// In samples; made once, so that no run has to do it while samples come.
-const std::array<Split, kNumSplits>& splits() {
-  static const std::array<Split, kNumSplits> all = [] {
-    std::array<Split, kNumSplits> made;
-    for (std::size_t s = 0; s < kNumSplits; ++s) {
-      const int steps = 1 << s;
-      for (int i = 0; i < steps; ++i) made[s].emplace_back(static_cast<double>(i) / steps, (i + 1.0) / steps, 1.0);
+// A sample as 1, 2, 4, .. steps, in samples; made once, so that no run has to do it while samples come.
+const std::vector<Split>& splits() {
+  static const std::vector<Split> all = [] {
+    std::vector<Split> made;
+    for (int steps = 1; steps <= kMostStepsPerSample; steps *= 2) {
+      made.emplace_back();
+      for (int i = 0; i < steps; ++i) made.back().emplace_back(static_cast<double>(i) / steps, (i + 1.0) / steps, 1.0);
     }
     return made;
   }();

@@ -1,11 +1,11 @@
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
+#include <cstdlib>
 #include <limits>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/setting_groups.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -21,20 +21,10 @@ double takeParameter(OptionMap& values, const std::string& name, double min) {
 
 /// The shortest text that is exactly this number.
 std::string exact(double value) {
-  std::string text;
-  for (int digits = std::numeric_limits<double>::digits10; digits <= std::numeric_limits<double>::max_digits10;
-       ++digits) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(digits);
-    out << value;
-    text = out.str();
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double back = 0.0;
-    if (in >> back && back == value) break;
+  for (int digits = std::numeric_limits<double>::digits10;; ++digits) {
+    const std::string text = formatted("%.*g", digits, value);
+    if (digits == std::numeric_limits<double>::max_digits10 || std::strtod(text.c_str(), nullptr) == value) return text;
   }
-  return text;
 }
 
 std::string line(const char* indent, const std::string& name, double value, const std::string& unit) {
@@ -42,6 +32,14 @@ std::string line(const char* indent, const std::string& name, double value, cons
 }
 
 }  // namespace
+
+void requireAllowed(const std::string& name, const ShapeParameter& shape, double value) {
+  const bool is_plain = shape.scale == ShapeScale::kNone;
+  const double least = is_plain ? shape.min : 1e-9, most = is_plain ? shape.max : 1e9;
+  if (value >= least && value <= most) return;
+  throw std::invalid_argument(
+      formatted("%s = %g [%s], must be in [%g, %g]", name.c_str(), value, shape.unit.c_str(), least, most));
+}
 
 StrutModel takeModel(OptionMap& values, const EffectLibrary& library) {
   StrutModel model;

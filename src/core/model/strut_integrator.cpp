@@ -69,9 +69,6 @@ void integrate(const StrutModel& model, double time, double step, const WheelSte
       state.memory[j] += sixth * (k1.memory[j] + 2 * (k2.memory[j] + k3.memory[j]) + k4.memory[j]);
 }
 
-constexpr double kStiffest = 0.7;  // of a memory's rate times the step; Runge-Kutta's limit of stability is 2.8
-constexpr int kMostParts = 32;
-
 // How fast a memory forgets at some instant [1/s]: |dg/ds|.
 double forgettingRate(const ActiveEffect& active, StrutMotion motion) {
   const double difference = 1e-3 * std::abs(motion.memory) + 1e-9;
@@ -93,8 +90,9 @@ int numParts(const StrutModel& model, const StrutMotion& from, const StrutMotion
       fastest = std::max(fastest, forgettingRate(active, motion));
     }
   }
-  const double parts = std::ceil(fastest * step / kStiffest);
-  return parts < kMostParts ? std::max(1, static_cast<int>(parts)) : kMostParts;  // NaN, too
+  const double parts =
+      std::ceil(fastest * step / (2.0 * kLongestStrutStep));  // Runge-Kutta's limit of stability is 2.8
+  return parts < kMostStepsPerSample ? std::max(1, static_cast<int>(parts)) : kMostStepsPerSample;  // NaN, too
 }
 
 StrutMotion between(const StrutMotion& from, const StrutMotion& to, double share) {

@@ -12,7 +12,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kLongestName = 64, kLongestText = 200, kLongestLaw = 1000;  // [characters]
+constexpr std::size_t kLongestText = 200, kLongestLaw = 1000;  // [characters]
 
 struct LawSettings {
   std::string force, memory_rate, unit, finding = "a law of your own";
@@ -44,28 +44,6 @@ constexpr std::array kShapeFields{
   throw std::invalid_argument(where + ": " + why);
 }
 
-/// Settings by a table, all of them known; messages say where they stand.
-template <class Settings, std::size_t N>
-Settings take(const std::string& where, OptionMap values, const std::array<OptionField<Settings>, N>& fields) {
-  Settings settings;
-  try {
-    takeOptions(values, fields, settings);
-    refuseUnknown(values, describeOptions(fields));
-  } catch (const std::invalid_argument& error) {
-    refuse(where, error.what());
-  }
-  return settings;
-}
-
-/// Names stand in files, tables, messages and expressions.
-void checkName(const std::string& where, const std::string& name) {
-  static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
-  if (name.find_first_of(letters) != 0 || name.find_first_not_of(letters + "0123456789_") != std::string::npos)
-    refuse(where, "the name must be letters, digits and _, a letter first");
-  if (name.size() > kLongestName)
-    refuse(where, "the name must be at most " + std::to_string(kLongestName) + " characters");
-}
-
 void checkText(const std::string& where, const std::string& text) {
   if (std::any_of(text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }))
     refuse(where, "must be one line");
@@ -84,12 +62,13 @@ void checkLaw(const std::string& where, const std::string& law) {
 }
 
 ShapeParameter makeShape(const std::string& where, const std::string& name, const OptionMap& values) {
-  checkName(where, name);
+  requireName(where, name);
   if (LawExpression::isReserved(name) || name == "c" || name == "coefficient")
     refuse(where, "expressions have this name already (d, v, t, s, the coefficient c, a function), choose another");
   for (const char* wanted : {"min", "max"})
     if (values.count(wanted) == 0) refuse(where + '/' + wanted, "is missing; a shape has unit, scale, min, max");
-  const ShapeSettings settings = take(where, values, kShapeFields);
+  ShapeSettings settings;
+  takeAll(where, values, kShapeFields, settings);
   if (settings.min >= settings.max) refuse(where, "min must be below max");
   checkText(where + "/unit", settings.unit);
   static constexpr std::array kScales{"none", "travel", "travel_rate", "time"};  // in the order of ShapeScale
@@ -142,7 +121,7 @@ void checkNew(const std::string& where, const std::string& name) {
 
 ForceEffect makeUserEffect(const std::string& name, OptionMap values) {
   const std::string where = "effects/" + shortened(name);
-  checkName(where, name);
+  requireName(where, name);
   checkNew(where, name);
   std::vector<ShapeParameter> shapes;
   for (const auto& [shape, settings] : takeGroups(values, "shapes"))
@@ -152,7 +131,8 @@ ForceEffect makeUserEffect(const std::string& name, OptionMap values) {
   for (const char* wanted : {"force", "unit"})
     if (values.count(wanted) == 0)
       refuse(where + '/' + wanted, "is missing; an effect has force, unit, and may have memory_rate, finding, shapes");
-  const LawSettings settings = take(where, std::move(values), kLawFields);
+  LawSettings settings;
+  takeAll(where, std::move(values), kLawFields, settings);
   for (const std::string& text : {settings.unit, settings.finding}) checkText(where, text);
 
   const bool has_memory = !settings.memory_rate.empty();

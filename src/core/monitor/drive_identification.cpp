@@ -6,6 +6,7 @@
 
 #include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
+#include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -27,12 +28,10 @@ IdentifiedStrut toIdentified(const StrutEstimate& estimate) {
 
 std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
   if (monitor.input().period_fits) return std::nullopt;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "stamps come every %.6g s, but sample_period = %.6g [s]: ls and la are not valid; leave sample_period "
-                "out to have it measured",
-                monitor.input().mean_period, monitor.period());
-  return text;
+  return formatted(
+      "stamps come every %.6g s, but sample_period = %.6g [s]: ls and la are not valid; leave sample_period "
+      "out to have it measured",
+      monitor.input().mean_period, monitor.period());
 }
 
 IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate& over_the_drive,
@@ -65,7 +64,6 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
 }
 
 bool IdentifyResult::isSteady() const {
-  constexpr double kCertain = 4.0;  // standard deviations: by chance once in 16 000 drives
   const auto agree = [this](double IdentifiedStrut::*value, double IdentifiedStrut::*stddev) {
     return std::abs(estimate.*value - now.*value) <= kCertain * std::hypot(estimate.*stddev, now.*stddev);
   };

@@ -8,8 +8,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kModelEvery = 8;     // samples: a new model costs the free run as much as a step of it
-constexpr int kFiguresEvery = 16;  // samples: rmse and fit are means over seconds
+// Samples: a new model costs the free run as much as a step of it, and rmse and fit are means over seconds.
+constexpr int kSlowlyEvery = 8;
 
 std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const std::vector<ActiveEffect>& after) {
   std::vector<ColumnOrigin> columns;
@@ -88,8 +88,8 @@ ModelTracker::ModelTracker(const MonitorSettings& options, bool has_own_blocks)
       oldest_data_(options.oldest_data),
       identifier_(options),
       free_run_(*options.sample_period),
-      model_due_(kModelEvery),
-      figures_due_(kFiguresEvery),
+      model_due_(kSlowlyEvery),
+      figures_due_(kSlowlyEvery),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
   if (has_own_blocks) blocks_.emplace(block_options_, period_);
 }

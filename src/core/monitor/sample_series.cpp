@@ -24,14 +24,14 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
   if (how == Continuity::kGap) ++status_.gaps;
   if (how == Continuity::kClockJumped) ++status_.restarts;
   if (!last_ || how != Continuity::kContinues) {
-    size_ = 0;
+    recent_.clear();
   } else {
     spacing_.add(toSeconds(sample.stamp - *last_));
   }
   if (!first_ || how == Continuity::kClockJumped) first_ = sample.stamp;
   last_ = sample.stamp;
   ++status_.samples;
-  recent_[size_++ % recent_.size()] = sample;
+  recent_.push_back(sample);
   return how;
 }
 
@@ -41,8 +41,6 @@ void SampleSeries::judge() {
   status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;
 }
 
-const CornerSample* SampleSeries::delayed() const {
-  return size_ > FreeRun::kDelay ? &at(size_ - 1 - FreeRun::kDelay) : nullptr;
-}
+const CornerSample* SampleSeries::delayed() const { return recent_.full() ? &recent_.front() : nullptr; }
 
 }  // namespace suspension_health_monitor

@@ -7,9 +7,10 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kHorizonsOfSensorCheck = 17.0;  // of rows that an estimate needs before it may accuse a sensor
-constexpr double kChecksPerHorizon = 1.5;        // of the sensors: samples within a horizon say much the same
-constexpr double kFewestHorizonsOfMeans = 17.0;  // that readings are averaged over: of fewer nobody knows a mean
+// Horizons of rows that an estimate needs before it may accuse a sensor, and that readings are averaged over: of fewer
+// nobody knows a mean.
+constexpr double kHorizonsOfSensorCheck = 17.0;
+constexpr double kChecksPerHorizon = 1.5;  // of the sensors: samples within a horizon say much the same
 
 const MonitorSettings& checked(const MonitorSettings& options) {
   if (!options.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
@@ -26,7 +27,7 @@ SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options, bool has_ow
       plain_(options, has_own_blocks),
       health_(options.health()),
       sensors_(options.gravity_tolerance,
-               std::max(options.comparison_window / *options.sample_period, kFewestHorizonsOfMeans * horizon_samples_),
+               std::max(options.comparison_window / *options.sample_period, kHorizonsOfSensorCheck * horizon_samples_),
                horizon_samples_),
       sensors_due_(std::max(1, static_cast<int>(horizon_samples_ / kChecksPerHorizon))) {}
 

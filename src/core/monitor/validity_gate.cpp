@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
 
 bool agree(double a, double a_stddev, double b, double b_stddev) {
   const double apart = std::abs(a - b);
-  return apart <= kMostApart * std::abs(b) || apart <= kMostStddevsApart * std::hypot(a_stddev, b_stddev);
+  return apart <= kMostApart * std::abs(b) || apart <= kCertain * std::hypot(a_stddev, b_stddev);
 }
 
 bool isKnown(double relative_stddev) { return relative_stddev <= kMostRelativeStddev; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "slope_filter.h"
 #include "suspension_health_monitor/internal/corner_sample.h"
@@ -16,41 +17,34 @@ constexpr double kConstant = 1e-9;  // change against size, below which a channe
 class Channel {
  public:
   Channel(const std::vector<BodyMotion>& motion, std::array<double, 2> BodyMotion::*member, std::size_t axis)
-      : motion_(motion), member_(member), axis_(axis) {}
+      : motion_(motion) {
+    for (const BodyMotion& m : motion) values_.push_back((m.*member)[axis]);
+  }
 
   double operator()(Stamp stamp) const {
     const auto after = std::lower_bound(motion_.begin(), motion_.end(), stamp,
                                         [](const BodyMotion& m, Stamp s) { return m.stamp < s; });
-    if (after == motion_.begin()) return value(*after);
-    if (after == motion_.end()) return value(motion_.back());
-    const BodyMotion& before = *(after - 1);
-    const double share = toSeconds(stamp - before.stamp) / toSeconds(after->stamp - before.stamp);
-    return (1.0 - share) * value(before) + share * value(*after);
+    const auto i = static_cast<std::size_t>(after - motion_.begin());
+    if (i == 0) return values_.front();
+    if (after == motion_.end()) return values_.back();
+    const double share = toSeconds(stamp - motion_[i - 1].stamp) / toSeconds(motion_[i].stamp - motion_[i - 1].stamp);
+    return (1.0 - share) * values_[i - 1] + share * values_[i];
   }
 
   /// @return false where it is not measured, or does not change.
   bool tells() const {
-    double least = value(motion_.front()), most = least;
-    for (const BodyMotion& m : motion_) {
-      if (!isUsable(value(m))) return false;
-      least = std::min(least, value(m));
-      most = std::max(most, value(m));
-    }
-    return most - least > kConstant * std::max(std::abs(least), std::abs(most));
+    const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
+    return std::all_of(values_.begin(), values_.end(), isUsable) &&
+           *most - *least > kConstant * std::max(std::abs(*least), std::abs(*most));
   }
 
   double mean() const {
-    double sum = 0.0;
-    for (const BodyMotion& m : motion_) sum += value(m);
-    return sum / static_cast<double>(motion_.size());
+    return std::accumulate(values_.begin(), values_.end(), 0.0) / static_cast<double>(values_.size());
   }
 
  private:
-  double value(const BodyMotion& m) const { return (m.*member_)[axis_]; }
-
   const std::vector<BodyMotion>& motion_;
-  std::array<double, 2> BodyMotion::*member_;
-  std::size_t axis_;
+  std::vector<double> values_;
 };
 
 void addAcceleration(const Channel& channel, std::size_t axis, std::vector<DriveSegment>& segments) {

@@ -116,6 +116,13 @@ std::vector<const DriveSegment*> segmentsOf(const Records& records) {
   return all;
 }
 
+std::vector<std::vector<double>> seriesOf(const std::vector<const DriveSegment*>& segments,
+                                          std::vector<double> DriveSegment::*series) {
+  std::vector<std::vector<double>> all;
+  for (const DriveSegment* segment : segments) all.push_back(segment->*series);
+  return all;
+}
+
 std::deque<DriveRecord> makeRecords(const std::vector<Drive>& drives, double period, const StrutModel& model) {
   const double fastest = std::max(model.damping_to_mass, std::sqrt(model.stiffness_to_mass));
   const int steps = std::max(1, static_cast<int>(std::ceil(period * fastest / kLongestStrutStep)));

@@ -8,7 +8,6 @@
 #include "model_evaluator.h"
 #include "rivals.h"
 #include "selection.h"
-#include "separating_drive.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
@@ -33,9 +32,8 @@ Names namesBeyond(const EvaluatedModel& base, const EvaluatedModel& model) {
 
 /// The residual from which on a fit counts outliers.
 double outlierOf(const ModelFit& fit) {
-  std::vector<double> all;
-  for (const std::vector<double>& segment : fit.residuals) all.insert(all.end(), segment.begin(), segment.end());
-  const double size = robustDeviation(std::move(all));
+  const Eigen::VectorXd all = joined(fit.residuals);
+  const double size = robustDeviation({all.data(), all.data() + all.size()});
   return size > 0.0 ? kOutlierScale * size : 1.0;
 }
 
@@ -94,8 +92,7 @@ void Search::noteGroup(const Selection& selection) {
   }
   if (selection.group.size() < 2) return;
   result_.indistinguishable.push_back(selection.group);
-  result_.separating.push_back(
-      separatingDrive(evaluator_.motionOf(selection.chosen), selection.group, selection.models));
+  result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen), selection));
 }
 
 // What the first effect explained, the later ones may explain better together.
@@ -193,9 +190,7 @@ EvaluatedModel Search::refine(EvaluatedModel current) {
 
 // To all samples; if the solver does not get there, the numbers of the fit that was judged are not worse than none.
 FittedModel Search::finalFit(const EvaluatedModel& last) const {
-  FitOptions options;
-  options.initial = last.fit.initial;
-  const FitOutcome fit = fitOutputError(records_, {}, last.ranked.model, options);
+  const FitOutcome fit = fitOutputError(records_, {}, last.ranked.model, last.fit.initial);
   return fit ? FittedModel{fit->model, fit->stddev, true} : FittedModel{last.fit.model, last.fit.stddev, false};
 }
 

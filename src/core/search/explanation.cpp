@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body_turning.h"
+#include "rivals.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kAll = 1.0 - kStructured;
 
 /// The share of what a model leaves above the floor that another one takes.
 double shareOf(const EvaluatedModel& before, const EvaluatedModel& after, double floor) {
@@ -43,7 +41,7 @@ double Explanation::floorOf(const EvaluatedModel& after, double floor) const {
 bool Explanation::isExplained(const EvaluatedModel& after, const EvaluatedModel& before, double floor) const {
   if (mayBeOtherStruts(after)) return false;
   const auto takesAll = [&](double lowest) {
-    return shareOf(base_, after, lowest) > kAll && shareOf(before, after, lowest) > kAll;
+    return std::min(shareOf(base_, after, lowest), shareOf(before, after, lowest)) > 1.0 - kStructured;
   };
   const double lowest = std::hypot(floor, lostInSampling(records_, after.fit));
   if (takesAll(lowest)) return true;

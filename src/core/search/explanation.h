@@ -26,7 +26,7 @@ class Explanation {
   bool isSuspect(const EvaluatedModel& after) const;
 
   /// @return true if other struts of the same body may have done what is taken for something else: on a body that the
-  /// strut itself turns, see body_turning.h, they imitate any fault of its IMU but an offset, and forces on the body.
+  /// strut itself turns, see shareOfTurning(), they imitate any fault of its IMU but an offset, and forces on the body.
   bool mayBeOtherStruts(const EvaluatedModel& after) const;
 
   /// @return shareOfTurning() of the base.

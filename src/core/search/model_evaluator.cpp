@@ -91,9 +91,7 @@ EvaluatedModel ModelEvaluator::failed(const EvaluatedModel& before, FitFailure f
 
 EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
                                         const EvaluatedModel* before) const {
-  FitOptions options;
-  options.initial = initial;
-  const FitOutcome fit = fitOutputError(records_, held_out_.training, start, options);
+  const FitOutcome fit = fitOutputError(records_, held_out_.training, start, initial);
   const FitFailure failure = fit ? againstPhysics(*fit) : fit.failure;
   const auto without = [&](FitFailure why) { return failed(before != nullptr ? *before : EvaluatedModel(), why); };
   if (failure != FitFailure::kNone) return without(failure);

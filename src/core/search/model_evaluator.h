@@ -11,10 +11,6 @@
 
 namespace suspension_health_monitor {
 
-/// A smaller share of what there was to explain is not worth another effect, nor, of what is left, a difference between
-/// two models.
-inline constexpr double kWorthHaving = 0.02;
-
 /// What takes less of the error (mean square) is not given a name.
 inline constexpr double kMostOfIt = 0.5;
 

@@ -2,7 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
-#include <thread>
+#include <future>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -18,19 +18,15 @@ void forEachInParallel(std::size_t count, int threads, const Work& work, const T
       after();
     }
   };
-  struct Helpers {
-    explicit Helpers(std::atomic<std::size_t>& next, std::size_t end) : next_(next), end_(end) {}
-    ~Helpers() {
-      next_ = end_;
-      for (std::thread& thread : threads) thread.join();
-    }
-    std::vector<std::thread> threads;
-    std::atomic<std::size_t>& next_;
-    std::size_t end_;
-  } helpers(next, count);
+  std::vector<std::future<void>> helpers;  // their end waits for the threads
   for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i)
-    helpers.threads.emplace_back([&] { takeItems([] {}); });
-  takeItems(tick);
+    helpers.push_back(std::async(std::launch::async, [&] { takeItems([] {}); }));
+  try {
+    takeItems(tick);
+  } catch (...) {
+    next = count;
+    throw;
+  }
 }
 
 }  // namespace suspension_health_monitor

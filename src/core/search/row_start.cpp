@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "shape_scan.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
+#include "suspension_health_monitor/internal/search/screening.h"
 #include "suspension_health_monitor/internal/signal/low_pass.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
@@ -15,12 +15,6 @@ namespace {
 
 constexpr std::size_t kMostRows = 4000;   // a start need not be better than the noise in them allows
 constexpr double kStretchPeriods = 32.0;  // natural periods: long against the memory of any law
-
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
 
 /// The parts of a segment that are looked at: all of it, or stretches that are spread evenly over it.
 /// @param share  of the samples, 0 .. 1.
@@ -46,7 +40,7 @@ RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelF
     const DriveSegment& segment = *segments[s];
     std::vector<double> relative = segment.driving;
     for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment.sprung[k];
-    const MotionError motion = motionError(relative, mean(relative), segment.period, b0);
+    const MotionError motion = motionError(relative, joined<double>({relative}).mean(), segment.period, b0);
     const auto length =
         static_cast<std::size_t>(std::ceil(kStretchPeriods * 2.0 * M_PI / (std::sqrt(b0) * segment.period)));
     for (const auto& [first, end] : stretchesOf(segment.size(), length, kMostRows / samples)) {
@@ -65,14 +59,7 @@ RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelF
   const auto count = static_cast<Eigen::Index>(motion_.size());
   scale_ = {std::sqrt(travel / static_cast<double>(count)), std::sqrt(rate / static_cast<double>(count)),
             1.0 / std::sqrt(b0)};
-  const std::vector<ActiveEffect>& effects = fit.model.effects;
-  Eigen::MatrixXd common(count, 2 + static_cast<Eigen::Index>(effects.size()));
-  for (Eigen::Index k = 0; k < count; ++k) {
-    common(k, 0) = motion_[static_cast<std::size_t>(k)].travel_rate;
-    common(k, 1) = motion_[static_cast<std::size_t>(k)].travel;
-  }
-  for (std::size_t j = 0; j < effects.size(); ++j)
-    common.col(2 + static_cast<Eigen::Index>(j)) = forceAlong(effects[j].effect, effects[j].shapes, motion_, ends_);
+  Eigen::MatrixXd common = forcesAlong(fit.model, motion_, ends_);
   for (Eigen::Index j = 0; j < common.cols(); ++j) passLow(common.col(j));
   rows_ = WeightedProjection(common, Eigen::Map<const Eigen::VectorXd>(weight.data(), count),
                              Eigen::Map<const Eigen::VectorXd>(measured.data(), count));

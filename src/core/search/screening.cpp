@@ -3,22 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shape_scan.h"
 #include "suspension_health_monitor/internal/fit/hat_functions.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
+constexpr double kRatio = 1.45;  // between neighbours
+constexpr double kMostCombinations = 64.0;
 constexpr Eigen::Index kSurfaceRows = 20000;
-
-Eigen::VectorXd joined(const Residuals& segments, Eigen::Index count) {
-  Eigen::VectorXd all(count);
-  Eigen::Index k = 0;
-  for (const std::vector<double>& segment : segments)
-    for (const double value : segment) all[k++] = value;
-  return all;
-}
 
 Residuals split(const Eigen::VectorXd& all, const std::vector<std::size_t>& ends) {
   Residuals segments;
@@ -33,34 +26,37 @@ Residuals split(const Eigen::VectorXd& all, const std::vector<std::size_t>& ends
 // Weights of the smooth Huber loss, 0 where a sample is held out.
 Eigen::VectorXd trainingWeights(const HoldOut& held_out, const Eigen::VectorXd& residual) {
   const double limit = kOutlierScale * robustDeviation({residual.data(), residual.data() + residual.size()});
-  Eigen::VectorXd weight(residual.size());
-  Eigen::Index k = 0;
-  for (const SampleMask& mask : held_out.training)
-    for (const char trained : mask) {
-      const double q = limit > 0.0 ? residual[k] / limit : 0.0;
-      weight[k++] = trained != 0 ? 1.0 / std::sqrt(1.0 + square(q)) : 0.0;
-    }
-  return weight;
+  const Eigen::VectorXd trained = joined(held_out.training);
+  if (!(limit > 0.0)) return trained;
+  return trained.array() / (1.0 + (residual.array() / limit).square()).sqrt();
 }
 
 }  // namespace
 
+std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const MotionScale& scales) {
+  const auto dimensions = static_cast<double>(effect.shapes.size());
+  const auto most = dimensions > 0.0 ? static_cast<int>(std::pow(kMostCombinations, 1.0 / dimensions) + 1e-9) : 1;
+  std::vector<std::vector<double>> result{{}};
+  for (const ShapeParameter& shape : effect.shapes) {
+    const double ratio = shape.max / shape.min;
+    const int count =
+        std::clamp(static_cast<int>(std::lround(std::log(ratio) / std::log(kRatio))), std::min(2, most), most);
+    std::vector<std::vector<double>> longer;
+    for (const std::vector<double>& shapes : result)
+      for (int i = 0; i < count; ++i) {
+        longer.push_back(shapes);
+        longer.back().push_back(scales.unit(shape.scale) * shape.min * std::pow(ratio, (i + 0.5) / count));
+      }
+    result = std::move(longer);
+  }
+  return result;
+}
+
 Screening::Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit)
     : records_(records), response_(records, fit) {
-  const Eigen::Index n = response_.numSamples();
-  const Eigen::VectorXd residual = joined(fit.residuals, n);
-  Eigen::VectorXd travel(n), rate(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    travel[k] = response_.motion()[static_cast<std::size_t>(k)].travel;
-    rate[k] = response_.motion()[static_cast<std::size_t>(k)].travel_rate;
-  }
-  const std::vector<ActiveEffect>& effects = fit.model.effects;
-  Eigen::MatrixXd common(n, 2 + static_cast<Eigen::Index>(effects.size()));
-  common.col(0) = response_.respond(rate);
-  common.col(1) = response_.respond(travel);
-  for (std::size_t j = 0; j < effects.size(); ++j)
-    common.col(2 + static_cast<Eigen::Index>(j)) =
-        response_.respond(response_.forceAlong(effects[j].effect, effects[j].shapes));
+  Eigen::MatrixXd common = forcesAlong(fit.model, response_.motion(), response_.ends());
+  for (Eigen::Index j = 0; j < common.cols(); ++j) common.col(j) = response_.respond(common.col(j));
+  const Eigen::VectorXd residual = joined(fit.residuals);
   rows_ = WeightedProjection(common, trainingWeights(held_out, residual), residual);
 }
 
@@ -93,7 +89,7 @@ std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const 
   const double natural_time = 1.0 / std::sqrt(response_.fit().model.stiffness_to_mass);
   for (const std::vector<double>& shapes :
        scanShapes(effect, {response_.travel(), response_.travelRate(), natural_time})) {
-    Eigen::VectorXd column = response_.respond(response_.forceAlong(effect, shapes));
+    Eigen::VectorXd column = response_.respond(forceAlong(effect, shapes, response_.motion(), response_.ends()));
     const std::optional<WeightedProjection::Part> projection = rows_.project(column);
     acts = acts || projection;
     if (!projection || (effect.positive && !(projection->coefficients[0] > 0.0))) continue;
@@ -135,7 +131,7 @@ std::optional<ScreenedModel> Screening::asItIs(const StrutModel& model) const {
     for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k] = segment->sprung[k] - predicted[k];
     screened.residuals.push_back(predicted);
   }
-  const Eigen::VectorXd left = joined(screened.residuals, response_.numSamples());
+  const Eigen::VectorXd left = joined(screened.residuals);
   screened.training_gain = rows_.weight().dot(rows_.target().cwiseAbs2() - left.cwiseAbs2());
   return screened;
 }

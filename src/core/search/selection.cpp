@@ -1,11 +1,56 @@
 #include "selection.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kStraight = 0.005;  // of a reading: the nonlinearity of accelerometers
+
+/// How the motion of a kind of drive compares with that of the present one.
+struct MotionChange {
+  DriveKind kind;
+  double travel, travel_rate, time;
+};
+
+constexpr MotionChange kChanges[] = {
+    {DriveKind::kMoreTravel, 2.0, 2.0, 1.0},   {DriveKind::kLessTravel, 1.0 / 3.0, 1.0 / 3.0, 1.0},
+    {DriveKind::kSlower, 1.0, 1.0 / 3.0, 1.0}, {DriveKind::kQuicker, 1.0, 3.0, 1.0},
+    {DriveKind::kLonger, 1.0, 1.0, 3.0},
+};
+constexpr double kHelps = 2.0;  // times as different as in the drives at hand
+
+std::vector<StrutMotion> scaled(const std::vector<StrutMotion>& motion, const MotionChange& change) {
+  std::vector<StrutMotion> result = motion;
+  for (StrutMotion& m : result) {
+    m.travel *= change.travel;
+    m.travel_rate *= change.travel_rate;
+    m.time *= change.time;
+  }
+  return result;
+}
+
+Eigen::VectorXd totalForce(const StrutModel& model, const std::vector<StrutMotion>& motion,
+                           const std::vector<std::size_t>& ends) {
+  const Eigen::MatrixXd forces = forcesAlong(model, motion, ends);
+  Eigen::VectorXd total = model.damping_to_mass * forces.col(0) + model.stiffness_to_mass * forces.col(1);
+  for (std::size_t j = 0; j < model.effects.size(); ++j)
+    total += model.effects[j].coefficient * forces.col(2 + static_cast<Eigen::Index>(j));
+  return total;
+}
+
+/// rms difference of the least different model from the first, as a share of the first one's force.
+double difference(const LinearResponse& present, const std::vector<StrutModel>& models, const MotionChange& change) {
+  const std::vector<StrutMotion> motion = scaled(present.motion(), change);
+  const Eigen::VectorXd first = totalForce(models.front(), motion, present.ends());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < models.size(); ++i)
+    least = std::min(least, (totalForce(models[i], motion, present.ends()) - first).norm() / first.norm());
+  return least;
+}
 
 }  // namespace
 
@@ -26,6 +71,18 @@ Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOut& held
       selection.chosen = rival;
   }
   return selection;
+}
+
+SeparatingDrive separatingDrive(const LinearResponse& present, const Selection& selection) {
+  const double here = difference(present, selection.models, {DriveKind::kNoneHelps, 1.0, 1.0, 1.0});
+  SeparatingDrive best{selection.group, DriveKind::kNoneHelps, kHelps * here, here};
+  for (const MotionChange& change : kChanges) {
+    const double there = difference(present, selection.models, change);
+    if (!(there > best.difference_there)) continue;
+    best.kind = change.kind;
+    best.difference_there = there;
+  }
+  return best;
 }
 
 }  // namespace suspension_health_monitor

@@ -21,4 +21,9 @@ struct Selection {
 /// @pre the first of the ranking is fitted.
 Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOut& held_out);
 
+/// The kind of drive on which models differ that the present drives cannot tell apart: of several kinds (rougher,
+/// smoother, slower, quicker, longer) the one in which the least different of them differs most from the first, their
+/// forces taken along the present motion scaled to that kind. kNoneHelps if none makes it at least twice as much.
+SeparatingDrive separatingDrive(const LinearResponse& present, const Selection& selection);
+
 }  // namespace suspension_health_monitor

@@ -1,7 +1,7 @@
 #include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
 
 #include <Eigen/Dense>
-#include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
 namespace suspension_health_monitor {
@@ -48,20 +48,15 @@ BandlimitedInterpolator::BandlimitedInterpolator(double fraction) : weights_(2 *
 }
 
 BandlimitedInterpolator BandlimitedInterpolator::integral(double from, double to, int power) {
-  // Six Gauss-Legendre nodes on [-1, 1]; Abramowitz and Stegun, table 25.4.
-  constexpr std::array<std::array<double, 2>, 6> kNodes{{{-0.932469514203152, 0.171324492379170},
-                                                         {-0.661209386466265, 0.360761573048139},
-                                                         {-0.238619186083197, 0.467913934572691},
-                                                         {0.238619186083197, 0.467913934572691},
-                                                         {0.661209386466265, 0.360761573048139},
-                                                         {0.932469514203152, 0.171324492379170}}};
+  using Gauss = boost::math::quadrature::gauss<double, 10>;
   std::vector<double> weights(2 * kHalfWidth, 0.0);
-  for (const auto& [x, weight] : kNodes) {
-    const double position = from + (to - from) * (x + 1.0) / 2.0;
-    const BandlimitedInterpolator node(position);
-    for (std::size_t i = 0; i < weights.size(); ++i)
-      weights[i] += (to - from) / 2.0 * weight * std::pow(to - position, power) * node.weights_[i];
-  }
+  for (std::size_t n = 0; n < Gauss::abscissa().size(); ++n)
+    for (const double side : {-1.0, 1.0}) {
+      const double position = from + (to - from) * (1.0 + side * Gauss::abscissa()[n]) / 2.0;
+      const BandlimitedInterpolator node(position);
+      for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] += (to - from) / 2.0 * Gauss::weights()[n] * std::pow(to - position, power) * node.weights_[i];
+    }
   return BandlimitedInterpolator(weights);
 }
 

@@ -10,8 +10,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kTolerance = 1e-10;  // per step, absolute [m, m/s] and relative
-
 double longestStep(const Scenario& scenario) {
   const QuarterCar& car = scenario.vehicle;
   double strut = scenario.strut.stiffness_to_mass;
@@ -115,7 +113,8 @@ void DriveSimulator::integrate(Course& course, double to) {
   if (to <= course.time) return;
   namespace odeint = boost::numeric::odeint;
   const double first_step = std::min(max_step_, to - course.time);
-  const auto stepper = odeint::make_controlled(kTolerance, kTolerance, max_step_, odeint::runge_kutta_dopri5<State>());
+  const auto stepper = odeint::make_controlled(IntegrationGuard::kTolerance, IntegrationGuard::kTolerance, max_step_,
+                                               odeint::runge_kutta_dopri5<State>());
   const auto system = [this](const State& x, State& derivative, double t) {
     guard_.countEvaluation(t);
     derivative = motionAt(x, t).derivative;

@@ -10,7 +10,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kTolerance = 1e-10;   // per step, absolute [m, m/s] and relative
 constexpr std::size_t kBodyRates = 3;  // places in the state
 constexpr std::size_t kWheels = 6;
 
@@ -66,8 +65,8 @@ VehicleMotion::VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, st
 void VehicleMotion::advance(double t) {
   namespace odeint = boost::numeric::odeint;
   if (!(t > time_)) return;
-  const auto stepper =
-      odeint::make_controlled(kTolerance, kTolerance, kLongestStep, odeint::runge_kutta_dopri5<State>());
+  const auto stepper = odeint::make_controlled(IntegrationGuard::kTolerance, IntegrationGuard::kTolerance, kLongestStep,
+                                               odeint::runge_kutta_dopri5<State>());
   const auto system = [this](const State& state, State& derivative, double now) {
     guard_.countEvaluation(now);
     evaluate(state, now, derivative);

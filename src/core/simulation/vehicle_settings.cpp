@@ -14,23 +14,6 @@ namespace {
 
 constexpr double kStiffest = 1e12;  // [N/m]
 
-template <class Options, std::size_t N>
-void takeAll(const std::string& group, OptionMap& values, const std::array<OptionField<Options>, N>& fields,
-             Options& options) {
-  prefixed(group + ": ", [&] {
-    takeOptions(values, fields, options);
-    refuseUnknown(values, describeOptions(fields));
-  });
-}
-
-/// Names become parts of topics.
-void requireName(const std::string& group, const std::string& name) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  const auto other = [&](char c) { return !letter(c) && !(c >= '0' && c <= '9') && c != '_'; };
-  if (name.empty() || !letter(name.front()) || std::any_of(name.begin(), name.end(), other))
-    throw std::invalid_argument(group + '/' + shortened(name) + ", must be a letter and then letters, digits and _");
-}
-
 void changeStrut(OptionMap& values, const EffectLibrary& library, VehicleStrut& strut) {
   const std::string group = "struts/" + strut.name;
   prefixed(group + ": ", [&] {
@@ -62,7 +45,7 @@ void changeBars(OptionMap& values, Vehicle& vehicle) {
 
 void changeKnownForces(OptionMap& values, Vehicle& vehicle) {
   for (auto& [name, settings] : takeGroups(values, "known_forces")) {
-    requireName("known_forces", name);
+    requireName("known_forces/" + shortened(name), name);
     std::vector<KnownForce>& forces = vehicle.known_forces;
     const auto same = [&, &name = name](const KnownForce& force) { return force.name == name; };
     auto force = std::find_if(forces.begin(), forces.end(), same);
@@ -75,8 +58,7 @@ void changeKnownForces(OptionMap& values, Vehicle& vehicle) {
 }
 
 void changeImu(OptionMap& values, Vehicle& vehicle) {
-  OptionMap settings = takePrefixed(values, "body_imu");
-  takeAll("body_imu", settings, kVehicleImuFields, vehicle.body_imu);
+  takeAll("body_imu", takePrefixed(values, "body_imu"), kVehicleImuFields, vehicle.body_imu);
 }
 
 void requireGiven(const std::string& prefix, const OptionMap& values, const std::vector<std::string>& names) {
@@ -103,7 +85,7 @@ Vehicle takeVehicle(OptionMap& values, const EffectLibrary& library) {
   for (std::size_t i = 0; i < kRequiredStrutFields; ++i) required.emplace_back(kVehicleStrutFields[i].name);
   OptionMap named = values;
   for (const auto& [name, settings] : takeGroups(named, "struts")) {
-    requireName("struts", name);
+    requireName("struts/" + shortened(name), name);
     requireGiven("struts/" + name + ": ", settings, required);
     vehicle.struts.emplace_back();
     vehicle.struts.back().name = name;

@@ -10,7 +10,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kNumSines = 48;
+constexpr int kSinesOfForce = 48;
 
 /// A sum of sines of even density over the band, each with an equal share of the variance.
 VehicleMotion::Signal signalOf(const KnownForce& force, int seed, unsigned index) {
@@ -19,12 +19,12 @@ VehicleMotion::Signal signalOf(const KnownForce& force, int seed, unsigned index
   };
   RandomStream random(seed, RandomPurpose::kKnownForce, index);
   std::vector<Sine> sines;
-  const double width = (force.highest_frequency - force.lowest_frequency) / kNumSines;
-  for (int i = 0; i < kNumSines; ++i) {
+  const double width = (force.highest_frequency - force.lowest_frequency) / kSinesOfForce;
+  for (int i = 0; i < kSinesOfForce; ++i) {
     const double frequency = force.lowest_frequency + (i + random.uniform()) * width;
     sines.push_back({2.0 * M_PI * frequency, 2.0 * M_PI * random.uniform()});
   }
-  const double amplitude = force.rms * std::sqrt(2.0 / kNumSines);
+  const double amplitude = force.rms * std::sqrt(2.0 / kSinesOfForce);
   return [sines, amplitude](double t) {
     double sum = 0.0;
     for (const Sine& sine : sines) sum += std::sin(sine.frequency * t + sine.phase);

@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "rigid_body_rows.h"
+#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -16,8 +17,7 @@ constexpr int kHalvings = 14;        // of the logarithm of phi: to 0.06 %
 constexpr double kSideBySide = 0.1;  // of the wheelbase
 // Multibody vehicles without bars kept more than 2.5 % with false ones in the model, those with bars 1.1 % with them.
 constexpr double kLeastLeft = 0.02;
-constexpr double kFall = 3.0;    // phi without bars over that with them
-constexpr double kProven = 3.0;  // standard deviations
+constexpr double kFall = 3.0;  // phi without bars over that with them
 constexpr double kSmallest = 1e-6;
 
 /// @return x or y less its middle, over its mean size; zero where all are alike.

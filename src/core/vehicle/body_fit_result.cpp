@@ -4,15 +4,17 @@
 #include <limits>
 
 #include "rigid_body_rows.h"
+#include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kProvenBar = 3.0;  // standard deviations
 // Of a neighbour's force: such an error makes b1 and b0 wrong by a few percent, as wheels hardly ever move alike.
 constexpr double kMostOfRatio = 0.15;
 constexpr double kStep = 1e-6;  // relative, of differences
+
+bool isProven(const Measured& number) { return number.value > kProven * number.stddev; }
 
 }  // namespace
 
@@ -139,7 +141,7 @@ BodyFitResult BodyFit::describe(const Solution& solution, BodyFitResult::Bars ba
     const auto [first, second] = pairs_[b];
     const BodyFitResult::Bar bar{
         pairs_[b], {atStrut(first, 1), atStrut(second, 1)}, {atStrut(first, 0), atStrut(second, 0)}};
-    if (bar.stiffness[0].value > kProvenBar * bar.stiffness[0].stddev) result.found.push_back(bar);
+    if (isProven(bar.stiffness[0])) result.found.push_back(bar);
   }
   Measured* const numbers[] = {&result.mass_to_pitch_inertia, &result.mass_to_roll_inertia, &result.product, &result.x,
                                &result.y};
@@ -149,6 +151,17 @@ BodyFitResult BodyFit::describe(const Solution& solution, BodyFitResult::Bars ba
     if (!is_seen[i]) numbers[i]->stddev = std::numeric_limits<double>::infinity();
   }
   return result;
+}
+
+BodyInertiaResult inertiaOf(const std::optional<BodyFitResult>& fit, const StrutPlaces& places) {
+  if (places.empty()) return {{}, InertiaDoubt::kNoPositions};
+  if (!fit) return {{}, InertiaDoubt::kUncertain};
+  const BodyInertia body{fit->mass_to_pitch_inertia, fit->mass_to_roll_inertia, fit->x, fit->y};
+  if (!std::isfinite(body.mass_to_pitch_inertia.stddev) || !std::isfinite(body.mass_to_roll_inertia.stddev))
+    return {{}, InertiaDoubt::kOnOneLine};
+  if (!isProven(body.mass_to_pitch_inertia) || !isProven(body.mass_to_roll_inertia))
+    return {{}, InertiaDoubt::kUncertain};
+  return {body, InertiaDoubt::kNone};
 }
 
 }  // namespace suspension_health_monitor

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLeastGravity = 5.0;  // [m/s^2]: half of it, which no offset is
 // A road of 9 %: steeper ones are rare. An IMU that leans by less reads so little of the gravity that pitch and roll
 // turn that b0 is wrong by 2 %.
 constexpr double kSteepestRoad = 5.0 / 180.0 * M_PI;
@@ -45,7 +45,7 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
     part = medianOf(begin + (end - begin) * i / kParts, begin + (end - begin) * (i + 1) / kParts);
     gravity += part / kParts;
   }
-  if (!(gravity.norm() >= kLeastGravity)) return;
+  if (!(gravity.norm() >= kStandardGravity / 2.0)) return;  // which no offset is
   lean_ = angleBetween(gravity, Eigen::Vector3d::UnitZ());
   is_steady_ = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
     return angleBetween(part, gravity) <= 0.5 * kSteepestRoad;

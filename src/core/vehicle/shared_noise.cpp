@@ -6,14 +6,12 @@
 #include <deque>
 #include <optional>
 
-#include "suspension_health_monitor/internal/fit/initial_states.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kReach = 0.1;              // [s]; twice as far takes 2 % more
-constexpr Eigen::Index kShortestReach = 2;  // samples
+constexpr double kReach = 0.1;  // [s]; twice as far takes 2 % more
 // Errors of the models, which are in the residuals, too, in the unit of the noise: twice that of an accelerometer.
 // With less, sums of residuals that have next to no noise carry over into each strut what the ratios are off by.
 constexpr double kModelVariance = 4.0;
@@ -133,7 +131,7 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
   for (const StrutDrives& drive : drives) of_drives.push_back(leftOf(drive, period, models));
   const auto runs_away = [](const std::vector<Left>& left) { return left.empty(); };
   if (runs_away(of_noise) || std::any_of(of_drives.begin(), of_drives.end(), runs_away)) return;
-  const auto reach = std::max(kShortestReach, static_cast<Eigen::Index>(std::lround(kReach / period)));
+  const auto reach = static_cast<Eigen::Index>(std::lround(kReach / period));
   const Covariances covariance(of_noise, 2 * reach);
   for (std::size_t i = 0; i < noise.size(); ++i) {
     const Weights weights = weightsOf(i, noise.size(), covariance, reach);

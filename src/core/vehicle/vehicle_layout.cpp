@@ -16,7 +16,6 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kFarthest = 100.0;  // [m]: of any vehicle's struts from its IMU
-constexpr std::size_t kLongestName = 64;
 
 struct StrutSettings {
   std::string sprung_imu, unsprung_imu, frame;
@@ -64,13 +63,6 @@ bool isMadeOf(const std::string& text, const std::string& more, const std::strin
   return true;
 }
 
-void checkName(const std::string& where, const std::string& name) {
-  if (!isMadeOf(name, "", ""))
-    refuse(where + shortened(name) + ": the name must be letters, digits and _, a letter first");
-  if (name.size() > kLongestName)
-    refuse(where + shortened(name) + ": the name must be at most " + std::to_string(kLongestName) + " characters");
-}
-
 void checkTopic(const std::string& where, const std::string& topic) {
   if (!isMadeOf(topic, "/", "/~") && !(topic.size() > 1 && topic[0] == '~' && isMadeOf(topic.substr(1), "/", "/")))
     refuse(where + quoted(topic) + ", must be a topic: letters, digits, _ and /, such as /imu/data");
@@ -79,25 +71,6 @@ void checkTopic(const std::string& where, const std::string& topic) {
 void checkNumber(const std::string& what, std::size_t number, int most) {
   if (number > static_cast<std::size_t>(most))
     refuse(what + ": " + std::to_string(number) + " of them, must be at most " + std::to_string(most));
-}
-
-/// Settings by a table. @param also  a name that the table does not have and that the caller takes.
-template <class Settings, std::size_t N>
-Settings take(const std::string& where, OptionMap values, const std::array<OptionField<Settings>, N>& fields,
-              const char* also = nullptr) {
-  Settings settings;
-  std::vector<OptionDescription> known = describeOptions(fields);
-  if (also != nullptr) {
-    values.erase(also);
-    known.push_back({"", also, "", "", "", ""});
-  }
-  try {
-    takeOptions(values, fields, settings);
-    refuseUnknown(values, known);
-  } catch (const std::invalid_argument& error) {
-    refuse(where + ": " + error.what());
-  }
-  return settings;
 }
 
 std::array<double, 3> toPosition(const std::string& where, const OptionValue& value) {
@@ -123,9 +96,12 @@ std::array<double, 3> toPosition(const std::string& where, const OptionValue& va
 }
 
 VehicleLayout::Strut toStrut(const std::string& name, const OptionMap& values, bool has_body_imu) {
-  checkName("struts/", name);
-  const std::string where = "struts/" + name;
-  const StrutSettings settings = take(where, values, kStrutFields, kPosition);
+  const std::string where = "struts/" + shortened(name);
+  requireName(where, name);
+  OptionMap others = values;
+  others.erase(kPosition);
+  StrutSettings settings;
+  takeAll(where, std::move(others), kStrutFields, settings, {{"", kPosition, "", "", "", ""}});
   VehicleLayout::Strut strut;
   strut.name = name;
   if (settings.unsprung_imu.empty()) refuse(where + "/unsprung_imu is missing: every strut needs the IMU at its wheel");
@@ -147,9 +123,10 @@ VehicleLayout::Strut toStrut(const std::string& name, const OptionMap& values, b
 }
 
 VehicleLayout::KnownForce toForce(const std::string& name, const OptionMap& values) {
-  checkName("known_forces/", name);
-  const std::string where = "known_forces/" + name;
-  const ForceSettings settings = take(where, values, kForceFields);
+  const std::string where = "known_forces/" + shortened(name);
+  requireName(where, name);
+  ForceSettings settings;
+  takeAll(where, values, kForceFields, settings);
   for (const auto& [wanted, text] : {std::pair("topic", &settings.topic), std::pair("field", &settings.field)})
     if (text->empty()) refuse(where + '/' + wanted + " is missing; a known force has topic, field");
   checkTopic(where + "/topic", settings.topic);

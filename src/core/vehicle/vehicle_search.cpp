@@ -5,14 +5,12 @@
 
 #include "options_by_strut.h"
 #include "separator.h"
+#include "suspension_health_monitor/internal/search/effect_search.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-// A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
-constexpr double kWorthNaming = 0.02;
 
 bool names(const Diagnosis& strut) {
   return strut && (strut.verdict == Verdict::kEffectFound || strut.verdict == Verdict::kSuspect);
@@ -132,11 +130,12 @@ void VehicleSearch::reconsider() {
   if (settled_.size() < before.size()) settleOpen();
 }
 
+// A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
 void VehicleSearch::dropMarginal() {
   double most = 0.0;
   for (const std::size_t strut : settled_) most = std::max(most, explainedPower(result_.struts[strut]));
   for (const std::size_t strut : settled_)
-    if (explainedPower(result_.struts[strut]) < kWorthNaming * most) judge(strut, result_.drives[strut], 0.0, 0);
+    if (explainedPower(result_.struts[strut]) < kWorthHaving * most) judge(strut, result_.drives[strut], 0.0, 0);
 }
 
 VehicleDiagnosis VehicleSearch::run(const std::vector<std::string>& strut_names) {

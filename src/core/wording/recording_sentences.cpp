@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "suspension_health_monitor/internal/signal/early_readings.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
@@ -12,26 +11,21 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kMuchLarger = 3.0;  // mean deviation of the body over that of the wheel
-constexpr double kSpike = 50.0;      // mean deviations
+constexpr double kSpike = 50.0;  // mean deviations
 
 std::string describeSpike(const char* side, const StreamGate& gate) {
   if (!(gate.farthest() > kSpike * gate.deviation() && gate.deviation() > 0.0)) return {};
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "; a %s reading is %.3g m/s^2 off the mean, %.0f times as far as usual: a spike? %s_range keeps out "
-                "what lies beyond it",
-                side, gate.farthest(), gate.farthest() / gate.deviation(), side);
-  return text;
+  return formatted(
+      "; a %s reading is %.3g m/s^2 off the mean, %.0f times as far as usual: a spike? %s_range keeps out "
+      "what lies beyond it",
+      side, gate.farthest(), gate.farthest() / gate.deviation(), side);
 }
 
 // Of readings whose fourth powers vanish nothing can be computed, see isUsable().
 std::string describeStillness(const char* side, const StreamGate& gate) {
   if (gate.clock().period() == 0.0 || gate.deviation() > 1e-60) return {};
-  char text[120];
-  std::snprintf(text, sizeof text, "; the %s readings differ by %.3g m/s^2 only: a dead sensor, or not in m/s^2?", side,
-                gate.deviation());
-  return text;
+  return formatted("; the %s readings differ by %.3g m/s^2 only: a dead sensor, or not in m/s^2?", side,
+                   gate.deviation());
 }
 
 std::string healthyValue(const char* name, const std::optional<double>& value, double stddev, const char* unit) {
@@ -98,13 +92,12 @@ std::string describeReference(const Baseline& baseline, const std::string& file)
 }
 
 std::string describeSuspicions(const StreamGrid& grid, const IdentifiedStrut& ls) {
-  constexpr double kCertain = 5.0;  // standard deviations
   const StreamGate &body = grid.gate(indexOf(Side::kSprung)), &wheel = grid.gate(indexOf(Side::kUnsprung));
   std::string text = describeStillness("sprung", body) + describeStillness("unsprung", wheel);
   text += describeSpike("sprung", body) + describeSpike("unsprung", wheel);
   if (body.deviation() > kMuchLarger * wheel.deviation() && wheel.deviation() > 0.0)
     text += "; the sprung IMU shakes far more than the unsprung one: swapped, or not in m/s^2?";
-  else if (ls.damping_to_mass < -kCertain * ls.damping_to_mass_stddev)
+  else if (ls.damping_to_mass < -kCertainlyNegative * ls.damping_to_mass_stddev)
     text += "; damping comes out negative: the IMUs swapped, or an axis the wrong way up?";
   return text;
 }

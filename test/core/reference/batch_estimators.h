@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "suspension_health_monitor/internal/identification/small_divisor.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 
 namespace suspension_health_monitor {
 

@@ -74,9 +74,6 @@ struct BlockWeights {
   double of(const Eigen::Ref<const Eigen::ArrayXd>& power) const;
 };
 
-/// @return the middle one of values, which it puts in another order; the upper one of two.
-double medianInPlace(std::vector<double>& values);
-
 /// Power of the residual at theta in a band, or in a sum of bands. It is linear in the parameters, but for r, which it
 /// does not depend on, and for the weight 1 / A.
 double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta);

@@ -4,10 +4,14 @@
 #include <vector>
 
 #include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
 
 namespace suspension_health_monitor {
+
+/// @return of the free run, per segment and sample.
+Residuals residualsOf(const std::vector<ComparedSegment>& segments);
 
 struct ComparedDrives {
   std::vector<ComparedSegment> segments;

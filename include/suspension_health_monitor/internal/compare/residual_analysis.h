@@ -17,7 +17,7 @@ struct ExpectedNoise {
 /// Statistical Society B 8 (1946), 27-41 (variance of correlations); P. D. Welch, IEEE Trans. Audio Electroacoustics 15
 /// (1967), 70-73; G. C. Carter, Proc. IEEE 75 (1987), 236-255 (coherence).
 /// @param segments  of one period, b1 and b0 above 0.
-/// @return nothing if there are fewer than 64 samples, or nothing moves.
+/// @return nothing if nothing moves.
 std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise);
 
 /// Ranks the regions where the model is significantly worse than noise, the worst first, at most two of a view.

@@ -68,7 +68,8 @@ class HoldOut {
   double deviation_ = 0.0;
 };
 
-/// Natural periods without a gap that have eight held-out stretches.
+/// Natural periods without a gap that have eight held-out stretches, and blocks of a record: longer than a natural
+/// period, the five held out have two stretches.
 inline constexpr double kEnoughPeriods = 15.0;
 
 /// @return nothing if there are fewer than eight held-out stretches.

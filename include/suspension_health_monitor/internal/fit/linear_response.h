@@ -13,6 +13,11 @@ namespace suspension_health_monitor {
 Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
                            const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends);
 
+/// What the force of a model is made of along a motion: travel rate, travel and the forces of its effects, one column
+/// for each of b1, b0 and the coefficients.
+Eigen::MatrixXd forcesAlong(const StrutModel& model, const std::vector<StrutMotion>& motion,
+                            const std::vector<std::size_t>& ends);
+
 /// What a small additional force would do to a free run: the model linearised along the motion that a fit gave it.
 ///   x'' = -(F_d x + F_v x' + f),   change of z'' = F_d x + F_v x' + f, behind the filter of the drive, if it has one,
 /// x the change of travel, F_d and F_v the slopes of the model's force there, f the additional force per unit mass.
@@ -29,11 +34,6 @@ class LinearResponse {
   double travel() const { return travel_; }                           ///< rms [m]
   double travelRate() const { return travel_rate_; }                  ///< rms [m/s]
   const ModelFit& fit() const { return *fit_; }
-
-  /// @return the effect's force along the motion, per unit of its coefficient.
-  Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes) const {
-    return suspension_health_monitor::forceAlong(effect, shapes, motion_, ends_);
-  }
 
   /// @return change of z'' at every sample for an additional force `f` [m/s^2].
   Eigen::VectorXd respond(const Eigen::VectorXd& force) const;

@@ -17,9 +17,16 @@ namespace suspension_health_monitor {
 /// free-form force over the travel and rate of the model's free run is fitted to what the interpolation leaves. From
 /// the median, so that a blow into an end stop is no noise, and with such blows kept out of the fits. The wheel's
 /// sensor is taken to be as noisy; its noise comes through the model. Where the records have what the noise looks like,
-/// that tells it (known_noise.h).
+/// that tells it (floorOfKnownNoise()).
 /// @return 0 if there are too few samples to tell; not below accuracyOfFreeRuns().
 double estimateNoiseFloor(const Records& records, const StrutModel& model);
+
+/// What the noise of all sensors leaves of a free run [m/s^2] where the records have what that noise looks like
+/// (DriveRecord::noise()): its spectrum is known but for its size. That is the median over the frequencies of what the
+/// model leaves over what it leaves of the noise. A law that the model lacks is at less than half of all frequencies.
+/// @param model  its b1 and b0 count for the noise.
+/// @return 0 if there is too little to tell, or the model runs away.
+double floorOfKnownNoise(const Records& records, const StrutModel& model);
 
 /// What sampling loses of a model's own forces [m/s^2]: the rms of what the same interpolation cannot tell of the z''
 /// that the model predicts, in which no sensor has noise. The wheel's samples lose as much, which comes through the

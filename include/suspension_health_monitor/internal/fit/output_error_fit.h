@@ -16,6 +16,14 @@ using SampleMask = std::vector<char>;
 /// measured - predicted, per segment of all records and sample [m/s^2].
 using Residuals = std::vector<std::vector<double>>;
 
+/// @return of all segments, one after the other: what is kept by segment and sample.
+template <class Value>
+Eigen::VectorXd joined(const std::vector<std::vector<Value>>& segments) {
+  std::vector<double> all;
+  for (const std::vector<Value>& segment : segments) all.insert(all.end(), segment.begin(), segment.end());
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
 /// @return of all segments; 0 of none.
 double meanSquare(const Residuals& residuals);
 
@@ -30,11 +38,6 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
 
 /// Residuals beyond this many (robust) standard deviations lose weight in fits and in comparisons of models.
 inline constexpr double kOutlierScale = 4.0;
-
-struct FitOptions {
-  int max_iterations = 25;
-  std::vector<StrutState> initial = {};  ///< first guess of the initial states, per segment; empty: at rest
-};
 
 /// A model fitted by output error, with the initial state of every segment.
 struct ModelFit {
@@ -58,13 +61,20 @@ struct FitOutcome : std::optional<ModelFit> {
 /// Solver: Ceres, Levenberg-Marquardt, derivatives by differences, initial states eliminated (Schur complement).
 /// @param records  drives that share the model.  @param masks  per segment of all records; empty: all samples.
 /// @param start  first guess, b0 > 0; also sets the scale of every parameter that is not 0 in it.
+/// @param initial  first guess of the initial states, per segment; empty: at rest.
 /// @return no fit if the model runs away, an effect never acts, the solver fails, or what comes out cannot be compared,
 /// searched or simulated: no spring is left (b0 <= 0), or it is too fast for the sampling.
 FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>& masks, const StrutModel& start,
-                          const FitOptions& options = {});
+                          const std::vector<StrutState>& initial = {});
 
 /// A model as it is, with the residuals of its free run from rest.
 /// @return no fit if the model runs away.
 FitOutcome withoutFit(const Records& records, const StrutModel& model);
+
+/// Travel and travel rate at the start of every segment, the model's numbers being given: least squares of the free run
+/// against z'', each segment by itself (Ceres, derivatives by differences).
+/// @param model  b1, b0 > 0.
+/// @return one state per segment of all records; nothing if the model runs away.
+std::optional<std::vector<StrutState>> estimateInitialStates(const Records& records, const StrutModel& model);
 
 }  // namespace suspension_health_monitor

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "suspension_health_monitor/internal/health/strut_change.h"
@@ -26,7 +27,7 @@ ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now)
 /// Learns the baseline from a stretch of valid estimates: their mean, over halves that must agree.
 ///
 /// A strut that changes while it is learned is not taken as healthy: if the means of the two halves differ by more than
-/// kDrift standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another
+/// kProven standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another
 /// drive, perhaps of another vehicle. Estimates whose windows overlap share their errors: those of a mean over t
 /// seconds have window / t of the variance of one. Where they scatter more than that, for certain, the rest is part of
 /// the baseline. Cost per estimate: O(1), no allocation.
@@ -43,19 +44,23 @@ class BaselineLearner {
   int restarts() const { return restarts_; }  ///< because the strut was changing
 
  private:
+  /// Damping or stiffness over a half.
+  struct Parameter {
+    double mean = 0.0, stddev = 0.0;  // stddev: that of one estimate, as root mean square
+    double variance = 0.0;            // of the estimates
+    void add(double value, double its_stddev, double gain);
+    double scatter(double windows) const;  // beyond the standard deviation
+    double spread(double windows) const { return std::hypot(stddev, scatter(windows)); }  // of an estimate, with that
+  };
   struct Half {
     double seconds = 0.0;
-    Baseline mean;        // standard deviations: those of one estimate, as root mean squares
     double window = 0.0;  // mean span of an estimate's window [s]
-    double damping_variance = 0.0, stiffness_variance = 0.0;  // of the estimates
+    Parameter damping, stiffness;
+    std::optional<DryFriction> friction;
     void add(const StrutEstimate& estimate, double seconds);
-    double dampingScatter() const;    // beyond the standard deviations [1/s]
-    double stiffnessScatter() const;  // likewise [1/s^2]
-    double dampingStddev() const;     // of an estimate, with that
-    double stiffnessStddev() const;
+    double windows() const { return seconds / window; }
   };
 
-  static constexpr double kDrift = 3.0;
   static constexpr double kLeastDrift = 0.03;  // of the value: less is what another road does
 
   bool drifts() const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/health/assessment.h"
+#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 
@@ -56,8 +57,8 @@ struct CornerComparisonReport {
 };
 
 struct CornerComparisonOptions {
-  double threshold = 0.15;    ///< deviation from the others that counts, as a share [-]
-  double significance = 3.0;  ///< and how many of its standard deviations it must be
+  double threshold = 0.15;        ///< deviation from the others that counts, as a share [-]
+  double significance = kProven;  ///< and how many of its standard deviations it must be
 };
 
 /// Compares the four struts of a vehicle: what moves all of them, or an axle, is load; what moves one is damage.

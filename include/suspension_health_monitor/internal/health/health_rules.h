@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <boost/circular_buffer.hpp>
 #include <cstddef>
 
 #include "suspension_health_monitor/internal/health/strut_change.h"
@@ -75,7 +75,7 @@ class ChangeTrend {
   /// @return the change as it is now.
   LogChange carryOn(const LogChange& change, double age, double now, double window, double certain);
 
-  void restart() { count_ = 0; }
+  void restart() { points_.clear(); }
 
  private:
   static constexpr std::size_t kChanges = 16;  // over four windows that share no reading
@@ -85,8 +85,7 @@ class ChangeTrend {
     double time, size, weight;
   };
 
-  std::array<Point, kChanges> points_{};
-  std::size_t count_ = 0;
+  boost::circular_buffer<Point> points_{kChanges};
   double last_ = 0.0;
 };
 

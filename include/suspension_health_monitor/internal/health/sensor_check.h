@@ -21,6 +21,8 @@ namespace suspension_health_monitor {
 /// Each verdict must have lasted for the memory; one on how they move falls with the first valid estimate. Nothing is
 /// said while the mean is uncertain: a mean counts as off by what exceeds kMeanNoise of the rms.
 /// Cost per sample: O(1), no allocation.
+inline constexpr double kMuchLarger = 3.0;         ///< rms of the body over that of the wheel: they may be swapped
+inline constexpr double kCertainlyNegative = 5.0;  ///< standard deviations of a damping below 0
 class SensorCheck {
  public:
   /// @param gravity_tolerance  share of g by which a mean may be off; 0: means are not judged.

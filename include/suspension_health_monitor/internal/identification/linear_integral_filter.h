@@ -52,8 +52,7 @@ class LinearIntegralFilter {
   int window_;
   int missing_;  // samples until it is full
   std::vector<HorizonIntegral> integrals_;
-  std::vector<DelayLine> lines_;                // lines_[i] holds J^i x
-  std::vector<std::vector<double>> binomials_;  // binomials_[r][j]: coefficient of q^(-jL) in (1 - q^-L)^r
+  std::vector<DelayLine> lines_;  // lines_[i] holds J^i x
 };
 
 }  // namespace suspension_health_monitor

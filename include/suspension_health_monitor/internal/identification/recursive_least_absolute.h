@@ -1,18 +1,30 @@
 #pragma once
 
+#include <algorithm>
+
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/internal/identification/small_divisor.h"
 
 namespace suspension_health_monitor {
+
+/// What keeps the weight 1/|epsilon| finite when a row is hit (almost) exactly.
+enum class SmallDivisor {
+  kAbsolute,  ///< |epsilon| >= eps_min in the unit of psi, as in the paper (below Eq. (23))
+  kRelative,  ///< |epsilon| >= eps_min times the scale of the residuals: scale-free
+};
+
+/// @param smallest  eps_min >= 0, [unit of psi] if absolute, [-] if relative.
+/// @param residual_scale  mean |epsilon| >= 0 [unit of psi], only used by the relative rule.
+/// @return what |residual| is at least taken for [unit of psi]; at least 1e-100, so that a row hit exactly under a
+///         threshold of 0 has a weight whose square is still a number.
+inline double smallestDivisor(SmallDivisor rule, double smallest, double residual_scale) {
+  return std::max(rule == SmallDivisor::kRelative ? smallest * residual_scale : smallest, 1e-100);
+}
 
 struct LeastAbsoluteOptions {
   int start_rows = 150;  ///< k0: rows during which LS leads, >= 1
   SmallDivisor small_divisor_rule = SmallDivisor::kRelative;
   double small_divisor = 0.2;             ///< eps_min >= 0, [unit of psi] if absolute, [-] if relative
   bool scale_covariance_at_start = true;  ///< P_LA = P_LS mean|epsilon| at the hand-over, else P_LA = P_LS (paper)
-
-  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  void validate() const;
 };
 
 /// Recursive estimation in the sense of the least sum of absolute values, sum_i lambda^(k-i) |psi_i - phi_i' theta|:

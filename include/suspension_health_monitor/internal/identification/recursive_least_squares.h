@@ -54,7 +54,6 @@ class RecursiveEstimator {
   double forgettingFactor() const { return options_.forgetting_factor; }  ///< the present one
 
   /// Forgets faster or more slowly from the next row on; the estimate stays.
-  /// @throws std::invalid_argument  as RecursiveOptions::validate().
   void setForgettingFactor(double forgetting_factor);
 
   /// The next row does not follow the one before: residuals of both are not correlated.

@@ -10,11 +10,7 @@ struct RegressionRow {
   double output = 0.0;        ///< psi
 
   /// @return true if no parameter can make a difference to this row.
-  bool saysNothing() const {
-    for (Eigen::Index i = 0; i < regressor.size(); ++i)
-      if (regressor[i] != 0.0) return false;
-    return true;
-  }
+  bool saysNothing() const { return regressor.isZero(0.0); }
 };
 
 }  // namespace suspension_health_monitor

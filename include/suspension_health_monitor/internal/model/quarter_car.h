@@ -38,6 +38,6 @@ inline constexpr std::array kQuarterCarFields{
 };
 
 /// @throws std::invalid_argument  naming the parameter, its value and what is allowed.
-void validate(const QuarterCar& car);
+inline void validate(const QuarterCar& car) { validate(car, kQuarterCarFields); }
 
 }  // namespace suspension_health_monitor

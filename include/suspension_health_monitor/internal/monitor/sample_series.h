@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <boost/circular_buffer.hpp>
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
@@ -47,12 +47,9 @@ class SampleSeries {
   const RejectCounts& rejected() const { return rejected_; }
 
  private:
-  const CornerSample& at(std::size_t number) const { return recent_[number % recent_.size()]; }
-
   Stamp period_;
-  std::optional<Stamp> first_, last_;                       // of the drive
-  std::array<CornerSample, FreeRun::kDelay + 1> recent_{};  // by their number in the series, modulo
-  std::size_t size_ = 0;                                    // of the series
+  std::optional<Stamp> first_, last_;                                 // of the drive
+  boost::circular_buffer<CornerSample> recent_{FreeRun::kDelay + 1};  // of the series
   RunningMean spacing_;
   InputStatus status_;
   RejectCounts rejected_;

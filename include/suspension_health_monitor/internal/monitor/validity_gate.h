@@ -13,9 +13,8 @@ inline constexpr double kLeastExplained = 0.5;
 /// Relative standard deviation from which a parameter is not known: twice that would be the change that is an error.
 inline constexpr double kMostRelativeStddev = 0.15;
 
-/// Estimators that are so far apart at most, by either measure, say the same.
-inline constexpr double kMostApart = 0.05;        ///< of the second
-inline constexpr double kMostStddevsApart = 4.0;  ///< standard deviations of both
+/// Estimators that are so far apart at most, or kCertain standard deviations of both, say the same.
+inline constexpr double kMostApart = 0.05;  ///< of the second
 
 /// @return true if two estimators say the same of b1 and b0, by either measure.
 bool agree(const StrutEstimate& a, const StrutEstimate& b);

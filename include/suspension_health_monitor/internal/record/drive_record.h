@@ -77,6 +77,10 @@ using Records = std::vector<const DriveRecord*>;
 /// @return the segments of all records, one after the other: the order of everything that is kept by segment.
 std::vector<const DriveSegment*> segmentsOf(const Records& records);
 
+/// @return one series of every segment, such as &DriveSegment::sprung.
+std::vector<std::vector<double>> seriesOf(const std::vector<const DriveSegment*>& segments,
+                                          std::vector<double> DriveSegment::*series);
+
 /// The drives as records, integrated in steps that follow the strut's fastest motion.
 /// @param model  a damped spring.
 std::deque<DriveRecord> makeRecords(const std::vector<Drive>& drives, double period, const StrutModel& model);

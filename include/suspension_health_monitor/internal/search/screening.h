@@ -50,4 +50,8 @@ class Screening {
   WeightedProjection rows_;  // of measured - predicted by the responses to b1, b0 and the present effects' coefficients
 };
 
+/// @return shapes of the effect in SI, spread evenly in ratio over their ranges: at most 64 combinations, one (empty)
+/// for an effect without shapes.
+std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const MotionScale& scales);
+
 }  // namespace suspension_health_monitor

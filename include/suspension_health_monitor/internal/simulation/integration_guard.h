@@ -12,6 +12,8 @@ namespace suspension_health_monitor {
 /// steps so small that it would not come to an end.
 class IntegrationGuard {
  public:
+  static constexpr double kTolerance = 1e-10;  ///< per step of an integration, absolute [m, m/s] and relative
+
   /// @param hidden  effects of the strut, to be named.
   /// @param step  longest step that the strut without them lets the integration make [s].
   IntegrationGuard(const std::vector<ActiveEffect>& hidden, double step);

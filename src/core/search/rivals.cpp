@@ -1,7 +1,11 @@
+#include "rivals.h"
+
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "rivals.h"
+#include "model_evaluator.h"
+#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
@@ -65,6 +69,17 @@ double at(const std::vector<TimeTold>& points, double time) {
 
 }  // namespace
 
+bool mayBeTilt(const StrutModel& model, const std::string& fault, const Records& records) {
+  const bool is_read = std::all_of(records.begin(), records.end(), [](const DriveRecord* record) {
+    return record->gravity() > 0.5 * kStandardGravity;
+  });
+  const double lost_by_30_degrees = 1.0 - std::cos(M_PI / 6.0);
+  const double unit = fault == "accelerometer_bias" ? kStandardGravity : fault == "scale_error" ? 1.0 : 0.0;
+  return is_read && std::any_of(model.reading.begin(), model.reading.end(), [&](const ActiveMeasurementEffect& active) {
+           return active.effect.name == fault && std::abs(active.coefficients.front()) < lost_by_30_degrees * unit;
+         });
+}
+
 bool dependsOnTime(const ActiveEffect& active) {
   const auto force = [&](double time) { return active.effect.force({1.0, 1.0, time, 0.5}, active.shapes.data()); };
   return force(0.0) != force(1.0) || force(1.0) != force(std::sqrt(2.0));
@@ -83,6 +98,55 @@ ForceEffect frequencyRival(const ForceEffect& effect, const Records& records, do
   rival.force = instead(effect.force);
   if (effect.memory_rate) rival.memory_rate = instead(effect.memory_rate);
   return rival;
+}
+
+double wandering(const Residuals& residuals, double natural_period) {
+  const auto length = static_cast<std::size_t>(std::max(1.0, std::ceil(natural_period)));
+  const double mean = joined(residuals).mean();
+  double products = 0.0, count = 0.0;
+  for (const std::vector<double>& segment : residuals) {
+    double last = 0.0;
+    for (std::size_t first = 0; first + length <= segment.size(); first += length) {
+      double sum = 0.0;
+      for (std::size_t k = first; k < first + length; ++k) sum += segment[k] - mean;
+      if (first > 0) {
+        products += last * sum;
+        count += square(static_cast<double>(length));
+      }
+      last = sum;
+    }
+  }
+  return products > 0.0 ? std::sqrt(products / count) : 0.0;
+}
+
+bool isWanderingOffset(const Residuals& before, const Residuals& after, double natural_period) {
+  const double offset = joined(before).mean() - joined(after).mean();
+  return square(offset) > kMostOfIt * (meanSquare(before) - meanSquare(after)) &&
+         std::abs(offset) < normalQuantile(kSure) * wandering(after, natural_period);
+}
+
+double shareOfTurning(const Records& records, const HoldOut& held_out, const LinearResponse& motion) {
+  const Eigen::Index count = motion.numSamples();
+  Eigen::MatrixXd strut(count, 3);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const StrutMotion& m = motion.motion()[static_cast<std::size_t>(k)];
+    strut.row(k) << m.travel / motion.travel(), m.travel_rate / motion.travelRate(), m.body_acceleration;
+  }
+  const Eigen::VectorXd trained = joined(held_out.training);
+  const Eigen::VectorXd judged = Eigen::VectorXd::Ones(count) - trained;
+  const Eigen::MatrixXd weighted = trained.asDiagonal() * strut;
+  double most = 0.0;
+  for (const BodyChannel channel : {BodyChannel::kAngularAccelerationX, BodyChannel::kAngularAccelerationY}) {
+    std::vector<std::vector<double>> measured;
+    for (const DriveSegment* segment : segmentsOf(records))
+      measured.push_back(segment->body[static_cast<std::size_t>(channel)]);
+    const Eigen::VectorXd turning = joined(measured);
+    if (turning.size() < count) continue;  // not measured in one of the drives
+    const Eigen::Vector3d told = (strut.transpose() * weighted).ldlt().solve(weighted.transpose() * turning);
+    const double whole = judged.dot(turning.cwiseAbs2());
+    if (whole > 0.0) most = std::max(most, 1.0 - judged.dot((turning - strut * told).cwiseAbs2()) / whole);
+  }
+  return most;
 }
 
 }  // namespace suspension_health_monitor

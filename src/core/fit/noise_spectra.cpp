@@ -1,12 +1,11 @@
-#include "suspension_health_monitor/internal/fit/known_noise.h"
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <numeric>
 #include <vector>
 
-#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/periodogram.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
@@ -14,6 +13,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kWindow = 128;  // samples
+constexpr std::size_t kAtLimit = 4;   // frequencies below half the rate, a sixteenth of all
 constexpr double kNone = 0.01;        // of the mean: where a filter leaves less of the noise it tells nothing
 
 /// Mean power by frequency, without that of a constant.
@@ -39,7 +39,24 @@ FitOutcome leftOfNoise(const std::vector<CornerSample>& noise, double period, co
   return withoutFit(pointersTo(records), linear);
 }
 
+/// rms of white noise that is as dense as w'' just below half the rate.
+double levelAtLimit(const Records& records) {
+  const std::vector<double> power = powerOf(seriesOf(segmentsOf(records), &DriveSegment::unsprung));
+  const double at_limit = std::accumulate(power.end() - 1 - kAtLimit, power.end() - 1, 0.0) / kAtLimit;
+  return std::sqrt(at_limit / Periodogram(kWindow).taperPower());
+}
+
 }  // namespace
+
+double shareAtSamplingLimit(const Records& records) {
+  const double power = meanSquare(seriesOf(segmentsOf(records), &DriveSegment::unsprung));
+  return power > 0.0 ? levelAtLimit(records) / std::sqrt(power) : 0.0;
+}
+
+double foldedMotion(const Records& records, const StrutModel& model) {
+  const double half_the_rate = 0.5 / records.front()->period();
+  return levelAtLimit(records) * transmissibility(model.damping_to_mass, model.stiffness_to_mass, half_the_rate);
+}
 
 double floorOfKnownNoise(const Records& records, const StrutModel& model) {
   const FitOutcome fit = withoutFit(records, model);
