@@ -72,9 +72,7 @@ auto withDrives(const Arguments& arguments, LongWork& progress, const Work& work
 
 std::string writeSimulation(const std::string& path, const OptionMap& values, LongWork& work) {
   const ToolsWork tools(work, 1);
-  const SimulatedDrive drive = makeSimulatedDrive(values);
-  const double start = drive.playing.start_time;
-  writeBag(*drive.begin(fromSeconds(start)), drive.duration, start, path);
+  writeBag(makeSimulatedDrive(values), path);
   return path;
 }
 
