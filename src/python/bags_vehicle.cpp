@@ -77,7 +77,7 @@ struct RecordedMonitor {
   }
 };
 
-auto identifyStruts(const Arguments& arguments, LongWork& work) {
+auto identifyStrutsOf(const Arguments& arguments, LongWork& work) {
   AskedWork asked(arguments, work);
   const std::vector<WatchedStrut> watched = plainStruts(asked.vehicle.names.size());
   RecordedMonitor recorded(asked, watched, true);
@@ -96,7 +96,7 @@ auto identifyStruts(const Arguments& arguments, LongWork& work) {
   });
 }
 
-auto compareStruts(const Arguments& arguments, LongWork& work) {
+auto compareStrutsOf(const Arguments& arguments, LongWork& work) {
   AskedWork asked(arguments, work);
   const std::vector<VehicleDrive> drives = asked.readDrives();
   const KnownModels models = readModels(asked.values, asked.vehicle, readEffects(asked.values));
@@ -115,7 +115,7 @@ auto compareStruts(const Arguments& arguments, LongWork& work) {
   });
 }
 
-auto diagnoseStruts(const Arguments& arguments, int threads, LongWork& work) {
+auto diagnoseStrutsOf(const Arguments& arguments, int threads, LongWork& work) {
   AskedWork asked(arguments, work);
   const std::vector<VehicleDrive> drives = asked.readDrives();
   const std::vector<std::string>& names = asked.vehicle.names;
@@ -136,7 +136,7 @@ auto diagnoseStruts(const Arguments& arguments, int threads, LongWork& work) {
   });
 }
 
-auto watchStruts(const Arguments& arguments, LongWork& work) {
+auto watchStrutsOf(const Arguments& arguments, LongWork& work) {
   AskedWork asked(arguments, work);
   const std::vector<WatchedStrut> watched = readWatched(asked.values, asked.vehicle, asked.settings);
   RecordedMonitor read(asked, watched, false);
@@ -151,10 +151,10 @@ auto watchStruts(const Arguments& arguments, LongWork& work) {
 }  // namespace
 
 void bindVehicles(pybind11::module& module) {
-  defCommand<Arguments>(module, "identify_struts", &identifyStruts, "arguments");
-  defCommand<Arguments>(module, "compare_struts", &compareStruts, "arguments");
-  defCommand<Arguments>(module, "health_struts", &watchStruts, "arguments");
-  defCommand<Arguments, int>(module, "diagnose_struts", &diagnoseStruts, "arguments", "threads");
+  defCommand<Arguments>(module, "identify_struts", &identifyStrutsOf, "arguments");
+  defCommand<Arguments>(module, "compare_struts", &compareStrutsOf, "arguments");
+  defCommand<Arguments>(module, "health_struts", &watchStrutsOf, "arguments");
+  defCommand<Arguments, int>(module, "diagnose_struts", &diagnoseStrutsOf, "arguments", "threads");
 }
 
 }  // namespace suspension_health_monitor
