@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "ros/monitor_thread.h"
-#include "ros/vehicle_messages.h"
+#include "ros/simulated_drive.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -127,9 +127,9 @@ class Driver {
 
   static std::vector<Instant> simulate(const VehicleSimulationOptions& options) {
     const std::vector<std::string> topics = imuTopics(options);
-    VehicleMessageSource source(options, std::chrono::seconds(kStart));
+    const DriveSource source = driveOf(options).begin(std::chrono::seconds(kStart));
     std::vector<Instant> instants;
-    while (const std::optional<SimulatedInstant> instant = source.next()) {
+    while (const std::optional<SimulatedInstant> instant = source()) {
       Instant imus(topics.size());
       for (const auto& [topic, message] : instant->messages) {
         const auto found = std::find(topics.begin(), topics.end(), topic);

@@ -4,47 +4,54 @@
 #include <pybind11/stl.h>
 
 #include <boost/program_options.hpp>
+#include <cstddef>
 
 #include "../tools/command.h"
-#include "bags_long_work.h"
+#include "long_work.h"
 #include "opaque.h"
 
 namespace suspension_health_monitor {
 
+/// While it lives, what the tools do on this thread (src/tools/long_work.h) is part of a long work of Python.
+class ToolsWork {
+ public:
+  /// @param bags  whose reading is what the callback is told of; 0: reading is not, but something else.
+  ToolsWork(LongWork& work, std::size_t bags);
+  ~ToolsWork();
+  ToolsWork(const ToolsWork&) = delete;
+  ToolsWork& operator=(const ToolsWork&) = delete;
+
+  /// From now on the reading of so many bags is told of.
+  void tellReading(std::size_t bags);
+
+  void beginBar();
+  void update(double share);
+  void step() { work_.step(); }
+
+ private:
+  LongWork& work_;
+  std::size_t bags_, begun_ = 0;
+  ToolsWork* before_;
+};
+
 /// @param arguments  as on the command line, of any of the commands.
 boost::program_options::variables_map parsed(const Arguments& arguments);
 
-/// Runs what the command line runs; its errors are ValueError.
-template <class Work>
-auto asCommand(const Work& work) {
-  try {
-    return work();
-  } catch (const pybind11::error_already_set&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw pybind11::value_error(error.what());
-  }
-}
-
-/// Adds a function work(arguments, progress) of named arguments and of a callback.
-/// @tparam Given  what it is given before the callback, by `names`.
+/// Adds what the command line does, as defWork(); its errors are ValueError.
 template <class... Given, class Work, class... Names>
-void defWork(pybind11::module& module, const char* name, const Work& work, const Names&... names) {
-  module.def(
-      name,
-      [work](const Given&... given, const pybind11::object& progress) {
-        LongWork long_work(progress);
-        return asCommand([&] { return long_work.run([&] { return work(given..., long_work); }); });
-      },
-      pybind11::arg(names)..., pybind11::arg("progress"));
-}
-
-/// Likewise, of arguments as on the command line.
-template <class Work>
-void defCommand(pybind11::module& module, const char* name, const Work& work) {
-  defWork<Arguments>(module, name, work, "arguments");
+void defCommand(pybind11::module& module, const char* name, const Work& work, const Names&... names) {
+  const auto command = [work](auto&... given) {
+    try {
+      return work(given...);
+    } catch (const pybind11::error_already_set&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw pybind11::value_error(error.what());
+    }
+  };
+  defWork<Given...>(module, name, command, names...);
 }
 
 /// Adds what is of the struts of a vehicle.

@@ -9,6 +9,7 @@
 #include "../ros/simulated_drive.h"
 #include "../ros/yaml_settings.h"
 #include "../tools/bag_options.h"
+#include "../tools/command.h"
 #include "../tools/healthy_strut.h"
 #include "../tools/identify_tables.h"
 #include "../tools/recorded_strut.h"
@@ -19,18 +20,28 @@
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 namespace py = pybind11;
 namespace po = boost::program_options;
+
+po::variables_map parsed(const Arguments& arguments) {
+  po::options_description description("options");
+  addBagOptions(description);
+  addModelOptions(description);
+  addVehicleOptions(description);
+  description.add_options()(kBaseline, po::value<std::string>());
+  const po::variables_map values = *parse(arguments, "", description, "bag");
+  isOfVehicle(values);  // refuses a strut of none
+  return values;
+}
+
+namespace {
 
 Identification identifyBags(const Arguments& arguments, LongWork& work) {
   ToolsWork tools(work, 0);
   const BagOptions options = readBagOptions(parsed(arguments));
   Course course;
-  RecordedIdentification recorded(options, [&](const MonitorReport& report) {
-    if (report.has_row) course.add(report);
-  });
+  RecordedIdentification recorded(options, [&](const MonitorReport& report) { course.add(report); });
   TopicGaps gaps(options.pipeline.shell.input_timeout);
   tools.tellReading(options.bags.paths.size());
   recorded.read(gaps);
@@ -41,17 +52,15 @@ Identification identifyBags(const Arguments& arguments, LongWork& work) {
   return found;
 }
 
-HealthSummary watchBags(const Arguments& arguments, const std::optional<HealthyStrut>& healthy, LongWork& work) {
+HealthSummary watchBags(const Arguments& arguments, const std::optional<Baseline>& baseline, const std::string& file,
+                        LongWork& work) {
   ToolsWork tools(work, 0);
   BagOptions options = readLiveOptions(parsed(arguments));
-  if (healthy) replaceBaseline(*healthy, options.pipeline);
-  options.healthy = healthy;
+  if (baseline) options.healthy = HealthyStrut{*baseline, file};
+  if (baseline) replaceBaseline(*options.healthy, options.pipeline);
   Course course;
   RecordedMonitor recorded(
-      options, [](const HealthMoment&, const Baseline&) {},
-      [&](const MonitorReport& report) {
-        if (report.has_row) course.add(report);
-      });
+      options, [](const HealthMoment&, const Baseline&) {}, [&](const MonitorReport& report) { course.add(report); });
   TopicGaps gaps(options.pipeline.shell.input_timeout);
   tools.tellReading(options.bags.paths.size());
   recorded.read(gaps);
@@ -59,28 +68,42 @@ HealthSummary watchBags(const Arguments& arguments, const std::optional<HealthyS
   return HealthSummary::of(recorded.log(), recorded.monitor(), recorded.baselineFile(), recorded.rejected(), course);
 }
 
-/// Calls work(options, models, gaps) for the search and the comparison.
-template <class Work>
-auto withDrives(const Arguments& arguments, LongWork& progress, const Work& work) {
-  const ToolsWork tools(progress, 0);
-  const po::variables_map values = parsed(arguments);
-  const ModelOptions models = readModelOptions(values);
-  const BagOptions options = readBagOptions(values, true);
-  TopicGaps gaps(options.pipeline.shell.input_timeout);
-  return work(options, models, gaps);
+/// What the search and the comparison begin with.
+struct AskedDrives {
+  ToolsWork tools;
+  po::variables_map values;
+  ModelOptions models;
+  BagOptions options;
+  TopicGaps gaps;
+
+  AskedDrives(const Arguments& arguments, LongWork& work)
+      : tools(work, 0),
+        values(parsed(arguments)),
+        models(readModelOptions(values)),
+        options(readBagOptions(values, true)),
+        gaps(options.pipeline.shell.input_timeout) {}
+};
+
+Comparison compareRecorded(const Arguments& arguments, LongWork& work) {
+  AskedDrives asked(arguments, work);
+  return compareBags(asked.options, asked.models, asked.gaps, work.callback());
 }
 
-std::string writeSimulation(const std::string& path, const OptionMap& values, LongWork& work) {
+SearchedStrut diagnoseRecorded(const Arguments& arguments, int threads, LongWork& work) {
+  AskedDrives asked(arguments, work);
+  RecordedDiagnosis recorded = diagnoseBags(asked.options, asked.models, threads, asked.gaps, work.callback());
+  return {std::move(recorded.found), std::move(recorded.change)};
+}
+
+std::string writeSimulation(const std::string& path, const Keywords& keywords, LongWork& work) {
   const ToolsWork tools(work, 1);
-  const SimulatedDrive drive = makeSimulatedDrive(values);
-  const double start = drive.playing.start_time;
-  writeBag(*drive.begin(fromSeconds(start)), drive.duration, start, path);
+  writeBag(makeSimulatedDrive(keywords.values), path);
   return path;
 }
 
-py::dict toDict(const OptionMap& values) {
+py::dict readSettings(const std::string& path) {
   py::dict settings;
-  for (const auto& [name, value] : values) {
+  for (const auto& [name, value] : readYaml(path)) {
     if (const auto* list = std::get_if<UnusableList>(&value))
       throw std::invalid_argument(name + " = " + list->text + ", must be a plain value");
     settings[py::str(name)] = py::str(std::get<std::string>(value));  // a YAML file has texts only
@@ -95,43 +118,16 @@ PYBIND11_MODULE(_bags, module) {
   using namespace suspension_health_monitor;
   module.doc() = "Compiled part of suspension_health_monitor: bags and files.";
   pybind11::module::import("suspension_health_monitor._core");  // which has the classes of the results
-  defCommand(module, "identify", &identifyBags);
-  defWork<Arguments, std::optional<Baseline>, std::string>(
-      module, "health",
-      [](const Arguments& arguments, const std::optional<Baseline>& baseline, const std::string& file, LongWork& work) {
-        std::optional<HealthyStrut> healthy;
-        if (baseline) healthy = HealthyStrut{*baseline, file};
-        return watchBags(arguments, healthy, work);
-      },
-      "arguments", "baseline", "file");
+  defCommand<Arguments>(module, "identify", &identifyBags, "arguments");
+  defCommand<Arguments, std::optional<Baseline>, std::string>(module, "health", &watchBags, "arguments", "baseline",
+                                                              "file");
   bindVehicles(module);
-  defCommand(module, "compare", [](const Arguments& arguments, LongWork& work) {
-    return withDrives(arguments, work, [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
-      return compareBags(options, models, gaps, work.callback());
-    });
-  });
-  defWork<Arguments, int>(
-      module, "diagnose",
-      [](const Arguments& arguments, int threads, LongWork& work) {
-        return withDrives(arguments, work, [&](const BagOptions& options, const ModelOptions& models, TopicGaps& gaps) {
-          RecordedDiagnosis recorded = diagnoseBags(options, models, threads, gaps, work.callback());
-          return SearchedStrut{std::move(recorded.found), std::move(recorded.change)};
-        });
-      },
-      "arguments", "threads");
-  defWork<std::string, Keywords>(
-      module, "simulate",
-      [](const std::string& path, const Keywords& keywords, LongWork& work) {
-        return writeSimulation(path, keywords.values, work);
-      },
-      "path", "keywords");
-  module.def(
-      "read_effects", [](const std::string& path) { return readEffectsFile(path); }, py::arg("path"));
-  module.def(
-      "read_model", [](const std::string& path, const EffectLibrary& known) { return readModelFile(path, known); },
-      py::arg("path"), py::arg("library"));
+  defCommand<Arguments>(module, "compare", &compareRecorded, "arguments");
+  defCommand<Arguments, int>(module, "diagnose", &diagnoseRecorded, "arguments", "threads");
+  defCommand<std::string, Keywords>(module, "simulate", &writeSimulation, "path", "keywords");
+  module.def("read_effects", &readEffectsFile, py::arg("path"));
+  module.def("read_model", &readModelFile, py::arg("path"), py::arg("library"));
   module.def(
       "read_baseline", [](const std::string& path) { return readHealthy(path).baseline; }, py::arg("path"));
-  module.def(
-      "read_settings", [](const std::string& path) { return toDict(readYaml(path)); }, py::arg("path"));
+  module.def("read_settings", &readSettings, py::arg("path"));
 }

@@ -24,143 +24,137 @@ namespace {
 
 namespace po = boost::program_options;
 
-template <class Result>
-using ByStrut = std::map<std::string, Result>;
-
-/// The drives, read and not told of.
-struct RecordedVehicle {
+/// What all commands begin with: the vehicle and its settings. What its bags lack is told later.
+struct AskedWork {
+  ToolsWork tools;
+  po::variables_map values;
   AskedVehicle vehicle;
   VehicleOptions settings;
   TopicGaps gaps;
-  std::vector<VehicleDrive> drives;
 
-  explicit RecordedVehicle(const po::variables_map& values)
-      : vehicle(readVehicle(values)),
+  AskedWork(const Arguments& arguments, LongWork& work)
+      : tools(work, 0),
+        values(parsed(arguments)),
+        vehicle(readVehicle(values)),
         settings(VehicleOptions::fromValues(vehicle.layout, gatherOptions(values))),
-        gaps(settings.common.shell.input_timeout) {
+        gaps(settings.common.shell.input_timeout) {}
+
+  std::vector<VehicleDrive> readDrives() {
+    std::vector<VehicleDrive> drives;
     const ImuBags bags = readBags(values, settings.common.shell);
     for (VehicleBag& bag : readVehicleDrives(bags, settings.common, vehicle.layout, gaps))
       drives.push_back(std::move(bag.drive));
+    return drives;
+  }
+
+  /// @param make  makes the result of a strut, by its place.
+  template <class Make>
+  auto byStrut(const Make& make) const {
+    std::map<std::string, decltype(make(0))> results;
+    for (const std::size_t i : vehicle.asked) results.emplace(vehicle.names[i], make(i));
+    return results;
   }
 };
 
 /// The monitor of a vehicle that has seen the bags.
 struct RecordedMonitor {
-  TopicGaps gaps;
+  std::vector<Course> courses;
   std::optional<WatchedVehicle> struts;
 
-  RecordedMonitor(const po::variables_map& values, AskedVehicle& vehicle, VehicleOptions& options,
-                  const std::vector<WatchedStrut>& watched, bool period_must_fit, const WatchedVehicle::Report& report)
-      : gaps(options.common.shell.input_timeout) {
-    ImuBags bags = readBags(values, options.common.shell);
-    const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
-    if (period_must_fit && options.common.monitor.sample_period)
-      requireFittingPeriod(bags, *options.common.monitor.sample_period);
-    bags.gaps = &gaps;
-    struts.emplace(options, streams, watched, bags.transforms.get(), WatchedVehicle::Row(), report);
+  RecordedMonitor(AskedWork& asked, const std::vector<WatchedStrut>& watched, bool period_must_fit)
+      : courses(watched.size()) {
+    const PipelineOptions& common = asked.settings.common;
+    ImuBags bags = readBags(asked.values, common.shell);
+    const VehicleStreams streams = streamsOf(bags, common, asked.vehicle.layout);
+    if (period_must_fit && common.monitor.sample_period) requireFittingPeriod(bags, *common.monitor.sample_period);
+    bags.gaps = &asked.gaps;
+    const auto report = [&](std::size_t strut, const MonitorReport& its) {
+      courses[strut].add(its);
+      asked.tools.step();
+    };
+    struts.emplace(asked.settings, streams, watched, bags.transforms.get(), WatchedVehicle::Row(), report);
     struts->read(bags);
   }
 };
 
-ByStrut<Identification> identifyStrutsOf(const Arguments& arguments, LongWork& work) {
-  const ToolsWork tools(work, 0);
-  const po::variables_map values = parsed(arguments);
-  AskedVehicle vehicle = readVehicle(values);
-  VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
-  const std::vector<WatchedStrut> watched = plainStruts(vehicle.names.size());
-  std::vector<Course> courses(vehicle.names.size());
-  RecordedMonitor recorded(values, vehicle, settings, watched, true,
-                           [&](std::size_t strut, const MonitorReport& report) {
-                             if (report.has_row) courses[strut].add(report);
-                             work.step();
-                           });
+auto identifyStrutsOf(const Arguments& arguments, LongWork& work) {
+  AskedWork asked(arguments, work);
+  const std::vector<WatchedStrut> watched = plainStruts(asked.vehicle.names.size());
+  RecordedMonitor recorded(asked, watched, true);
   VehicleIdentification found;
-  recorded.gaps.explain([&] { found = recorded.struts->identified(vehicle.names, settings.forceNames()); });
-  ByStrut<Identification> results;
-  for (const std::size_t i : vehicle.asked) {
-    Identification& result = results[vehicle.names[i]];
+  asked.gaps.explain([&] { found = recorded.struts->identified(asked.vehicle.names, asked.settings.forceNames()); });
+  return asked.byStrut([&](std::size_t i) {
+    Identification result;
     static_cast<IdentifyResult&>(result) = found.struts[i];
     result.mean_period = std::nan("");  // of the sensors' grid, not of one strut
     result.alignment = recorded.struts->alignment();
-    const PipelineOptions& options = settings.struts[i];
+    const PipelineOptions& options = asked.settings.struts[i];
     result.sprung_mass = options.monitor.sprung_mass;
     result.change = describeChange(result, knownHealthy({}, options), options.monitor);
-    result.course = courses[i];
-  }
-  return results;
+    result.course = recorded.courses[i];
+    return result;
+  });
 }
 
-ByStrut<Comparison> compareStrutsOf(const Arguments& arguments, LongWork& work) {
-  const ToolsWork tools(work, 0);
-  const po::variables_map values = parsed(arguments);
-  RecordedVehicle recorded(values);
-  const auto& [vehicle, settings, gaps, drives] = recorded;
-  const KnownModels models = readModels(values, vehicle, readEffects(values));
-  const double period = *settings.common.monitor.sample_period;
-  const SeparatedVehicle separated = separateVehicle(drives, vehicle.names, period, models);
-  gaps.explain([&, &coupling = separated.coupling] { requireCoupling(coupling); });
-  ByStrut<Comparison> results;
-  for (const std::size_t i : vehicle.asked) {
-    CompareOptions options = compareOptionsOf(settings.struts[i], period, models[i]);
-    const double done = static_cast<double>(results.size()), all = static_cast<double>(vehicle.asked.size());
+auto compareStrutsOf(const Arguments& arguments, LongWork& work) {
+  AskedWork asked(arguments, work);
+  const std::vector<VehicleDrive> drives = asked.readDrives();
+  const KnownModels models = readModels(asked.values, asked.vehicle, readEffects(asked.values));
+  const double period = *asked.settings.common.monitor.sample_period;
+  const SeparatedVehicle separated = separateVehicle(drives, asked.vehicle.names, period, models);
+  asked.gaps.explain([&] { requireCoupling(separated.coupling); });
+  double done = 0.0;
+  return asked.byStrut([&](std::size_t i) {
+    CompareOptions options = compareOptionsOf(asked.settings.struts[i], period, models[i]);
+    const auto all = static_cast<double>(asked.vehicle.asked.size());
     options.progress = [&](double share) { work.update((done + share) / all); };
-    Comparison& comparison = results[vehicle.names[i]] = compare(separated.struts[i], options);
+    Comparison comparison = compare(separated.struts[i], options);
     requireEnough(comparison.shortcoming, comparison.reason);
-  }
-  return results;
+    ++done;
+    return comparison;
+  });
 }
 
-ByStrut<SearchedStrut> diagnoseStrutsOf(const Arguments& arguments, int threads, LongWork& work) {
-  const ToolsWork tools(work, 0);
-  const po::variables_map values = parsed(arguments);
-  RecordedVehicle recorded(values);
-  const std::vector<std::string>& names = recorded.vehicle.names;
+auto diagnoseStrutsOf(const Arguments& arguments, int threads, LongWork& work) {
+  AskedWork asked(arguments, work);
+  const std::vector<VehicleDrive> drives = asked.readDrives();
+  const std::vector<std::string>& names = asked.vehicle.names;
   DiagnoseOptions options;
-  options.candidates = readEffects(values);
+  options.candidates = readEffects(asked.values);
   options.threads = threads;
   options.progress = work.callback();
-  const KnownModels models = readModels(values, recorded.vehicle, options.candidates);
-  const VehicleDiagnosis found =
-      diagnoseVehicle(recorded.drives, names, diagnoseOptionsOf(recorded.settings, options), models);
-  recorded.gaps.explain([&] { requireCoupling(found.coupling); });
-  const std::vector<std::string> changes = changesOf(recorded.drives, names, recorded.settings);
-  ByStrut<SearchedStrut> results;
-  for (const std::size_t i : recorded.vehicle.asked) {
-    SearchedStrut& result = results[names[i]] = {found.struts[i], changes[i]};
+  const KnownModels models = readModels(asked.values, asked.vehicle, options.candidates);
+  const VehicleDiagnosis found = diagnoseVehicle(drives, names, diagnoseOptionsOf(asked.settings, options), models);
+  asked.gaps.explain([&] { requireCoupling(found.coupling); });
+  const std::vector<std::string> changes = changesOf(drives, names, asked.settings);
+  return asked.byStrut([&](std::size_t i) {
+    SearchedStrut result{found.struts[i], changes[i]};
     if (!result) throw TooLittleError(names[i] + ": the drives " + result.reason);
     result.verdict = found.verdictOn(i);
     result.selected = found.selected(i);
-  }
-  return results;
+    return result;
+  });
 }
 
-ByStrut<HealthSummary> watchStrutsOf(const Arguments& arguments, LongWork& work) {
-  const ToolsWork tools(work, 0);
-  const po::variables_map values = parsed(arguments);
-  AskedVehicle vehicle = readVehicle(values);
-  VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
-  const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
-  std::vector<Course> courses(vehicle.names.size());
-  RecordedMonitor read(values, vehicle, options, watched, false, [&](std::size_t strut, const MonitorReport& report) {
-    if (report.has_row) courses[strut].add(report);
-  });
+auto watchStrutsOf(const Arguments& arguments, LongWork& work) {
+  AskedWork asked(arguments, work);
+  const std::vector<WatchedStrut> watched = readWatched(asked.values, asked.vehicle, asked.settings);
+  RecordedMonitor read(asked, watched, false);
   const WatchedVehicle& recorded = *read.struts;
-  read.gaps.explain([&] { recorded.requireCoupling(vehicle.names); });
-  ByStrut<HealthSummary> results;
-  for (const std::size_t i : vehicle.asked)
-    results[vehicle.names[i]] =
-        HealthSummary::of(recorded.log(i), *recorded.monitor().strut(i),
-                          watched[i].healthy ? watched[i].healthy->file : "", recorded.rejected(), courses[i]);
-  return results;
+  asked.gaps.explain([&] { recorded.requireCoupling(asked.vehicle.names); });
+  return asked.byStrut([&](std::size_t i) {
+    return HealthSummary::of(recorded.log(i), *recorded.monitor().strut(i),
+                             watched[i].healthy ? watched[i].healthy->file : "", recorded.rejected(), read.courses[i]);
+  });
 }
 
 }  // namespace
 
 void bindVehicles(pybind11::module& module) {
-  defCommand(module, "identify_struts", &identifyStrutsOf);
-  defCommand(module, "compare_struts", &compareStrutsOf);
-  defCommand(module, "health_struts", &watchStrutsOf);
-  defWork<Arguments, int>(module, "diagnose_struts", &diagnoseStrutsOf, "arguments", "threads");
+  defCommand<Arguments>(module, "identify_struts", &identifyStrutsOf, "arguments");
+  defCommand<Arguments>(module, "compare_struts", &compareStrutsOf, "arguments");
+  defCommand<Arguments>(module, "health_struts", &watchStrutsOf, "arguments");
+  defCommand<Arguments, int>(module, "diagnose_struts", &diagnoseStrutsOf, "arguments", "threads");
 }
 
 }  // namespace suspension_health_monitor

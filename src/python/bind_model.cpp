@@ -1,4 +1,3 @@
-
 #include "bindings.h"
 #include "options.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
@@ -29,20 +28,24 @@ std::vector<EffectDescription> describeEffects(const EffectLibrary& library) {
   return all;
 }
 
+/// Adds each value by the name of its shape or coefficient.
+template <class Named>
+void addNumbers(const std::vector<Named>& named, const std::vector<double>& values, py::dict& to) {
+  for (std::size_t i = 0; i < values.size(); ++i) to[py::str(named[i].name)] = values[i];
+}
+
 /// What `model=` takes.
 py::dict settingsOf(const StrutModel& model) {
   py::dict effects, readings, settings;
   for (const ActiveEffect& active : model.effects) {
     py::dict numbers;
     numbers["coefficient"] = active.coefficient;
-    for (std::size_t i = 0; i < active.shapes.size(); ++i)
-      numbers[py::str(active.effect.shapes[i].name)] = active.shapes[i];
+    addNumbers(active.effect.shapes, active.shapes, numbers);
     effects[py::str(active.effect.name)] = numbers;
   }
   for (const ActiveMeasurementEffect& active : model.reading) {
     py::dict numbers;
-    for (std::size_t i = 0; i < active.coefficients.size(); ++i)
-      numbers[py::str(active.effect.coefficients[i].name)] = active.coefficients[i];
+    addNumbers(active.effect.coefficients, active.coefficients, numbers);
     readings[py::str(active.effect.name)] = numbers;
   }
   settings["damping_to_mass"] = model.damping_to_mass;
@@ -55,44 +58,40 @@ py::dict settingsOf(const StrutModel& model) {
 }  // namespace
 
 void bindModel(py::module& module) {
-  py::class_<ModelNumber>(module, "ModelNumber", "One number of a model, in SI.")
-      .def_readonly("name", &ModelNumber::name, "damping_to_mass, bump_stop (its coefficient), bump_stop/g (a shape)")
-      .def_readonly("effect", &ModelNumber::effect, "whose it is; empty for those of the linear strut")
-      .def_readonly("symbol", &ModelNumber::symbol)
-      .def_readonly("unit", &ModelNumber::unit)
-      .def_readonly("value", &ModelNumber::value);
-  py::class_<StrutModel>(module, "StrutModel", "The strut as it is modelled: z'' = b1 v + b0 d + sum_j c_j f_j.")
-      .def_readonly("damping_to_mass", &StrutModel::damping_to_mass, "b1 [1/s]")
-      .def_readonly("stiffness_to_mass", &StrutModel::stiffness_to_mass, "b0 [1/s^2]")
-      .def_property_readonly("numbers", &numbersOf, "All numbers: b1, b0, then effect by effect.")
-      .def_property_readonly(
-          "effects",
-          [](const StrutModel& model) {
-            std::vector<std::string> names;
-            for (const ActiveEffect& active : model.effects) names.push_back(active.effect.name);
-            for (const ActiveMeasurementEffect& active : model.reading) names.push_back(active.effect.name);
-            return names;
-          },
-          "Names of the effects in it.")
-      .def_property_readonly("settings", &settingsOf, "As a dict, which model= takes as well.")
-      .def(
-          "yaml", [](const StrutModel& model) { return toYaml(model); },
-          "The text of a model file: for model_file, `--model` and model=.");
-  module.def(
-      "to_model", [](const py::object& model, const EffectLibrary& library) { return toModel(model, library); },
-      py::arg("model"), py::arg("library"), "A StrutModel of one, of a dict of settings, or None.");
+  ResultClass<ModelNumber>(module, "ModelNumber", "One number of a model, in SI.")
+      .add("name", "damping_to_mass, bump_stop (its coefficient), bump_stop/g (a shape)", &ModelNumber::name)
+      .add("effect", "whose it is; empty for those of the linear strut", &ModelNumber::effect)
+      .add("symbol", "", &ModelNumber::symbol)
+      .add("unit", "", &ModelNumber::unit)
+      .add("value", "", &ModelNumber::value);
+  ResultClass<StrutModel>(module, "StrutModel", "The strut as it is modelled: z'' = b1 v + b0 d + sum_j c_j f_j.")
+      .add("damping_to_mass", "b1 [1/s]", &StrutModel::damping_to_mass)
+      .add("stiffness_to_mass", "b0 [1/s^2]", &StrutModel::stiffness_to_mass)
+      .add("numbers", "All numbers: b1, b0, then effect by effect.", &numbersOf)
+      .add("effects", "Names of the effects in it.",
+           [](const StrutModel& model) {
+             std::vector<std::string> names;
+             for (const ActiveEffect& active : model.effects) names.push_back(active.effect.name);
+             for (const ActiveMeasurementEffect& active : model.reading) names.push_back(active.effect.name);
+             return names;
+           })
+      .add("settings", "As a dict, which model= takes as well.", &settingsOf)
+      .def("yaml", py::overload_cast<const StrutModel&>(&toYaml),
+           "The text of a model file: for model_file, `--model` and model=.");
+  module.def("to_model", &toModel, py::arg("model"), py::arg("library"),
+             "A StrutModel of one, of a dict of settings, or None.");
 
-  py::class_<EffectLibrary>(module, "EffectLibrary", "What may be missing from a model: names, laws and findings.")
-      .def(py::init(&builtInEffects), "The catalogue.")
-      .def_property_readonly("effects", &describeEffects);
-  py::class_<EffectDescription>(module, "Effect",
-                                "A physical effect that the linear strut lacks, or a fault of a reading.")
-      .def_readonly("name", &EffectDescription::name)
-      .def_readonly("law", &EffectDescription::law, "the formula, coefficient c included")
-      .def_readonly("kind", &EffectDescription::kind, "force, or reading: a fault of the body's IMU")
-      .def_readonly("coefficients", &EffectDescription::coefficients, "(name, unit) of each")
-      .def_readonly("shapes", &EffectDescription::shapes, "(name, unit) of each number inside the law")
-      .def_readonly("finding", &EffectDescription::finding, "what a workshop would find");
+  ResultClass<EffectLibrary>(module, "EffectLibrary", "What may be missing from a model: names, laws and findings.")
+      .add("effects", "", &describeEffects)
+      .def(py::init(&builtInEffects), "The catalogue.");
+  ResultClass<EffectDescription>(module, "Effect",
+                                 "A physical effect that the linear strut lacks, or a fault of a reading.")
+      .add("name", "", &EffectDescription::name)
+      .add("law", "the formula, coefficient c included", &EffectDescription::law)
+      .add("kind", "force, or reading: a fault of the body's IMU", &EffectDescription::kind)
+      .add("coefficients", "(name, unit) of each", &EffectDescription::coefficients)
+      .add("shapes", "(name, unit) of each number inside the law", &EffectDescription::shapes)
+      .add("finding", "what a workshop would find", &EffectDescription::finding);
 }
 
 }  // namespace suspension_health_monitor

@@ -1,5 +1,7 @@
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <tuple>
 
 #include "bindings.h"
 #include "results.h"
@@ -12,8 +14,10 @@ namespace py = pybind11;
 
 namespace {
 
-/// What a baseline's friction is sent as.
+/// What a baseline is sent as, and its friction.
 using Numbers = std::array<double, 4>;
+using BaselineState = std::tuple<std::optional<double>, std::optional<double>, double, double, double, double,
+                                 std::optional<Numbers>, bool, Stamp::rep, Stamp::rep>;
 
 std::optional<Numbers> toNumbers(const std::optional<DryFriction>& friction) {
   if (!friction) return std::nullopt;
@@ -25,157 +29,140 @@ std::optional<DryFriction> toFriction(const std::optional<Numbers>& numbers) {
   return DryFriction{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
 }
 
+BaselineState stateOf(const Baseline& baseline) {
+  return BaselineState(baseline.damping_to_mass, baseline.stiffness_to_mass, baseline.damping_to_mass_stddev,
+                       baseline.stiffness_to_mass_stddev, baseline.damping_scatter, baseline.stiffness_scatter,
+                       toNumbers(baseline.friction), baseline.learned, baseline.from.count(), baseline.to.count());
+}
+
+Baseline toBaseline(const BaselineState& state) {
+  const auto& [b1, b0, b1_stddev, b0_stddev, b1_scatter, b0_scatter, friction, learned, from, to] = state;
+  return {b1, b0, b1_stddev, b0_stddev, b1_scatter, b0_scatter, toFriction(friction), learned, Stamp(from), Stamp(to)};
+}
+
+/// Adds what the estimates of a drive and those of the live monitor have alike.
+template <class Strut>
+ResultClass<Strut>& addStrut(ResultClass<Strut>&& strut) {
+  return strut.add("damping_to_mass", "b1 = damping/mass [1/s]", &Strut::damping_to_mass)
+      .add("stiffness_to_mass", "b0 = stiffness/mass [1/s^2]", &Strut::stiffness_to_mass)
+      .add("damping_to_mass_stddev", "[1/s]", &Strut::damping_to_mass_stddev)
+      .add("stiffness_to_mass_stddev", "[1/s^2]", &Strut::stiffness_to_mass_stddev)
+      .add("explained", "share of the body's motion that the strut explains", &Strut::explained)
+      .add("valid", "", &Strut::valid)
+      .add("natural_frequency", "undamped [Hz]", &Strut::naturalFrequency)
+      .add("damping_ratio", "[-]", &Strut::dampingRatio);
+}
+
 void bindEstimates(py::module& module) {
-  py::class_<DryFriction>(module, "DryFriction", "Dry friction, beside which the linear strut was estimated.")
-      .def_readonly("force", &DryFriction::force, "over the body's mass [m/s^2]")
-      .def_readonly("stddev", &DryFriction::stddev, "[m/s^2]")
-      .def_readonly("damping_gain", &DryFriction::damping_gain, "what 1 m/s^2 of it acts as of b1 on this road [s/m]")
-      .def_readonly("damping_covariance", &DryFriction::damping_covariance, "of the errors of b1 and force [m/s^3]");
-  py::class_<StrutEstimate>(module, "StrutEstimate", "What one estimator of the live monitor knows; NaN: nothing yet.")
-      .def_readonly("damping_to_mass", &StrutEstimate::damping_to_mass, "b1 [1/s]")
-      .def_readonly("stiffness_to_mass", &StrutEstimate::stiffness_to_mass, "b0 [1/s^2]")
-      .def_readonly("damping_to_mass_stddev", &StrutEstimate::damping_to_mass_stddev, "[1/s]")
-      .def_readonly("stiffness_to_mass_stddev", &StrutEstimate::stiffness_to_mass_stddev, "[1/s^2]")
-      .def_readonly("correlation", &StrutEstimate::correlation, "of the errors of b1 and b0 [-]; of estimate")
-      .def_readonly("offset", &StrutEstimate::offset,
-                    "of the wheel carrier's reading against the body's [m/s^2]; of ls and la, else NaN")
-      .def_readonly("delay", &StrutEstimate::delay,
-                    "by which the wheel carrier's readings are stamped late [s]; of estimate, else NaN")
-      .def_readonly("delay_stddev", &StrutEstimate::delay_stddev, "[s]")
-      .def_readonly("friction", &StrutEstimate::friction, "of estimate without other effects, or None")
-      .def_readonly("rows", &StrutEstimate::effective_rows, "of estimate blocks, else regression rows in the memory")
-      .def_readonly("explained", &StrutEstimate::explained, "share of the body's motion that the strut explains")
-      .def_readonly("age", &StrutEstimate::age, "of the data behind estimate, on average [s]; else NaN")
-      .def_readonly("window", &StrutEstimate::window, "time that they span [s]; else NaN")
-      .def_property_readonly(
-          "coefficients",
-          [](const StrutEstimate& self) {
-            return py::array_t<double>(static_cast<Py_ssize_t>(self.num_effects), self.coefficients.data());
-          },
-          "of the effects in the model, in their order")
-      .def_property_readonly("valid", &StrutEstimate::valid)
-      .def_property_readonly(
-          "reason", [](const StrutEstimate& self) { return self.valid() ? std::string() : describe(self.doubt); },
-          "why it is not valid; empty if it is")
-      .def_property_readonly("natural_frequency", &StrutEstimate::naturalFrequency, "undamped [Hz]")
-      .def_property_readonly("damping_ratio", &StrutEstimate::dampingRatio, "[-]");
-  py::class_<WheelEstimate>(module, "WheelEstimate", "What one estimator knows of wheel and tyre; NaN: nothing yet.")
-      .def_readonly("damping_to_wheel_mass", &WheelEstimate::damping_to_wheel_mass, "[1/s]")
-      .def_readonly("stiffness_to_wheel_mass", &WheelEstimate::stiffness_to_wheel_mass, "[1/s^2]")
-      .def_readonly("tyre_to_wheel_mass", &WheelEstimate::tyre_to_wheel_mass, "[1/s^2]")
-      .def_property_readonly("wheel_hop_frequency", &WheelEstimate::wheelHopFrequency, "[Hz]")
-      .def_property_readonly("valid", &WheelEstimate::valid);
-  py::class_<TyreReport>(module, "Tyre", "What is known of the tyre.")
-      .def_readonly("ls", &TyreReport::ls)
-      .def_readonly("la", &TyreReport::la);
+  addStrut(
+      ResultClass<IdentifiedStrut>(module, "IdentifiedStrut", "What one estimator knows of the strut; NaN: nothing."))
+      .add("rows", "regression rows, or blocks, that the estimate rests on", &IdentifiedStrut::rows)
+      .add("age", "of the newest data behind estimate [s]; else NaN", &IdentifiedStrut::age)
+      .add("reason", "why it is not valid; empty if it is", &IdentifiedStrut::reason);
+  ResultClass<DryFriction>(module, "DryFriction", "Dry friction, beside which the linear strut was estimated.")
+      .add("force", "over the body's mass [m/s^2]", &DryFriction::force)
+      .add("stddev", "[m/s^2]", &DryFriction::stddev)
+      .add("damping_gain", "what 1 m/s^2 of it acts as of b1 on this road [s/m]", &DryFriction::damping_gain)
+      .add("damping_covariance", "of the errors of b1 and force [m/s^3]", &DryFriction::damping_covariance);
+  addStrut(ResultClass<StrutEstimate>(module, "StrutEstimate",
+                                      "What one estimator of the live monitor knows; NaN: nothing yet."))
+      .add("correlation", "of the errors of b1 and b0 [-]; of estimate", &StrutEstimate::correlation)
+      .add("offset", "of the wheel carrier's reading against the body's [m/s^2]; of ls and la, else NaN",
+           &StrutEstimate::offset)
+      .add("delay", "by which the wheel carrier's readings are stamped late [s]; of estimate, else NaN",
+           &StrutEstimate::delay)
+      .add("delay_stddev", "[s]", &StrutEstimate::delay_stddev)
+      .add("friction", "of estimate without other effects, or None", &StrutEstimate::friction)
+      .add("rows", "of estimate blocks, else regression rows in the memory", &StrutEstimate::effective_rows)
+      .add("age", "of the data behind estimate, on average [s]; else NaN", &StrutEstimate::age)
+      .add("window", "time that they span [s]; else NaN", &StrutEstimate::window)
+      .addArray("coefficients", "of the effects in the model, in their order",
+                [](const StrutEstimate& self) {
+                  return std::vector<double>(self.coefficients.begin(), self.coefficients.begin() + self.num_effects);
+                })
+      .add("reason", "why it is not valid; empty if it is",
+           [](const StrutEstimate& self) { return self.valid() ? std::string() : describe(self.doubt); });
+  ResultClass<WheelEstimate>(module, "WheelEstimate", "What one estimator knows of wheel and tyre; NaN: nothing yet.")
+      .add("damping_to_wheel_mass", "[1/s]", &WheelEstimate::damping_to_wheel_mass)
+      .add("stiffness_to_wheel_mass", "[1/s^2]", &WheelEstimate::stiffness_to_wheel_mass)
+      .add("tyre_to_wheel_mass", "[1/s^2]", &WheelEstimate::tyre_to_wheel_mass)
+      .add("wheel_hop_frequency", "[Hz]", &WheelEstimate::wheelHopFrequency)
+      .add("valid", "", &WheelEstimate::valid);
+  ResultClass<TyreReport>(module, "Tyre", "What is known of the tyre.")
+      .add("ls", "", &TyreReport::ls)
+      .add("la", "", &TyreReport::la);
 }
 
 void bindCondition(py::module& module) {
-  py::class_<Baseline>(module, "Baseline", "The healthy strut, to judge changes by.")
-      .def(py::init([](std::optional<double> damping, std::optional<double> stiffness) {
+  ResultClass<Baseline>(module, "Baseline", "The healthy strut, to judge changes by.")
+      .add("damping_to_mass", "b1 [1/s], or None", &Baseline::damping_to_mass)
+      .add("stiffness_to_mass", "b0 [1/s^2], or None", &Baseline::stiffness_to_mass)
+      .add("damping_to_mass_stddev", "[1/s]; 0 of a given value", &Baseline::damping_to_mass_stddev)
+      .add("stiffness_to_mass_stddev", "[1/s^2]", &Baseline::stiffness_to_mass_stddev)
+      .add("damping_scatter", "of healthy windows beyond that [1/s]", &Baseline::damping_scatter)
+      .add("stiffness_scatter", "[1/s^2]", &Baseline::stiffness_scatter)
+      .add("friction", "when it was learned, or None: not known", &Baseline::friction)
+      .add("learned", "from a drive", &Baseline::learned)
+      .add("learned_from", "stamp of its begin [s]", &Baseline::from)
+      .add("learned_to", "stamp of its end [s]", &Baseline::to)
+      .def(py::init([](const std::optional<double>& damping, const std::optional<double>& stiffness) {
              Baseline baseline;
              baseline.damping_to_mass = damping;
              baseline.stiffness_to_mass = stiffness;
              return baseline;
            }),
            py::arg("damping_to_mass") = py::none(), py::arg("stiffness_to_mass") = py::none())
-      .def_readonly("damping_to_mass", &Baseline::damping_to_mass, "b1 [1/s], or None")
-      .def_readonly("stiffness_to_mass", &Baseline::stiffness_to_mass, "b0 [1/s^2], or None")
-      .def_readonly("damping_to_mass_stddev", &Baseline::damping_to_mass_stddev, "[1/s]; 0 of a given value")
-      .def_readonly("stiffness_to_mass_stddev", &Baseline::stiffness_to_mass_stddev, "[1/s^2]")
-      .def_readonly("damping_scatter", &Baseline::damping_scatter, "of healthy windows beyond that [1/s]")
-      .def_readonly("stiffness_scatter", &Baseline::stiffness_scatter, "[1/s^2]")
-      .def_readonly("friction", &Baseline::friction, "when it was learned, or None: not known")
-      .def_readonly("learned", &Baseline::learned, "from a drive")
-      .def_property_readonly(
-          "learned_from", [](const Baseline& self) { return toSeconds(self.from); }, "stamp of its begin [s]")
-      .def_property_readonly(
-          "learned_to", [](const Baseline& self) { return toSeconds(self.to); }, "stamp of its end [s]")
-      .def(py::pickle(
-          [](const Baseline& self) {
-            return py::make_tuple(self.damping_to_mass, self.stiffness_to_mass, self.damping_to_mass_stddev,
-                                  self.stiffness_to_mass_stddev, self.damping_scatter, self.stiffness_scatter,
-                                  toNumbers(self.friction), self.learned, self.from.count(), self.to.count());
-          },
-          [](const py::tuple& state) {
-            return Baseline{state[0].cast<std::optional<double>>(),
-                            state[1].cast<std::optional<double>>(),
-                            state[2].cast<double>(),
-                            state[3].cast<double>(),
-                            state[4].cast<double>(),
-                            state[5].cast<double>(),
-                            toFriction(state[6].cast<std::optional<Numbers>>()),
-                            state[7].cast<bool>(),
-                            Stamp(state[8].cast<Stamp::rep>()),
-                            Stamp(state[9].cast<Stamp::rep>())};
-          }));
-  py::class_<HealthReport>(module, "HealthReport", "What is known of the strut's condition.")
-      .def_property_readonly(
-          "level", [](const HealthReport& self) { return nameOf(self.level); }, "OK, WARN, ERROR or STALE")
-      .def_property_readonly(
-          "message", [](const HealthReport& self) { return describe(self); }, "in one sentence")
-      .def_readonly("damping_change", &HealthReport::damping_change, "relative to the healthy strut, or None")
-      .def_readonly("stiffness_change", &HealthReport::stiffness_change)
-      .def_readonly("payload_change", &HealthReport::payload_change, "of the body's mass")
-      .def_readonly("early_warning", &HealthReport::early_warning)
-      .def_readonly("learning", &HealthReport::learning, "progress 0 .. 1 of learning the baseline, or None");
-  py::class_<ComparisonReport>(module, "ComparisonReport", "The model, driven by the wheel, against the measurement.")
-      .def_readonly("measured", &ComparisonReport::measured, "z'' [m/s^2]")
-      .def_readonly("predicted", &ComparisonReport::predicted, "[m/s^2], or None until the free run has settled")
-      .def_readonly("rmse", &ComparisonReport::rmse, "over comparison_window [m/s^2]")
-      .def_readonly("fit_percent", &ComparisonReport::fit_percent)
-      .def_readonly("base_rmse", &ComparisonReport::base_rmse, "of the model without effects [m/s^2]")
-      .def_readonly("base_fit_percent", &ComparisonReport::base_fit_percent);
-  py::class_<MonitorReport>(module, "MonitorReport", "Everything that is known after one sample.")
-      .def_property_readonly(
-          "stamp", [](const MonitorReport& self) { return toSeconds(self.stamp); }, "[s]")
-      .def_readonly("estimate", &MonitorReport::estimate, "of the newest blocks: what to trust, and health goes by")
-      .def_readonly("ls", &MonitorReport::ls, "by least squares")
-      .def_readonly("la", &MonitorReport::la, "by the least sum of absolute values")
-      .def_readonly("comparison", &MonitorReport::comparison)
-      .def_readonly("health", &MonitorReport::health);
-  py::class_<InputStatus>(module, "InputStatus", "How the input has been so far.")
-      .def_readonly("samples", &InputStatus::samples)
-      .def_readonly("rows", &InputStatus::rows)
-      .def_readonly("gaps", &InputStatus::gaps)
-      .def_readonly("clock_jumps", &InputStatus::restarts)
-      .def_readonly("mean_period", &InputStatus::mean_period, "[s]")
-      .def_readonly("period_fits", &InputStatus::period_fits);
+      .def(py::pickle(&stateOf, &toBaseline));
+  ResultClass<HealthReport>(module, "HealthReport", "What is known of the strut's condition.")
+      .add("level", "OK, WARN, ERROR or STALE", &HealthReport::level)
+      .add("message", "in one sentence", [](const HealthReport& self) { return describe(self); })
+      .add("damping_change", "relative to the healthy strut, or None", &HealthReport::damping_change)
+      .add("stiffness_change", "", &HealthReport::stiffness_change)
+      .add("payload_change", "of the body's mass", &HealthReport::payload_change)
+      .add("early_warning", "", &HealthReport::early_warning)
+      .add("learning", "progress 0 .. 1 of learning the baseline, or None", &HealthReport::learning);
+  ResultClass<ComparisonReport>(module, "ComparisonReport", "The model, driven by the wheel, against the measurement.")
+      .add("measured", "z'' [m/s^2]", &ComparisonReport::measured)
+      .add("predicted", "[m/s^2], or None until the free run has settled", &ComparisonReport::predicted)
+      .add("rmse", "over comparison_window [m/s^2]", &ComparisonReport::rmse)
+      .add("fit_percent", "", &ComparisonReport::fit_percent)
+      .add("base_rmse", "of the model without effects [m/s^2]", &ComparisonReport::base_rmse)
+      .add("base_fit_percent", "", &ComparisonReport::base_fit_percent);
+  ResultClass<MonitorReport>(module, "MonitorReport", "Everything that is known after one sample.")
+      .add("stamp", "[s]", &MonitorReport::stamp)
+      .add("estimate", "of the newest blocks: what to trust, and health goes by", &MonitorReport::estimate)
+      .add("ls", "by least squares", &MonitorReport::ls)
+      .add("la", "by the least sum of absolute values", &MonitorReport::la)
+      .add("comparison", "", &MonitorReport::comparison)
+      .add("health", "", &MonitorReport::health);
+  ResultClass<InputStatus>(module, "InputStatus", "How the input has been so far.")
+      .add("samples", "", &InputStatus::samples)
+      .add("rows", "", &InputStatus::rows)
+      .add("gaps", "", &InputStatus::gaps)
+      .add("clock_jumps", "", &InputStatus::restarts)
+      .add("mean_period", "[s]", &InputStatus::mean_period)
+      .add("period_fits", "", &InputStatus::period_fits);
 }
 
 void bindCourse(py::module& module) {
-  py::class_<Course> course(module, "Course",
-                            "Estimates over time, evenly thinned out to a few thousand points. One entry per point.");
-  const auto add = [&](const char* name, auto get, const char* text) {
-    course.def_property_readonly(
-        name, [get](const Course& self) { return arrayOf(self.points(), get); }, text);
+  ResultClass<Course> course(module, "Course",
+                             "Estimates over time, evenly thinned out to a few thousand points. One entry per point.");
+  const auto add = [&](const char* name, const char* text, const auto& what) {
+    course.addColumn(name, text, &Course::points, what);
   };
-  add(
-      "time", [](const CoursePoint& p) { return toSeconds(p.stamp); }, "[s]");
-  add(
-      "damping_to_mass", [](const CoursePoint& p) { return p.estimate.damping_to_mass; }, "of estimate [1/s]");
-  add(
-      "stiffness_to_mass", [](const CoursePoint& p) { return p.estimate.stiffness_to_mass; }, "of estimate [1/s^2]");
-  add(
-      "damping_to_mass_stddev", [](const CoursePoint& p) { return p.estimate.damping_to_mass_stddev; }, "[1/s]");
-  add(
-      "stiffness_to_mass_stddev", [](const CoursePoint& p) { return p.estimate.stiffness_to_mass_stddev; }, "[1/s^2]");
-  add(
-      "ls_damping_to_mass", [](const CoursePoint& p) { return p.ls.damping_to_mass; }, "of ls [1/s]");
-  add(
-      "ls_stiffness_to_mass", [](const CoursePoint& p) { return p.ls.stiffness_to_mass; }, "of ls [1/s^2]");
-  add(
-      "la_damping_to_mass", [](const CoursePoint& p) { return p.la.damping_to_mass; }, "of la [1/s]");
-  add(
-      "la_stiffness_to_mass", [](const CoursePoint& p) { return p.la.stiffness_to_mass; }, "of la [1/s^2]");
-  add(
-      "valid", [](const CoursePoint& p) { return p.estimate.valid(); }, "of estimate");
-  add(
-      "rmse", [](const CoursePoint& p) { return p.rmse; }, "of the free run [m/s^2]");
-  add(
-      "fit_percent", [](const CoursePoint& p) { return p.fit_percent; }, "of the free run");
-  add(
-      "level", [](const CoursePoint& p) { return static_cast<int>(p.level); }, "0 OK, 1 WARN, 2 ERROR, 3 STALE");
+  add("time", "[s]", &MonitorReport::stamp);
+  add("damping_to_mass", "of estimate [1/s]", [](const auto& at) { return at.estimate.damping_to_mass; });
+  add("stiffness_to_mass", "of estimate [1/s^2]", [](const auto& at) { return at.estimate.stiffness_to_mass; });
+  add("damping_to_mass_stddev", "[1/s]", [](const auto& at) { return at.estimate.damping_to_mass_stddev; });
+  add("stiffness_to_mass_stddev", "[1/s^2]", [](const auto& at) { return at.estimate.stiffness_to_mass_stddev; });
+  add("ls_damping_to_mass", "of ls [1/s]", [](const auto& at) { return at.ls.damping_to_mass; });
+  add("ls_stiffness_to_mass", "of ls [1/s^2]", [](const auto& at) { return at.ls.stiffness_to_mass; });
+  add("la_damping_to_mass", "of la [1/s]", [](const auto& at) { return at.la.damping_to_mass; });
+  add("la_stiffness_to_mass", "of la [1/s^2]", [](const auto& at) { return at.la.stiffness_to_mass; });
+  add("valid", "of estimate", [](const auto& at) { return at.estimate.valid(); });
+  add("rmse", "of the free run [m/s^2]", [](const auto& at) { return at.comparison.rmse; });
+  add("fit_percent", "of the free run", [](const auto& at) { return at.comparison.fit_percent; });
+  add("level", "0 OK, 1 WARN, 2 ERROR, 3 STALE", [](const auto& at) { return static_cast<int>(at.health.level); });
 }
 
 }  // namespace

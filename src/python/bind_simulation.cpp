@@ -37,7 +37,9 @@ void refusePlaying(const OptionMap& values) {
       throw std::invalid_argument(std::string(field.name) + " is an option of the nodelet, must not come with arrays");
 }
 
-Simulation simulate(const SimulatorOptions& options, LongWork& work) {
+Simulation simulateArrays(const Keywords& keywords, const EffectLibrary& library, LongWork& work) {
+  refusePlaying(keywords.values);
+  const SimulatorOptions options = SimulatorOptions::fromValues(keywords.values, library);
   DriveSimulator simulator(options.drive);
   Simulation made;
   const double start = options.playing.start_time, gravity = options.publishing.gravity;
@@ -58,50 +60,39 @@ Simulation simulate(const SimulatorOptions& options, LongWork& work) {
   return made;
 }
 
-py::array_t<double> asArray(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<Py_ssize_t>(values.size()), values.data());
-}
-
-void defSensor(py::class_<Simulation>& simulation, const char* name, const char* stamps,
+void addSensor(ResultClass<Simulation>& simulation, const char* name, const char* stamps,
                SimulatedReadings Simulation::*sensor) {
-  simulation.def_property_readonly(
-      name, [sensor](const Simulation& self) { return asArray((self.*sensor).values); },
-      "what it reads up along the strut, gravity included [m/s^2]");
-  simulation.def_property_readonly(
-      stamps, [sensor](const Simulation& self) { return asArray((self.*sensor).stamps); }, "[s], one per reading");
+  simulation
+      .addArray(
+          name, "what it reads up along the strut, gravity included [m/s^2]",
+          [sensor](const Simulation& self) -> const auto& { return (self.*sensor).values; })
+      .addArray(
+          stamps,
+          "[s], one per reading", [sensor](const Simulation& self) -> const auto& { return (self.*sensor).stamps; });
 }
 
-void defTruth(py::class_<Simulation>& simulation, const char* name, double DriveTruth::*member, const char* text) {
-  simulation.def_property_readonly(
-      name,
-      [member](const Simulation& self) {
-        return arrayOf(self.truth, [member](const DriveTruth& truth) { return truth.*member; });
-      },
-      text);
+py::array_t<double> acrossOf(const Simulation& simulation) {
+  const auto& across = simulation.across;
+  return py::array_t<double>({static_cast<Py_ssize_t>(across.size()), Py_ssize_t{4}},
+                             across.empty() ? nullptr : across.front().data());
 }
 
 }  // namespace
 
 void bindSimulation(py::module& module) {
-  py::class_<Simulation> simulation(module, "Simulation",
-                                    "A simulated drive: readings of the sensors, and the truth that none tells.");
-  defSensor(simulation, "body", "stamps_body", &Simulation::body);
-  defSensor(simulation, "wheel", "stamps_wheel", &Simulation::wheel);
-  defSensor(simulation, "road", "stamps_road", &Simulation::road);
-  simulation.def_property_readonly(
-      "across",
-      [](const Simulation& self) {
-        return py::array_t<double>({static_cast<Py_ssize_t>(self.across.size()), Py_ssize_t{4}},
-                                   self.across.empty() ? nullptr : self.across.front().data());
-      },
-      "a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, (readings, 4); NaN: it has none");
-  simulation.def_property_readonly(
-      "time", [](const Simulation& self) { return asArray(self.time); }, "of the truth [s]");
-  defTruth(simulation, "damping_to_mass", &DriveTruth::damping_to_mass, "b1 [1/s]");
-  defTruth(simulation, "stiffness_to_mass", &DriveTruth::stiffness_to_mass, "b0 [1/s^2]");
-  defTruth(simulation, "travel", &DriveTruth::travel, "compression positive [m]");
-  defTruth(simulation, "travel_rate", &DriveTruth::travel_rate, "[m/s]");
-  defTruth(simulation, "road_height", &DriveTruth::road_height, "[m]");
+  ResultClass<Simulation> simulation(module, "Simulation",
+                                     "A simulated drive: readings of the sensors, and the truth that none tells.");
+  addSensor(simulation, "body", "stamps_body", &Simulation::body);
+  addSensor(simulation, "wheel", "stamps_wheel", &Simulation::wheel);
+  addSensor(simulation, "road", "stamps_road", &Simulation::road);
+  simulation
+      .add("across", "a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, (readings, 4); NaN: it has none", &acrossOf)
+      .addArray("time", "of the truth [s]", &Simulation::time)
+      .addColumn("damping_to_mass", "b1 [1/s]", &Simulation::truth, &DriveTruth::damping_to_mass)
+      .addColumn("stiffness_to_mass", "b0 [1/s^2]", &Simulation::truth, &DriveTruth::stiffness_to_mass)
+      .addColumn("travel", "compression positive [m]", &Simulation::truth, &DriveTruth::travel)
+      .addColumn("travel_rate", "[m/s]", &Simulation::truth, &DriveTruth::travel_rate)
+      .addColumn("road_height", "[m]", &Simulation::truth, &DriveTruth::road_height);
   module.def(
       "simulator_keywords",
       [](const py::dict& keywords, bool of_vehicle, const std::vector<std::string>& arguments) {
@@ -109,15 +100,7 @@ void bindSimulation(py::module& module) {
         return takeKeywords(keywords, SimulatorOptions::describe(), arguments);
       },
       py::arg("keywords"), py::arg("of_vehicle"), py::arg("arguments"));
-  module.def(
-      "simulate",
-      [](const Keywords& keywords, const EffectLibrary& library, const py::object& progress) {
-        refusePlaying(keywords.values);
-        const SimulatorOptions options = SimulatorOptions::fromValues(keywords.values, library);
-        LongWork work(progress);
-        return work.run([&] { return simulate(options, work); });
-      },
-      py::arg("keywords"), py::arg("library"), py::arg("progress"));
+  defWork<Keywords, EffectLibrary>(module, "simulate", &simulateArrays, "keywords", "library");
 }
 
 }  // namespace suspension_health_monitor

@@ -4,45 +4,70 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <vector>
+#include <functional>
+#include <type_traits>
 
 #include "opaque.h"
+#include "suspension_health_monitor/drive.h"
 
 namespace suspension_health_monitor {
 
 // Each adds its classes and functions to the compiled part of the Python module.
-void bindReadings(pybind11::module& module);
 void bindModel(pybind11::module& module);
 void bindReports(pybind11::module& module);
-void bindIdentification(pybind11::module& module);
 void bindViews(pybind11::module& module);
-void bindComparison(pybind11::module& module);
-void bindDiagnosis(pybind11::module& module);
-void bindHealth(pybind11::module& module);
+void bindResults(pybind11::module& module);
+void bindWork(pybind11::module& module);
 void bindSimulation(pybind11::module& module);
-void bindStrutMonitor(pybind11::module& module);
-void bindVehicleMonitor(pybind11::module& module);
+void bindMonitors(pybind11::module& module);
+
+/// @param what  a member, a const member function, or any function of the owner.
+/// @return its value: of a stamp the seconds, of a level or verdict the name.
+template <class What, class Owner>
+decltype(auto) valueOf(const What& what, const Owner& owner) {
+  using Value = std::decay_t<std::invoke_result_t<const What&, const Owner&>>;
+  if constexpr (std::is_same_v<Value, Stamp>)
+    return toSeconds(std::invoke(what, owner));
+  else if constexpr (std::is_enum_v<Value>)
+    return nameOf(std::invoke(what, owner));
+  else
+    return std::invoke(what, owner);
+}
 
 /// @return one number of each item, as an array.
-template <class Items, class Get>
-auto arrayOf(const Items& items, const Get& get) {
-  using Number = std::decay_t<decltype(get(items[0]))>;
+template <class Items, class What>
+auto arrayOf(const Items& items, const What& what) {
+  using Number = std::decay_t<decltype(valueOf(what, items[0]))>;
   pybind11::array_t<Number> array(static_cast<Py_ssize_t>(items.size()));
   Number* next = array.mutable_data();
-  for (const auto& item : items) *next++ = get(item);
+  for (const auto& item : items) *next++ = valueOf(what, item);
   return array;
 }
 
-/// Adds an attribute that is an array, of a member that is a vector of numbers.
-template <class Class, class Owner, class Number>
-void defArray(pybind11::class_<Class>& to, const char* name, std::vector<Number> Owner::*member, const char* text) {
-  to.def_property_readonly(
-      name,
-      [member](const Class& self) {
-        const std::vector<Number>& values = self.*member;
-        return pybind11::array_t<Number>(static_cast<Py_ssize_t>(values.size()), values.data());
-      },
-      text);
-}
+/// A class of results in Python. Its attributes cannot be changed; `what` they are is said as valueOf() takes it.
+template <class Result>
+class ResultClass : public pybind11::class_<Result> {
+ public:
+  using pybind11::class_<Result>::class_;
+
+  template <class What>
+  ResultClass& add(const char* name, const char* text, const What& what) {
+    const auto get = [what](const Result& self) -> decltype(auto) { return valueOf(what, self); };
+    this->def_property_readonly(name, get, text);
+    return *this;
+  }
+
+  /// Adds an array: of each item in a vector one number.
+  template <class Items, class What>
+  ResultClass& addColumn(const char* name, const char* text, const Items& items, const What& what) {
+    return add(name, text, [=](const Result& self) { return arrayOf(valueOf(items, self), what); });
+  }
+
+  /// Adds an array, of a vector of numbers.
+  template <class Numbers>
+  ResultClass& addArray(const char* name, const char* text, const Numbers& numbers) {
+    return addColumn(name, text, numbers, [](const auto& number) { return number; });
+  }
+};
 
 }  // namespace suspension_health_monitor

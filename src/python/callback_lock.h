@@ -2,21 +2,27 @@
 
 #include <pybind11/pybind11.h>
 
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 
 namespace suspension_health_monitor {
 
-/// Lets one thread at a time at something that calls back into Python: who waits for it has let the interpreter's lock
+/// Lets one thread at a time at a monitor that calls back into Python: who waits for it has let the interpreter's lock
 /// go, so that the callback of the one inside can have it. The callback may ask, but not push again.
-class CallbackLock {
+template <class Monitor>
+class Locked {
  public:
-  /// Runs what asks, and is over at once.
+  template <class... Given>
+  explicit Locked(Given&&... given) : monitor_(std::forward<Given>(given)...) {}
+
+  /// @param question  a member of the monitor, or a function of it: what asks, and is over at once.
   template <class Question>
   auto ask(const Question& question) const {
     const pybind11::gil_scoped_release released;
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
-    return question();
+    return std::invoke(question, monitor_);
   }
 
   /// Runs what calls back, without the interpreter's lock.
@@ -26,21 +32,15 @@ class CallbackLock {
     const pybind11::gil_scoped_release released;
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
     if (is_pushing_) throw std::invalid_argument("push() from within on_report, must be from outside");
-    const Busy busy(is_pushing_);
-    work();
+    const std::unique_ptr<bool, void (*)(bool*)> busy(&is_pushing_, [](bool* flag) { *flag = false; });
+    is_pushing_ = true;
+    work(monitor_);
   }
 
  private:
-  struct Busy {
-    explicit Busy(bool& its_flag) : flag(its_flag) { flag = true; }
-    ~Busy() { flag = false; }
-    Busy(const Busy&) = delete;
-    Busy& operator=(const Busy&) = delete;
-    bool& flag;
-  };
-
   mutable std::recursive_mutex mutex_;
   bool is_pushing_ = false;
+  Monitor monitor_;
 };
 
 }  // namespace suspension_health_monitor

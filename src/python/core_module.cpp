@@ -1,18 +1,35 @@
 // The compiled part of the Python module that needs no ROS; python/suspension_health_monitor wraps it.
 #include "bindings.h"
+#include "options.h"
+#include "readings.h"
 
 PYBIND11_MODULE(_core, module) {
   using namespace suspension_health_monitor;
+  namespace py = pybind11;
   module.doc() = "Compiled part of suspension_health_monitor: arrays in, results out.";
-  bindReadings(module);
+  py::class_<Recording>(module, "Readings", "Arrays of one drive, checked and ready to be read.")
+      .def(py::init<std::vector<ReadingStream>, std::optional<py::array_t<double>>>(), py::arg("streams"),
+           py::arg("across"));
+  py::class_<Keywords>(module, "Keywords", "Options by their full names.")
+      .def("with_defaults",
+           [](Keywords self, const Keywords& defaults) {
+             self.values.insert(defaults.values.begin(), defaults.values.end());
+             return self;
+           })
+      .def("without_messages", &Keywords::withoutMessages, "Those that arrays have a use for.")
+      .def_property_readonly("assignments", &Keywords::assignments, "NAME=VALUE each, for `--set`");
+  module.def(
+      "monitor_keywords",
+      [](const py::dict& keywords, const std::vector<std::string>& arguments) {
+        return takeKeywords(keywords, PipelineOptions::describe(), arguments);
+      },
+      py::arg("keywords"), py::arg("arguments"),
+      "The keywords of a call by the options' full names; refuses an unknown one, naming the nearest.");
   bindModel(module);
   bindReports(module);
-  bindIdentification(module);
   bindViews(module);
-  bindComparison(module);
-  bindDiagnosis(module);
-  bindHealth(module);
+  bindResults(module);
+  bindWork(module);
   bindSimulation(module);
-  bindStrutMonitor(module);
-  bindVehicleMonitor(module);
+  bindMonitors(module);
 }

@@ -74,4 +74,17 @@ class LongWork {
   Time telling_due_{}, asking_due_{};
 };
 
+/// Adds a function work(given..., progress) of named arguments and of a callback.
+/// @tparam Given  what it is given before the callback, by `names`.
+template <class... Given, class Work, class... Names>
+void defWork(pybind11::module& module, const char* name, const Work& work, const Names&... names) {
+  module.def(
+      name,
+      [work](const Given&... given, const pybind11::object& progress) {
+        LongWork long_work(progress);
+        return long_work.run([&] { return work(given..., long_work); });
+      },
+      pybind11::arg(names)..., pybind11::arg("progress"));
+}
+
 }  // namespace suspension_health_monitor

@@ -3,14 +3,13 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
-#include "../ros/shell_options.h"  // of its folder the file without ROS
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -32,10 +31,9 @@ py::object plain(const py::handle& value) {
 }
 
 OptionValue toNumber(const py::object& number) {
-  if (!py::isinstance<py::int_>(number)) return number.cast<double>();
   const double value = number.cast<double>();
-  if (std::abs(value) <= std::numeric_limits<int>::max()) return static_cast<int>(value);
-  return value;
+  const bool is_int = py::isinstance<py::int_>(number) && std::abs(value) <= std::numeric_limits<int>::max();
+  return is_int ? OptionValue(static_cast<int>(value)) : OptionValue(value);
 }
 
 OptionValue toList(const std::string& name, const py::sequence& list) {
@@ -59,27 +57,9 @@ OptionValue toValue(const std::string& name, const py::handle& given) {
                               ", must be true or false, a number or a text");
 }
 
-void flatten(const std::string& group, const py::dict& settings, OptionMap& into) {
-  for (const auto& [key, value] : settings) {
-    const std::string name =
-        group.empty() ? py::str(key).cast<std::string>() : group + '/' + py::str(key).cast<std::string>();
-    if (value.is_none()) continue;
-    if (py::isinstance<py::dict>(value))
-      flatten(name, py::reinterpret_borrow<py::dict>(value), into);
-    else if (!into.emplace(name, toValue(name, value)).second)
-      throw std::invalid_argument(name + " is given twice, must be given once");
-  }
-}
-
 /// What arrays get by an argument of the call.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kArguments{
-    {{"effects", "model"}, {"model_file", "model"}, {"effects_file", "effects_file"}, {"baseline_file", "baseline"}}};
-
-std::optional<std::string_view> argumentFor(std::string_view option) {
-  for (const auto& [name, argument] : kArguments)
-    if (name == option) return argument;
-  return std::nullopt;
-}
+const std::map<std::string_view, std::string> kArguments{
+    {"effects", "model"}, {"model_file", "model"}, {"effects_file", "effects_file"}, {"baseline_file", "baseline"}};
 
 bool isOfArrays(const ShellField& field) { return field.name == "input_timeout"; }
 
@@ -88,13 +68,20 @@ bool isOfArrays(const ShellField& field) { return field.name == "input_timeout";
 Keywords Keywords::withoutMessages() const {
   Keywords rest = *this;
   for (const ShellField& field : kShellFields)
-    if (!isOfArrays(field) && !argumentFor(field.name)) rest.values.erase(std::string(field.name));
+    if (!isOfArrays(field) && kArguments.count(field.name) == 0) rest.values.erase(std::string(field.name));
   return rest;
 }
 
-OptionMap toSettings(const py::dict& settings) {
+OptionMap toSettings(const py::dict& settings, const std::string& group) {
   OptionMap values;
-  flatten("", settings, values);
+  for (const auto& [key, value] : settings) {
+    if (value.is_none()) continue;
+    const std::string name = group + py::str(key).cast<std::string>();
+    OptionMap more = py::isinstance<py::dict>(value) ? toSettings(py::reinterpret_borrow<py::dict>(value), name + '/')
+                                                     : OptionMap{{name, toValue(name, value)}};
+    values.merge(more);
+    if (!more.empty()) throw std::invalid_argument(more.begin()->first + " is given twice, must be given once");
+  }
   return values;
 }
 
@@ -116,7 +103,7 @@ Keywords takeKeywords(const py::dict& keywords, const std::vector<OptionDescript
   return {taken};
 }
 
-std::vector<std::string> assignmentsOf(const OptionMap& values) {
+std::vector<std::string> Keywords::assignments() const {
   struct Writer {
     std::string operator()(bool b) const { return b ? "true" : "false"; }
     std::string operator()(int i) const { return std::to_string(i); }
@@ -129,18 +116,16 @@ std::vector<std::string> assignmentsOf(const OptionMap& values) {
   return all;
 }
 
-ArrayOptions ArrayOptions::from(OptionMap values) {
-  ArrayOptions options;
+PipelineOptions Keywords::forArrays() const {
   for (const ShellField& field : kShellFields) {
     if (isOfArrays(field) || values.count(std::string(field.name)) == 0) continue;
-    const std::optional<std::string_view> argument = argumentFor(field.name);
+    const auto argument = kArguments.find(field.name);
     throw std::invalid_argument(std::string(field.name) +
                                 " is an option of messages and files, must not come with arrays: " +
-                                (argument ? "for these there is " + std::string(*argument) + '='
-                                          : "these have the accelerations along the strut"));
+                                (argument != kArguments.end() ? "for these there is " + argument->second + '='
+                                                              : "these have the accelerations along the strut"));
   }
-  const PipelineOptions all = PipelineOptions::fromValues(std::move(values));
-  return {all.monitor, all.shell.input_timeout};
+  return PipelineOptions::fromValues(values);
 }
 
 std::optional<StrutModel> toModel(const py::object& model, const EffectLibrary& library) {

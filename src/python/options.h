@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "../ros/shell_options.h"  // of its folder the file without ROS
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
@@ -17,6 +17,14 @@ struct Keywords {
 
   /// @return without those that are about messages, of which arrays have none: axes, frames, ranges, rates, publishing.
   Keywords withoutMessages() const;
+
+  /// @return NAME=VALUE each, as `--set` takes them.
+  std::vector<std::string> assignments() const;
+
+  /// @return the options where readings are arrays.
+  /// @throws std::invalid_argument  naming name, value and what is allowed; also for options of messages and files,
+  /// which arrays have no use for.
+  PipelineOptions forArrays() const;
 };
 
 /// @param keywords  of a call: an option's name, with _ for / where a Python name is wanted: health_damping_warn. None:
@@ -27,21 +35,9 @@ struct Keywords {
 Keywords takeKeywords(const pybind11::dict& keywords, const std::vector<OptionDescription>& known,
                       const std::vector<std::string>& arguments);
 
-/// @return NAME=VALUE each, as `--set` takes them.
-std::vector<std::string> assignmentsOf(const OptionMap& values);
-
-/// What can be set where readings are arrays.
-struct ArrayOptions {
-  MonitorOptions monitor;
-  double input_timeout;  ///< [s], of the log of health
-
-  /// @throws std::invalid_argument  naming name, value and what is allowed; also for options of messages and files,
-  /// which arrays have no use for.
-  static ArrayOptions from(OptionMap values);
-};
-
+/// @param group  in front of all names.
 /// @return the settings that a dict names, as an option file has them; groups may be dicts in it.
-OptionMap toSettings(const pybind11::dict& settings);
+OptionMap toSettings(const pybind11::dict& settings, const std::string& group = "");
 
 /// @param model  a StrutModel, a dict of settings as in a model file, or None.
 std::optional<StrutModel> toModel(const pybind11::object& model, const EffectLibrary& library);

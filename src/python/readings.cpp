@@ -19,31 +19,18 @@ std::optional<double> spacingOf(const Recordings& recordings) {
 
 }  // namespace
 
-std::size_t Recording::size() const {
-  std::size_t sum = 0;
-  for (const ReadingStream& stream : streams_) sum += static_cast<std::size_t>(stream.stamps.size());
-  return sum;
-}
-
 std::size_t sizeOf(const Recordings& recordings) {
   std::size_t sum = 0;
-  for (const Recording& recording : recordings) sum += recording.size();
+  for (const Recording& recording : recordings)
+    for (const auto& [stamps, values] : recording.streams()) sum += static_cast<std::size_t>(stamps.size());
   return sum;
-}
-
-std::optional<Stamp> Recording::earliest() const {
-  std::optional<Stamp> first;
-  for (const ReadingStream& stream : streams_)
-    if (stream.stamps.size() > 0 && (!first || Stamp(*stream.stamps.data()) < *first))
-      first = Stamp(*stream.stamps.data());
-  return first;
 }
 
 std::vector<BodyMotion> Recording::bodyMotion(Stamp shift) const {
   std::vector<BodyMotion> motion;
   if (!across_) return motion;
   const auto rows = across_->unchecked<2>();
-  const std::int64_t* stamps = streams_.front().stamps.data();
+  const std::int64_t* stamps = streams_.front().first.data();
   std::optional<Stamp> last;
   for (Py_ssize_t k = 0; k < rows.shape(0); ++k) {
     const Stamp stamp = Stamp(stamps[k]) + shift;
@@ -56,10 +43,11 @@ std::vector<BodyMotion> Recording::bodyMotion(Stamp shift) const {
 
 Stamp shiftOf(const Recordings& recordings) {
   constexpr Stamp kFirst(1);
-  Stamp shift{};
+  Stamp earliest = kFirst;
   for (const Recording& recording : recordings)
-    if (const std::optional<Stamp> first = recording.earliest()) shift = std::max(shift, kFirst - *first);
-  return shift;
+    for (const auto& [stamps, values] : recording.streams())
+      if (stamps.size() > 0) earliest = std::min(earliest, Stamp(*stamps.data()));
+  return kFirst - earliest;
 }
 
 void requireFittingPeriod(const Recordings& recordings, const MonitorOptions& options) {

@@ -2,9 +2,11 @@
 
 #include <pybind11/numpy.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "long_work.h"
@@ -13,11 +15,9 @@
 
 namespace suspension_health_monitor {
 
-/// One sensor of a recording: arrays of equal length, which the wrapper in Python has checked.
-struct ReadingStream {
-  pybind11::array_t<std::int64_t> stamps;  ///< [ns], rising
-  pybind11::array_t<double> values;        ///< along the strut [m/s^2]; of the body's other axes rows of four
-};
+/// One sensor of a recording, arrays of equal length, which the wrapper in Python has checked: rising stamps [ns] and
+/// what it reads along the strut [m/s^2].
+using ReadingStream = std::pair<pybind11::array_t<std::int64_t>, pybind11::array_t<double>>;
 
 /// Arrays of one drive. To be made and destroyed with the interpreter's lock; read without.
 class Recording {
@@ -28,26 +28,21 @@ class Recording {
   Recording(std::vector<ReadingStream> arrays, std::optional<pybind11::array_t<double>> across)
       : streams_(std::move(arrays)), across_(std::move(across)) {}
 
-  std::size_t size() const;  ///< readings
-
-  bool hasRoad() const { return streams_.size() > 2; }
-
-  /// @return the earliest stamp; nothing without a reading.
-  std::optional<Stamp> earliest() const;
+  /// @return by Side.
+  const std::vector<ReadingStream>& streams() const { return streams_; }
 
   /// Calls take(side, stamp, value) with all readings in the order of their stamps; at the same time the body's first.
   template <class Take>
   void forEach(const Take& take) const {
     std::vector<Cursor> cursors;
-    for (const ReadingStream& stream : streams_)
-      cursors.push_back({stream.stamps.data(), stream.values.data(), stream.stamps.data() + stream.stamps.size()});
+    for (const auto& [stamps, values] : streams_)
+      cursors.push_back({stamps.data(), values.data(), stamps.data() + stamps.size()});
     while (true) {
-      std::size_t next = cursors.size();
-      for (std::size_t i = 0; i < cursors.size(); ++i)
-        if (!cursors[i].isAtEnd() && (next == cursors.size() || *cursors[i].stamp < *cursors[next].stamp)) next = i;
-      if (next == cursors.size()) return;
-      Cursor& cursor = cursors[next];
-      take(static_cast<Side>(next), Stamp(*cursor.stamp++), *cursor.value++);
+      const auto next = std::min_element(cursors.begin(), cursors.end(), [](const Cursor& a, const Cursor& b) {
+        return !a.isAtEnd() && (b.isAtEnd() || *a.stamp < *b.stamp);
+      });
+      if (next == cursors.end() || next->isAtEnd()) return;
+      take(static_cast<Side>(next - cursors.begin()), Stamp(*next->stamp++), *next->value++);
     }
   }
 

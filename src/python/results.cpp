@@ -6,19 +6,6 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-HealthMoment shifted(HealthMoment moment, Stamp shift) {
-  moment.stamp -= shift;
-  return moment;
-}
-
-std::vector<HealthMoment> shifted(std::vector<HealthMoment> moments, Stamp shift) {
-  for (HealthMoment& moment : moments) moment = shifted(moment, shift);
-  return moments;
-}
-
-}  // namespace
 
 Identification Identification::of(DriveIdentification& made, const RejectCounts& rejected, const Course& course) {
   const SuspensionMonitor& monitor = made.monitor();
@@ -38,22 +25,23 @@ Identification Identification::of(DriveIdentification& made, const RejectCounts&
 
 HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& monitor,
                                 const std::optional<std::string>& file, const RejectCounts& rejected,
-                                const Course& course, Stamp shift) {
+                                const Course& course) {
   HealthSummary summary;
-  summary.events = shifted(log.events(), shift);
-  summary.early_warnings = shifted(log.earlyWarnings(), shift);
-  summary.end = shifted(log.latest(), shift);
+  static_cast<ModelReport&>(summary) = monitor.report();
+  summary.events = log.events();
+  summary.early_warnings = log.earlyWarnings();
+  summary.end = log.latest();
+  summary.end.stamp -= course.shift();
+  for (std::vector<HealthMoment>* moments : {&summary.events, &summary.early_warnings})
+    for (HealthMoment& moment : *moments) moment.stamp -= course.shift();
   for (const HealthLevel level : kHealthLevels) {
     summary.seconds[nameOf(level)] = toSeconds(log.duration(level));
     summary.counts[nameOf(level)] = log.count(level);
   }
-  summary.estimate = monitor.report().estimate;
-  summary.ls = monitor.report().ls;
-  summary.la = monitor.report().la;
   summary.baseline = monitor.baseline();
   if (summary.baseline.learned && !file) {
-    summary.baseline.from -= shift;
-    summary.baseline.to -= shift;
+    summary.baseline.from -= course.shift();
+    summary.baseline.to -= course.shift();
   }
   summary.reference = describeReference(summary.baseline, file.value_or(""));
   summary.rejected = rejected.byName();

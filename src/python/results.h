@@ -16,32 +16,26 @@ namespace suspension_health_monitor {
 
 /// What Python gets of arrays and of bags alike, where it is more than what the library's public calls return.
 
-/// What was known at one time.
-struct CoursePoint {
-  Stamp stamp{};
-  StrutEstimate estimate, ls, la;
-  double rmse = std::nan(""), fit_percent = std::nan("");
-  HealthLevel level = HealthLevel::kStale;
-};
-
-/// Estimates over time, thinned out evenly where a drive is long: for plots.
+/// What was known over time, thinned out evenly where a drive is long: for plots.
 class Course {
  public:
   /// @param shift  that stamps are late by.
   explicit Course(Stamp shift = {}) : shift_(shift) {}
 
-  void add(const MonitorReport& report) {
-    points_.add({report.stamp - shift_, report.estimate, report.ls, report.la, report.comparison.rmse,
-                 report.comparison.fit_percent, report.health.level});
+  /// Takes in a report; one without a regression row says nothing.
+  void add(MonitorReport report) {
+    report.stamp -= shift_;
+    if (report.has_row) points_.add(report);
   }
 
-  const std::vector<CoursePoint>& points() const { return points_.items(); }
+  Stamp shift() const { return shift_; }
+  const std::vector<MonitorReport>& points() const { return points_.items(); }
 
  private:
   static constexpr std::size_t kWanted = 2000;  // more than a plot has pixels
 
   Stamp shift_;
-  Digest<CoursePoint> points_{kWanted};
+  Digest<MonitorReport> points_{kWanted};
 };
 
 struct Identification : IdentifyResult {
@@ -61,22 +55,20 @@ struct SearchedStrut : Diagnosis {
   std::string change;  ///< likewise
 };
 
-struct HealthSummary {
+/// With the estimates at the end.
+struct HealthSummary : ModelReport {
   std::vector<HealthMoment> events, early_warnings;
   HealthMoment end;
   std::map<std::string, double> seconds;      ///< by level [s]
   std::map<std::string, std::size_t> counts;  ///< changes to it
-  StrutEstimate estimate, ls, la;             ///< at the end
   std::string reference;                      ///< what the strut was judged by at the end, in words
   Baseline baseline;                          ///< the same
   std::map<std::string, std::uint64_t> rejected;
   Course course;
 
   /// @param file  that the baseline was read from, which was given; empty: of none; nothing: it was not given.
-  /// @param shift  that stamps are late by.
   static HealthSummary of(const HealthLog& log, const SuspensionMonitor& monitor,
-                          const std::optional<std::string>& file, const RejectCounts& rejected, const Course& course,
-                          Stamp shift = {});
+                          const std::optional<std::string>& file, const RejectCounts& rejected, const Course& course);
 };
 
 }  // namespace suspension_health_monitor

@@ -77,7 +77,8 @@ SuspensionHealth toMsg(const MonitorReport& report, const Baseline& baseline, co
   return msg;
 }
 
-SimulationTruth toMsg(const DriveTruth& truth, const std_msgs::Header& header) {
+SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& hidden,
+                      const std_msgs::Header& header) {
   SimulationTruth msg;
   msg.header = header;
   msg.damping_to_mass = truth.damping_to_mass;
@@ -87,6 +88,10 @@ SimulationTruth toMsg(const DriveTruth& truth, const std_msgs::Header& header) {
   msg.road = truth.road_height;
   msg.sprung_acceleration = truth.sprung_acceleration;
   msg.unsprung_acceleration = truth.unsprung_acceleration;
+  for (const ActiveEffect& active : hidden) {
+    msg.effect_names.push_back(active.effect.name);
+    msg.effect_coefficients.push_back(active.coefficient);
+  }
   return msg;
 }
 

@@ -31,7 +31,8 @@ ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, co
 /// @param frame_id  of the sprung sensor; the stamp is that of the compared sample.
 ModelComparison toMsg(const ComparisonReport& comparison, const std::string& frame_id);
 SuspensionHealth toMsg(const MonitorReport& report, const Baseline& baseline, const std_msgs::Header& header);
-SimulationTruth toMsg(const DriveTruth& truth, const std_msgs::Header& header);
+/// @param hidden  effects in the strut.
+SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& hidden, const std_msgs::Header& header);
 
 /// An IMU lying level: the reading on z, gravity on top of it, covariances unknown (all 0) and no orientation (-1).
 sensor_msgs::Imu toImu(double acceleration, double gravity, const std_msgs::Header& header);

@@ -25,7 +25,7 @@ std::map<std::string, std::string> publishedTopics() {
 }
 
 DriveRecorder::DriveRecorder(const ros::NodeHandle& node, const std::string& path, const std::string& topics)
-    : node_(thread_->serve(node)), path_(path), bag_(path) {
+    : node_(thread_->serve(node)), bag_(path) {
   std::istringstream names(topics);
   for (std::string name; names >> name;) topics_.insert(node.resolveName(name));
   unpublished_ = topics_;
@@ -34,30 +34,25 @@ DriveRecorder::DriveRecorder(const ros::NodeHandle& node, const std::string& pat
 // A subscriber of the very type that is published: within a process its messages are in the queue of the thread that
 // serves it when publish() returns. One of any type (topic_tools::ShapeShifter) gets them later, from a thread of ROS.
 template <class Message>
-std::pair<const std::string, DriveRecorder::Subscribe> DriveRecorder::recordable() {
+bool DriveRecorder::subscribe(const std::string& topic, const std::string& type) {
+  if (type != ros::message_traits::DataType<Message>::value()) return false;
   constexpr std::uint32_t kUnlimited = 0;
-  return {ros::message_traits::DataType<Message>::value(), [](DriveRecorder& recorder, const std::string& topic) {
-            return recorder.node_.subscribe<Message>(
-                topic, kUnlimited, [&recorder, topic](const boost::shared_ptr<const Message>& message) {
-                  recorder.record(topic, message->header.stamp, *message);
-                });
-          }};
+  const auto take = [this, topic](const boost::shared_ptr<const Message>& message) {
+    record(topic, message->header.stamp, *message);
+  };
+  subscribers_.push_back(node_.subscribe<Message>(topic, kUnlimited, take));
+  return true;
 }
 
 std::vector<std::string> DriveRecorder::connect(const std::vector<std::string>& own) {
-  static const std::map<std::string, Subscribe> kRecordable{
-      recordable<sensor_msgs::Imu>(), recordable<SimulationTruth>(),  recordable<ParameterEstimate>(),
-      recordable<ModelComparison>(),  recordable<SuspensionHealth>(), recordable<ModelInUse>(),
-      recordable<TyreEstimate>(),     recordable<CornerComparison>(), recordable<diagnostic_msgs::DiagnosticArray>()};
   for (const std::string& topic : own) unpublished_.erase(topic);
   for (const auto& [topic, type] : publishedTopics()) {
     if (unpublished_.count(topic) == 0) continue;
-    const auto found = kRecordable.find(type);
-    if (found == kRecordable.end())
+    if (!subscribeToOneOf<sensor_msgs::Imu, SimulationTruth, ParameterEstimate, ModelComparison, SuspensionHealth,
+                          ModelInUse, TyreEstimate, CornerComparison, diagnostic_msgs::DiagnosticArray>(topic, type))
       throw std::invalid_argument("record_topics: " + topic + " has the type " + type +
                                   ", must be one of the types of this package, sensor_msgs/Imu or "
                                   "diagnostic_msgs/DiagnosticArray; `rosbag record` records the others");
-    subscribers_.push_back(found->second(*this, topic));
     unpublished_.erase(topic);
   }
   return {unpublished_.begin(), unpublished_.end()};

@@ -47,15 +47,17 @@ class DriveRecorder {
   std::size_t commit();
 
  private:
-  using Subscribe = std::function<ros::Subscriber(DriveRecorder&, const std::string& topic)>;
-
+  /// @return false if the topic has another type.
   template <class Message>
-  static std::pair<const std::string, Subscribe> recordable();
+  bool subscribe(const std::string& topic, const std::string& type);
+  template <class... Messages>
+  bool subscribeToOneOf(const std::string& topic, const std::string& type) {
+    return (subscribe<Messages>(topic, type) || ...);
+  }
   void guarded(const std::function<void()>& write);
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   ros::NodeHandle node_;
-  std::string path_;
   std::set<std::string> topics_, unpublished_;
   std::mutex mutex_;  // of all below: messages come from the drive's thread and from the monitors'
   WholeBag bag_;

@@ -16,10 +16,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-struct BaselineSettings {
-  std::optional<double> damping_to_mass, stiffness_to_mass;
-  std::optional<double> damping_to_mass_stddev, stiffness_to_mass_stddev;
-  std::optional<double> damping_scatter, stiffness_scatter;
+/// A baseline as its file has it: what may be missing there is apart.
+struct BaselineSettings : Baseline {
+  std::optional<double> scatter_of_damping, scatter_of_stiffness;  // none is not written
   std::optional<double> dry_friction, dry_friction_stddev, friction_damping_gain, friction_damping_covariance;
   std::optional<double> friction_stiffness_gain;  // of files up to 1a5605d
   std::optional<double> integration_horizon, sample_period;
@@ -36,8 +35,8 @@ constexpr std::array kBaselineFields{
     BaselineField{"stiffness_to_mass_stddev", "1/s^2", "its standard deviation",
                   &BaselineSettings::stiffness_to_mass_stddev, 0.0, 1e12},
     BaselineField{"damping_scatter", "1/s", "of healthy windows, beyond their standard deviations",
-                  &BaselineSettings::damping_scatter, 0.0, 1e9},
-    BaselineField{"stiffness_scatter", "1/s^2", "likewise, of b0", &BaselineSettings::stiffness_scatter, 0.0, 1e12},
+                  &BaselineSettings::scatter_of_damping, 0.0, 1e9},
+    BaselineField{"stiffness_scatter", "1/s^2", "likewise, of b0", &BaselineSettings::scatter_of_stiffness, 0.0, 1e12},
     BaselineField{"dry_friction", "m/s^2", "that the strut had besides, over the body's mass; left out: not known",
                   &BaselineSettings::dry_friction, -1e6, 1e6},
     BaselineField{"dry_friction_stddev", "m/s^2", "its standard deviation", &BaselineSettings::dry_friction_stddev, 0.0,
@@ -80,15 +79,13 @@ void widen(Baseline& baseline) {
 }
 
 Baseline toBaseline(const BaselineSettings& settings) {
-  Baseline baseline;
-  baseline.damping_to_mass = needed(settings.damping_to_mass, "damping_to_mass");
-  baseline.stiffness_to_mass = needed(settings.stiffness_to_mass, "stiffness_to_mass");
-  baseline.damping_to_mass_stddev = settings.damping_to_mass_stddev.value_or(0.0);
-  baseline.stiffness_to_mass_stddev = settings.stiffness_to_mass_stddev.value_or(0.0);
-  checkStddev(baseline.damping_to_mass_stddev, *baseline.damping_to_mass, "damping_to_mass");
-  checkStddev(baseline.stiffness_to_mass_stddev, *baseline.stiffness_to_mass, "stiffness_to_mass");
-  baseline.damping_scatter = settings.damping_scatter.value_or(0.0);
-  baseline.stiffness_scatter = settings.stiffness_scatter.value_or(0.0);
+  Baseline baseline = static_cast<const Baseline&>(settings);
+  const double damping = needed(baseline.damping_to_mass, "damping_to_mass");
+  const double stiffness = needed(baseline.stiffness_to_mass, "stiffness_to_mass");
+  checkStddev(baseline.damping_to_mass_stddev, damping, "damping_to_mass");
+  checkStddev(baseline.stiffness_to_mass_stddev, stiffness, "stiffness_to_mass");
+  baseline.damping_scatter = settings.scatter_of_damping.value_or(0.0);
+  baseline.stiffness_scatter = settings.scatter_of_stiffness.value_or(0.0);
   if (settings.dry_friction)
     baseline.friction = DryFriction{*settings.dry_friction, needed(settings.dry_friction_stddev, "dry_friction_stddev"),
                                     needed(settings.friction_damping_gain, "friction_damping_gain"),
@@ -113,12 +110,9 @@ void checkCertain(const char* name, double value, double stddev, double error, d
 
 std::string toYaml(const Baseline& baseline, double horizon, double sample_period) {
   BaselineSettings settings;
-  settings.damping_to_mass = baseline.damping_to_mass;
-  if (baseline.damping_scatter > 0.0) settings.damping_scatter = baseline.damping_scatter;
-  if (baseline.stiffness_scatter > 0.0) settings.stiffness_scatter = baseline.stiffness_scatter;
-  settings.stiffness_to_mass = baseline.stiffness_to_mass;
-  settings.damping_to_mass_stddev = baseline.damping_to_mass_stddev;
-  settings.stiffness_to_mass_stddev = baseline.stiffness_to_mass_stddev;
+  static_cast<Baseline&>(settings) = baseline;
+  if (baseline.damping_scatter > 0.0) settings.scatter_of_damping = baseline.damping_scatter;
+  if (baseline.stiffness_scatter > 0.0) settings.scatter_of_stiffness = baseline.stiffness_scatter;
   if (baseline.friction) {
     settings.dry_friction = baseline.friction->force;
     settings.dry_friction_stddev = baseline.friction->stddev;
@@ -133,8 +127,8 @@ std::string toYaml(const Baseline& baseline, double horizon, double sample_perio
   text.imbue(std::locale::classic());
   text << std::setprecision(17) << "# The healthy strut, written by the monitor.\n";
   for (const BaselineField& field : kBaselineFields)
-    if (const auto& value = settings.*std::get<std::optional<double> BaselineSettings::*>(field.member))
-      text << field.name << ": " << *value << "  # [" << field.unit << "] " << field.help << '\n';
+    if (const std::optional<OptionValue> value = option_table::valueOf(option_table::bind(field, settings)))
+      text << field.name << ": " << std::get<double>(*value) << "  # [" << field.unit << "] " << field.help << '\n';
   return text.str();
 }
 
@@ -143,15 +137,6 @@ Baseline takeBaseline(OptionMap& values) {
   takeOptions(values, kBaselineFields, settings);
   refuseUnknown(values, describeOptions(kBaselineFields));
   return toBaseline(settings);
-}
-
-Baseline readBaselineFile(const std::string& path) {
-  OptionMap values = readYaml(path);
-  const bool is_settings =
-      std::any_of(values.begin(), values.end(), [](const auto& each) { return each.first.rfind("nominal/", 0) == 0; });
-  if (is_settings)
-    throw std::invalid_argument(path + ": these are settings with nominal values, to be given as --config or config:=");
-  return prefixed(path + ": ", [&] { return takeBaseline(values); });
 }
 
 void requireOneReference(const std::string& file, const MonitorOptions& options) {
@@ -163,7 +148,14 @@ void requireOneReference(const std::string& file, const MonitorOptions& options)
 LiveBaseline::LiveBaseline(const PipelineOptions& options) : path_(options.shell.baseline_file) {
   if (path_.empty()) return;
   requireOneReference(path_, options.monitor);
-  if (std::filesystem::exists(path_)) known_ = readBaselineFile(path_);
+  if (!std::filesystem::exists(path_)) return;
+  OptionMap values = readYaml(path_);
+  const bool is_settings =
+      std::any_of(values.begin(), values.end(), [](const auto& each) { return each.first.rfind("nominal/", 0) == 0; });
+  if (is_settings)
+    throw std::invalid_argument(path_ +
+                                ": these are settings with nominal values, to be given as --config or config:=");
+  known_ = prefixed(path_ + ": ", [&] { return takeBaseline(values); });
 }
 
 std::string LiveBaseline::reference(const MonitorOptions& options) const {

@@ -54,7 +54,4 @@ Baseline takeBaseline(OptionMap& values);
 /// @throws std::invalid_argument  if nominal values are given beside a baseline.
 void requireOneReference(const std::string& file, const MonitorOptions& options);
 
-/// @throws std::invalid_argument  naming the file and what is wrong in it.
-Baseline readBaselineFile(const std::string& path);
-
 }  // namespace suspension_health_monitor

@@ -1,9 +1,9 @@
 #include "live_model.h"
 
 #include <algorithm>
+#include <boost/algorithm/string.hpp>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 #include <stdexcept>
 
 #include "model_file.h"
@@ -19,12 +19,9 @@ namespace {
 /// The names of a text with commas.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> names;
-  std::istringstream parts(text);
-  std::string part;
-  while (std::getline(parts, part, ',')) {
-    const std::size_t first = part.find_first_not_of(" \t");
-    if (first != std::string::npos) names.push_back(part.substr(first, part.find_last_not_of(" \t") + 1 - first));
-  }
+  boost::split(names, text, boost::is_any_of(","));
+  for (std::string& name : names) boost::trim_if(name, boost::is_any_of(" \t"));
+  names.erase(std::remove(names.begin(), names.end(), ""), names.end());
   return names;
 }
 

@@ -1,6 +1,6 @@
 #include "model_file.h"
 
-#include <sstream>
+#include <regex>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/model/model_settings.h"
@@ -20,13 +20,6 @@ auto takeFile(const std::string& path, const Take& take) {
     refuseUnknown(values, {});
     return taken;
   });
-}
-
-std::string indented(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line, result;
-  while (std::getline(lines, line)) result += "    " + line + '\n';
-  return result;
 }
 
 }  // namespace
@@ -50,7 +43,8 @@ ModelsByStrut readModelsFile(const std::string& path, const EffectLibrary& libra
 
 std::string toYaml(const ModelsByStrut& models) {
   std::string text = std::string(kStruts) + ":\n";
-  for (const auto& [name, model] : models) text += "  " + name + ":\n" + indented(toYaml(model));
+  for (const auto& [name, model] : models)
+    text += "  " + name + ":\n" + std::regex_replace(toYaml(model), std::regex("[^\n]+"), "    $&");
   return text;
 }
 

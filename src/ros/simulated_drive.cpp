@@ -1,40 +1,21 @@
 #include "simulated_drive.h"
 
-#include "drive_messages.h"
-#include "vehicle_messages.h"
+#include <algorithm>
+
+#include "conversions.h"
 
 namespace suspension_health_monitor {
-namespace {
 
-SimulatedDrive driveOfVehicle(const VehicleSimulationOptions& options) {
-  SimulatedDrive drive;
-  drive.playing = options.playing;
-  drive.duration = options.drive.duration;
-  drive.rate = options.drive.rate;
-  drive.topics = topicsOf(options);
-  for (const VehicleStrut& strut : options.vehicle.struts) drive.awaited.push_back(unsprungTopic(strut));
-  drive.begin = [options](Stamp start) { return std::make_unique<VehicleMessageSource>(options, start); };
-  return drive;
+std_msgs::Header headerAt(Stamp stamp, const std::string& frame) {
+  std_msgs::Header header;
+  header.stamp = std::max(toRosTime(std::max(stamp, Stamp::zero())), ros::TIME_MIN);
+  header.frame_id = frame;
+  return header;
 }
-
-SimulatedDrive driveOfStrut(const SimulatorOptions& options) {
-  SimulatedDrive drive;
-  drive.playing = options.playing;
-  drive.duration = options.drive.duration;
-  drive.rate = fasterRate(options.drive);
-  drive.topics = topicsOf(options);
-  drive.awaited = {kSprungTopic, kUnsprungTopic};
-  drive.begin = [options](Stamp start) { return std::make_unique<DriveMessageSource>(options, start); };
-  return drive;
-}
-
-}  // namespace
 
 std::string takeVehicleModel(OptionMap& values) {
-  const auto found = values.find("vehicle_model");
-  if (found == values.end()) return "";
-  OptionMap only{*found};
-  values.erase(found);
+  OptionMap only;
+  only.insert(values.extract("vehicle_model"));
   PublishingOptions options;
   takeOptions(only, kPublishingFields, options);
   return options.vehicle_model;
@@ -42,8 +23,8 @@ std::string takeVehicleModel(OptionMap& values) {
 
 SimulatedDrive makeSimulatedDrive(OptionMap values) {
   const std::string model = takeVehicleModel(values);
-  if (model.empty()) return driveOfStrut(SimulatorOptions::fromValues(std::move(values)));
-  return driveOfVehicle(VehicleSimulationOptions::fromValues(model, std::move(values)));
+  if (model.empty()) return driveOf(SimulatorOptions::fromValues(std::move(values)));
+  return driveOf(VehicleSimulationOptions::fromValues(model, std::move(values)));
 }
 
 }  // namespace suspension_health_monitor

@@ -76,9 +76,9 @@ void SimulatorNodelet::publishDrive(const SimulatedDrive& drive) {
   const Stamp start = from_now ? toStamp(ros::Time::now()) : fromSeconds(drive.playing.start_time);
   const Clock::time_point wall_start = Clock::now();
   paced_until_ = toSeconds(start);
-  const std::unique_ptr<DriveSource> source = drive.begin(start);
+  const DriveSource source = drive.begin(start);
   for (int published = 1; goesOn(); ++published) {
-    const std::optional<SimulatedInstant> instant = source->next();
+    const std::optional<SimulatedInstant> instant = source();
     if (!instant) break;
     waitForTurn(drive, toRosTime(start), instant->time, wall_start);
     publish(*instant);
@@ -100,8 +100,7 @@ void SimulatorNodelet::closeRecording() {
 
 void SimulatorNodelet::waitForStart(const std::vector<std::string>& awaited) {
   const auto is_heard = [this](const std::string& topic) { return publishers_.at(topic).getNumSubscribers() > 0; };
-  const auto has_subscribers = [&] { return std::all_of(awaited.begin(), awaited.end(), is_heard); };
-  while (goesOn() && !has_subscribers()) std::this_thread::sleep_for(kPoll);
+  while (goesOn() && !std::all_of(awaited.begin(), awaited.end(), is_heard)) std::this_thread::sleep_for(kPoll);
   const auto paces = [this] { return pace_.getNumPublishers() > 0 || publishedTopics().count(pace_.getTopic()) == 0; };
   while (goesOn() && !paces()) std::this_thread::sleep_for(kPollMaster);
   if (recorder_) waitForRecording();
@@ -153,12 +152,6 @@ void SimulatorNodelet::waitForPace(ros::Time now, double lead) {
   }
 }
 
-template <class Message>
-void SimulatorNodelet::publish(const ros::Publisher& publisher, const ros::Time& time, const Message& message) {
-  publisher.publish(boost::make_shared<const Message>(message));
-  if (recorder_) recorder_->record(publisher.getTopic(), time, message);
-}
-
 void SimulatorNodelet::publish(const SimulatedInstant& instant) {
   if (clock_) {
     rosgraph_msgs::Clock clock;
@@ -166,8 +159,11 @@ void SimulatorNodelet::publish(const SimulatedInstant& instant) {
     clock_->publish(clock);
   }
   for (const auto& [topic, any] : instant.messages) {
-    const ros::Publisher& publisher = publishers_.at(topic);
-    std::visit([&](const auto& message) { publish(publisher, instant.time, message); }, any);
+    const auto publish = [&, &publisher = publishers_.at(topic)](const auto& message) {
+      publisher.publish(boost::make_shared<const std::decay_t<decltype(message)>>(message));
+      if (recorder_) recorder_->record(publisher.getTopic(), instant.time, message);
+    };
+    std::visit(publish, any);
   }
 }
 

@@ -45,8 +45,6 @@ class SimulatorNodelet : public nodelet::Nodelet {
   void waitForPace(ros::Time now, double lead);
   void publish(const SimulatedInstant& instant);
   ros::Publisher advertise(const std::string& topic, const SimulatedMessage& message);
-  template <class Message>
-  void publish(const ros::Publisher& publisher, const ros::Time& time, const Message& message);
 
   std::shared_ptr<MonitorThread> monitors_ = MonitorThread::ofThisProcess();
   std::map<std::string, ros::Publisher> publishers_;  // by topic as SimulatedInstant has it

@@ -60,7 +60,11 @@ struct SimulatorOptions {
     SimulatorOptions options;
     takeOptions(values, kPublishingFields, options.publishing);
     takeOptions(values, kPlayingFields, options.playing);
-    setEffects(values, options.publishing.hidden, library.readings);
+    std::istringstream hidden(options.publishing.hidden);
+    for (std::string effect; std::getline(hidden, effect, ';');) {
+      effect.erase(0, effect.find_first_not_of(' '));
+      if (!effect.empty()) setEffect(values, effect, library.readings);
+    }
     options.drive.hidden = takeEffects(values, library.forces, library.readings);
     options.drive.hidden_faults = takeReadings(values, library.readings);
     takeOptions(values, kSimulationFields, options.drive);
@@ -70,16 +74,6 @@ struct SimulatorOptions {
       throw std::invalid_argument("road_imu = true, must be false for vehicle = " + options.drive.vehicle +
                                   " in scenario = " + options.drive.scenario + ": its wheel is rigid");
     return options;
-  }
-
-  /// Turns the option `hidden` into settings.
-  static void setEffects(OptionMap& values, const std::string& hidden, const std::vector<MeasurementEffect>& faults) {
-    std::istringstream parts(hidden);
-    std::string part;
-    while (std::getline(parts, part, ';')) {
-      part.erase(0, part.find_first_not_of(' '));
-      if (!part.empty()) setEffect(values, part, faults);
-    }
   }
 
   /// @return every option that fromValues() understands, by group.

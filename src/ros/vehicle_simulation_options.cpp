@@ -1,6 +1,6 @@
 #include "vehicle_simulation_options.h"
 
-#include <algorithm>
+#include <boost/tokenizer.hpp>
 #include <filesystem>
 #include <stdexcept>
 
@@ -33,13 +33,10 @@ Vehicle vehicleOf(const std::string& model, const EffectLibrary& library) {
 std::vector<bool> havingSprungImu(const std::string& names, const Vehicle& vehicle) {
   if (names == "all" || names == "none") return std::vector<bool>(vehicle.struts.size(), names == "all");
   std::vector<bool> has(vehicle.struts.size(), false);
-  constexpr const char* kBetween = ", ";
+  using Separator = boost::char_separator<char>;
   prefixed("sprung_imus: ", [&] {
-    for (std::size_t start = names.find_first_not_of(kBetween); start != std::string::npos;) {
-      const std::size_t end = std::min(names.find_first_of(kBetween, start), names.size());
-      has[vehicle.strutNamed(names.substr(start, end - start))] = true;
-      start = names.find_first_not_of(kBetween, end);
-    }
+    for (const std::string& name : boost::tokenizer<Separator>(names, Separator(", ")))
+      has[vehicle.strutNamed(name)] = true;
   });
   return has;
 }
@@ -75,9 +72,5 @@ std::vector<OptionDescription> VehicleSimulationOptions::describe() {
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
-
-std::string sprungTopic(const VehicleStrut& strut) { return strut.name + "/sprung/imu"; }
-std::string unsprungTopic(const VehicleStrut& strut) { return strut.name + "/unsprung/imu"; }
-std::string wrenchTopic(const KnownForce& force) { return force.name + "/wrench"; }
 
 }  // namespace suspension_health_monitor

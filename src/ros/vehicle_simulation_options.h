@@ -44,9 +44,9 @@ struct VehicleSimulationOptions {
 };
 
 /// Names of the topics, without a slash in front.
-std::string sprungTopic(const VehicleStrut& strut);
-std::string unsprungTopic(const VehicleStrut& strut);
-std::string wrenchTopic(const KnownForce& force);
+inline std::string sprungTopic(const VehicleStrut& strut) { return strut.name + "/sprung/imu"; }
+inline std::string unsprungTopic(const VehicleStrut& strut) { return strut.name + "/unsprung/imu"; }
+inline std::string wrenchTopic(const KnownForce& force) { return force.name + "/wrench"; }
 inline constexpr const char* kBodyImuTopic = "imu/data";
 
 }  // namespace suspension_health_monitor

@@ -99,22 +99,18 @@ void WholeFile::commit() {
 }
 
 TextFile::TextFile(const std::string& path)
-    : path_(path), file_(path), stream_(std::fopen(file_->temporaryPath().c_str(), "w")) {
+    : path_(path), file_(path), stream_(std::fopen(file_->temporaryPath().c_str(), "w"), &std::fclose) {
   if (stream_ == nullptr) failToWrite(path_, errno);
 }
 
-TextFile::TextFile(const std::string& name, std::FILE* stream) : path_(name), stream_(stream) {
+TextFile::TextFile(const std::string& name, std::FILE* stream) : path_(name), stream_(stream, &std::fclose) {
   if (stream_ == nullptr) failToWrite(path_, errno);
-}
-
-TextFile::~TextFile() {
-  if (stream_ != nullptr) std::fclose(stream_);
 }
 
 void TextFile::commit() {
-  const bool failed = std::ferror(stream_) != 0;
+  const bool failed = std::ferror(stream_.get()) != 0;
   errno = 0;
-  if (std::fclose(std::exchange(stream_, nullptr)) != 0 || failed) failToWrite(path_, errno);
+  if (std::fclose(stream_.release()) != 0 || failed) failToWrite(path_, errno);
   if (file_) file_->commit();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -46,23 +47,22 @@ class TextFile {
   /// not be opened.
   /// @throws std::runtime_error  if it could not.
   TextFile(const std::string& name, std::FILE* stream);
-  ~TextFile();
 
-  std::FILE* stream() { return stream_; }
+  std::FILE* stream() { return stream_.get(); }
 
   /// @throws std::runtime_error  naming the file, if anything could not be written.
   void commit();
 
   /// Writes all that there is to write, and commits it.
   void commit(const std::string& text) {
-    std::fputs(text.c_str(), stream_);
+    std::fputs(text.c_str(), stream());
     commit();
   }
 
  private:
   std::string path_;
   std::optional<WholeFile> file_;
-  std::FILE* stream_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream_;
 };
 
 }  // namespace suspension_health_monitor

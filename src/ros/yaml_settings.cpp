@@ -26,12 +26,11 @@ constexpr std::size_t kLargestText = 1U << 20U;  // [bytes]
 /// Walks through a document. Aliases let a short one be endless to walk through, so what it makes is counted.
 class Flattening {
  public:
-  explicit Flattening(std::string text_name) : text_name_(std::move(text_name)) {}
-
-  OptionMap operator()(const YAML::Node& document) {
+  Flattening(const std::string& text_name, const YAML::Node& document) : text_name_(text_name) {
     flatten("", 0, document);
-    return std::move(values_);
   }
+
+  const OptionMap& values() const { return values_; }
 
  private:
   void flatten(const std::string& name, int depth, const YAML::Node& node) {
@@ -88,7 +87,7 @@ class Flattening {
     throw std::invalid_argument(text_name_ + ": line " + std::to_string(node.Mark().line + 1) + ": " + why);
   }
 
-  std::string text_name_;
+  const std::string& text_name_;
   std::size_t values_counted_ = 0, characters_ = 0;
   OptionMap values_;
 };
@@ -102,7 +101,7 @@ OptionMap parseYaml(const std::string& text, const std::string& name) {
     if (documents.size() > 1)
       throw std::invalid_argument(name + ": line " + std::to_string(documents[1].Mark().line + 1) +
                                   ": a second document begins, must be one");
-    return Flattening(name)(documents.empty() ? YAML::Node() : documents.front());
+    return Flattening(name, documents.empty() ? YAML::Node() : documents.front()).values();
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(name + ": line " + std::to_string(error.mark.line + 1) + ": " +
                                 shortened(error.msg, 1000));

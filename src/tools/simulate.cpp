@@ -1,6 +1,5 @@
 #include <array>
 
-#include "../ros/drive_messages.h"
 #include "../ros/simulated_drive.h"
 #include "command.h"
 #include "simulate_vehicle.h"
@@ -74,8 +73,7 @@ void simulate(const Arguments& arguments) {
   const SimulatorOptions options = SimulatorOptions::fromValues(settings);
 
   const auto path = (*values)["output"].as<std::string>();
-  DriveMessageSource drive(options, fromSeconds(options.playing.start_time));
-  writeBag(drive, options.drive.duration, options.playing.start_time, path);
+  writeBag(driveOf(options), path);
   std::printf("%s: %s, %g s at %s, seed %d\n", path.c_str(), options.drive.scenario.c_str(), options.drive.duration,
               describeRates(options.drive).c_str(), options.drive.seed);
 }

@@ -3,7 +3,7 @@
 #include <boost/program_options.hpp>
 #include <string>
 
-#include "../ros/simulated_messages.h"
+#include "../ros/simulated_drive.h"
 #include "suspension_health_monitor/internal/option_table.h"
 
 namespace suspension_health_monitor {
@@ -13,7 +13,6 @@ namespace suspension_health_monitor {
 void simulateVehicle(const boost::program_options::variables_map& values, const std::string& model, OptionMap settings);
 
 /// Writes a whole simulated drive, with progress.
-/// @param duration  [s].  @param start  stamp at its start [s].
-void writeBag(DriveSource& drive, double duration, double start, const std::string& path);
+void writeBag(const SimulatedDrive& drive, const std::string& path);
 
 }  // namespace suspension_health_monitor

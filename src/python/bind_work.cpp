@@ -1,0 +1,116 @@
+// What the functions of the Python module do with arrays.
+#include <stdexcept>
+
+#include "bindings.h"
+#include "options.h"
+#include "readings.h"
+#include "results.h"
+#include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+double proposeHorizon(const Recordings& recordings, const MonitorOptions& options, double period, Stamp shift,
+                      LongWork& work) {
+  const std::vector<Drive> drives = toDrives(recordings, options, period, shift, work);
+  if (const auto rough = roughStrut(drives, period)) return rough->horizonSamples(period) * period;
+  UniformGrid grid(period, MonitorSettings(options).grid(period));
+  recordings.front().forEach([&](Side side, Stamp stamp, double value) {
+    if (side == Side::kRoad) return;
+    for (auto sample = grid.push(side, stamp + shift, value); sample;) sample = grid.next();
+  });
+  throw std::invalid_argument("no horizon can be proposed: the data show no damped spring" +
+                              describeSuspicions(grid.streams(), drives, period) +
+                              "; give integration_horizon to look at them all the same");
+}
+
+Identification identifyArrays(const Recordings& recordings, const Keywords& keywords,
+                              const std::optional<StrutModel>& model, LongWork& work) {
+  MonitorOptions options = keywords.forArrays().monitor;
+  const double period = periodOf(recordings, options);
+  const Stamp shift = shiftOf(recordings);
+  options.sample_period = period;
+  options.tyre = recordings.front().streams().size() > indexOf(Side::kRoad);
+  if (!options.integration_horizon)
+    options.integration_horizon = proposeHorizon(recordings, options, period, shift, work);
+  Course course(shift);
+  DriveIdentification made(options, [&](const MonitorReport& report) { course.add(report); });
+  if (model) made.setEffects(model->effects);
+  const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
+  forEachReading(recordings, shift, work, take, [] {});
+  Identification found = Identification::of(made, made.rejected(), course);
+  found.change = describeChange(found, nominalOf(options), options);
+  return found;
+}
+
+HealthSummary watchArrays(const Recordings& recordings, const Keywords& keywords,
+                          const std::optional<Baseline>& healthy, const std::string& file, LongWork& work) {
+  const PipelineOptions options = keywords.forArrays();
+  requireFittingPeriod(recordings, options.monitor);
+  const Stamp shift = shiftOf(recordings);
+  MonitorOptions its = options.monitor;
+  its.tyre = false;
+  HealthLog log(fromSeconds(options.shell.input_timeout), {"the body's sensor", "the wheel carrier's sensor"});
+  Course course(shift);
+  VehiclePipeline strut(its, [&](const MonitorReport& report) {
+    log.addReport(report);
+    course.add(report);
+  });
+  if (healthy) strut.setBaseline(*healthy);
+  const auto take = [&](Side side, Stamp stamp, double value) {
+    if (side == Side::kRoad) return;
+    log.addReading(indexOf(side), stamp, stamp);
+    strut.push(side, stamp, value);
+  };
+  forEachReading(recordings, shift, work, take, [&] { log.finishRecording(); });
+  const SuspensionMonitor* monitor = strut.strut();
+  if (monitor == nullptr)
+    throw std::invalid_argument(describeNoStart("of one of the sensors") + describeRejected(strut.rejected()));
+  const std::string nothing = describeNoRow(*monitor, strut.grid()->streams(), strut.rejected());
+  if (!nothing.empty()) throw std::invalid_argument(nothing);
+  return HealthSummary::of(log, *monitor, healthy ? std::optional(file) : std::nullopt, strut.rejected(),
+                           course);
+}
+
+Comparison compareArrays(const Recordings& recordings, const Keywords& keywords, const std::optional<StrutModel>& model,
+                         LongWork& work) {
+  CompareOptions comparing;
+  comparing.model = model;
+  comparing.fit = !model;
+  return judgeArrays(&compare, recordings, keywords.forArrays().monitor, comparing, work);
+}
+
+SearchedStrut diagnoseArrays(const Recordings& recordings, const Keywords& keywords,
+                             const std::optional<StrutModel>& model, const EffectLibrary& candidates, int threads,
+                             LongWork& work) {
+  const MonitorOptions options = keywords.forArrays().monitor;
+  DiagnoseOptions searching;
+  searching.model = model;
+  searching.candidates = candidates;
+  searching.threads = threads;
+  const auto search = [&](const std::vector<Drive>& drives, const DiagnoseOptions& its) {
+    SearchedStrut found{diagnose(drives, its), ""};
+    if (found) found.change = describeChange(drives, its, nominalOf(options), options);
+    return found;
+  };
+  return judgeArrays(search, recordings, options, searching, work);
+}
+
+}  // namespace
+
+void bindWork(pybind11::module& module) {
+  defWork<Recordings, Keywords, std::optional<StrutModel>>(module, "identify", &identifyArrays, "recordings",
+                                                           "keywords", "model");
+  defWork<Recordings, Keywords, std::optional<Baseline>, std::string>(module, "health", &watchArrays, "recordings",
+                                                                      "keywords", "baseline", "file");
+  defWork<Recordings, Keywords, std::optional<StrutModel>>(module, "compare", &compareArrays, "recordings", "keywords",
+                                                           "model");
+  defWork<Recordings, Keywords, std::optional<StrutModel>, EffectLibrary, int>(
+      module, "diagnose", &diagnoseArrays, "recordings", "keywords", "model", "candidates", "threads");
+}
+
+}  // namespace suspension_health_monitor

@@ -1,6 +1,0 @@
-#include "nodelet_as_node.h"
-
-int main(int argc, char** argv) {
-  return suspension_health_monitor::runNodeletAsNode(argc, argv, "simulator",
-                                                     "suspension_health_monitor/SimulatorNodelet");
-}
