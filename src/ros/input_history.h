@@ -10,7 +10,7 @@
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/signal/stream_timing.h"
+#include "suspension_health_monitor/internal/signal/stream_clock.h"
 
 namespace suspension_health_monitor {
 
