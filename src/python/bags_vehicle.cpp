@@ -11,9 +11,6 @@
 #include "../tools/healthy_strut.h"
 #include "../tools/recorded_vehicle.h"
 #include "../tools/strut_files.h"
-#include "../tools/survey.h"
-#include "../tools/vehicle_bags.h"
-#include "../tools/vehicle_tables.h"
 #include "../tools/watched_vehicle.h"
 #include "bags_call.h"
 #include "results.h"
@@ -44,44 +41,26 @@ struct RecordedVehicle {
   }
 };
 
-/// The monitor of a vehicle that has seen the bags.
-struct RecordedMonitor {
-  TopicGaps gaps;
-  std::optional<WatchedVehicle> struts;
-
-  RecordedMonitor(const po::variables_map& values, AskedVehicle& vehicle, VehicleOptions& options,
-                  const std::vector<WatchedStrut>& watched, bool period_must_fit, const WatchedVehicle::Report& report)
-      : gaps(options.common.shell.input_timeout) {
-    ImuBags bags = readBags(values, options.common.shell);
-    const VehicleStreams streams = streamsOf(bags, options.common, vehicle.layout);
-    if (period_must_fit && options.common.monitor.sample_period)
-      requireFittingPeriod(bags, *options.common.monitor.sample_period);
-    bags.gaps = &gaps;
-    struts.emplace(options, streams, watched, bags.transforms.get(), WatchedVehicle::Row(), report);
-    struts->read(bags);
-  }
-};
-
 ByStrut<Identification> identifyStrutsOf(const Arguments& arguments, LongWork& work) {
   const ToolsWork tools(work, 0);
   const po::variables_map values = parsed(arguments);
   AskedVehicle vehicle = readVehicle(values);
-  VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
-  const std::vector<WatchedStrut> watched = plainStruts(vehicle.names.size());
+  const VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
   std::vector<Course> courses(vehicle.names.size());
-  RecordedMonitor recorded(values, vehicle, settings, watched, true,
-                           [&](std::size_t strut, const MonitorReport& report) {
-                             if (report.has_row) courses[strut].add(report);
-                             work.step();
-                           });
-  VehicleIdentification found;
-  recorded.gaps.explain([&] { found = recorded.struts->identified(vehicle.names, settings.forceNames()); });
+  WatchedVehicle recorded(values, vehicle, settings, plainStruts(vehicle.names.size()), {},
+                          [&](std::size_t strut, const MonitorReport& report) {
+                            if (report.has_row) courses[strut].add(report);
+                            work.step();
+                          });
+  recorded.requirePeriod();
+  recorded.read();
+  const VehicleIdentification found = recorded.identified();
   ByStrut<Identification> results;
   for (const std::size_t i : vehicle.asked) {
     Identification& result = results[vehicle.names[i]];
     static_cast<IdentifyResult&>(result) = found.struts[i];
     result.mean_period = std::nan("");  // of the sensors' grid, not of one strut
-    result.alignment = recorded.struts->alignment();
+    result.alignment = recorded.alignment();
     const PipelineOptions& options = settings.struts[i];
     result.sprung_mass = options.monitor.sprung_mass;
     result.change = describeChange(result, knownHealthy({}, options), options.monitor);
@@ -138,19 +117,18 @@ ByStrut<HealthSummary> watchStrutsOf(const Arguments& arguments, LongWork& work)
   const ToolsWork tools(work, 0);
   const po::variables_map values = parsed(arguments);
   AskedVehicle vehicle = readVehicle(values);
-  VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
-  const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
+  const VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
   std::vector<Course> courses(vehicle.names.size());
-  RecordedMonitor read(values, vehicle, options, watched, false, [&](std::size_t strut, const MonitorReport& report) {
-    if (report.has_row) courses[strut].add(report);
-  });
-  const WatchedVehicle& recorded = *read.struts;
-  read.gaps.explain([&] { recorded.requireCoupling(vehicle.names); });
+  WatchedVehicle recorded(values, vehicle, options, readWatched(values, vehicle, options), {},
+                          [&](std::size_t strut, const MonitorReport& report) {
+                            if (report.has_row) courses[strut].add(report);
+                          });
+  recorded.read();
+  recorded.requireCoupling();
   ByStrut<HealthSummary> results;
   for (const std::size_t i : vehicle.asked)
-    results[vehicle.names[i]] =
-        HealthSummary::of(recorded.log(i), *recorded.monitor().strut(i),
-                          watched[i].healthy ? watched[i].healthy->file : "", recorded.rejected(), courses[i]);
+    results[vehicle.names[i]] = HealthSummary::of(recorded.log(i), *recorded.monitor().strut(i),
+                                                  recorded.baselineFile(i), recorded.rejected(), courses[i]);
   return results;
 }
 

@@ -37,9 +37,10 @@ Identification identify(const Recordings& recordings, MonitorOptions options, co
   if (!options.integration_horizon)
     options.integration_horizon = proposeHorizon(recordings, options, period, shift, work);
   Course course(shift);
-  DriveIdentification made(options, [&](const MonitorReport& report) {
+  const auto keep = [&](const MonitorReport& report) {
     if (report.has_row) course.add(report);
-  });
+  };
+  StrutPipeline made(options, {keep, {}});
   if (model) made.setEffects(model->effects);
   const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
   forEachReading(recordings, shift, work, take, [] {});

@@ -54,7 +54,7 @@ struct Identification : IdentifyResult {
   Course course;
 
   /// @throws std::invalid_argument  saying why, if the readings have not given one regression row.
-  static Identification of(DriveIdentification& made, const RejectCounts& rejected, const Course& course);
+  static Identification of(StrutPipeline& made, const RejectCounts& rejected, const Course& course);
 };
 
 struct SearchedStrut : Diagnosis {

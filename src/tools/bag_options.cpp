@@ -1,17 +1,11 @@
 #include "bag_options.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 #include <thread>
-#include <utility>
 
 #include "../ros/model_file.h"
-#include "bag_samples.h"
 #include "command.h"
-#include "survey.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
@@ -97,11 +91,6 @@ BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_diffe
   return options;
 }
 
-void takeHealthy(const po::variables_map& values, BagOptions& options) {
-  options.healthy = readHealthy(values);
-  if (options.healthy) replaceBaseline(*options.healthy, options.pipeline);
-}
-
 void addEffectsFile(po::options_description& description) {
   description.add_options()(kEffectsFile, po::value<std::string>()->default_value(""),
                             "YAML file with laws of your own, beside the catalogue");
@@ -120,32 +109,6 @@ ModelOptions readModelOptions(const po::variables_map& values) {
   ModelOptions options{readEffects(values), std::nullopt};
   if (values.count(kModel) != 0) options.model = readModelFile(values[kModel].as<std::string>(), options.library);
   return options;
-}
-
-std::optional<TextFile> outputFile(const po::variables_map& values, const char* option) {
-  if (values.count(option) == 0) return std::nullopt;
-  const auto path = values[option].as<std::string>();
-  if (path != kStandardOutput) return std::optional<TextFile>(std::in_place, path);
-  std::fflush(stdout);
-  const int output = dup(STDOUT_FILENO);
-  dup2(STDERR_FILENO, STDOUT_FILENO);
-  return std::optional<TextFile>(std::in_place, "standard output", output < 0 ? nullptr : fdopen(output, "w"));
-}
-
-std::vector<Drive> readDrives(const BagOptions& options, TopicGaps& gaps) {
-  std::vector<Drive> drives;
-  for (const std::string& path : options.bags.paths) {
-    ImuBags bag = options.bags;
-    bag.paths = {path};
-    bag.gaps = &gaps;
-    Drive& drive = drives.emplace_back();
-    const auto take = [&](const CornerSample& sample) {
-      drive.samples.push_back(sample);
-      return true;
-    };
-    readSamples(bag, options.pipeline, take, [&](const BodyMotion& motion) { drive.body.push_back(motion); });
-  }
-  return drives;
 }
 
 void requireEnough(Shortcoming shortcoming, const std::string& reason) {

@@ -21,24 +21,20 @@ struct HealthyStrut {
 /// @throws std::invalid_argument  naming the file and what is wrong in it.
 HealthyStrut readHealthy(const std::string& path);
 
-/// @return that of --baseline, if it is given. A live monitor would learn one if the file is not there; that is not
-/// what was asked for.
-/// @throws std::invalid_argument  likewise.
-std::optional<HealthyStrut> readHealthy(const boost::program_options::variables_map& values);
-
-/// Takes it instead of baseline_file.
-/// @throws std::invalid_argument  if nominal values are among the settings, too.
-void replaceBaseline(const HealthyStrut& healthy, PipelineOptions& options);
-
-/// Takes those of --baseline for the struts of a vehicle.
-/// @return by strut; nothing of a strut that the file does not have.
-/// @throws std::invalid_argument  as readHealthy() and replaceBaseline().
-std::vector<std::optional<HealthyStrut>> takeHealthy(const boost::program_options::variables_map& values,
-                                                     const AskedVehicle& vehicle, VehicleOptions& options);
-
-/// @return the healthy strut as it is given, else that of baseline_file; nominal values are among the settings.
-/// @throws std::invalid_argument  as LiveBaseline.
+/// @param given  beside the settings; nothing: that of baseline_file counts, if the file is there.
+/// @return the healthy strut, if it is known; nominal values are among the settings.
+/// @throws std::invalid_argument  as LiveBaseline, also if nominal values are given beside `given`.
 std::optional<HealthyStrut> beforehand(const std::optional<HealthyStrut>& given, const PipelineOptions& options);
+
+/// @return that of --baseline instead of that of baseline_file, if it is given. A live monitor would learn one if the
+/// file is not there; that is not what was asked for.
+/// @throws std::invalid_argument  as readHealthy() and beforehand().
+std::optional<HealthyStrut> healthyOf(const boost::program_options::variables_map& values,
+                                      const PipelineOptions& options);
+
+/// The same of the struts of a vehicle, by strut.
+std::vector<std::optional<HealthyStrut>> healthyOf(const boost::program_options::variables_map& values,
+                                                   const AskedVehicle& vehicle, const VehicleOptions& options);
 
 /// @return the same, else the nominal values, else nothing.
 Baseline knownHealthy(const std::optional<HealthyStrut>& given, const PipelineOptions& options);

@@ -32,14 +32,9 @@ using Places = std::map<std::uint32_t, std::optional<std::size_t>>;
 template <class Message>
 void findTopic(const BagFile& file, const std::string& topic, const std::string& named_by, const char* kind,
                std::size_t place, Places& places) {
-  bool found = false;
-  for (const BagConnection& connection : file.connections()) {
-    if (connection.topic != topic) continue;
-    requireType<Message>(file, connection);
-    places[connection.id] = place;
-    found = true;
-  }
-  if (!found)
+  const std::vector<std::uint32_t> connections = connectionsOf<Message>(file, topic);
+  for (const std::uint32_t connection : connections) places[connection] = place;
+  if (connections.empty())
     throw InputError(file.path() + ": no topic " + topic + " (" + named_by + "); " + kind +
                      " topics in this bag: " + listTopics<Message>(file.connections()));
 }
@@ -47,15 +42,12 @@ void findTopic(const BagFile& file, const std::string& topic, const std::string&
 Places findPlaces(const BagFile& file, const ImuBags& bags) {
   Places places;
   for (const BagConnection& connection : file.connections()) places[connection.id] = std::nullopt;
-  std::size_t place = 0;
-  for (const std::string& topic : bags.topics) {
-    findTopic<sensor_msgs::Imu>(file, topic, bags.named_by[place], "Imu", place, places);
-    ++place;
-  }
-  for (const std::string& topic : bags.wrench_topics) {
-    findTopic<geometry_msgs::WrenchStamped>(file, topic, bags.named_by[place], "WrenchStamped", place, places);
-    ++place;
-  }
+  const std::size_t num_imus = bags.topics.size();
+  for (std::size_t i = 0; i < num_imus; ++i)
+    findTopic<sensor_msgs::Imu>(file, bags.topics[i], bags.named_by[i], "Imu", i, places);
+  for (std::size_t i = 0; i < bags.wrench_topics.size(); ++i)
+    findTopic<geometry_msgs::WrenchStamped>(file, bags.wrench_topics[i], bags.named_by[num_imus + i], "WrenchStamped",
+                                            num_imus + i, places);
   return places;
 }
 
@@ -209,10 +201,6 @@ void readImuMessages(const ImuBags& bags,
     return take(static_cast<Side>(topic), imu, recorded);
   };
   readTopics(bags, {take_imu, {}});
-}
-
-void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take) {
-  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu, Stamp) { return take(side, imu); });
 }
 
 }  // namespace suspension_health_monitor

@@ -8,7 +8,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,9 +53,6 @@ struct TopicSinks {
 void readTopics(const ImuBags& bags, const TopicSinks& take);
 
 /// The same of the sensors of one strut.
-void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take);
-
-/// The same with the time of each message's recording.
 void readImuMessages(const ImuBags& bags,
                      const std::function<bool(Side, const sensor_msgs::Imu&, Stamp recorded)>& take);
 

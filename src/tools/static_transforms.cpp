@@ -1,7 +1,6 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
-#include <set>
 
 #include "bag_file.h"
 #include "imu_bags.h"
@@ -10,19 +9,6 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr const char* kTopic = "/tf_static";
-
-std::set<std::uint32_t> findConnections(const BagFile& file) {
-  std::set<std::uint32_t> connections;
-  for (const BagConnection& connection : file.connections()) {
-    if (connection.topic != kTopic) continue;
-    requireType<tf2_msgs::TFMessage>(file, connection);
-    connections.insert(connection.id);
-  }
-  if (connections.empty())
-    throw InputError(file.path() + ": no topic " + kTopic +
-                     ", needed since target_frame or the frame of a strut is set");
-  return connections;
-}
 
 void readTransforms(BagFile& file, const BagMessage& message, tf2::BufferCore& transforms) {
   tf2_msgs::TFMessage tree;
@@ -38,8 +24,12 @@ std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<st
   ChunkContents contents;
   for (const std::string& path : paths) {
     BagFile file(path);
-    const std::set<std::uint32_t> connections = findConnections(file);
-    const auto is_wanted = [&](std::uint32_t connection) { return connections.count(connection) != 0; };
+    const std::vector<std::uint32_t> connections = connectionsOf<tf2_msgs::TFMessage>(file, kTopic);
+    if (connections.empty())
+      throw InputError(path + ": no topic " + kTopic + ", needed since target_frame or the frame of a strut is set");
+    const auto is_wanted = [&](std::uint32_t connection) {
+      return std::find(connections.begin(), connections.end(), connection) != connections.end();
+    };
     for (const BagChunk& chunk : file.chunks()) {
       if (std::none_of(chunk.connections.begin(), chunk.connections.end(), is_wanted)) continue;
       file.read(chunk, contents);

@@ -1,5 +1,3 @@
-#include "survey.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,8 +7,9 @@
 #include <vector>
 
 #include "../ros/conversions.h"
-#include "bag_samples.h"
+#include "bag_options.h"
 #include "command.h"
+#include "recorded_strut.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
