@@ -9,7 +9,6 @@ boost::program_options::variables_map parsed(const Arguments& arguments) {
   boost::program_options::options_description description("options");
   addBagOptions(description);
   addModelOptions(description);
-  addVehicleOptions(description);
   description.add_options()(kBaseline, boost::program_options::value<std::string>());
   const boost::program_options::variables_map values = *parse(arguments, "", description, "bag");
   isOfVehicle(values);  // refuses a strut of none

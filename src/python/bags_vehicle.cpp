@@ -8,7 +8,6 @@
 #include "../ros/vehicle_options.h"
 #include "../tools/bag_options.h"
 #include "../tools/command.h"
-#include "../tools/healthy_strut.h"
 #include "../tools/recorded_vehicle.h"
 #include "../tools/strut_files.h"
 #include "../tools/watched_vehicle.h"

@@ -11,6 +11,7 @@
 #include "suspension_health_monitor/internal/digest.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
+#include "suspension_health_monitor/internal/monitor/strut_pipeline.h"
 
 namespace suspension_health_monitor {
 

@@ -13,10 +13,6 @@ namespace {
 
 namespace po = boost::program_options;
 
-void takeTransforms(ImuBags& bags, const ShellOptions& options) {
-  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
-}
-
 }  // namespace
 
 void addBagOptions(po::options_description& description) {
@@ -33,6 +29,9 @@ void addBagOptions(po::options_description& description) {
   add("json", po::value<std::string>(), "write the result as JSON");
   add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       "processor cores to use");
+  add(kVehicle, po::value<std::string>(),
+      "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
+  add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
 }
 
 int threadsOf(const po::variables_map& values) {
@@ -42,7 +41,7 @@ int threadsOf(const po::variables_map& values) {
   return threads;
 }
 
-ImuBags readBags(const po::variables_map& values) {
+ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
   ImuBags bags;
   bags.reads_ahead = threadsOf(values) > 1;
   bags.paths = values["bag"].as<std::vector<std::string>>();
@@ -51,19 +50,15 @@ ImuBags readBags(const po::variables_map& values) {
   if (!(bags.start >= 0.0 && bags.end > bags.start))
     throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
                                 " [s], must be 0 <= start < end");
-  return bags;
-}
-
-ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
-  ImuBags bags = readBags(values);
-  takeTransforms(bags, options);
+  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
   return bags;
 }
 
 BagOptions readLiveOptions(const po::variables_map& values) {
   BagOptions options;
+  options.pipeline = PipelineOptions::fromValues(gatherOptions(values));
   ImuBags& bags = options.bags;
-  bags = readBags(values);
+  bags = readBags(values, options.pipeline.shell);
   bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
   if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
   bags.not_needed = bags.topics.size() - 2;
@@ -74,10 +69,7 @@ BagOptions readLiveOptions(const po::variables_map& values) {
     throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + bags.topics[0] + ", must differ");
   if (bags.topics.size() > 2 && (bags.topics[2] == bags.topics[0] || bags.topics[2] == bags.topics[1]))
     throw std::invalid_argument("--road-topic " + bags.topics[2] + " is one of the other two, must differ");
-  const OptionMap settings = gatherOptions(values);
-  options.pipeline = PipelineOptions::fromValues(settings);
   options.pipeline.monitor.tyre = bags.topics.size() > 2;
-  takeTransforms(bags, options.pipeline.shell);
   options.period_measured = !options.pipeline.monitor.sample_period;
   if (!options.period_measured) requireFittingPeriod(bags, *options.pipeline.monitor.sample_period);
   return options;

@@ -20,6 +20,9 @@ struct BagOptions {
   bool horizon_measured = false;
 };
 
+inline constexpr const char* kVehicle = "vehicle";  ///< names of options
+inline constexpr const char* kStrut = "strut";
+
 /// Adds the common options to a subcommand's own.
 void addBagOptions(boost::program_options::options_description& description);
 
@@ -27,12 +30,9 @@ void addBagOptions(boost::program_options::options_description& description);
 /// @throws std::invalid_argument  as command.h.
 int threadsOf(const boost::program_options::variables_map& values);
 
-/// @return the bags and the part of each that is to be read; no topics.
-/// @throws std::invalid_argument  as command.h.
-ImuBags readBags(const boost::program_options::variables_map& values);
-
-/// @return the same with the static transforms, if a target_frame wants them.
-/// @throws InputError  as readStaticTransforms().
+/// @return the bags and the part of each that is to be read, with the static transforms if a target_frame wants them;
+/// no topics.
+/// @throws std::invalid_argument  as command.h.  @throws InputError  as readStaticTransforms().
 ImuBags readBags(const boost::program_options::variables_map& values, const ShellOptions& options);
 
 /// @return the mean spacing of the stamps at the beginning of the bags, of the slowest topic that is needed [s].
@@ -43,7 +43,7 @@ double measurePeriod(const ImuBags& bags);
 /// Measures what the settings leave open: sample_period by measurePeriod(), the horizon by proposeHorizon() with what
 /// blocks tell of the strut: those of the beginning, as soon as they know it well enough.
 /// @param clocks_may_differ  true: a strut that blocks see once the clocks are set right (rough_strut.h) will do.
-/// @throws InputError  as readImuMessages().  @throws TooLittleError  if there are too few messages to tell.
+/// @throws InputError  as readTopics().  @throws TooLittleError  if there are too few messages to tell.
 void measureOpenSettings(const ImuBags& bags, PipelineOptions& options, bool clocks_may_differ);
 
 /// @throws std::invalid_argument  if sample_period is so far below the spacing of the stamps at the beginning of the

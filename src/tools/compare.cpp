@@ -62,7 +62,6 @@ nlohmann::json compareStruts(const po::variables_map& values) {
 void compare(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
-  addVehicleOptions(description);
   addModelOptions(description);
   const auto values = parse(arguments, "compare BAG... [--model MODEL.yaml] [OPTION]...", description, "bag");
   if (!values) return;

@@ -1,7 +1,6 @@
 #include "csv_tables.h"
 
 #include <algorithm>
-#include <boost/algorithm/string/replace.hpp>
 #include <cinttypes>
 #include <utility>
 
@@ -12,10 +11,11 @@ CsvTable::CsvTable(std::FILE* out, std::vector<std::string> struts, const char* 
   if (out_ != nullptr) std::fprintf(out_, "time,%s%s\n", struts_.empty() ? "" : "strut,", columns);
 }
 
-void CsvTable::beginLine(std::size_t strut, Stamp stamp) {
+std::FILE* CsvTable::beginLine(std::size_t strut, Stamp stamp) {
   constexpr std::int64_t second = 1000000000;
   std::fprintf(out_, "%" PRId64 ".%09" PRId64 ",", stamp.count() / second, stamp.count() % second);
   if (!struts_.empty()) std::fprintf(out_, "%s,", struts_[strut].c_str());
+  return out_;
 }
 
 RowTable::RowTable(std::FILE* out, const std::vector<std::string>& struts)
@@ -56,19 +56,6 @@ void RowTable::write(std::size_t strut, const std::optional<double>& predicted) 
   else
     std::fputs("nan,nan,", out_);
   std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g\n", row.damping, row.stiffness, row.damping_stddev, row.stiffness_stddev);
-}
-
-HealthTable::HealthTable(std::FILE* out, const std::vector<std::string>& struts)
-    : CsvTable(out, struts, "level,message,b1,b0,b1_stddev,b0_stddev,offset") {}
-
-void HealthTable::add(std::size_t strut, const HealthMoment& moment) {
-  if (out_ == nullptr) return;
-  const StrutEstimate& estimate = moment.estimate;
-  beginLine(strut, moment.stamp);
-  std::fprintf(out_, "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level),
-               boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(), estimate.damping_to_mass,
-               estimate.stiffness_to_mass, estimate.damping_to_mass_stddev, estimate.stiffness_to_mass_stddev,
-               moment.offset);
 }
 
 }  // namespace suspension_health_monitor

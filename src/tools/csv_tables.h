@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/monitor/health_log.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
@@ -17,9 +17,10 @@ class CsvTable {
   /// @param columns  names of the others.
   CsvTable(std::FILE* out, std::vector<std::string> struts, const char* columns);
 
- protected:
-  void beginLine(std::size_t strut, Stamp stamp);
+  /// @return where the rest of the line is to be written.
+  std::FILE* beginLine(std::size_t strut, Stamp stamp);
 
+ protected:
   std::FILE* out_;
   std::vector<std::string> struts_;
 };
@@ -46,15 +47,6 @@ class RowTable : CsvTable {
   void write(std::size_t strut, const std::optional<double>& predicted);
 
   std::vector<std::deque<Row>> waiting_;  // by strut
-};
-
-/// `suspension_bag health --csv`: one line per moment.
-class HealthTable : CsvTable {
- public:
-  /// As CsvTable.
-  HealthTable(std::FILE* out, const std::vector<std::string>& struts);
-
-  void add(std::size_t strut, const HealthMoment& moment);
 };
 
 }  // namespace suspension_health_monitor

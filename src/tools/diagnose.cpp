@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "../ros/model_file.h"
 #include "bag_options.h"
 #include "command.h"
 #include "long_work.h"
@@ -25,40 +26,41 @@ void requireOne(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
   throw TooLittleError(vehicle.names[first] + ": the drives " + found.struts[first].reason);
 }
 
-void print(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std::vector<std::string>& changes) {
+/// Tells people what was found of the struts that are asked for.
+/// @return the same for programs.
+json tell(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std::vector<std::string>& changes) {
   std::printf("%s\n", found.summary.c_str());
   printCoupling(found.coupling, vehicle.names);
-  for (const std::size_t i : vehicle.asked) {
-    const Diagnosis& strut = found.struts[i];
-    std::printf("\n%s: ", vehicle.names[i].c_str());
-    if (strut)
-      printSearch(strut);
-    else
-      std::printf("the drives %s\n", strut.reason.c_str());
-    printChange(changes[i]);
-  }
-}
-
-json toJson(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std::vector<std::string>& changes) {
   json whole = toJson(found.coupling, vehicle.names);
   whole["verdict"] = nameOf(found.verdict);
   whole["summary"] = found.summary;
   whole["selected"] = json::object();
   for (const std::size_t i : vehicle.asked) {
     const Diagnosis& strut = found.struts[i];
-    json& its = whole["struts"][vehicle.names[i]] = strut ? toJson(strut) : json{{"reason", strut.reason}};
-    whole["selected"][vehicle.names[i]] = its["selected"] = found.selected(i);
-    if (strut) its["verdict"] = nameOf(found.verdictOn(i));
+    json& its = whole["struts"][vehicle.names[i]];
+    std::printf("\n%s: ", vehicle.names[i].c_str());
+    if (strut) {
+      printSearch(strut);
+      its = toJson(strut);
+      its["verdict"] = nameOf(found.verdictOn(i));
+    } else {
+      std::printf("the drives %s\n", strut.reason.c_str());
+      its["reason"] = strut.reason;
+    }
+    printChange(changes[i]);
     if (!changes[i].empty()) its["change"] = changes[i];
+    whole["selected"][vehicle.names[i]] = its["selected"] = found.selected(i);
   }
   return whole;
 }
 
-KnownModels modelsOf(const VehicleDiagnosis& found) {
-  KnownModels models;
-  for (const Diagnosis& strut : found.struts)
-    models.push_back(strut ? std::optional<StrutModel>(strut.model()) : std::nullopt);
-  return models;
+/// The models of all struts that have one, or that of --strut alone, as readModels() takes them.
+std::string modelText(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
+  if (vehicle.only) return toYaml(found.struts[*vehicle.only].model());
+  ModelsByStrut models;
+  for (std::size_t i = 0; i < found.struts.size(); ++i)
+    if (found.struts[i]) models.emplace(vehicle.names[i], found.struts[i].model());
+  return toYaml(models);
 }
 
 void diagnoseStrut(const po::variables_map& values) {
@@ -112,11 +114,10 @@ void diagnoseStruts(const po::variables_map& values) {
   gaps.explain([&] { requireOne(found, vehicle); });
   const std::vector<std::string> changes = changesOf(drives, vehicle.names, settings);
   progress.clear();
-  print(found, vehicle, changes);
-  json whole = toJson(found, vehicle, changes);
+  json whole = tell(found, vehicle, changes);
   whole["silent"] = gaps.toJson();
   if (file) file->commit(whole.dump(2) + '\n');
-  if (model) model->commit(toYaml(modelsOf(found), vehicle));
+  if (model) model->commit(modelText(found, vehicle));
   if (page)
     page->write(found, options, changes,
                 {fileNames(values["bag"].as<std::vector<std::string>>()),
@@ -128,7 +129,6 @@ void diagnoseStruts(const po::variables_map& values) {
 void diagnose(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
-  addVehicleOptions(description);
   addModelOptions(description);
   auto add = description.add_options();
   add("output,o", po::value<std::string>(), "write the model that was found as YAML; of a vehicle those of its struts");

@@ -66,7 +66,6 @@ void watchStruts(const po::variables_map& values) {
 void health(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
-  addVehicleOptions(description);
   auto add = description.add_options();
   add(kBaseline, po::value<std::string>(),
       "YAML file with the healthy strut, as the monitor writes it, or settings with nominal values; of a vehicle "

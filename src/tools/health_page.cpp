@@ -1,7 +1,9 @@
 #include "health_page.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "command.h"
@@ -80,13 +82,18 @@ json HealthCourse::toJson() const {
 HealthFiles::HealthFiles(const po::variables_map& values, const std::vector<std::string>& struts)
     : json_(outputFile(values, "json")),
       csv_(outputFile(values, "csv")),
-      table_(csv_ ? csv_->stream() : nullptr, struts),
+      table_(csv_ ? csv_->stream() : nullptr, struts, "level,message,b1,b0,b1_stddev,b0_stddev,offset"),
       courses_(std::max<std::size_t>(1, struts.size())) {
   if (values.count(kReport) != 0) page_.emplace(values[kReport].as<std::string>());
 }
 
 void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Baseline& healthy) {
-  table_.add(strut, moment);
+  const StrutEstimate& estimate = moment.estimate;
+  if (csv_)
+    std::fprintf(table_.beginLine(strut, moment.stamp), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n",
+                 nameOf(moment.level), boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(),
+                 estimate.damping_to_mass, estimate.stiffness_to_mass, estimate.damping_to_mass_stddev,
+                 estimate.stiffness_to_mass_stddev, moment.offset);
   if (page_) courses_[strut].add(moment, healthy);
 }
 

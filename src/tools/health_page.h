@@ -77,7 +77,7 @@ class HealthFiles {
  private:
   std::optional<TextFile> json_, csv_;
   std::optional<HtmlPage> page_;
-  HealthTable table_;
+  CsvTable table_;
   std::vector<HealthCourse> courses_;
 };
 

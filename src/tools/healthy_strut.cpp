@@ -1,5 +1,3 @@
-#include "healthy_strut.h"
-
 #include <algorithm>
 
 #include "../ros/live_baseline.h"

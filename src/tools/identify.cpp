@@ -175,7 +175,6 @@ void identifyStruts(const po::variables_map& values) {
 void identify(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
-  addVehicleOptions(description);
   auto add = description.add_options();
   add("csv", po::value<std::string>(), "write a line per regression row, full precision");
   add("output,o", po::value<std::string>(),

@@ -52,8 +52,4 @@ struct TopicSinks {
 /// @throws TooLittleError  if a bag holds no message at all.
 void readTopics(const ImuBags& bags, const TopicSinks& take);
 
-/// The same of the sensors of one strut.
-void readImuMessages(const ImuBags& bags,
-                     const std::function<bool(Side, const sensor_msgs::Imu&, Stamp recorded)>& take);
-
 }  // namespace suspension_health_monitor

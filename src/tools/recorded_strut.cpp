@@ -61,11 +61,12 @@ std::vector<HealthContent::Recording> RecordedMonitor::read() {
     ImuBags bag = options_.bags;
     bag.paths = {path};
     bag.gaps = &gaps_;
-    readImuMessages(bag, [&](Side side, const sensor_msgs::Imu& imu, Stamp recorded) {
-      if (side != Side::kRoad) log_.addReading(indexOf(side), toStamp(imu.header.stamp), recorded);
-      pipeline_.push(side, imu);
+    const auto take = [&](std::size_t side, const sensor_msgs::Imu& imu, Stamp recorded) {
+      if (side != indexOf(Side::kRoad)) log_.addReading(side, toStamp(imu.header.stamp), recorded);
+      pipeline_.push(static_cast<Side>(side), imu);
       return true;
-    });
+    };
+    readTopics(bag, {take, {}});
     log_.finishRecording();
   }
   gaps_.explain([&] { requireEnough(); });
@@ -106,7 +107,8 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
   const double period = *settings.sample_period;
   UniformGrid grid(period, settings.grid(period));
   Stamp last_body{};
-  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu, Stamp) {
+  const auto take_imu = [&](std::size_t place, const sensor_msgs::Imu& imu, Stamp) {
+    const Side side{place};
     if (side == Side::kRoad) return true;
     const std::optional<double> acceleration = sensors.read(side, imu);
     if (!acceleration) return true;
@@ -118,7 +120,8 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
     for (auto sample = grid.push(side, stamp, *acceleration); sample; sample = grid.next())
       if (!take(*sample)) return false;
     return true;
-  });
+  };
+  readTopics(bags, {take_imu, {}});
   RejectCounts rejected = sensors.rejected();
   rejected += grid.streams().rejected();
   return {std::move(grid), rejected};

@@ -7,7 +7,7 @@
 #include "../ros/imu_pipeline.h"
 #include "bag_options.h"
 #include "health_page.h"
-#include "healthy_strut.h"
+#include "strut_files.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"

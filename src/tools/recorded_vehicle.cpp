@@ -20,9 +20,6 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr const char* kVehicle = "vehicle";
-constexpr const char* kStrut = "strut";
-
 /// Looks up the positions of struts that have a frame.
 void place(VehicleLayout& layout, ImuBags bags, const PipelineOptions& options) {
   if (!layout.hasFrames() || !layout.body_imu) return;
@@ -67,13 +64,6 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
 }
 
 }  // namespace
-
-void addVehicleOptions(po::options_description& description) {
-  auto add = description.add_options();
-  add(kVehicle, po::value<std::string>(),
-      "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
-  add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
-}
 
 bool isOfVehicle(const po::variables_map& values) {
   if (values.count(kStrut) != 0 && values.count(kVehicle) == 0)
@@ -139,10 +129,7 @@ std::vector<VehicleDrive> readDrives(const po::variables_map& values, AskedVehic
   std::vector<VehicleDrive> drives;
   for (VehicleBag& bag : read) {
     const StrutDrives& struts = bag.drive.struts;
-    std::printf("%zu samples of %zu struts, readings %s\n", struts.front().samples.size(), struts.size(),
-                bag.alignment.c_str());
-    const std::string leans = describe(bag.body_level);
-    if (!leans.empty()) std::printf("%s\n", leans.c_str());
+    printReadings(struts.front().samples.size(), struts.size(), bag.alignment, bag.body_level);
     for (const VehicleBag::Sensor& sensor : bag.sensors) printRejected(sensor.topic, sensor.rejected);
     drives.push_back(std::move(bag.drive));
   }
@@ -152,6 +139,13 @@ std::vector<VehicleDrive> readDrives(const po::variables_map& values, AskedVehic
 
 void requireCoupling(const VehicleCoupling& coupling) {
   if (!coupling) throw TooLittleError("the drives " + coupling.reason);
+}
+
+void printReadings(std::size_t num_samples, std::size_t num_struts, const std::string& alignment,
+                   const BodyLevel& level) {
+  std::printf("%zu samples of %zu struts, readings %s\n", num_samples, num_struts, alignment.c_str());
+  const std::string leans = describe(level);
+  if (!leans.empty()) std::printf("%s\n", leans.c_str());
 }
 
 void printRejected(const std::string& topic, const RejectCounts& rejected) {

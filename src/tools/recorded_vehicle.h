@@ -75,6 +75,10 @@ std::vector<VehicleDrive> readDrives(const boost::program_options::variables_map
 /// @throws TooLittleError  saying why, if the drives do not tell how the struts move one another.
 void requireCoupling(const VehicleCoupling& coupling);
 
+/// Tells people what the readings of a vehicle became.
+void printReadings(std::size_t num_samples, std::size_t num_struts, const std::string& alignment,
+                   const BodyLevel& level);
+
 /// Tells people what became of the messages of the sensors that were kept out.
 void printRejected(const std::string& topic, const RejectCounts& rejected);
 

@@ -6,22 +6,11 @@
 #include "imu_bags.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-constexpr const char* kTopic = "/tf_static";
-
-void readTransforms(BagFile& file, const BagMessage& message, tf2::BufferCore& transforms) {
-  tf2_msgs::TFMessage tree;
-  decode(file, message, std::string(" on ") + kTopic, tree);
-  for (const geometry_msgs::TransformStamped& transform : tree.transforms)
-    transforms.setTransform(transform, file.path(), true);
-}
-
-}  // namespace
-
 std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths) {
+  constexpr const char* kTopic = "/tf_static";
   const auto transforms = std::make_shared<tf2::BufferCore>();
   ChunkContents contents;
+  tf2_msgs::TFMessage tree;
   for (const std::string& path : paths) {
     BagFile file(path);
     const std::vector<std::uint32_t> connections = connectionsOf<tf2_msgs::TFMessage>(file, kTopic);
@@ -33,8 +22,12 @@ std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<st
     for (const BagChunk& chunk : file.chunks()) {
       if (std::none_of(chunk.connections.begin(), chunk.connections.end(), is_wanted)) continue;
       file.read(chunk, contents);
-      for (const BagMessage& message : contents.messages)
-        if (is_wanted(message.connection)) readTransforms(file, message, *transforms);
+      for (const BagMessage& message : contents.messages) {
+        if (!is_wanted(message.connection)) continue;
+        decode(file, message, std::string(" on ") + kTopic, tree);
+        for (const geometry_msgs::TransformStamped& transform : tree.transforms)
+          transforms->setTransform(transform, path, true);
+      }
     }
   }
   return transforms;

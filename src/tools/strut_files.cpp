@@ -112,14 +112,6 @@ std::vector<std::optional<Baseline>> readBaselines(const std::string& path, cons
   return readByStrut(path, vehicle, takeBaseline);
 }
 
-std::string toYaml(const KnownModels& models, const AskedVehicle& vehicle) {
-  if (vehicle.only) return toYaml(*models[*vehicle.only]);
-  ModelsByStrut by_name;
-  for (std::size_t i = 0; i < models.size(); ++i)
-    if (models[i]) by_name.emplace(vehicle.names[i], *models[i]);
-  return toYaml(by_name);
-}
-
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {
   const std::optional<StrutOfDrive> strut = strutOf(found);
   if (!strut) return "no estimate is valid";

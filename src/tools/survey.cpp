@@ -90,10 +90,6 @@ Surveyed survey(const ImuBags& bags, const PipelineOptions& options) {
   return {rough, clocks_differ, std::move(drive), std::move(read.grid), count, gaps, longest, read.rejected};
 }
 
-std::string describeClockOffset(double offset) {
-  return formatted("; the clocks of the IMUs seem to differ by about %.0f ms: diagnose tells", 1e3 * std::abs(offset));
-}
-
 [[noreturn]] void refuse(const Surveyed& surveyed, double period) {
   const bool is_short = static_cast<double>(surveyed.longest) * period < kTwoBounces;
   throw TooLittleError(
@@ -103,7 +99,8 @@ std::string describeClockOffset(double offset) {
       formatted(" in %.3g s", static_cast<double>(surveyed.samples) * period) + ", gaps " +
       std::to_string(surveyed.gaps) + (is_short ? "; two bounces of the body in one piece are enough" : "") +
       describeRejected(surveyed.rejected) + ")" +
-      (surveyed.rough ? describeClockOffset(surveyed.rough->clock_offset)
+      (surveyed.rough ? formatted("; the clocks of the IMUs seem to differ by about %.0f ms: diagnose tells",
+                                  1e3 * std::abs(surveyed.rough->clock_offset))
                       : describeSuspicions(surveyed.grid, {surveyed.drive}, period)) +
       "; give integration_horizon (--set integration_horizon=0.6) to look at them all the same");
 }

@@ -77,10 +77,8 @@ std::vector<HealthContent::Recording> WatchedVehicle::read() {
 
 void WatchedVehicle::printInput() const {
   if (pipeline_.monitor() != nullptr) {
-    std::printf("sample period %.6g s\n%llu samples of %zu struts, readings %s\n", *pipeline_.period(),
-                static_cast<unsigned long long>(pipeline_.grid()->numInstants()), logs_.size(), alignment().c_str());
-    const std::string leans = describe(pipeline_.grid()->bodyLevel());
-    if (!leans.empty()) std::printf("%s\n", leans.c_str());
+    std::printf("sample period %.6g s\n", *pipeline_.period());
+    printReadings(pipeline_.grid()->numInstants(), logs_.size(), alignment(), pipeline_.grid()->bodyLevel());
     for (std::size_t i = 0; i < topics_.size(); ++i) printRejected(topics_[i], pipeline_.rejected(i));
   }
   gaps_.print();

@@ -9,7 +9,7 @@
 #include "../ros/live_model.h"
 #include "../ros/vehicle_pipeline.h"
 #include "health_page.h"
-#include "healthy_strut.h"
+#include "strut_files.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
 
 namespace suspension_health_monitor {
