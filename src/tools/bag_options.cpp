@@ -1,19 +1,18 @@
 #include "bag_options.h"
 
+#include <tf2_msgs/TFMessage.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <thread>
 
 #include "../ros/model_file.h"
+#include "bag_file.h"
 #include "command.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
-namespace {
-
 namespace po = boost::program_options;
-
-}  // namespace
 
 void addBagOptions(po::options_description& description) {
   auto add = description.add_options();
@@ -32,6 +31,33 @@ void addBagOptions(po::options_description& description) {
   add(kVehicle, po::value<std::string>(),
       "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
   add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
+}
+
+std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths) {
+  constexpr const char* kTopic = "/tf_static";
+  const auto transforms = std::make_shared<tf2::BufferCore>();
+  ChunkContents contents;
+  tf2_msgs::TFMessage tree;
+  for (const std::string& path : paths) {
+    BagFile file(path);
+    const std::vector<std::uint32_t> connections = connectionsOf<tf2_msgs::TFMessage>(file, kTopic);
+    if (connections.empty())
+      throw InputError(path + ": no topic " + kTopic + ", needed since target_frame or the frame of a strut is set");
+    const auto is_wanted = [&](std::uint32_t connection) {
+      return std::find(connections.begin(), connections.end(), connection) != connections.end();
+    };
+    for (const BagChunk& chunk : file.chunks()) {
+      if (std::none_of(chunk.connections.begin(), chunk.connections.end(), is_wanted)) continue;
+      file.read(chunk, contents);
+      for (const BagMessage& message : contents.messages) {
+        if (!is_wanted(message.connection)) continue;
+        decode(file, message, std::string(" on ") + kTopic, tree);
+        for (const geometry_msgs::TransformStamped& transform : tree.transforms)
+          transforms->setTransform(transform, path, true);
+      }
+    }
+  }
+  return transforms;
 }
 
 int threadsOf(const po::variables_map& values) {
@@ -72,14 +98,6 @@ BagOptions readLiveOptions(const po::variables_map& values) {
   options.pipeline.monitor.tyre = bags.topics.size() > 2;
   options.period_measured = !options.pipeline.monitor.sample_period;
   if (!options.period_measured) requireFittingPeriod(bags, *options.pipeline.monitor.sample_period);
-  return options;
-}
-
-BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_differ) {
-  BagOptions options = readLiveOptions(values);
-  options.horizon_measured = !options.pipeline.monitor.integration_horizon;
-  if (options.period_measured || options.horizon_measured)
-    measureOpenSettings(options.bags, options.pipeline, clocks_may_differ);
   return options;
 }
 

@@ -30,6 +30,10 @@ void addBagOptions(boost::program_options::options_description& description);
 /// @throws std::invalid_argument  as command.h.
 int threadsOf(const boost::program_options::variables_map& values);
 
+/// @return the static transforms (/tf_static) of all bags.
+/// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
+std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths);
+
 /// @return the bags and the part of each that is to be read, with the static transforms if a target_frame wants them;
 /// no topics.
 /// @throws std::invalid_argument  as command.h.  @throws InputError  as readStaticTransforms().
@@ -40,12 +44,6 @@ ImuBags readBags(const boost::program_options::variables_map& values, const Shel
 /// messages.
 double measurePeriod(const ImuBags& bags);
 
-/// Measures what the settings leave open: sample_period by measurePeriod(), the horizon by proposeHorizon() with what
-/// blocks tell of the strut: those of the beginning, as soon as they know it well enough.
-/// @param clocks_may_differ  true: a strut that blocks see once the clocks are set right (rough_strut.h) will do.
-/// @throws InputError  as readTopics().  @throws TooLittleError  if there are too few messages to tell.
-void measureOpenSettings(const ImuBags& bags, PipelineOptions& options, bool clocks_may_differ);
-
 /// @throws std::invalid_argument  if sample_period is so far below the spacing of the stamps at the beginning of the
 /// bags that nearly all samples would be made up. Bags whose stamps tell no spacing are left to what reads them.
 void requireFittingPeriod(const ImuBags& bags, double sample_period);
@@ -55,9 +53,10 @@ void requireFittingPeriod(const ImuBags& bags, double sample_period);
 /// @throws std::invalid_argument, InputError, TooLittleError  as command.h.
 BagOptions readLiveOptions(const boost::program_options::variables_map& values);
 
-/// The same, with what they leave open measured from the bags.
-/// @param clocks_may_differ  as measureOpenSettings().
-/// @throws std::invalid_argument, InputError, TooLittleError  likewise.
+/// The same, with what they leave open measured from the bags: sample_period by measurePeriod(), the horizon by
+/// proposeHorizon() with what blocks tell of the strut: those of the beginning, as soon as they know it well enough.
+/// @param clocks_may_differ  true: a strut that blocks see once the clocks are set right (rough_strut.h) will do.
+/// @throws std::invalid_argument, InputError, TooLittleError  likewise, also if there are too few messages to tell.
 BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ = false);
 
 /// Names of the options that addModelOptions() adds; their values are files that are read.

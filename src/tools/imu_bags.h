@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 #include "topic_gaps.h"
 
 namespace suspension_health_monitor {
@@ -34,10 +33,6 @@ struct ImuBags {
   bool reads_ahead = true;     ///< in a second thread
   std::size_t not_needed = 0;  ///< of `topics` so many, the last: their silence is none
 };
-
-/// @return the static transforms (/tf_static) of all bags.
-/// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
-std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths);
 
 /// What is called with every message, its place among ImuBags::topics and then ImuBags::wrench_topics, and the time of
 /// its recording; returns false to stop.

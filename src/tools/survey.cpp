@@ -128,11 +128,15 @@ double measurePeriod(const ImuBags& bags) {
   return *period;
 }
 
-void measureOpenSettings(const ImuBags& bags, PipelineOptions& options, bool clocks_may_differ) {
-  MonitorOptions& monitor = options.monitor;
-  if (!monitor.sample_period) monitor.sample_period = measurePeriod(bags);
-  if (!monitor.integration_horizon)
-    monitor.integration_horizon = proposeHorizonSamples(bags, options, clocks_may_differ) * *monitor.sample_period;
+BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ) {
+  BagOptions options = readLiveOptions(values);
+  MonitorOptions& monitor = options.pipeline.monitor;
+  options.horizon_measured = !monitor.integration_horizon;
+  if (options.period_measured) monitor.sample_period = measurePeriod(options.bags);
+  if (options.horizon_measured)
+    monitor.integration_horizon =
+        proposeHorizonSamples(options.bags, options.pipeline, clocks_may_differ) * *monitor.sample_period;
+  return options;
 }
 
 void requireFittingPeriod(const ImuBags& bags, double sample_period) {
