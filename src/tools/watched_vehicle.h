@@ -36,6 +36,7 @@ class WatchedVehicle {
 
   /// @param values  with the bags.
   /// @param vehicle  whose struts with a frame get their position.
+  /// @param options  outlive this object.
   /// @param row  called as HealthLog calls its sink, with what the strut is judged by then, if it is given.
   /// @param report  called with every report, if it is given.
   /// @throws InputError, TooLittleError, std::invalid_argument  as streamsOf().
