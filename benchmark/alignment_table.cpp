@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "../test/core/mean_estimates.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "../test/core/uniform_grid.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "../test/core/uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {

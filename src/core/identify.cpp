@@ -4,6 +4,7 @@
 
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -24,19 +25,20 @@ IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions&
   monitor.integration_horizon = horizon * period;
   monitor.alignment = "paired";
   constexpr Stamp kLater(1);  // 0 is the stamp that a driver has not set; a drive may begin with it
-  DriveIdentification identification(monitor, [&](const MonitorReport& later) {
+  const auto give = [&](const MonitorReport& later) {
     if (!options.report) return;
     MonitorReport report = later;
     report.stamp -= kLater;
     report.comparison.stamp -= kLater;
     options.report(report);
-  });
+  };
+  VehiclePipeline strut(monitor, give);
   for (const Drive& drive : drives)
     for (const CornerSample& sample : drive.samples) {
-      identification.push(Side::kSprung, sample.stamp + kLater, sample.sprung_acceleration);
-      identification.push(Side::kUnsprung, sample.stamp + kLater, sample.unsprung_acceleration);
+      strut.push(Side::kSprung, sample.stamp + kLater, sample.sprung_acceleration);
+      strut.push(Side::kUnsprung, sample.stamp + kLater, sample.unsprung_acceleration);
     }
-  return identification.result();
+  return identified(*strut.strut(), strut.overTheDrive(), strut.rejected());
 }
 
 }  // namespace suspension_health_monitor

@@ -10,10 +10,8 @@
 #include "../ros/yaml_settings.h"
 #include "../tools/bag_options.h"
 #include "../tools/command.h"
-#include "../tools/healthy_strut.h"
-#include "../tools/identify_tables.h"
 #include "../tools/recorded_strut.h"
-#include "../tools/simulate_vehicle.h"
+#include "../tools/strut_files.h"
 #include "bags_call.h"
 #include "options.h"
 #include "results.h"
@@ -41,30 +39,24 @@ Identification identifyBags(const Arguments& arguments, LongWork& work) {
   ToolsWork tools(work, 0);
   const BagOptions options = readBagOptions(parsed(arguments));
   Course course;
-  RecordedIdentification recorded(options, [&](const MonitorReport& report) { course.add(report); });
-  TopicGaps gaps(options.pipeline.shell.input_timeout);
+  RecordedMonitor recorded(options, {}, {}, [&](const MonitorReport& report) { course.add(report); });
   tools.tellReading(options.bags.paths.size());
-  recorded.read(gaps);
-  DriveIdentification& made = recorded.made();
-  gaps.explain([&] { requireRows(made.monitor(), made.grid().streams(), recorded.rejected()); });
-  Identification found = Identification::of(made, recorded.rejected(), course);
-  found.change = describeChange(found, knownHealthy(options.healthy, options.pipeline), options.pipeline.monitor);
+  recorded.read();
+  Identification found = Identification::of(recorded.strut(), recorded.rejected(), course);
+  found.change = describeChange(found, knownHealthy({}, options.pipeline), options.pipeline.monitor);
   return found;
 }
 
 HealthSummary watchBags(const Arguments& arguments, const std::optional<Baseline>& baseline, const std::string& file,
                         LongWork& work) {
   ToolsWork tools(work, 0);
-  BagOptions options = readLiveOptions(parsed(arguments));
-  if (baseline) options.healthy = HealthyStrut{*baseline, file};
-  if (baseline) replaceBaseline(*options.healthy, options.pipeline);
+  const BagOptions options = readLiveOptions(parsed(arguments));
+  const auto healthy = baseline ? std::optional(HealthyStrut{*baseline, file}) : std::nullopt;
   Course course;
-  RecordedMonitor recorded(
-      options, [](const HealthMoment&, const Baseline&) {}, [&](const MonitorReport& report) { course.add(report); });
-  TopicGaps gaps(options.pipeline.shell.input_timeout);
+  RecordedMonitor recorded(options, beforehand(healthy, options.pipeline), {},
+                           [&](const MonitorReport& report) { course.add(report); });
   tools.tellReading(options.bags.paths.size());
-  recorded.read(gaps);
-  gaps.explain([&] { recorded.requireEnough(); });
+  recorded.read();
   return HealthSummary::of(recorded.log(), recorded.monitor(), recorded.baselineFile(), recorded.rejected(), course);
 }
 

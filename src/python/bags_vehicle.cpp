@@ -8,12 +8,8 @@
 #include "../ros/vehicle_options.h"
 #include "../tools/bag_options.h"
 #include "../tools/command.h"
-#include "../tools/healthy_strut.h"
 #include "../tools/recorded_vehicle.h"
 #include "../tools/strut_files.h"
-#include "../tools/survey.h"
-#include "../tools/vehicle_bags.h"
-#include "../tools/vehicle_tables.h"
 #include "../tools/watched_vehicle.h"
 #include "bags_call.h"
 #include "results.h"
@@ -56,38 +52,22 @@ struct AskedWork {
   }
 };
 
-/// The monitor of a vehicle that has seen the bags.
-struct RecordedMonitor {
-  std::vector<Course> courses;
-  std::optional<WatchedVehicle> struts;
-
-  RecordedMonitor(AskedWork& asked, const std::vector<WatchedStrut>& watched, bool period_must_fit)
-      : courses(watched.size()) {
-    const PipelineOptions& common = asked.settings.common;
-    ImuBags bags = readBags(asked.values, common.shell);
-    const VehicleStreams streams = streamsOf(bags, common, asked.vehicle.layout);
-    if (period_must_fit && common.monitor.sample_period) requireFittingPeriod(bags, *common.monitor.sample_period);
-    bags.gaps = &asked.gaps;
-    const auto report = [&](std::size_t strut, const MonitorReport& its) {
-      courses[strut].add(its);
-      asked.tools.step();
-    };
-    struts.emplace(asked.settings, streams, watched, bags.transforms.get(), WatchedVehicle::Row(), report);
-    struts->read(bags);
-  }
-};
-
 auto identifyStrutsOf(const Arguments& arguments, LongWork& work) {
   AskedWork asked(arguments, work);
-  const std::vector<WatchedStrut> watched = plainStruts(asked.vehicle.names.size());
-  RecordedMonitor recorded(asked, watched, true);
-  VehicleIdentification found;
-  asked.gaps.explain([&] { found = recorded.struts->identified(asked.vehicle.names, asked.settings.forceNames()); });
+  std::vector<Course> courses(asked.vehicle.names.size());
+  WatchedVehicle recorded(asked.values, asked.vehicle, asked.settings, plainStruts(courses.size()), {},
+                          [&](std::size_t strut, const MonitorReport& report) {
+                            courses[strut].add(report);
+                            asked.tools.step();
+                          });
+  recorded.requirePeriod();
+  recorded.read();
+  const VehicleIdentification found = recorded.identified();
   return asked.byStrut([&](std::size_t i) {
     Identification result;
     static_cast<IdentifyResult&>(result) = found.struts[i];
     result.mean_period = std::nan("");  // of the sensors' grid, not of one strut
-    result.alignment = recorded.struts->alignment();
+    result.alignment = recorded.alignment();
     const PipelineOptions& options = asked.settings.struts[i];
     result.sprung_mass = options.monitor.sprung_mass;
     result.change = describeChange(result, knownHealthy({}, options), options.monitor);
@@ -138,13 +118,18 @@ auto diagnoseStrutsOf(const Arguments& arguments, int threads, LongWork& work) {
 
 auto watchStrutsOf(const Arguments& arguments, LongWork& work) {
   AskedWork asked(arguments, work);
-  const std::vector<WatchedStrut> watched = readWatched(asked.values, asked.vehicle, asked.settings);
-  RecordedMonitor read(asked, watched, false);
-  const WatchedVehicle& recorded = *read.struts;
-  asked.gaps.explain([&] { recorded.requireCoupling(asked.vehicle.names); });
+  std::vector<Course> courses(asked.vehicle.names.size());
+  WatchedVehicle recorded(asked.values, asked.vehicle, asked.settings,
+                          readWatched(asked.values, asked.vehicle, asked.settings), {},
+                          [&](std::size_t strut, const MonitorReport& report) {
+                            courses[strut].add(report);
+                            asked.tools.step();
+                          });
+  recorded.read();
+  recorded.requireCoupling();
   return asked.byStrut([&](std::size_t i) {
-    return HealthSummary::of(recorded.log(i), *recorded.monitor().strut(i),
-                             watched[i].healthy ? watched[i].healthy->file : "", recorded.rejected(), read.courses[i]);
+    return HealthSummary::of(recorded.log(i), *recorded.monitor().strut(i), recorded.baselineFile(i),
+                             recorded.rejected(), courses[i]);
   });
 }
 

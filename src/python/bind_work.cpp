@@ -18,10 +18,10 @@ double proposeHorizon(const Recordings& recordings, const MonitorOptions& option
                       LongWork& work) {
   const std::vector<Drive> drives = toDrives(recordings, options, period, shift, work);
   if (const auto rough = roughStrut(drives, period)) return rough->horizonSamples(period) * period;
-  UniformGrid grid(period, MonitorSettings(options).grid(period));
+  VehicleGrid grid(period, VehicleStreams(VehicleLayout::ofOneStrut(false)), MonitorSettings(options).grid(period),
+                   [](const VehicleSample&) {});
   recordings.front().forEach([&](Side side, Stamp stamp, double value) {
-    if (side == Side::kRoad) return;
-    for (auto sample = grid.push(side, stamp + shift, value); sample;) sample = grid.next();
+    if (side != Side::kRoad) grid.push(indexOf(side), stamp + shift, &value);
   });
   throw std::invalid_argument("no horizon can be proposed: the data show no damped spring" +
                               describeSuspicions(grid.streams(), drives, period) +
@@ -38,7 +38,7 @@ Identification identifyArrays(const Recordings& recordings, const Keywords& keyw
   if (!options.integration_horizon)
     options.integration_horizon = proposeHorizon(recordings, options, period, shift, work);
   Course course(shift);
-  DriveIdentification made(options, [&](const MonitorReport& report) { course.add(report); });
+  VehiclePipeline made(options, [&](const MonitorReport& report) { course.add(report); });
   if (model) made.setEffects(model->effects);
   const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
   forEachReading(recordings, shift, work, take, [] {});
@@ -72,8 +72,7 @@ HealthSummary watchArrays(const Recordings& recordings, const Keywords& keywords
     throw std::invalid_argument(describeNoStart("of one of the sensors") + describeRejected(strut.rejected()));
   const std::string nothing = describeNoRow(*monitor, strut.grid()->streams(), strut.rejected());
   if (!nothing.empty()) throw std::invalid_argument(nothing);
-  return HealthSummary::of(log, *monitor, healthy ? std::optional(file) : std::nullopt, strut.rejected(),
-                           course);
+  return HealthSummary::of(log, *monitor, healthy ? std::optional(file) : std::nullopt, strut.rejected(), course);
 }
 
 Comparison compareArrays(const Recordings& recordings, const Keywords& keywords, const std::optional<StrutModel>& model,

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
@@ -73,14 +73,14 @@ std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& 
   settings.tyre = false;  // a sample has no part of the road
   std::vector<Drive> drives;
   for (const Recording& recording : recordings) {
-    UniformGrid grid(period, settings.grid(period));
     Drive& drive = drives.emplace_back();
+    VehicleGrid grid(period, VehicleStreams(VehicleLayout::ofOneStrut(false)), settings.grid(period),
+                     [&](const VehicleSample& sample) { drive.samples.push_back(sample.ofStrut(0)); });
     drive.body = recording.bodyMotion(shift);
     recording.forEach([&](Side side, Stamp stamp, double value) {
       if (side == Side::kRoad) return;
       work.step();
-      for (auto sample = grid.push(side, stamp + shift, value); sample; sample = grid.next())
-        drive.samples.push_back(*sample);
+      grid.push(indexOf(side), stamp + shift, &value);
     });
   }
   return drives;

@@ -7,16 +7,17 @@
 
 namespace suspension_health_monitor {
 
-Identification Identification::of(DriveIdentification& made, const RejectCounts& rejected, const Course& course) {
-  const SuspensionMonitor& monitor = made.monitor();
-  const std::string nothing = describeNoRow(monitor, made.grid().streams(), rejected);
+Identification Identification::of(VehiclePipeline& made, const RejectCounts& rejected, const Course& course) {
+  const SuspensionMonitor& monitor = *made.strut();
+  const StreamGrid& streams = made.grid()->streams();
+  const std::string nothing = describeNoRow(monitor, streams, rejected);
   if (!nothing.empty()) throw std::invalid_argument(nothing);
   Identification found;
-  static_cast<IdentifyResult&>(found) = made.result();
+  static_cast<IdentifyResult&>(found) = identified(monitor, made.overTheDrive(), made.rejected());
   found.rejected = rejected.byName();
   found.mean_period = monitor.input().mean_period;
-  found.alignment = made.grid().streams().describeAlignment();
-  found.bridged = made.grid().streams().bridged();
+  found.alignment = streams.describeAlignment();
+  found.bridged = streams.bridged();
   if (made.tyre() != nullptr) found.tyre = made.tyre()->report();
   found.sprung_mass = monitor.options().sprung_mass;
   found.course = course;

@@ -11,6 +11,7 @@
 #include "suspension_health_monitor/internal/digest.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 
 namespace suspension_health_monitor {
 
@@ -48,7 +49,7 @@ struct Identification : IdentifyResult {
   Course course;
 
   /// @throws std::invalid_argument  saying why, if the readings have not given one regression row.
-  static Identification of(DriveIdentification& made, const RejectCounts& rejected, const Course& course);
+  static Identification of(VehiclePipeline& made, const RejectCounts& rejected, const Course& course);
 };
 
 struct SearchedStrut : Diagnosis {

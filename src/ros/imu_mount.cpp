@@ -103,11 +103,4 @@ BodyMotion ImuMount::across(const sensor_msgs::Imu& imu) const {
   return motion;
 }
 
-std::optional<double> StrutSensors::read(Side side, const sensor_msgs::Imu& imu) {
-  const auto acceleration = mounts_[static_cast<std::size_t>(side)].acceleration(imu);
-  if (const double* along = std::get_if<double>(&acceleration)) return *along;
-  rejected_.add(std::get<RejectReason>(acceleration));
-  return std::nullopt;
-}
-
 }  // namespace suspension_health_monitor

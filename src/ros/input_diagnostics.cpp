@@ -29,7 +29,8 @@ void InputDiagnostics::describe(const MessagePipeline& pipeline, Status& status)
   describeGrid(monitor, grid != nullptr ? &grid->streams() : nullptr, status);
   for (const Side side : {Side::kSprung, Side::kUnsprung}) {
     describeSensor(indexOf(side), grid != nullptr ? &grid->gate(indexOf(side)) : nullptr, status);
-    if (grid != nullptr) status.add(sensors_[indexOf(side)].name + " rejected", grid->gate(indexOf(side)).rejected().total());
+    if (grid != nullptr)
+      status.add(sensors_[indexOf(side)].name + " rejected", grid->gate(indexOf(side)).rejected().total());
   }
   if (const std::string newly = rejected_.describe(pipeline.rejected(), "", status); !newly.empty())
     status.mergeSummary(DiagnosticStatus::WARN, "readings rejected: " + newly);

@@ -1,29 +1,18 @@
 #include "bag_options.h"
 
-#include <unistd.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 #include <thread>
-#include <utility>
 
 #include "../ros/model_file.h"
-#include "bag_samples.h"
+#include "bag_file.h"
 #include "command.h"
-#include "survey.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
-namespace {
-
 namespace po = boost::program_options;
-
-void takeTransforms(ImuBags& bags, const ShellOptions& options) {
-  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
-}
-
-}  // namespace
 
 void addBagOptions(po::options_description& description) {
   auto add = description.add_options();
@@ -39,6 +28,36 @@ void addBagOptions(po::options_description& description) {
   add("json", po::value<std::string>(), "write the result as JSON");
   add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       "processor cores to use");
+  add(kVehicle, po::value<std::string>(),
+      "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
+  add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
+}
+
+std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths) {
+  constexpr const char* kTopic = "/tf_static";
+  const auto transforms = std::make_shared<tf2::BufferCore>();
+  ChunkContents contents;
+  tf2_msgs::TFMessage tree;
+  for (const std::string& path : paths) {
+    BagFile file(path);
+    const std::vector<std::uint32_t> connections = connectionsOf<tf2_msgs::TFMessage>(file, kTopic);
+    if (connections.empty())
+      throw InputError(path + ": no topic " + kTopic + ", needed since target_frame or the frame of a strut is set");
+    const auto is_wanted = [&](std::uint32_t connection) {
+      return std::find(connections.begin(), connections.end(), connection) != connections.end();
+    };
+    for (const BagChunk& chunk : file.chunks()) {
+      if (std::none_of(chunk.connections.begin(), chunk.connections.end(), is_wanted)) continue;
+      file.read(chunk, contents);
+      for (const BagMessage& message : contents.messages) {
+        if (!is_wanted(message.connection)) continue;
+        decode(file, message, std::string(" on ") + kTopic, tree);
+        for (const geometry_msgs::TransformStamped& transform : tree.transforms)
+          transforms->setTransform(transform, path, true);
+      }
+    }
+  }
+  return transforms;
 }
 
 int threadsOf(const po::variables_map& values) {
@@ -48,7 +67,7 @@ int threadsOf(const po::variables_map& values) {
   return threads;
 }
 
-ImuBags readBags(const po::variables_map& values) {
+ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
   ImuBags bags;
   bags.reads_ahead = threadsOf(values) > 1;
   bags.paths = values["bag"].as<std::vector<std::string>>();
@@ -57,19 +76,15 @@ ImuBags readBags(const po::variables_map& values) {
   if (!(bags.start >= 0.0 && bags.end > bags.start))
     throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
                                 " [s], must be 0 <= start < end");
-  return bags;
-}
-
-ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
-  ImuBags bags = readBags(values);
-  takeTransforms(bags, options);
+  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
   return bags;
 }
 
 BagOptions readLiveOptions(const po::variables_map& values) {
   BagOptions options;
+  options.pipeline = PipelineOptions::fromValues(gatherOptions(values));
   ImuBags& bags = options.bags;
-  bags = readBags(values);
+  bags = readBags(values, options.pipeline.shell);
   bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
   if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
   bags.not_needed = bags.topics.size() - 2;
@@ -80,26 +95,10 @@ BagOptions readLiveOptions(const po::variables_map& values) {
     throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + bags.topics[0] + ", must differ");
   if (bags.topics.size() > 2 && (bags.topics[2] == bags.topics[0] || bags.topics[2] == bags.topics[1]))
     throw std::invalid_argument("--road-topic " + bags.topics[2] + " is one of the other two, must differ");
-  const OptionMap settings = gatherOptions(values);
-  options.pipeline = PipelineOptions::fromValues(settings);
   options.pipeline.monitor.tyre = bags.topics.size() > 2;
-  takeTransforms(bags, options.pipeline.shell);
   options.period_measured = !options.pipeline.monitor.sample_period;
   if (!options.period_measured) requireFittingPeriod(bags, *options.pipeline.monitor.sample_period);
   return options;
-}
-
-BagOptions readBagOptions(const po::variables_map& values, bool clocks_may_differ) {
-  BagOptions options = readLiveOptions(values);
-  options.horizon_measured = !options.pipeline.monitor.integration_horizon;
-  if (options.period_measured || options.horizon_measured)
-    measureOpenSettings(options.bags, options.pipeline, clocks_may_differ);
-  return options;
-}
-
-void takeHealthy(const po::variables_map& values, BagOptions& options) {
-  options.healthy = readHealthy(values);
-  if (options.healthy) replaceBaseline(*options.healthy, options.pipeline);
 }
 
 void addEffectsFile(po::options_description& description) {
@@ -120,32 +119,6 @@ ModelOptions readModelOptions(const po::variables_map& values) {
   ModelOptions options{readEffects(values), std::nullopt};
   if (values.count(kModel) != 0) options.model = readModelFile(values[kModel].as<std::string>(), options.library);
   return options;
-}
-
-std::optional<TextFile> outputFile(const po::variables_map& values, const char* option) {
-  if (values.count(option) == 0) return std::nullopt;
-  const auto path = values[option].as<std::string>();
-  if (path != kStandardOutput) return std::optional<TextFile>(std::in_place, path);
-  std::fflush(stdout);
-  const int output = dup(STDOUT_FILENO);
-  dup2(STDERR_FILENO, STDOUT_FILENO);
-  return std::optional<TextFile>(std::in_place, "standard output", output < 0 ? nullptr : fdopen(output, "w"));
-}
-
-std::vector<Drive> readDrives(const BagOptions& options, TopicGaps& gaps) {
-  std::vector<Drive> drives;
-  for (const std::string& path : options.bags.paths) {
-    ImuBags bag = options.bags;
-    bag.paths = {path};
-    bag.gaps = &gaps;
-    Drive& drive = drives.emplace_back();
-    const auto take = [&](const CornerSample& sample) {
-      drive.samples.push_back(sample);
-      return true;
-    };
-    readSamples(bag, options.pipeline, take, [&](const BodyMotion& motion) { drive.body.push_back(motion); });
-  }
-  return drives;
 }
 
 void requireEnough(Shortcoming shortcoming, const std::string& reason) {

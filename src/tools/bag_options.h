@@ -3,11 +3,8 @@
 #include <boost/program_options.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "../ros/shell_options.h"
-#include "../ros/whole_file.h"
-#include "healthy_strut.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/effects.h"
@@ -21,8 +18,10 @@ struct BagOptions {
   PipelineOptions pipeline;
   bool period_measured = false;
   bool horizon_measured = false;
-  std::optional<HealthyStrut> healthy = {};  ///< given beside the settings, to be judged by
 };
+
+inline constexpr const char* kVehicle = "vehicle";  ///< names of options
+inline constexpr const char* kStrut = "strut";
 
 /// Adds the common options to a subcommand's own.
 void addBagOptions(boost::program_options::options_description& description);
@@ -31,27 +30,34 @@ void addBagOptions(boost::program_options::options_description& description);
 /// @throws std::invalid_argument  as command.h.
 int threadsOf(const boost::program_options::variables_map& values);
 
-/// @return the bags and the part of each that is to be read; no topics.
-/// @throws std::invalid_argument  as command.h.
-ImuBags readBags(const boost::program_options::variables_map& values);
+/// @return the static transforms (/tf_static) of all bags.
+/// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
+std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths);
 
-/// @return the same with the static transforms, if a target_frame wants them.
-/// @throws InputError  as readStaticTransforms().
+/// @return the bags and the part of each that is to be read, with the static transforms if a target_frame wants them;
+/// no topics.
+/// @throws std::invalid_argument  as command.h.  @throws InputError  as readStaticTransforms().
 ImuBags readBags(const boost::program_options::variables_map& values, const ShellOptions& options);
+
+/// @return the mean spacing of the stamps at the beginning of the bags, of the slowest topic that is needed [s].
+/// @throws InputError  as readTopics(), or it is no sample_period.  @throws TooLittleError  if there are too few
+/// messages.
+double measurePeriod(const ImuBags& bags);
+
+/// @throws std::invalid_argument  if sample_period is so far below the spacing of the stamps at the beginning of the
+/// bags that nearly all samples would be made up. Bags whose stamps tell no spacing are left to what reads them.
+void requireFittingPeriod(const ImuBags& bags, double sample_period);
 
 /// Collects the common options. What they leave open, sample_period and integration_horizon, stays open: a monitor
 /// finds it out as it does live.
 /// @throws std::invalid_argument, InputError, TooLittleError  as command.h.
 BagOptions readLiveOptions(const boost::program_options::variables_map& values);
 
-/// The same, with what they leave open measured from the bags.
-/// @param clocks_may_differ  as measureOpenSettings().
-/// @throws std::invalid_argument, InputError, TooLittleError  likewise.
+/// The same, with what they leave open measured from the bags: sample_period by measurePeriod(), the horizon by
+/// proposeHorizon() with what blocks tell of the strut: those of the beginning, as soon as they know it well enough.
+/// @param clocks_may_differ  true: a strut that blocks see once the clocks are set right (rough_strut.h) will do.
+/// @throws std::invalid_argument, InputError, TooLittleError  likewise, also if there are too few messages to tell.
 BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ = false);
-
-/// Takes the healthy strut of --baseline, if it is given, instead of that of the settings.
-/// @throws std::invalid_argument  as readHealthy() and replaceBaseline().
-void takeHealthy(const boost::program_options::variables_map& values, BagOptions& options);
 
 /// Names of the options that addModelOptions() adds; their values are files that are read.
 inline constexpr const char* kEffectsFile = "effects-file";
@@ -73,24 +79,6 @@ EffectLibrary readEffects(const boost::program_options::variables_map& values);
 
 /// Adds --effects-file alone.
 void addEffectsFile(boost::program_options::options_description& description);
-
-/// @return the file of an option, begun; nothing: it is not given. Where the file is called "-" it is standard output,
-/// which has nothing else then: what is said to people goes to standard error from now on.
-/// @throws std::runtime_error  naming the file, if it cannot be written.
-std::optional<TextFile> outputFile(const boost::program_options::variables_map& values, const char* option);
-
-/// Reads bags as drives, one each: both accelerations and what else the body's IMU measures.
-/// @param gaps  is told of all that is read.
-/// @throws InputError, TooLittleError  as readSamples().
-std::vector<Drive> readDrives(const BagOptions& options, TopicGaps& gaps);
-
-/// Takes the settings of the command line over that the options of diagnose() and compare() share.
-template <class Options>
-void takeSettings(const BagOptions& bags, const ModelOptions& models, Options& options) {
-  options.sample_period = bags.pipeline.monitor.sample_period;
-  options.horizon_samples = MonitorSettings(bags.pipeline.monitor).horizonSamples(*options.sample_period);
-  options.model = models.model;
-}
 
 /// @throws InputError, TooLittleError  in words for people, if a diagnosis or comparison has a shortcoming.
 void requireEnough(Shortcoming shortcoming, const std::string& reason);

@@ -1,10 +1,14 @@
 #include "command.h"
 
+#include <unistd.h>
+
+#include <boost/algorithm/string/replace.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "../ros/yaml_settings.h"
 #include "suspension_health_monitor/internal/nearest_name.h"
@@ -79,13 +83,7 @@ std::optional<po::variables_map> parse(const Arguments& arguments, const std::st
 std::string shellQuoted(const std::string& word) {
   const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+:=,@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string result = "'";
-  for (const char character : word)
-    if (character == '\'')
-      result += "'\\''";
-    else
-      result += character;
-  return result + "'";
+  return "'" + boost::replace_all_copy(word, "'", "'\\''") + "'";
 }
 
 OptionMap gatherOptions(const po::variables_map& values) {
@@ -98,6 +96,16 @@ OptionMap gatherOptions(const po::variables_map& values) {
     options[assignment.substr(0, equals)] = assignment.substr(equals + 1);
   }
   return options;
+}
+
+std::optional<TextFile> outputFile(const po::variables_map& values, const char* option) {
+  if (values.count(option) == 0) return std::nullopt;
+  const auto path = values[option].as<std::string>();
+  if (path != kStandardOutput) return std::optional<TextFile>(std::in_place, path);
+  std::fflush(stdout);
+  const int output = dup(STDOUT_FILENO);
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  return std::optional<TextFile>(std::in_place, "standard output", output < 0 ? nullptr : fdopen(output, "w"));
 }
 
 void requireSeparateFiles(const po::variables_map& values, const std::vector<std::string>& inputs,
@@ -127,6 +135,12 @@ void printWritten(const po::variables_map& values, const std::vector<std::string
       if (const fs::path file = writtenBy(option, path); path != kStandardOutput && fs::is_regular_file(file, error))
         written.push_back(file);
   if (!written.empty()) std::printf("wrote %s\n", join(written).c_str());
+}
+
+std::vector<std::string> fileNames(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) names.push_back(fs::path(path).filename());
+  return names;
 }
 
 }  // namespace suspension_health_monitor

@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "../ros/whole_file.h"
 #include "suspension_health_monitor/internal/option_table.h"
 
 namespace suspension_health_monitor {
+
+class DriveSource;
 
 /// Exit statuses of suspension_bag, as promised to scripts.
 enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kWrongInput = 3, kTooLittle = 4 };
@@ -66,6 +69,11 @@ inline constexpr const char* kStandardOutput = "-";
 inline constexpr const char* kReport = "report";
 inline constexpr const char* kReportFile = "report.html";
 
+/// @return the file of an option, begun; nothing: it is not given. Where the file is called "-" it is standard output,
+/// which has nothing else then: what is said to people goes to standard error from now on.
+/// @throws std::runtime_error  naming the file, if it cannot be written.
+std::optional<TextFile> outputFile(const boost::program_options::variables_map& values, const char* option);
+
 /// Refuses to write a file that is read, too, or to write two results into one file, and a folder called "-".
 /// @param inputs, outputs  names of options with a path, or several, as their value; those not given do not matter.
 /// @throws std::invalid_argument  naming option and path.
@@ -76,18 +84,15 @@ void requireSeparateFiles(const boost::program_options::variables_map& values, c
 /// @param outputs  as above. What is no regular file (a pipe, /dev/stdout) is not told of.
 void printWritten(const boost::program_options::variables_map& values, const std::vector<std::string>& outputs);
 
-/// Adds --vehicle and --strut.
-void addVehicleOptions(boost::program_options::options_description& description);
+/// @return paths without their folders.
+std::vector<std::string> fileNames(const std::vector<std::string>& paths);
 
-/// @return true if a vehicle file is given: the commands below are then meant.
+/// @return true if a vehicle file is given.
 bool isOfVehicle(const boost::program_options::variables_map& values);
 
-/// What the subcommands of these names do for every strut of a vehicle, with the values that they have parsed.
-/// @throws std::invalid_argument, InputError, TooLittleError  as command.h.
-void identifyStruts(const boost::program_options::variables_map& values);
-void compareStruts(const boost::program_options::variables_map& values);
-void diagnoseStruts(const boost::program_options::variables_map& values);
-void watchStruts(const boost::program_options::variables_map& values);
+/// Writes a whole simulated drive, with progress.
+/// @param duration  [s].  @param start  stamp at its start [s].
+void writeBag(DriveSource& drive, double duration, double start, const std::string& path);
 
 inline constexpr const char* kBaseline = "baseline";  ///< name of an option
 

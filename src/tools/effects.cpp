@@ -1,3 +1,4 @@
+#include <boost/algorithm/string/replace.hpp>
 #include <cstdio>
 #include <sstream>
 
@@ -34,12 +35,10 @@ void printMarkdown(const std::vector<Row>& rows) {
   std::printf(
       "| name | law | unit of c | shape | what a workshop would find | design or wear, and what to check |\n"
       "|---|---|---|---|---|---|\n");
-  for (const Row& row : rows) {
-    std::string law = row.law;
-    for (std::size_t bar = law.find('|'); bar != std::string::npos; bar = law.find('|', bar + 2)) law.insert(bar, "\\");
-    std::printf("| `%s` | %s | %s | %s | %s | %s |\n", row.name.c_str(), law.c_str(), row.unit.c_str(),
-                row.shapes.c_str(), row.finding.c_str(), adviceOn(row.name).c_str());
-  }
+  for (const Row& row : rows)
+    std::printf("| `%s` | %s | %s | %s | %s | %s |\n", row.name.c_str(),
+                boost::replace_all_copy(row.law, "|", "\\|").c_str(), row.unit.c_str(), row.shapes.c_str(),
+                row.finding.c_str(), adviceOn(row.name).c_str());
 }
 
 constexpr std::size_t kWidth = 76;  // of a terminal, less the indent

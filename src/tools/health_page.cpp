@@ -1,12 +1,13 @@
 #include "health_page.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
-#include "bag_options.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "results.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -25,11 +26,31 @@ json listOf(const std::vector<HealthMoment>& moments) {
   return list;
 }
 
-std::string sourceOf(const HealthContent& content) {
+/// What the scripts of the page expect of a strut.
+json findingsOf(const HealthContent& content) {
+  const MonitorSettings& settings = content.monitor.options();
+  const double duration = toSeconds(content.log.elapsed());
   std::vector<std::string> names;
-  for (const HealthContent::Recording& recording : content.recordings) names.push_back(recording.name);
-  return join(names) +
-         formatted(": %.4g s at %.4g Hz", toSeconds(content.log.elapsed()), 1.0 / content.monitor.period());
+  json recordings = json::array();
+  for (const HealthContent::Recording& recording : content.recordings) {
+    names.push_back(recording.name);
+    recordings.push_back({{"name", recording.name}, {"from", toSeconds(recording.from)}});
+  }
+  return {{"strut", content.strut},
+          {"source", sourceOf(names, duration, content.monitor.period())},
+          {"horizon", content.monitor.horizonSamples() * content.monitor.period()},
+          {"judged_by", content.reference},
+          {"recordings", recordings},
+          {"duration", duration},
+          {"seconds", secondsJson(content.log)},
+          {"events", listOf(content.log.events())},
+          {"end", toJson(content.log.latest())},
+          {"early_warnings", listOf(content.log.earlyWarnings())},
+          {"thresholds",
+           {{"damping", {settings.damping_warn, settings.damping_error}},
+            {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},
+          {"course", content.course.toJson()},
+          {"estimates", estimatesJson(content.monitor)}};
 }
 
 }  // namespace
@@ -43,54 +64,36 @@ void HealthCourse::add(const HealthMoment& moment, const Baseline& healthy) {
                 healthy.stiffness_to_mass.value_or(kNothing)}});
 }
 
-json HealthCourse::toJson(Parameter Point::*parameter) const {
-  json value = json::array(), stddev = value, healthy = value;
-  for (const Point& point : points_.items()) {
-    value.push_back((point.*parameter).value);
-    stddev.push_back((point.*parameter).stddev);
-    healthy.push_back((point.*parameter).healthy);
-  }
-  return shortened({{"value", value}, {"stddev", stddev}, {"healthy", healthy}});
-}
-
 json HealthCourse::toJson() const {
   json time = json::array();
   for (const Point& point : points_.items()) time.push_back(std::round(1e3 * point.time) / 1e3);
-  return {{"time", time}, {"damping", toJson(&Point::damping)}, {"stiffness", toJson(&Point::stiffness)}};
-}
-
-json findingsOf(const HealthContent& content) {
-  const MonitorSettings& settings = content.monitor.options();
-  json recordings = json::array();
-  for (const HealthContent::Recording& recording : content.recordings)
-    recordings.push_back({{"name", recording.name}, {"from", toSeconds(recording.from)}});
-  return {{"strut", content.strut},
-          {"source", sourceOf(content)},
-          {"horizon", content.monitor.horizonSamples() * content.monitor.period()},
-          {"judged_by", content.reference},
-          {"recordings", recordings},
-          {"duration", toSeconds(content.log.elapsed())},
-          {"seconds", secondsJson(content.log)},
-          {"events", listOf(content.log.events())},
-          {"end", toJson(content.log.latest())},
-          {"early_warnings", listOf(content.log.earlyWarnings())},
-          {"thresholds",
-           {{"damping", {settings.damping_warn, settings.damping_error}},
-            {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},
-          {"course", content.course.toJson()},
-          {"estimates", estimatesJson(content.monitor)}};
+  const auto courseOf = [&](Parameter Point::*parameter) {
+    json value = json::array(), stddev = value, healthy = value;
+    for (const Point& point : points_.items()) {
+      value.push_back((point.*parameter).value);
+      stddev.push_back((point.*parameter).stddev);
+      healthy.push_back((point.*parameter).healthy);
+    }
+    return shortened({{"value", value}, {"stddev", stddev}, {"healthy", healthy}});
+  };
+  return {{"time", time}, {"damping", courseOf(&Point::damping)}, {"stiffness", courseOf(&Point::stiffness)}};
 }
 
 HealthFiles::HealthFiles(const po::variables_map& values, const std::vector<std::string>& struts)
     : json_(outputFile(values, "json")),
       csv_(outputFile(values, "csv")),
-      table_(csv_ ? csv_->stream() : nullptr, struts),
+      table_(csv_ ? csv_->stream() : nullptr, struts, "level,message,b1,b0,b1_stddev,b0_stddev,offset"),
       courses_(std::max<std::size_t>(1, struts.size())) {
   if (values.count(kReport) != 0) page_.emplace(values[kReport].as<std::string>());
 }
 
 void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Baseline& healthy) {
-  table_.add(strut, moment);
+  const StrutEstimate& estimate = moment.estimate;
+  if (csv_)
+    std::fprintf(table_.beginLine(strut, moment.stamp), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n",
+                 nameOf(moment.level), boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(),
+                 estimate.damping_to_mass, estimate.stiffness_to_mass, estimate.damping_to_mass_stddev,
+                 estimate.stiffness_to_mass_stddev, moment.offset);
   if (page_) courses_[strut].add(moment, healthy);
 }
 

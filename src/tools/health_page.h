@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "health_results.h"
+#include "csv_tables.h"
 #include "html_page.h"
 #include "suspension_health_monitor/internal/digest.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
@@ -36,8 +36,6 @@ class HealthCourse {
     Parameter damping, stiffness;
   };
 
-  nlohmann::json toJson(Parameter Point::*parameter) const;
-
   Digest<Point> points_{kMostPoints};
 };
 
@@ -56,9 +54,6 @@ struct HealthContent {
   std::string reference;  ///< what the strut was judged by, in words
   std::string strut;      ///< its name in the vehicle; empty: it is alone
 };
-
-/// @return what the scripts of the page expect of every strut.
-nlohmann::json findingsOf(const HealthContent& content);
 
 /// The files of `suspension_bag health`, and what they are made of while the monitor runs: of one strut, or of all
 /// those of a vehicle that are asked for.
@@ -82,7 +77,7 @@ class HealthFiles {
  private:
   std::optional<TextFile> json_, csv_;
   std::optional<HtmlPage> page_;
-  HealthTable table_;
+  CsvTable table_;
   std::vector<HealthCourse> courses_;
 };
 

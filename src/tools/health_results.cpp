@@ -1,10 +1,7 @@
-#include "health_results.h"
-
-#include <cinttypes>
 #include <cmath>
-#include <utility>
+#include <cstdio>
 
-#include "identify_tables.h"
+#include "results.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
@@ -12,12 +9,6 @@ namespace suspension_health_monitor {
 namespace {
 
 using nlohmann::json;
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char character : text) result += character == '"' ? std::string(2, character) : std::string(1, character);
-  return result + '"';
-}
 
 // A strut with memory turns the phase as a delay does, but it leaves more of the motion unexplained.
 bool isDelayed(const StrutEstimate& estimate) {
@@ -45,22 +36,6 @@ void printRows(const char* name, const StrutEstimate& estimate, const std::optio
 }
 
 }  // namespace
-
-HealthTable::HealthTable(std::FILE* out, std::vector<std::string> struts) : out_(out), struts_(std::move(struts)) {
-  if (out_ == nullptr) return;
-  std::fprintf(out_, "time,%slevel,message,b1,b0,b1_stddev,b0_stddev,offset\n", struts_.empty() ? "" : "strut,");
-}
-
-void HealthTable::add(std::size_t strut, const HealthMoment& moment) {
-  if (out_ == nullptr) return;
-  constexpr std::int64_t second = 1000000000;
-  const StrutEstimate& estimate = moment.estimate;
-  std::fprintf(out_, "%" PRId64 ".%09" PRId64 ",", moment.stamp.count() / second, moment.stamp.count() % second);
-  if (!struts_.empty()) std::fprintf(out_, "%s,", struts_[strut].c_str());
-  std::fprintf(out_, "%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level), quoted(moment.message).c_str(),
-               estimate.damping_to_mass, estimate.stiffness_to_mass, estimate.damping_to_mass_stddev,
-               estimate.stiffness_to_mass_stddev, moment.offset);
-}
 
 void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference) {
   std::printf("judged by %s\n\n", reference.c_str());

@@ -1,5 +1,3 @@
-#include "healthy_strut.h"
-
 #include <algorithm>
 
 #include "../ros/live_baseline.h"
@@ -19,6 +17,18 @@ bool areSettings(const OptionMap& values) {
   });
 }
 
+/// @return by strut what the file of --baseline has of it; nothing where it has nothing.
+std::vector<std::optional<Baseline>> readHealthyStruts(const std::string& path, const AskedVehicle& vehicle) {
+  const OptionMap settings = readYaml(path);
+  if (!areSettings(settings)) return readBaselines(path, vehicle);
+  std::vector<std::optional<Baseline>> baselines;
+  prefixed(path + ": ", [&] {
+    for (const PipelineOptions& strut : VehicleOptions::fromValues(vehicle.layout, settings).struts)
+      baselines.emplace_back(nominalOf(strut.monitor));
+  });
+  return baselines;
+}
+
 }  // namespace
 
 HealthyStrut readHealthy(const std::string& path) {
@@ -29,42 +39,35 @@ HealthyStrut readHealthy(const std::string& path) {
   });
 }
 
-std::optional<HealthyStrut> readHealthy(const boost::program_options::variables_map& values) {
-  if (values.count(kBaseline) == 0) return std::nullopt;
-  return readHealthy(values[kBaseline].as<std::string>());
-}
-
-void replaceBaseline(const HealthyStrut& healthy, PipelineOptions& options) {
-  requireOneReference(healthy.file, options.monitor);
-  options.shell.baseline_file.clear();
-}
-
-std::vector<std::optional<HealthyStrut>> takeHealthy(const boost::program_options::variables_map& values,
-                                                     const AskedVehicle& vehicle, VehicleOptions& options) {
-  std::vector<std::optional<HealthyStrut>> healthy(vehicle.names.size());
-  if (values.count(kBaseline) == 0) return healthy;
-  const auto path = values[kBaseline].as<std::string>();
-  std::vector<std::optional<Baseline>> baselines;
-  if (const OptionMap settings = readYaml(path); areSettings(settings))
-    prefixed(path + ": ", [&] {
-      for (const PipelineOptions& strut : VehicleOptions::fromValues(vehicle.layout, settings).struts)
-        baselines.emplace_back(nominalOf(strut.monitor));
-    });
-  else
-    baselines = readBaselines(path, vehicle);
-  for (std::size_t i = 0; i < healthy.size(); ++i)
-    if (baselines[i] && !baselines[i]->isEmpty()) {
-      healthy[i] = HealthyStrut{*baselines[i], path};
-      prefixed("struts/" + vehicle.names[i] + ": ", [&] { replaceBaseline(*healthy[i], options.struts[i]); });
-    }
-  return healthy;
-}
-
 std::optional<HealthyStrut> beforehand(const std::optional<HealthyStrut>& given, const PipelineOptions& options) {
-  if (given) return given;
+  if (given) {
+    requireOneReference(given->file, options.monitor);
+    return given;
+  }
   const LiveBaseline live(options);
   if (!live.known()) return std::nullopt;
   return HealthyStrut{*live.known(), options.shell.baseline_file};
+}
+
+std::optional<HealthyStrut> healthyOf(const boost::program_options::variables_map& values,
+                                      const PipelineOptions& options) {
+  std::optional<HealthyStrut> given;
+  if (values.count(kBaseline) != 0) given = readHealthy(values[kBaseline].as<std::string>());
+  return beforehand(given, options);
+}
+
+std::vector<std::optional<HealthyStrut>> healthyOf(const boost::program_options::variables_map& values,
+                                                   const AskedVehicle& vehicle, const VehicleOptions& options) {
+  std::vector<std::optional<HealthyStrut>> healthy(vehicle.names.size());
+  if (values.count(kBaseline) != 0) {
+    const auto path = values[kBaseline].as<std::string>();
+    const std::vector<std::optional<Baseline>> baselines = readHealthyStruts(path, vehicle);
+    for (std::size_t i = 0; i < healthy.size(); ++i)
+      if (baselines[i] && !baselines[i]->isEmpty()) healthy[i] = HealthyStrut{*baselines[i], path};
+  }
+  for (std::size_t i = 0; i < healthy.size(); ++i)
+    prefixed("struts/" + vehicle.names[i] + ": ", [&] { healthy[i] = beforehand(healthy[i], options.struts[i]); });
+  return healthy;
 }
 
 Baseline knownHealthy(const std::optional<HealthyStrut>& given, const PipelineOptions& options) {

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "bag_options.h"
 #include "command.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 

@@ -1,7 +1,7 @@
 #include "html_page.h"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -17,18 +17,8 @@ using nlohmann::json;
 
 /// JSON that may stand inside a script element, whatever a file or an effect is called.
 std::string harmless(const json& findings) {
-  const std::string text = findings.dump(-1, ' ', true, json::error_handler_t::replace);
-  std::string result;
-  result.reserve(text.size());
-  for (const char character : text)
-    if (character == '<')
-      result += "\\u003c";
-    else
-      result += character;
-  return result;
+  return boost::replace_all_copy(findings.dump(-1, ' ', true, json::error_handler_t::replace), "<", "\\u003c");
 }
-
-void put(std::string_view text, std::FILE* out) { std::fwrite(text.data(), 1, text.size(), out); }
 
 }  // namespace
 
@@ -37,6 +27,10 @@ json shortened(json value) {
   if (value.is_structured())
     for (json& each : value) each = shortened(std::move(each));
   return value;
+}
+
+std::string sourceOf(const std::vector<std::string>& names, double duration, double period) {
+  return join(names) + formatted(": %.4g s at %.4g Hz", duration, 1.0 / period);
 }
 
 json originOf(const boost::program_options::variables_map& values, const std::vector<std::string>& topics) {
@@ -61,12 +55,7 @@ HtmlPage::Folder::~Folder() {
 HtmlPage::HtmlPage(const std::string& folder) : folder_(folder), file_((fs::path(folder) / kReportFile).string()) {}
 
 void HtmlPage::write(std::string_view page, const json& findings) {
-  constexpr std::string_view placeholder = "@@findings@@";
-  const std::size_t place = page.find(placeholder);
-  put(page.substr(0, place), file_.stream());
-  put(harmless(findings), file_.stream());
-  put(page.substr(place + placeholder.size()), file_.stream());
-  file_.commit();
+  file_.commit(boost::replace_first_copy(std::string(page), "@@findings@@", harmless(findings)));
 }
 
 }  // namespace suspension_health_monitor

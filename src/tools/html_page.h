@@ -48,6 +48,10 @@ std::string_view searchTemplate();
 std::string_view vehicleTemplate();
 std::string_view healthTemplate();
 
+/// @param names  of the bags.  @param duration, period  of their samples [s].
+/// @return what a page was made from, in words.
+std::string sourceOf(const std::vector<std::string>& names, double duration, double period);
+
 /// What every page tells of itself: when it was made, by what, and from which topics.
 /// @param values  of the command that makes it.
 nlohmann::json originOf(const boost::program_options::variables_map& values, const std::vector<std::string>& topics);

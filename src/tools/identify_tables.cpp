@@ -1,16 +1,8 @@
-#include "identify_tables.h"
-
-#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
-#include "bag_samples.h"
-#include "command.h"
-#include "suspension_health_monitor/internal/blocks/block_estimator.h"
-#include "suspension_health_monitor/internal/monitor/drive_identification.h"
-#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
-#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "results.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -32,27 +24,6 @@ std::string describeHop(const WheelEstimate& estimate) {
 }
 
 }  // namespace
-
-void printInput(const SuspensionMonitor& monitor, const StreamGrid& grid, const BagOptions& options,
-                const RejectCounts& rejected) {
-  const InputStatus& input = monitor.input();
-  std::printf("sample period %.6g s%s, horizon %d samples = %.4g s%s\n", monitor.period(),
-              options.period_measured ? " (measured)" : "", monitor.horizonSamples(),
-              monitor.horizonSamples() * monitor.period(), options.horizon_measured ? " (proposed from the data)" : "");
-  std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
-              input.rows, input.gaps, input.restarts);
-  if (grid.resamples()) std::printf(", bridged %" PRIu64, grid.bridged());
-  if (rejected.total() == 0) std::printf(", rejected 0");
-  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
-    if (const std::uint64_t count = rejected.count(static_cast<RejectReason>(i)))
-      std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
-  std::printf("\nreadings %s\n\n", grid.describeAlignment().c_str());
-}
-
-void requireRows(const SuspensionMonitor& monitor, const StreamGrid& grid, const RejectCounts& rejected) {
-  const std::string nothing = describeNoRow(monitor, grid, rejected);
-  if (!nothing.empty()) throw TooLittleError(nothing);
-}
 
 void printTable(const std::vector<MonitorReport>& reports) {
   std::printf("                   damping/mass [1/s]           stiffness/mass [1/s^2]           free run\n");
@@ -103,12 +74,21 @@ nlohmann::json toJson(const IdentifiedStrut& estimate) {
           {"rows", estimate.rows}};
 }
 
-void addEstimates(const IdentifyResult& found, nlohmann::json& result) {
-  result["estimate"] = toJson(found.estimate);
+nlohmann::json toJson(const IdentifyResult& found, const std::string& change) {
+  nlohmann::json result{{"samples", found.samples},
+                        {"rows", found.rows},
+                        {"gaps", found.gaps},
+                        {"clock_jumps", found.clock_jumps},
+                        {"sample_period", found.sample_period},
+                        {"horizon_samples", found.horizon_samples},
+                        {"warnings", found.warnings},
+                        {"estimate", toJson(found.estimate)},
+                        {"ls", toJson(found.ls)},
+                        {"la", toJson(found.la)}};
   result["estimate"]["age"] = found.estimate.age;
   result["iv"] = result["estimate"];  // until the next version
-  result["ls"] = toJson(found.ls);
-  result["la"] = toJson(found.la);
+  if (!change.empty()) result["change"] = change;
+  return result;
 }
 
 void printChange(const std::string& change) {
@@ -131,15 +111,17 @@ void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstim
   if (const auto ratio = massRatio(strut, estimate)) std::printf("    wheel mass / body mass %.4f\n", *ratio);
 }
 
-std::optional<std::string> whyNotValid(const IdentifyResult& found, const MonitorOptions& options) {
-  if (found.estimate.valid || found.now.valid) return std::nullopt;
-  if (found.estimate.rows > 0.0) return "no estimate is valid: " + found.estimate.reason;
-  constexpr double kLengths = (BlockEstimator::kWindows[0] + 1) / 2.0;  // of blocks that overlap by half
-  const double enough = kLengths * MonitorSettings(options).presentBlockLength();
-  if (static_cast<double>(found.samples) * found.sample_period < enough)
-    return "there is no estimate: too short" + describeEnough(enough);
-  return std::string("there is no estimate: too little motion, ") + (found.gaps > 0 ? "too many gaps, " : "") +
-         "or not the two sides of one strut";
+nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
+  nlohmann::json result{{"damping_to_wheel_mass", estimate.damping_to_wheel_mass},
+                        {"stiffness_to_wheel_mass", estimate.stiffness_to_wheel_mass},
+                        {"tyre_to_wheel_mass", estimate.tyre_to_wheel_mass},
+                        {"damping_to_wheel_mass_stddev", estimate.damping_to_wheel_mass_stddev},
+                        {"stiffness_to_wheel_mass_stddev", estimate.stiffness_to_wheel_mass_stddev},
+                        {"tyre_to_wheel_mass_stddev", estimate.tyre_to_wheel_mass_stddev},
+                        {"wheel_hop_frequency", estimate.wheelHopFrequency()},
+                        {"valid", estimate.valid()}};
+  if (const auto ratio = massRatio(strut, estimate)) result["mass_ratio"] = *ratio;
+  return result;
 }
 
 }  // namespace suspension_health_monitor

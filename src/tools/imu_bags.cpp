@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <future>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "../ros/conversions.h"
 #include "bag_file.h"
-#include "chunks_ahead.h"
 #include "command.h"
 #include "long_work.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -32,14 +32,9 @@ using Places = std::map<std::uint32_t, std::optional<std::size_t>>;
 template <class Message>
 void findTopic(const BagFile& file, const std::string& topic, const std::string& named_by, const char* kind,
                std::size_t place, Places& places) {
-  bool found = false;
-  for (const BagConnection& connection : file.connections()) {
-    if (connection.topic != topic) continue;
-    requireType<Message>(file, connection);
-    places[connection.id] = place;
-    found = true;
-  }
-  if (!found)
+  const std::vector<std::uint32_t> connections = connectionsOf<Message>(file, topic);
+  for (const std::uint32_t connection : connections) places[connection] = place;
+  if (connections.empty())
     throw InputError(file.path() + ": no topic " + topic + " (" + named_by + "); " + kind +
                      " topics in this bag: " + listTopics<Message>(file.connections()));
 }
@@ -47,15 +42,12 @@ void findTopic(const BagFile& file, const std::string& topic, const std::string&
 Places findPlaces(const BagFile& file, const ImuBags& bags) {
   Places places;
   for (const BagConnection& connection : file.connections()) places[connection.id] = std::nullopt;
-  std::size_t place = 0;
-  for (const std::string& topic : bags.topics) {
-    findTopic<sensor_msgs::Imu>(file, topic, bags.named_by[place], "Imu", place, places);
-    ++place;
-  }
-  for (const std::string& topic : bags.wrench_topics) {
-    findTopic<geometry_msgs::WrenchStamped>(file, topic, bags.named_by[place], "WrenchStamped", place, places);
-    ++place;
-  }
+  const std::size_t num_imus = bags.topics.size();
+  for (std::size_t i = 0; i < num_imus; ++i)
+    findTopic<sensor_msgs::Imu>(file, bags.topics[i], bags.named_by[i], "Imu", i, places);
+  for (std::size_t i = 0; i < bags.wrench_topics.size(); ++i)
+    findTopic<geometry_msgs::WrenchStamped>(file, bags.wrench_topics[i], bags.named_by[num_imus + i], "WrenchStamped",
+                                            num_imus + i, places);
   return places;
 }
 
@@ -102,10 +94,10 @@ class Delivery {
         take_(take),
         gaps_(bags.gaps) {}
 
-  /// Opens the chunk that is coming.
-  void open(ChunksAhead& chunks) {
-    const std::uint64_t position = chunks.coming()->position;
-    ChunkContents contents = chunks.next(std::exchange(spare_, {}));
+  /// @return storage of a chunk that is done, to be used again.
+  ChunkContents spare() { return std::exchange(spare_, {}); }
+
+  void open(std::uint64_t position, ChunkContents contents) {
     if (contents.messages.empty()) return;
     open_.push_back({std::move(contents), position, 0});
     std::push_heap(open_.begin(), open_.end(), isLater);
@@ -174,11 +166,23 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
                chunks.end());
   Delivery delivery(file, bags, range, take);
   Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
-  ChunksAhead ahead(file, std::move(chunks), bags.reads_ahead);
-  for (double done = 0.0; const BagChunk* chunk = ahead.coming();) {
-    progress.update(++done);
-    if (!delivery.deliverBefore(chunk->start)) return false;
-    delivery.open(ahead);
+  // While the messages of a chunk are used, another thread reads and decompresses the next, which takes a third of the
+  // time of `identify`. Without that thread it is done when the chunk is wanted.
+  const std::launch launch = bags.reads_ahead ? std::launch::async : std::launch::deferred;
+  const auto begin = [&](std::size_t chunk) {
+    return std::async(launch, [&file, &coming = chunks[chunk], contents = delivery.spare()]() mutable {
+      file.read(coming, contents);
+      return std::move(contents);
+    });
+  };
+  std::future<ChunkContents> next;  // last: its thread, which uses all else, is waited for first
+  if (!chunks.empty()) next = begin(0);
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    progress.update(static_cast<double>(i + 1));
+    if (!delivery.deliverBefore(chunks[i].start)) return false;
+    ChunkContents contents = next.get();
+    if (i + 1 < chunks.size()) next = begin(i + 1);
+    delivery.open(chunks[i].position, std::move(contents));
   }
   return delivery.deliverBefore(std::numeric_limits<std::uint64_t>::max());
 }
@@ -201,18 +205,6 @@ void readTopics(const ImuBags& bags, const TopicSinks& take) {
     if (bags.gaps != nullptr) bags.gaps->finishBag();
     if (!goes_on) return;
   }
-}
-
-void readImuMessages(const ImuBags& bags,
-                     const std::function<bool(Side, const sensor_msgs::Imu&, Stamp recorded)>& take) {
-  const auto take_imu = [&](std::size_t topic, const sensor_msgs::Imu& imu, Stamp recorded) {
-    return take(static_cast<Side>(topic), imu, recorded);
-  };
-  readTopics(bags, {take_imu, {}});
-}
-
-void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take) {
-  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu, Stamp) { return take(side, imu); });
 }
 
 }  // namespace suspension_health_monitor

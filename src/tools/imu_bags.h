@@ -8,11 +8,9 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 #include "topic_gaps.h"
 
 namespace suspension_health_monitor {
@@ -36,10 +34,6 @@ struct ImuBags {
   std::size_t not_needed = 0;  ///< of `topics` so many, the last: their silence is none
 };
 
-/// @return the static transforms (/tf_static) of all bags.
-/// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
-std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths);
-
 /// What is called with every message, its place among ImuBags::topics and then ImuBags::wrench_topics, and the time of
 /// its recording; returns false to stop.
 struct TopicSinks {
@@ -52,12 +46,5 @@ struct TopicSinks {
 /// @throws InputError  naming the bag: unreadable, a topic missing (with those that are there) or of another type.
 /// @throws TooLittleError  if a bag holds no message at all.
 void readTopics(const ImuBags& bags, const TopicSinks& take);
-
-/// The same of the sensors of one strut.
-void readImuMessages(const ImuBags& bags, const std::function<bool(Side, const sensor_msgs::Imu&)>& take);
-
-/// The same with the time of each message's recording.
-void readImuMessages(const ImuBags& bags,
-                     const std::function<bool(Side, const sensor_msgs::Imu&, Stamp recorded)>& take);
 
 }  // namespace suspension_health_monitor

@@ -1,45 +1,48 @@
 #include "recorded_strut.h"
 
+#include <cinttypes>
+#include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "../ros/conversions.h"
 #include "../ros/live_model.h"
 #include "command.h"
-#include "healthy_strut.h"
-#include "identify_tables.h"
+#include "recorded_vehicle.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
+namespace {
 
-RecordedIdentification::RecordedIdentification(const BagOptions& options, DriveIdentification::Sink report)
+/// Reads bags as drives, one each: both accelerations and what else the body's IMU measures.
+std::vector<Drive> readDrives(const BagOptions& options, TopicGaps& gaps) {
+  std::vector<Drive> drives;
+  for (const std::string& path : options.bags.paths) {
+    ImuBags bag = options.bags;
+    bag.paths = {path};
+    bag.gaps = &gaps;
+    Drive& drive = drives.emplace_back();
+    const auto take = [&](const CornerSample& sample) {
+      drive.samples.push_back(sample);
+      return true;
+    };
+    readSamples(bag, options.pipeline, take, [&](const BodyMotion& motion) { drive.body.push_back(motion); });
+  }
+  return drives;
+}
+
+}  // namespace
+
+RecordedMonitor::RecordedMonitor(const BagOptions& options, const std::optional<HealthyStrut>& healthy, const Row& row,
+                                 const Report& report)
     : options_(options),
-      made_(options.pipeline.monitor, std::move(report)),
-      sensors_(options.pipeline.shell, options.bags.transforms.get()) {
-  made_.setEffects(LiveModel(options.pipeline.shell).effects());
-}
-
-void RecordedIdentification::read(TopicGaps& gaps) {
-  ImuBags bags = options_.bags;
-  bags.gaps = &gaps;
-  readImuMessages(bags, [&](Side side, const sensor_msgs::Imu& imu) {
-    if (const auto acceleration = sensors_.read(side, imu)) made_.push(side, toStamp(imu.header.stamp), *acceleration);
-    return true;
-  });
-}
-
-RejectCounts RecordedIdentification::rejected() const {
-  RejectCounts all = sensors_.rejected();
-  all += made_.rejected();
-  return all;
-}
-
-RecordedMonitor::RecordedMonitor(const BagOptions& options, const Row& row,
-                                 const std::function<void(const MonitorReport&)>& report)
-    : options_(options),
-      healthy_(beforehand(options.healthy, options.pipeline)),
+      healthy_(healthy),
+      gaps_(options.pipeline.shell.input_timeout),
       log_(fromSeconds(options.pipeline.shell.input_timeout), {options.bags.topics[0], options.bags.topics[1]},
-           [this, row](const HealthMoment& moment) { row(moment, pipeline_.baseline()); }),
+           [this, row](const HealthMoment& moment) {
+             if (row) row(moment, pipeline_.baseline());
+           }),
       pipeline_(VehicleOptions::ofOneStrut(options.pipeline),
                 VehicleStreams(VehicleLayout::ofOneStrut(options.pipeline.monitor.tyre)), options.bags.transforms.get(),
                 [this, report](std::size_t, const MonitorReport& newest) {
@@ -50,40 +53,84 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, const Row& row,
   if (healthy_) pipeline_.setBaseline(healthy_->baseline);
 }
 
-std::vector<HealthContent::Recording> RecordedMonitor::read(TopicGaps& gaps) {
+std::vector<HealthContent::Recording> RecordedMonitor::read() {
   std::vector<HealthContent::Recording> recordings;
   for (const std::string& path : options_.bags.paths) {
     recordings.push_back({std::filesystem::path(path).filename().string(), log_.elapsed()});
     ImuBags bag = options_.bags;
     bag.paths = {path};
-    bag.gaps = &gaps;
-    readImuMessages(bag, [&](Side side, const sensor_msgs::Imu& imu, Stamp recorded) {
-      if (side != Side::kRoad) log_.addReading(indexOf(side), toStamp(imu.header.stamp), recorded);
-      if (side != Side::kRoad || options_.pipeline.monitor.tyre) pipeline_.push(indexOf(side), imu);
+    bag.gaps = &gaps_;
+    const auto take = [&](std::size_t side, const sensor_msgs::Imu& imu, Stamp recorded) {
+      const bool is_road = side == indexOf(Side::kRoad);
+      if (!is_road) log_.addReading(side, toStamp(imu.header.stamp), recorded);
+      if (!is_road || options_.pipeline.monitor.tyre) pipeline_.push(side, imu);
       return true;
-    });
+    };
+    readTopics(bag, {take, {}});
     log_.finishRecording();
   }
+  gaps_.explain([&] { requireEnough(); });
   return recordings;
 }
 
 void RecordedMonitor::requireEnough() const {
   if (pipeline_.strut() == nullptr)
     throw TooLittleError(describeNoStart("on one of the topics") + describeRejected(rejected()));
-  requireRows(monitor(), grid(), rejected());
+  const std::string nothing = describeNoRow(monitor(), grid(), rejected());
+  if (!nothing.empty()) throw TooLittleError(nothing);
 }
 
-BagOptions readMonitorOptions(const boost::program_options::variables_map& values) {
-  BagOptions options = readLiveOptions(values);
-  takeHealthy(values, options);
-  return options;
+void RecordedMonitor::printInput() const {
+  gaps_.print();
+  const InputStatus& input = monitor().input();
+  std::printf("sample period %.6g s%s, horizon %d samples = %.4g s%s\n", monitor().period(),
+              options_.period_measured ? " (measured)" : "", monitor().horizonSamples(),
+              monitor().horizonSamples() * monitor().period(),
+              options_.horizon_measured ? " (proposed from the data)" : "");
+  std::printf("samples %" PRIu64 ", rows %" PRIu64 ", gaps %" PRIu64 ", clock jumps %" PRIu64, input.samples,
+              input.rows, input.gaps, input.restarts);
+  if (grid().resamples()) std::printf(", bridged %" PRIu64, grid().bridged());
+  const RejectCounts counts = rejected();
+  if (counts.total() == 0) std::printf(", rejected 0");
+  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
+    if (const std::uint64_t count = counts.count(static_cast<RejectReason>(i)))
+      std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
+  std::printf("\nreadings %s\n\n", grid().describeAlignment().c_str());
+}
+
+ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
+                        const std::function<bool(const CornerSample&)>& take,
+                        const std::function<void(const BodyMotion&)>& take_body) {
+  const VehicleStreams streams(VehicleLayout::ofOneStrut(false));
+  VehicleSensors sensors(streams, options.shell, bags.transforms.get());
+  MonitorSettings settings = options.monitor;
+  settings.tyre = false;  // a sample has no part of the road
+  const double period = *settings.sample_period;
+  bool goes_on = true;
+  VehicleGrid grid(period, streams, settings.grid(period),
+                   [&](const VehicleSample& sample) { goes_on = goes_on && take(sample.ofStrut(0)); });
+  Stamp last_body{};
+  const auto take_imu = [&](std::size_t place, const sensor_msgs::Imu& imu, Stamp) {
+    if (place == indexOf(Side::kRoad)) return true;
+    const std::vector<double>& acceleration = sensors.read(place, imu);
+    if (acceleration.empty()) return true;
+    const Stamp stamp = toStamp(imu.header.stamp);
+    if (take_body && place == indexOf(Side::kSprung) && stamp > last_body) {
+      last_body = stamp;
+      take_body(sensors.mount(place).across(imu));
+    }
+    grid.push(place, stamp, acceleration);
+    return goes_on;
+  };
+  readTopics(bags, {take_imu, {}});
+  RejectCounts rejected = grid.streams().rejected();
+  for (const Side side : {Side::kSprung, Side::kUnsprung}) rejected += sensors.rejected(indexOf(side));
+  return {grid.streams(), rejected};
 }
 
 Comparison compareBags(const BagOptions& options, const ModelOptions& models, TopicGaps& gaps,
                        const std::function<void(double)>& progress) {
-  CompareOptions comparing;
-  takeSettings(options, models, comparing);
-  comparing.fit = !models.model;
+  CompareOptions comparing = compareOptionsOf(options.pipeline, *options.pipeline.monitor.sample_period, models.model);
   comparing.progress = progress;
   Comparison comparison = compare(readDrives(options, gaps), comparing);
   gaps.explain([&] { requireEnough(comparison.shortcoming, comparison.reason); });
@@ -93,7 +140,9 @@ Comparison compareBags(const BagOptions& options, const ModelOptions& models, To
 RecordedDiagnosis diagnoseBags(const BagOptions& options, const ModelOptions& models, int threads, TopicGaps& gaps,
                                const std::function<void(double)>& progress) {
   RecordedDiagnosis recorded;
-  takeSettings(options, models, recorded.options);
+  recorded.options.sample_period = options.pipeline.monitor.sample_period;
+  recorded.options.horizon_samples = givenHorizon(options.pipeline, *options.pipeline.monitor.sample_period);
+  recorded.options.model = models.model;
   recorded.options.candidates = models.library;
   recorded.options.threads = threads;
   recorded.options.progress = progress;

@@ -4,30 +4,66 @@
 #include <stdexcept>
 #include <utility>
 
+#include "../ros/conversions.h"
 #include "../ros/vehicle_file.h"
+#include "../ros/vehicle_sensors.h"
 #include "bag_options.h"
 #include "command.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
-#include "vehicle_bags.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 namespace po = boost::program_options;
 
-constexpr const char* kVehicle = "vehicle";
-constexpr const char* kStrut = "strut";
+/// Looks up the positions of struts that have a frame.
+void place(VehicleLayout& layout, ImuBags bags, const PipelineOptions& options) {
+  if (!layout.hasFrames() || !layout.body_imu) return;
+  bags.transforms = readStaticTransforms(bags.paths);
+  bags.topics = {*layout.body_imu};
+  bags.named_by = {"body_imu"};
+  std::optional<sensor_msgs::Imu> first;
+  const auto take = [&](std::size_t, const sensor_msgs::Imu& imu, Stamp) {
+    first = imu;
+    return false;
+  };
+  readTopics(bags, {take, {}});
+  if (!first) throw TooLittleError("the bags hold no message of body_imu, " + *layout.body_imu);
+  placeFrames(layout, *first, options.shell, *bags.transforms);
+}
+
+VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout,
+                   const VehicleStreams& streams) {
+  const double period = *options.monitor.sample_period;
+  VehicleBag read;
+  read.drive.struts.resize(layout.struts.size());
+  for (const VehicleLayout::KnownForce& force : layout.known_forces) read.drive.forces.push_back({force.name, {}});
+  VehicleSensors sensors(streams, options.shell, bag.transforms.get());
+  VehicleGrid grid(period, streams, MonitorSettings(options.monitor).grid(period),
+                   [&](const VehicleSample& sample) { append(sample, read.drive); });
+  const auto take = [&](std::size_t sensor, const auto& message, Stamp) {
+    grid.push(sensor, toStamp(message.header.stamp), sensors.read(sensor, message));
+    return true;
+  };
+  readTopics(bag, {take, take});
+  grid.finish();
+  grid.describe(read.drive);
+  read.drive.places = grid.tops().places();
+  read.body_level = grid.bodyLevel();
+  read.alignment = grid.streams().describeAlignment();
+  for (std::size_t i = 0; i < streams.sensors.size(); ++i) {
+    RejectCounts rejected = sensors.rejected(i);
+    rejected += grid.rejected(i);
+    read.sensors.push_back({streams.sensors[i].topic, rejected, grid.missed(i)});
+  }
+  return read;
+}
 
 }  // namespace
-
-void addVehicleOptions(po::options_description& description) {
-  auto add = description.add_options();
-  add(kVehicle, po::value<std::string>(),
-      "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
-  add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
-}
 
 bool isOfVehicle(const po::variables_map& values) {
   if (values.count(kStrut) != 0 && values.count(kVehicle) == 0)
@@ -35,14 +71,10 @@ bool isOfVehicle(const po::variables_map& values) {
   return values.count(kVehicle) != 0;
 }
 
-void refuseBesideVehicle(const po::variables_map& values, std::initializer_list<const char*> options) {
-  for (const char* option : options)
-    if (values.count(option) != 0 && !values[option].defaulted())
-      throw std::invalid_argument("--" + std::string(option) + " beside --vehicle, must be left out");
-}
-
 AskedVehicle readVehicle(const po::variables_map& values) {
-  refuseBesideVehicle(values, {"sprung-topic", "unsprung-topic", "road-topic"});
+  for (const std::string option : kTopicOptions)
+    if (const std::string name = option.substr(2); values.count(name) != 0 && !values[name].defaulted())
+      throw std::invalid_argument(option + " beside --vehicle, must be left out");
   AskedVehicle vehicle;
   vehicle.file = values[kVehicle].as<std::string>();
   vehicle.layout = readVehicleFile(vehicle.file);
@@ -62,6 +94,34 @@ std::vector<std::string> topicsOf(const VehicleStreams& streams) {
   return topics;
 }
 
+VehicleStreams streamsOf(ImuBags& bags, const PipelineOptions& options, VehicleLayout& layout) {
+  place(layout, bags, options);
+  VehicleStreams streams(layout);
+  bags.topics = streams.topicsOfImus();
+  bags.wrench_topics = streams.topicsOfForces();
+  bags.named_by.clear();
+  for (const VehicleStreams::Sensor& sensor : streams.sensors) bags.named_by.push_back(sensor.setting);
+  return streams;
+}
+
+std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout& layout,
+                                          TopicGaps& gaps) {
+  const VehicleStreams streams = streamsOf(bags, options, layout);
+  if (options.monitor.sample_period)
+    requireFittingPeriod(bags, *options.monitor.sample_period);
+  else
+    options.monitor.sample_period = measurePeriod(bags);
+  std::vector<VehicleBag> drives;
+  for (const std::string& path : bags.paths) {
+    ImuBags bag = bags;
+    bag.paths = {path};
+    bag.gaps = &gaps;
+    drives.push_back(readBag(bag, options, layout, streams));
+  }
+  layout.turn(drives.front().body_level.mount());
+  return drives;
+}
+
 std::vector<VehicleDrive> readDrives(const po::variables_map& values, AskedVehicle& vehicle, PipelineOptions& options,
                                      TopicGaps& gaps) {
   std::vector<VehicleBag> read = readVehicleDrives(readBags(values, options.shell), options, vehicle.layout, gaps);
@@ -69,15 +129,23 @@ std::vector<VehicleDrive> readDrives(const po::variables_map& values, AskedVehic
   std::vector<VehicleDrive> drives;
   for (VehicleBag& bag : read) {
     const StrutDrives& struts = bag.drive.struts;
-    std::printf("%zu samples of %zu struts, readings %s\n", struts.front().samples.size(), struts.size(),
-                bag.alignment.c_str());
-    const std::string leans = describe(bag.body_level);
-    if (!leans.empty()) std::printf("%s\n", leans.c_str());
+    printReadings(struts.front().samples.size(), struts.size(), bag.alignment, bag.body_level);
     for (const VehicleBag::Sensor& sensor : bag.sensors) printRejected(sensor.topic, sensor.rejected);
     drives.push_back(std::move(bag.drive));
   }
   gaps.print();
   return drives;
+}
+
+void requireCoupling(const VehicleCoupling& coupling) {
+  if (!coupling) throw TooLittleError("the drives " + coupling.reason);
+}
+
+void printReadings(std::size_t num_samples, std::size_t num_struts, const std::string& alignment,
+                   const BodyLevel& level) {
+  std::printf("%zu samples of %zu struts, readings %s\n", num_samples, num_struts, alignment.c_str());
+  const std::string leans = describe(level);
+  if (!leans.empty()) std::printf("%s\n", leans.c_str());
 }
 
 void printRejected(const std::string& topic, const RejectCounts& rejected) {

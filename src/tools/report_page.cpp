@@ -5,26 +5,21 @@
 #include <optional>
 
 #include "bag_options.h"
-#include "report_parts.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using nlohmann::json;
 
-std::string sourceOf(const ReportContent& content) {
+json findingsOf(const ReportContent& content) {
   double duration = 0.0;
   for (const ComparedSegment& segment : content.before.segments)
     duration += static_cast<double>(segment.size()) * content.period;
   const std::string strut = content.vehicle ? content.vehicle->strut + " in " : "";
-  return strut + join(content.source.drive_names) + formatted(": %.4g s at %.4g Hz", duration, 1.0 / content.period);
-}
-
-json findingsOf(const ReportContent& content) {
   json findings{{"search", toJson(content.found)},
-                {"source", sourceOf(content)},
+                {"source", strut + sourceOf(content.source.drive_names, duration, content.period)},
                 {"change", content.source.change},
                 {"effects", effectsJson(content.library)},
                 {"parameters", parametersJson(content)},
@@ -39,6 +34,53 @@ json findingsOf(const ReportContent& content) {
   if (const InVehicle* vehicle = content.vehicle)
     findings["vehicle"] = {{"strut", vehicle->strut}, {"bars", vehicle->bars}, {"has_page", vehicle->has_page}};
   return findings;
+}
+
+/// @param has_page  of its own, to be opened.
+json strutJson(const VehicleLayout::Strut& strut, std::size_t place, const VehicleDiagnosis& found, bool has_page) {
+  const Diagnosis& its = found.struts[place];
+  json result{{"name", strut.name}, {"has_page", has_page}};
+  if (strut.position) result["position"] = *strut.position;
+  if (!its) {
+    result["verdict"] = "cannot_tell";
+    result["reason"] = its.reason;
+    return result;
+  }
+  result["verdict"] = nameOf(found.verdictOn(place));
+  result["selected"] = found.selected(place);
+  result["indistinguishable"] = its.indistinguishable;
+  result["damping_to_mass"] = its.model().damping_to_mass;
+  result["stiffness_to_mass"] = its.model().stiffness_to_mass;
+  result["error_before"] = its.base.held_out_rmse;
+  if (its.extended) result["error_after"] = its.extended->held_out_rmse;
+  result["noise_floor"] = its.noise_floor;
+  return result;
+}
+
+json barsJson(const VehicleCoupling& coupling) {
+  json bars = json::array();
+  for (const AntiRollBarFound& bar : coupling.bars)
+    bars.push_back({{"struts", {bar.first, bar.second}},
+                    {"stiffness_to_mass", {bar.first_stiffness_to_mass, bar.second_stiffness_to_mass}}});
+  return bars;
+}
+
+json forcesJson(const VehicleCoupling& coupling) {
+  json forces = json::array();
+  for (const KnownForceCoefficients& force : coupling.forces)
+    forces.push_back({{"name", force.name}, {"coefficients", force.values}, {"stddevs", force.stddevs}});
+  return forces;
+}
+
+/// The struts that bars tie one to.
+std::vector<std::string> partnersOf(std::size_t place, const VehicleCoupling& coupling,
+                                    const std::vector<std::string>& names) {
+  std::vector<std::string> partners;
+  for (const AntiRollBarFound& bar : coupling.bars) {
+    if (bar.first == place) partners.push_back(names[bar.second]);
+    if (bar.second == place) partners.push_back(names[bar.first]);
+  }
+  return partners;
 }
 
 }  // namespace
@@ -64,10 +106,46 @@ void ReportPage::write(const Diagnosis& found, const std::vector<Drive>& drives,
                                             after && *after ? &*after : nullptr, vehicle}));
 }
 
-std::vector<std::string> fileNames(const std::vector<std::string>& paths) {
-  std::vector<std::string> names;
-  for (const std::string& path : paths) names.push_back(std::filesystem::path(path).filename());
-  return names;
+VehiclePage::VehiclePage(const std::string& folder, const AskedVehicle& vehicle) : vehicle_(vehicle) {
+  if (vehicle.only) {
+    struts_.try_emplace(*vehicle.only, folder);
+    return;
+  }
+  page_.emplace(folder);
+  for (std::size_t i = 0; i < vehicle.names.size(); ++i)
+    struts_.try_emplace(i, (std::filesystem::path(folder) / vehicle.names[i]).string());
+}
+
+void VehiclePage::writeStrut(std::size_t place, const VehicleDiagnosis& found, const DiagnoseOptions& options,
+                             const std::string& change, PageSource source) {
+  source.change = change;
+  const InVehicle in{vehicle_.names[place], vehicle_.file, partnersOf(place, found.coupling, vehicle_.names),
+                     page_.has_value()};
+  struts_.at(place).write(found.struts[place], found.drives[place], options, source, &in);
+}
+
+void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options,
+                        const std::vector<std::string>& changes, const PageSource& source) {
+  if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, changes[*vehicle_.only], source);
+  double samples = 0.0;
+  for (const Drive& drive : found.drives.front()) samples += static_cast<double>(drive.samples.size());
+  const double period = *options.sample_period;
+  json struts = json::array();
+  for (std::size_t i = 0; i < vehicle_.names.size(); ++i) {
+    if (found.struts[i]) writeStrut(i, found, options, changes[i], source);
+    struts.push_back(strutJson(vehicle_.layout.struts[i], i, found, static_cast<bool>(found.struts[i])));
+    struts.back()["change"] = changes[i];
+  }
+  page_->write(vehicleTemplate(), shortened({{"source", sourceOf(source.drive_names, samples * period, period)},
+                                             {"verdict", nameOf(found.verdict)},
+                                             {"summary", found.summary},
+                                             {"struts", struts},
+                                             {"ratios", found.coupling.ratios},
+                                             {"stddevs", found.coupling.stddevs},
+                                             {"model_error", found.coupling.model_error},
+                                             {"anti_roll_bars", barsJson(found.coupling)},
+                                             {"known_forces", forcesJson(found.coupling)},
+                                             {"origin", source.origin}}));
 }
 
 }  // namespace suspension_health_monitor

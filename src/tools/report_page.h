@@ -1,11 +1,12 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "html_page.h"
-#include "suspension_health_monitor/compare.h"
-#include "suspension_health_monitor/diagnose.h"
+#include "recorded_vehicle.h"
 
 namespace suspension_health_monitor {
 
@@ -35,6 +36,24 @@ struct ReportContent {
   const InVehicle* vehicle = nullptr;  ///< none: the strut was searched by itself
 };
 
+// The parts of the page:
+
+/// The drives over time: measured z'' and the residuals before and after, packed as 16-bit numbers, with the stretches
+/// that were held out and a window that is worth looking at first.
+nlohmann::json drivesJson(const ReportContent& content);
+
+/// What the page tells of every candidate, by name: law, units, what a workshop would find, force or reading.
+nlohmann::json effectsJson(const EffectLibrary& library);
+
+/// Parameters before and after, with their standard deviations.
+nlohmann::json parametersJson(const ReportContent& content);
+
+/// The force of every effect that was found, as it was seen and by its law.
+nlohmann::json forcesJson(const ReportContent& content);
+
+/// How to put the model to use: the text of its file, and what to type.
+nlohmann::json addingJson(const ReportContent& content);
+
 /// The page of a search: the verdict, the error step by step, measured against predicted over time, the residual from
 /// all sides, the force that was missing, every candidate, and how to use the model. Recordings beyond an hour or so
 /// are thinned to the extremes of short ranges, so that the page stays below 5 MB.
@@ -54,7 +73,27 @@ class ReportPage {
   HtmlPage page_;
 };
 
-/// @return paths without their folders.
-std::vector<std::string> fileNames(const std::vector<std::string>& paths);
+/// The pages of a search in a vehicle: DIR/report.html with the vehicle from above, its verdict and its coupling, and
+/// DIR/NAME/report.html of every strut, each as ReportPage. With --strut that strut's own is DIR/report.html, the only
+/// one.
+class VehiclePage {
+ public:
+  /// As HtmlPage. @param vehicle  outlives this object.
+  VehiclePage(const std::string& folder, const AskedVehicle& vehicle);
+
+  /// @param options  of the search, with sample_period.
+  /// @param changes  by strut how it is against the healthy one, in words; empty: not known.
+  /// @throws std::runtime_error  naming the file that cannot be written.
+  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const std::vector<std::string>& changes,
+             const PageSource& source);
+
+ private:
+  void writeStrut(std::size_t place, const VehicleDiagnosis& found, const DiagnoseOptions& options,
+                  const std::string& change, PageSource source);
+
+  const AskedVehicle& vehicle_;
+  std::optional<HtmlPage> page_;              // before those of the struts, whose folders are in its folder
+  std::map<std::size_t, ReportPage> struts_;  // by place
+};
 
 }  // namespace suspension_health_monitor

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "report_parts.h"
+#include "report_page.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,20 +1,60 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "suspension_health_monitor/compare.h"
-#include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/monitor/health_log.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
+#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
+#include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
-/// What a search found, for people: the verdict in a sentence, the ranked table, before and after.
+// What commands find, for people (print...) and for programs (toJson).
+
+/// Estimates over time, a line per report; "-" for what is not known.
+void printTable(const std::vector<MonitorReport>& reports);
+
+/// @param name  of the estimator.  @param mass  of the body [kg], for damping and stiffness in SI.
+void printResult(const char* name, const IdentifiedStrut& estimate, const std::optional<double>& mass);
+
+/// Over the whole drive, which is what to trust; then LS and LA at its end.
+void printEstimates(const IdentifyResult& found, const std::optional<double>& mass);
+
+/// @param change  how the strut is against the healthy one, in a sentence; nothing is told of an empty one.
+void printChange(const std::string& change);
+
+nlohmann::json toJson(const IdentifiedStrut& estimate);
+nlohmann::json toJson(const IdentifyResult& found, const std::string& change);
+
+/// @param estimate, strut  by the same estimator.
+void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);
+nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut);
+
+/// A line per change of level, then the times, and the estimates at the end.
+void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference);
+nlohmann::json toJson(const HealthLog& log, const SuspensionMonitor& monitor);
+
+/// @return time, level and message by name.
+nlohmann::json toJson(const HealthMoment& moment);
+
+/// @return the seconds by level.
+nlohmann::json secondsJson(const HealthLog& log);
+
+/// @return the block estimate, LS and LA at the end, by name.
+nlohmann::json estimatesJson(const SuspensionMonitor& monitor);
+
+/// What a search found: the verdict in a sentence, the ranked table, before and after.
 void printSearch(const Diagnosis& found);
-
-/// A comparison for people: the errors by name, where the model fails in sentences, the force that it lacks as a map.
-void printComparison(const Comparison& comparison);
-
-/// The same for programs; of a comparison with the numbers behind every view.
 nlohmann::json toJson(const Diagnosis& found);
+
+/// A comparison: the errors by name, where the model fails in sentences, the force that it lacks as a map; for programs
+/// the numbers behind every view.
+void printComparison(const Comparison& comparison);
 nlohmann::json toJson(const Comparison& comparison);
 
 /// @return damping_to_mass and stiffness_to_mass by name.
@@ -22,5 +62,13 @@ nlohmann::json parametersOf(const StrutModel& model);
 
 /// Adds "coefficients" and "shapes" by name.
 void addNumbers(const StrutModel& model, nlohmann::json& into);
+
+/// How the struts move one another; for programs with `struts` to be filled.
+void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names);
+nlohmann::json toJson(const VehicleCoupling& coupling, const std::vector<std::string>& names);
+
+/// How the body's mass is spread.
+void printBody(const BodyInertiaResult& found);
+nlohmann::json toJson(const BodyInertiaResult& found);
 
 }  // namespace suspension_health_monitor

@@ -1,9 +1,15 @@
+#include <algorithm>
 #include <array>
+#include <cstdio>
+#include <stdexcept>
 
 #include "../ros/simulated_drive.h"
+#include "../ros/vehicle_messages.h"
+#include "../ros/whole_bag.h"
 #include "command.h"
-#include "simulate_vehicle.h"
-#include "suspension_health_monitor/internal/simulation/vehicle.h"
+#include "long_work.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -32,7 +38,92 @@ void requireFlagsOfOneKind(const po::variables_map& values, const std::string& v
           " is of one strut, must not come with --vehicle-model: `options vehicle` has its own");
 }
 
+/// STRUT/NAME=COEFFICIENT[,SHAPE=VALUE]... as settings of that strut.
+void hide(const std::string& effect, OptionMap& settings) {
+  const std::size_t slash = effect.find('/');
+  if (slash == std::string::npos || slash == 0 || slash > effect.find('='))
+    throw std::invalid_argument("--effect " + shortened(effect) +
+                                ", must be STRUT/NAME=COEFFICIENT[,SHAPE=VALUE]... in a vehicle");
+  OptionMap one;
+  setEffect(one, effect.substr(slash + 1), {});
+  for (const auto& [name, value] : one) settings["struts/" + effect.substr(0, slash) + '/' + name] = value;
+}
+
+/// The file that the other commands take as --vehicle.
+std::string vehicleFile(const VehicleSimulationOptions& options) {
+  const Vehicle& vehicle = options.vehicle;
+  const VehicleImu& imu = vehicle.body_imu;
+  std::string text =
+      formatted("# %s as suspension_bag simulate has driven it. Positions: in the body IMU's frame [m].\n",
+                shortened(options.model).c_str());
+  text += formatted("body_imu: /%s\nstruts:\n", kBodyImuTopic);
+  for (std::size_t i = 0; i < vehicle.struts.size(); ++i) {
+    const VehicleStrut& strut = vehicle.struts[i];
+    const Eigen::Vector3d top =
+        imu.orientation().transpose() * (Eigen::Vector3d(strut.x, strut.y, strut.z) - imu.position());
+    text += "  " + strut.name + ": {";
+    if (options.has_sprung_imu[i]) text += "sprung_imu: /" + sprungTopic(strut) + ", ";
+    text += "unsprung_imu: /" + unsprungTopic(strut) +
+            formatted(", position: [%.6g, %.6g, %.6g]}\n", top.x(), top.y(), top.z());
+  }
+  if (!vehicle.known_forces.empty()) text += "known_forces:\n";
+  for (const KnownForce& force : vehicle.known_forces)
+    text += "  " + force.name + ": {topic: /" + wrenchTopic(force) + ", field: force.z}\n";
+  return text;
+}
+
+void printTruth(const Vehicle& vehicle) {
+  std::size_t widest = 12;
+  for (const VehicleStrut& strut : vehicle.struts) widest = std::max(widest, strut.name.size());
+  const int width = static_cast<int>(widest);
+  std::printf("%-*s  b1 [1/s]  b0 [1/s^2]  moved by force of", width, "strut");
+  for (const VehicleStrut& of : vehicle.struts) std::printf("  %*s", width, of.name.c_str());
+  std::printf("\n");
+  for (const VehicleStrut& at : vehicle.struts) {
+    const double own = vehicle.mobility(at, at);
+    std::printf("%-*s  %8.4g  %10.4g  %17s", width, at.name.c_str(), own * at.damping, own * at.stiffness, "");
+    for (const VehicleStrut& of : vehicle.struts)
+      std::printf("  %*.3f", width, vehicle.mobility(at, of) / vehicle.mobility(of, of));
+    std::printf("\n");
+  }
+}
+
+/// A topic as a simulator named /simulator has it.
+std::string inBag(const std::string& topic) {
+  return topic.front() == '~' ? "/simulator/" + topic.substr(1) : '/' + topic;
+}
+
+void simulateVehicle(const po::variables_map& values, const std::string& model, OptionMap settings) {
+  for (const std::string& effect : values["effect"].as<std::vector<std::string>>()) hide(effect, settings);
+  const auto options = VehicleSimulationOptions::fromValues(model, std::move(settings));
+  const auto path = values["output"].as<std::string>();
+  VehicleMessageSource drive(options, fromSeconds(options.playing.start_time));
+  writeBag(drive, options.drive.duration, options.playing.start_time, path);
+  std::string written = path;
+  if (std::optional<TextFile> file = outputFile(values, "vehicle-file")) {
+    file->commit(vehicleFile(options));
+    written += " and " + values["vehicle-file"].as<std::string>();
+  }
+  std::printf("%s: %s, %g s at %g Hz, class %s at %g m/s, %s tracks, seed %d\n", written.c_str(),
+              shortened(options.model).c_str(), options.drive.duration, options.drive.rate,
+              options.vehicle.iso_class.c_str(), options.vehicle.speed, options.drive.tracks.c_str(),
+              options.drive.seed);
+  printTruth(options.vehicle);
+}
+
 }  // namespace
+
+void writeBag(DriveSource& drive, double duration, double start, const std::string& path) {
+  const Interruption interruption;
+  WholeBag bag(path);
+  Progress progress("simulating", duration);
+  while (const std::optional<SimulatedInstant> instant = drive.next()) {
+    for (const auto& [topic, any] : instant->messages)
+      std::visit([&, &name = topic](const auto& message) { bag.write(inBag(name), instant->time, message); }, any);
+    progress.update(instant->time.toSec() - start);
+  }
+  bag.commit();
+}
 
 void simulate(const Arguments& arguments) {
   po::options_description description("options");

@@ -1,7 +1,10 @@
 #include "strut_files.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
-#include <map>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "../ros/live_baseline.h"
@@ -48,6 +51,51 @@ auto readByStrut(const std::string& path, const AskedVehicle& vehicle, const Tak
   return taken;
 }
 
+std::string head(const std::vector<std::string>& drives, const char* load) {
+  return "# By `suspension_bag identify` from " + shortened(join(drives)) + ".\n# " + load +
+         "\n# nominal is what health is judged by: keep it if this strut was healthy.\n";
+}
+
+std::string ownSettings(const StrutOfDrive& found, const char* indent) {
+  const IdentifiedStrut& strut = found.strut;
+  return formatted("%sintegration_horizon: %.6g  # [s]\n%snominal:  # %s\n", indent, found.horizon, indent,
+                   found.by.c_str()) +
+         formatted("%s  damping_to_mass: %.6g  # +- %.2g 1/s\n", indent, strut.damping_to_mass,
+                   strut.damping_to_mass_stddev) +
+         formatted("%s  stiffness_to_mass: %.6g  # +- %.2g 1/s^2\n", indent, strut.stiffness_to_mass,
+                   strut.stiffness_to_mass_stddev);
+}
+
+bool isIdentified(const std::string& name) {
+  return name == "integration_horizon" || name == "baseline_file" || name.rfind("nominal/", 0) == 0;
+}
+
+/// Settings of one strut, or of all, nested and indented.
+std::string nested(const OptionMap& settings, const char* indent) {
+  YAML::Node groups(YAML::NodeType::Map);
+  for (const auto& [name, value] : settings) {
+    const auto* text = std::get_if<std::string>(&value);
+    if (text == nullptr) continue;
+    const std::size_t slash = name.find('/');
+    if (slash == std::string::npos)
+      groups[name] = *text;
+    else
+      groups[name.substr(0, slash)][name.substr(slash + 1)] = *text;
+  }
+  if (groups.size() == 0) return "";
+  std::istringstream lines(YAML::Dump(groups));
+  std::string result;
+  for (std::string line; std::getline(lines, line);) result += indent + line + '\n';
+  return result;
+}
+
+/// Without the settings that the identified ones replace.
+OptionMap othersOf(OptionMap given) {
+  for (auto entry = given.begin(); entry != given.end();)
+    entry = isIdentified(entry->first) ? given.erase(entry) : std::next(entry);
+  return given;
+}
+
 }  // namespace
 
 KnownModels readModels(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
@@ -64,12 +112,47 @@ std::vector<std::optional<Baseline>> readBaselines(const std::string& path, cons
   return readByStrut(path, vehicle, takeBaseline);
 }
 
-std::string toYaml(const KnownModels& models, const AskedVehicle& vehicle) {
-  if (vehicle.only) return toYaml(*models[*vehicle.only]);
-  ModelsByStrut by_name;
-  for (std::size_t i = 0; i < models.size(); ++i)
-    if (models[i]) by_name.emplace(vehicle.names[i], *models[i]);
-  return toYaml(by_name);
+std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {
+  const std::optional<StrutOfDrive> strut = strutOf(found);
+  if (!strut) return "no estimate is valid";
+  if (!found.isSteady()) return "the strut is not the same over the drive";
+  constexpr double kTold = 3.0;  // standard deviations
+  std::vector<std::string> lacks;
+  const auto ask = [&](const char* name, double value, double stddev, double warn) {
+    if (kTold * stddev <= warn * value) return;
+    lacks.push_back(formatted("%s is known to %.2g %% only, and %.2g %% are needed for a warning at %.3g %%", name,
+                              100.0 * stddev / value, 100.0 * warn / kTold, 100.0 * warn));
+  };
+  const IdentifiedStrut& its = strut->strut;
+  ask("damping/mass", its.damping_to_mass, its.damping_to_mass_stddev, options.damping_warn);
+  ask("stiffness/mass", its.stiffness_to_mass, its.stiffness_to_mass_stddev, options.stiffness_warn);
+  return join(lacks, "; ");
+}
+
+OptionMap settingsFor(const std::string& strut, OptionMap given) {
+  OptionMap own = takeGroups(given, "struts")[strut];
+  own.insert(given.begin(), given.end());
+  return own;
+}
+
+std::string settingsOf(const StrutOfDrive& strut, const OptionMap& given, const std::vector<std::string>& drives) {
+  return head(drives, "For `config:=` of monitor.launch and replay.launch, and `suspension_bag ... --config`.") +
+         ownSettings(strut, "") + nested(othersOf(given), "");
+}
+
+std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, const OptionMap& given,
+                       const std::vector<std::string>& drives) {
+  OptionMap common = given;
+  std::map<std::string, OptionMap> own = takeGroups(common, "struts");
+  std::string text =
+      head(drives, "For `strut_config:=` of vehicle.launch, and `suspension_bag ... --vehicle ... --config`.");
+  text += nested(othersOf(common), "") + "struts:\n";
+  for (const auto& [name, strut] : struts) {
+    text += "  " + name + ":\n" + ownSettings(strut, "    ") + nested(othersOf(own[name]), "    ");
+    own.erase(name);
+  }
+  for (const auto& [name, settings] : own) text += "  " + name + ":\n" + nested(settings, "    ");
+  return text;
 }
 
 }  // namespace suspension_health_monitor

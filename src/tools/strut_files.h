@@ -1,12 +1,13 @@
 #pragma once
 
 #include <boost/program_options.hpp>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "recorded_vehicle.h"
-#include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
@@ -23,8 +24,52 @@ KnownModels readModels(const boost::program_options::variables_map& values, cons
 /// Reads a file of healthy struts, likewise.
 std::vector<std::optional<Baseline>> readBaselines(const std::string& path, const AskedVehicle& vehicle);
 
-/// @param models  by strut.
-/// @return the text of the file that readModels() takes: of all struts that have a model, or that of --strut alone.
-std::string toYaml(const KnownModels& models, const AskedVehicle& vehicle);
+/// @return why strutOf() cannot be what health is judged by, in words; empty: it can.
+std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options);
+
+/// @return the settings of one strut of a vehicle: those of all, and its own below struts/NAME, which come before them.
+OptionMap settingsFor(const std::string& strut, OptionMap given);
+
+/// The text of a file of settings, as the monitor loads it and --config: those that were given, the horizon, and the
+/// strut as the nominal one.
+/// @param drives  names of the bags.
+std::string settingsOf(const StrutOfDrive& strut, const OptionMap& given, const std::vector<std::string>& drives);
+
+/// The same of a vehicle's struts, by name: `struts: {NAME: {...}}`. Those that were given of a strut alone stay with
+/// it.
+std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, const OptionMap& given,
+                       const std::vector<std::string>& drives);
+
+/// The healthy strut as it is given beside the settings.
+struct HealthyStrut {
+  Baseline baseline;
+  std::string file;  ///< that it was read from; empty: none
+};
+
+/// @param path  of a file that the monitor has written; or of settings, whose nominal values are taken.
+/// @throws std::invalid_argument  naming the file and what is wrong in it.
+HealthyStrut readHealthy(const std::string& path);
+
+/// @param given  beside the settings; nothing: that of baseline_file counts, if the file is there.
+/// @return the healthy strut, if it is known; nominal values are among the settings.
+/// @throws std::invalid_argument  as LiveBaseline, also if nominal values are given beside `given`.
+std::optional<HealthyStrut> beforehand(const std::optional<HealthyStrut>& given, const PipelineOptions& options);
+
+/// @return that of --baseline instead of that of baseline_file, if it is given. A live monitor would learn one if the
+/// file is not there; that is not what was asked for.
+/// @throws std::invalid_argument  as readHealthy() and beforehand().
+std::optional<HealthyStrut> healthyOf(const boost::program_options::variables_map& values,
+                                      const PipelineOptions& options);
+
+/// The same of the struts of a vehicle, by strut.
+std::vector<std::optional<HealthyStrut>> healthyOf(const boost::program_options::variables_map& values,
+                                                   const AskedVehicle& vehicle, const VehicleOptions& options);
+
+/// @return the same, else the nominal values, else nothing.
+Baseline knownHealthy(const std::optional<HealthyStrut>& given, const PipelineOptions& options);
+
+/// @return by strut of a vehicle how it is against the one known so, as identify says it; empty where none is known.
+std::vector<std::string> changesOf(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+                                   const VehicleOptions& settings);
 
 }  // namespace suspension_health_monitor

@@ -1,5 +1,3 @@
-#include "survey.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,8 +7,9 @@
 #include <vector>
 
 #include "../ros/conversions.h"
-#include "bag_samples.h"
+#include "bag_options.h"
 #include "command.h"
+#include "recorded_strut.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
@@ -91,10 +90,6 @@ Surveyed survey(const ImuBags& bags, const PipelineOptions& options) {
   return {rough, clocks_differ, std::move(drive), std::move(read.grid), count, gaps, longest, read.rejected};
 }
 
-std::string describeClockOffset(double offset) {
-  return formatted("; the clocks of the IMUs seem to differ by about %.0f ms: diagnose tells", 1e3 * std::abs(offset));
-}
-
 [[noreturn]] void refuse(const Surveyed& surveyed, double period) {
   const bool is_short = static_cast<double>(surveyed.longest) * period < kTwoBounces;
   throw TooLittleError(
@@ -104,7 +99,8 @@ std::string describeClockOffset(double offset) {
       formatted(" in %.3g s", static_cast<double>(surveyed.samples) * period) + ", gaps " +
       std::to_string(surveyed.gaps) + (is_short ? "; two bounces of the body in one piece are enough" : "") +
       describeRejected(surveyed.rejected) + ")" +
-      (surveyed.rough ? describeClockOffset(surveyed.rough->clock_offset)
+      (surveyed.rough ? formatted("; the clocks of the IMUs seem to differ by about %.0f ms: diagnose tells",
+                                  1e3 * std::abs(surveyed.rough->clock_offset))
                       : describeSuspicions(surveyed.grid, {surveyed.drive}, period)) +
       "; give integration_horizon (--set integration_horizon=0.6) to look at them all the same");
 }
@@ -132,11 +128,15 @@ double measurePeriod(const ImuBags& bags) {
   return *period;
 }
 
-void measureOpenSettings(const ImuBags& bags, PipelineOptions& options, bool clocks_may_differ) {
-  MonitorOptions& monitor = options.monitor;
-  if (!monitor.sample_period) monitor.sample_period = measurePeriod(bags);
-  if (!monitor.integration_horizon)
-    monitor.integration_horizon = proposeHorizonSamples(bags, options, clocks_may_differ) * *monitor.sample_period;
+BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ) {
+  BagOptions options = readLiveOptions(values);
+  MonitorOptions& monitor = options.pipeline.monitor;
+  options.horizon_measured = !monitor.integration_horizon;
+  if (options.period_measured) monitor.sample_period = measurePeriod(options.bags);
+  if (options.horizon_measured)
+    monitor.integration_horizon =
+        proposeHorizonSamples(options.bags, options.pipeline, clocks_may_differ) * *monitor.sample_period;
+  return options;
 }
 
 void requireFittingPeriod(const ImuBags& bags, double sample_period) {

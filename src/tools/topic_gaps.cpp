@@ -50,21 +50,23 @@ void TopicGaps::note(std::size_t topic, Stamp stamp) {
 
 void TopicGaps::finishBag() { bags_.back().silence.finish(); }
 
-std::vector<std::string> TopicGaps::Bag::sentences() const {
+std::vector<std::string> TopicGaps::sentences() const {
   std::vector<std::string> all;
-  if (silences.empty()) return all;
-  const auto after = [this](Stamp stamp) { return toSeconds(stamp - first); };
-  for (const Silence& one : silences)
-    all.push_back(formatted("%s: %s is silent from %.1f s to %.1f s%s", name.c_str(), topics[one.stream].c_str(),
-                            after(one.from), after(one.to), one.to >= last ? ", the end" : ""));
-  all.push_back(
-      formatted("%s: used %s of %.1f s", name.c_str(), whatIsLeft(silences, first, last).c_str(), after(last)));
+  for (const Bag& bag : bags_) {
+    if (bag.silences.empty()) continue;
+    const auto after = [&](Stamp stamp) { return toSeconds(stamp - bag.first); };
+    for (const Silence& one : bag.silences)
+      all.push_back(formatted("%s: %s is silent from %.1f s to %.1f s%s", bag.name.c_str(),
+                              bag.topics[one.stream].c_str(), after(one.from), after(one.to),
+                              one.to >= bag.last ? ", the end" : ""));
+    all.push_back(formatted("%s: used %s of %.1f s", bag.name.c_str(),
+                            whatIsLeft(bag.silences, bag.first, bag.last).c_str(), after(bag.last)));
+  }
   return all;
 }
 
 void TopicGaps::print() const {
-  for (const Bag& bag : bags_)
-    for (const std::string& sentence : bag.sentences()) std::printf("%s\n", sentence.c_str());
+  for (const std::string& sentence : sentences()) std::printf("%s\n", sentence.c_str());
 }
 
 void TopicGaps::explain(const std::function<void()>& check) const {
@@ -72,8 +74,7 @@ void TopicGaps::explain(const std::function<void()>& check) const {
     check();
   } catch (const TooLittleError& error) {
     std::string text = error.what();
-    for (const Bag& bag : bags_)
-      for (const std::string& sentence : bag.sentences()) text += "; " + sentence;
+    for (const std::string& sentence : sentences()) text += "; " + sentence;
     throw TooLittleError(text);
   }
 }

@@ -40,10 +40,10 @@ class TopicGaps {
     StreamSilence silence;
     std::vector<StreamSilence::Silence> silences;  // that have ended
     Stamp first{}, last{};                         // readings
-
-    /// @return one for every silence, then what was used; none if no topic was silent.
-    std::vector<std::string> sentences() const;
   };
+
+  /// @return by bag one for every silence, then what was used; none if no topic was silent.
+  std::vector<std::string> sentences() const;
 
   Stamp timeout_;
   std::vector<Bag> bags_;

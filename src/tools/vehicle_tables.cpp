@@ -1,9 +1,7 @@
-#include "vehicle_tables.h"
-
 #include <cmath>
 #include <cstdio>
 
-#include "command.h"
+#include "results.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
@@ -49,10 +47,6 @@ void printForces(const VehicleCoupling& coupling, const std::vector<std::string>
 }
 
 }  // namespace
-
-void requireCoupling(const VehicleCoupling& coupling) {
-  if (!coupling) throw TooLittleError("the drives " + coupling.reason);
-}
 
 void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
   printForces(coupling, names);

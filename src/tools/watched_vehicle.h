@@ -8,12 +8,9 @@
 
 #include "../ros/live_model.h"
 #include "../ros/message_pipeline.h"
-#include "healthy_strut.h"
-#include "imu_bags.h"
+#include "health_page.h"
+#include "strut_files.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
-#include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
@@ -26,7 +23,7 @@ struct WatchedStrut {
 /// Reads the files of all struts; that of --baseline takes the place of baseline_file.
 /// @throws std::invalid_argument  naming strut, file and what is wrong.
 std::vector<WatchedStrut> readWatched(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
-                                      VehicleOptions& options);
+                                      const VehicleOptions& options);
 
 /// @return so many struts with the plain model, to be judged by their settings.
 std::vector<WatchedStrut> plainStruts(std::size_t count);
@@ -37,39 +34,59 @@ class WatchedVehicle {
   using Row = std::function<void(std::size_t strut, const HealthMoment&, const Baseline&)>;
   using Report = std::function<void(std::size_t strut, const MonitorReport&)>;
 
+  /// @param values  with the bags.
+  /// @param vehicle  whose struts with a frame get their position.
+  /// @param options  outlive this object.
   /// @param row  called as HealthLog calls its sink, with what the strut is judged by then, if it is given.
   /// @param report  called with every report, if it is given.
-  WatchedVehicle(const VehicleOptions& options, const VehicleStreams& streams, const std::vector<WatchedStrut>& watched,
-                 const tf2::BufferCore* transforms, const Row& row, const Report& report = {});
+  /// @throws InputError, TooLittleError, std::invalid_argument  as streamsOf().
+  WatchedVehicle(const boost::program_options::variables_map& values, AskedVehicle& vehicle,
+                 const VehicleOptions& options, std::vector<WatchedStrut> watched, const Row& row,
+                 const Report& report = {});
   WatchedVehicle(const WatchedVehicle&) = delete;  // its sinks refer to it
   WatchedVehicle& operator=(const WatchedVehicle&) = delete;
 
-  /// Reads one bag after the other.
-  /// @return the time elapsed when each begins.
-  std::vector<Stamp> read(const ImuBags& bags);
+  /// @throws std::invalid_argument  as requireFittingPeriod(), if a sample_period is given.
+  void requirePeriod() const;
 
-  /// Tells people what the bags hold.
+  /// Reads one bag after the other.
+  std::vector<HealthContent::Recording> read();
+
+  /// Tells people what the bags hold, and which topics were silent.
   void printInput() const;
 
   /// @throws TooLittleError  if the drives do not tell how the struts move one another.
-  void requireCoupling(const std::vector<std::string>& names) const;
+  void requireCoupling() const;
 
-  /// @param forces  names of the known forces.
   /// @return what is known at the end.
   /// @throws TooLittleError  as requireCoupling().
-  VehicleIdentification identified(const std::vector<std::string>& names, const std::vector<std::string>& forces);
+  VehicleIdentification identified();
+
+  /// @return how the struts move one another, as it is known at the end.
+  VehicleCoupling coupling() const;
 
   /// @return what was kept out of the readings of all sensors.
   RejectCounts rejected() const;
 
+  /// @return the file that a strut's baseline was read from; empty: none was.
+  std::string baselineFile(std::size_t strut) const;
+
+  const TopicGaps& gaps() const { return gaps_; }
   const VehicleMonitor& monitor() const { return *pipeline_.monitor(); }
   std::string alignment() const { return pipeline_.grid()->streams().describeAlignment(); }
   const HealthLog& log(std::size_t strut) const { return logs_[strut]; }
+  const std::vector<std::string>& topics() const { return topics_; }
 
  private:
   Baseline baselineOf(std::size_t strut) const;
 
+  const VehicleOptions& options_;
+  std::vector<std::string> names_;
+  std::vector<WatchedStrut> watched_;
+  ImuBags bags_;
+  VehicleStreams streams_;
   std::vector<std::string> topics_;
+  TopicGaps gaps_;
   std::vector<HealthLog> logs_;
   MessagePipeline pipeline_;
 };

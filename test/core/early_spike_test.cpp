@@ -3,7 +3,7 @@
 #include "monitor_settings.h"
 #include "paper_drive.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "uniform_grid.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {

@@ -22,7 +22,7 @@
 #include "suspension_health_monitor/internal/model/user_effects.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "uniform_grid.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "vehicle_drive.h"

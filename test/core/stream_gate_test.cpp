@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {

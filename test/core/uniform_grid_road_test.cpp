@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "milliseconds.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {

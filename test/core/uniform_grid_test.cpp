@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
+#include "uniform_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,4 @@
 // A vehicle file, and bags of its IMUs, as drives of all struts.
-#include "tools/vehicle_bags.h"
-
 #include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
 #include <ros/time.h>
@@ -18,6 +16,7 @@
 #include "ros/vehicle_file.h"
 #include "suspension_health_monitor/internal/signal/motion_filter.h"
 #include "tools/command.h"
+#include "tools/recorded_vehicle.h"
 
 namespace suspension_health_monitor {
 namespace {

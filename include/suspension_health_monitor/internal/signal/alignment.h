@@ -26,7 +26,7 @@ inline Alignment alignment(std::string_view name) {
   throw std::invalid_argument("alignment = " + std::string(name) + ", must be one of " + std::string(kAlignmentNames));
 }
 
-/// How a UniformGrid brings the streams of one strut together.
+/// How a grid brings the streams of sensors together.
 struct GridOptions {
   Alignment alignment = Alignment::kPaired;
   bool has_road = false;   ///< there is a third stream, Side::kRoad

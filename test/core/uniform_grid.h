@@ -2,12 +2,20 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 namespace suspension_health_monitor {
+
+// One sensor each, in the order of Side.
+inline std::vector<StreamOptions> streamsOf(const GridOptions& options) {
+  std::vector<StreamOptions> streams{{indexOf(Side::kSprung), true}, {indexOf(Side::kUnsprung), true}};
+  if (options.has_road) streams.push_back({indexOf(Side::kRoad), false});
+  return streams;
+}
 
 /// A StreamGrid of the two or three sensors of one strut, whose streams are numbered by Side.
 class UniformGrid {
@@ -37,5 +45,21 @@ class UniformGrid {
   StreamGrid streams_;
   std::optional<double> road_acceleration_;
 };
+
+inline UniformGrid::UniformGrid(double period, const GridOptions& options)
+    : has_road_(options.has_road), streams_(period, streamsOf(options), options.alignment, options.fill_samples) {}
+
+inline std::optional<CornerSample> UniformGrid::push(Side side, Stamp stamp, double acceleration) {
+  if (side == Side::kRoad && !has_road_) return std::nullopt;
+  return take(streams_.push(indexOf(side), stamp, acceleration));
+}
+
+inline std::optional<CornerSample> UniformGrid::take(const GridInstant* instant) {
+  if (instant == nullptr) return std::nullopt;
+  const std::vector<double>& values = instant->values;
+  const bool has_road = has_road_ && instant->measured[indexOf(Side::kRoad)];
+  road_acceleration_ = has_road ? std::optional<double>(values[indexOf(Side::kRoad)]) : std::nullopt;
+  return CornerSample{instant->stamp, values[indexOf(Side::kSprung)], values[indexOf(Side::kUnsprung)]};
+}
 
 }  // namespace suspension_health_monitor

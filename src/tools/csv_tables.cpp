@@ -1,0 +1,61 @@
+#include "csv_tables.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <utility>
+
+namespace suspension_health_monitor {
+
+CsvTable::CsvTable(std::FILE* out, std::vector<std::string> struts, const char* columns)
+    : out_(out), struts_(std::move(struts)) {
+  if (out_ != nullptr) std::fprintf(out_, "time,%s%s\n", struts_.empty() ? "" : "strut,", columns);
+}
+
+std::FILE* CsvTable::beginLine(std::size_t strut, Stamp stamp) {
+  constexpr std::int64_t second = 1000000000;
+  std::fprintf(out_, "%" PRId64 ".%09" PRId64 ",", stamp.count() / second, stamp.count() % second);
+  if (!struts_.empty()) std::fprintf(out_, "%s,", struts_[strut].c_str());
+  return out_;
+}
+
+RowTable::RowTable(std::FILE* out, const std::vector<std::string>& struts)
+    : CsvTable(out, struts,
+               "ls_damping_to_mass,ls_stiffness_to_mass,la_damping_to_mass,la_stiffness_to_mass,"
+               "measured,predicted,residual,estimate_damping_to_mass,estimate_stiffness_to_mass,"
+               "estimate_damping_to_mass_stddev,estimate_stiffness_to_mass_stddev"),
+      waiting_(std::max<std::size_t>(1, struts.size())) {}
+
+void RowTable::add(std::size_t strut, const MonitorReport& report) {
+  if (out_ == nullptr) return;
+  std::deque<Row>& waiting = waiting_[strut];
+  const bool clock_went_back = !waiting.empty() && report.stamp < waiting.back().stamp;
+  while (clock_went_back && !waiting.empty()) write(strut, std::nullopt);
+  if (report.has_row)
+    waiting.push_back({report.stamp, report.ls.damping_to_mass, report.ls.stiffness_to_mass, report.la.damping_to_mass,
+                       report.la.stiffness_to_mass, report.measured, report.estimate.damping_to_mass,
+                       report.estimate.stiffness_to_mass, report.estimate.damping_to_mass_stddev,
+                       report.estimate.stiffness_to_mass_stddev});
+  const ComparisonReport& comparison = report.comparison;
+  while (comparison.has_sample && !waiting.empty() && waiting.front().stamp <= comparison.stamp)
+    write(strut, waiting.front().stamp == comparison.stamp ? comparison.predicted : std::nullopt);
+}
+
+void RowTable::finish() {
+  for (std::size_t strut = 0; strut < waiting_.size(); ++strut)
+    while (!waiting_[strut].empty()) write(strut, std::nullopt);
+}
+
+void RowTable::write(std::size_t strut, const std::optional<double>& predicted) {
+  const Row row = waiting_[strut].front();
+  waiting_[strut].pop_front();
+  beginLine(strut, row.stamp);
+  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g,%.17g,", row.ls_damping, row.ls_stiffness, row.la_damping,
+               row.la_stiffness, row.measured);
+  if (predicted)
+    std::fprintf(out_, "%.17g,%.17g,", *predicted, row.measured - *predicted);
+  else
+    std::fputs("nan,nan,", out_);
+  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g\n", row.damping, row.stiffness, row.damping_stddev, row.stiffness_stddev);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdio>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suspension_health_monitor/monitor_report.h"
+
+namespace suspension_health_monitor {
+
+/// A table for programs, full precision: a line begins with its time and, in a vehicle, the name of the strut.
+class CsvTable {
+ public:
+  /// @param out  nullptr: no table is wanted.  @param struts  names of a vehicle's, for a column; empty: one strut.
+  /// @param columns  names of the others.
+  CsvTable(std::FILE* out, std::vector<std::string> struts, const char* columns);
+
+  /// @return where the rest of the line is to be written.
+  std::FILE* beginLine(std::size_t strut, Stamp stamp);
+
+ protected:
+  std::FILE* out_;
+  std::vector<std::string> struts_;
+};
+
+/// `suspension_bag identify --csv`: one line per regression row. The comparison of a row's sample comes some samples
+/// after the row: lines wait for it, and go without when their series ends before.
+class RowTable : CsvTable {
+ public:
+  /// As CsvTable.
+  RowTable(std::FILE* out, const std::vector<std::string>& struts);
+
+  void add(std::size_t strut, const MonitorReport& report);
+
+  /// No more comparisons will come.
+  void finish();
+
+ private:
+  struct Row {
+    Stamp stamp;
+    double ls_damping, ls_stiffness, la_damping, la_stiffness, measured;
+    double damping, stiffness, damping_stddev, stiffness_stddev;  // of the block estimate
+  };
+
+  void write(std::size_t strut, const std::optional<double>& predicted);
+
+  std::vector<std::deque<Row>> waiting_;  // by strut
+};
+
+}  // namespace suspension_health_monitor
