@@ -27,6 +27,7 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
     recent_.clear();
   } else {
     spacing_.add(toSeconds(sample.stamp - *last_));
+    status_.mean_period = spacing_.mean();
   }
   if (!first_ || how == Continuity::kClockJumped) first_ = sample.stamp;
   last_ = sample.stamp;
@@ -36,7 +37,6 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
 }
 
 void SampleSeries::judge() {
-  status_.mean_period = spacing_.mean();
   if (spacing_.weight() < kSpacings) return;
   status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;
 }

@@ -6,39 +6,36 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};     // D
-constexpr std::array kRate{3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};  // of the readings 1, 2, 3 to either side
-constexpr double kSignificant = 3.0;                             // standard deviations: by chance once in 700 trials
+constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};  // D
+constexpr double kSignificant = 3.0;                          // standard deviations: by chance once in 700 trials
+constexpr double kFewest = 200.0;                             // rows, whose scatter is known within a tenth
 
-double rateAt(const double* x) {
-  double change = 0.0;
-  for (std::size_t j = 0; j < kRate.size(); ++j) {
-    const auto apart = static_cast<std::ptrdiff_t>(j + 1);
-    change += kRate[j] * (x[apart] - x[-apart]);
-  }
-  return change;
-}
+/// @return x' T by the readings `apart` before and after.
+double rateBy(std::ptrdiff_t apart, const double* x) { return (x[apart] - x[-apart]) / (2.0 * apart); }
 
 }  // namespace
 
 // Distances count from their mean: what the regular times of all these readings are off by displaces none against
-// another.
+// another. The instrument has other readings' noise in it.
 void SamplingTest::add(double value, double off) {
   values_.push(value);
   off_.push(off);
   if (++in_a_row_ < kWindow) return;
-  double mean = 0.0, e = 0.0, r = 0.0;
+  double mean = 0.0, e = 0.0, r = 0.0, instrument = 0.0;
   for (std::size_t i = 0; i < kDifference.size(); ++i) mean += off_.data()[kReach + i] / kDifference.size();
   for (std::size_t i = 0; i < kDifference.size(); ++i) {
-    e += kDifference[i] * values_.data()[kReach + i];
-    r += kDifference[i] * rateAt(values_.data() + kReach + i) * (off_.data()[kReach + i] - mean);
+    const double* x = values_.data() + kReach + i;
+    const double distance = off_.data()[kReach + i] - mean;
+    e += kDifference[i] * *x;
+    r += kDifference[i] * rateBy(1, x) * distance;
+    instrument += kDifference[i] * rateBy(2, x) * distance;
   }
-  products_.add({r * r, r * e, e * e});
-  const double rr = products_.mean(0), slope = products_.mean(1) / rr;
-  // Neighbouring differences share readings.
-  const double independent = products_.weight() / kDifference.size();
-  const double variance = (products_.mean(2) / rr - slope * slope) / independent;
-  is_regular_ = slope + kSignificant * std::sqrt(variance) < 0.5;
+  products_.add({instrument * r, instrument * e, instrument * instrument, e * e});
+  const double moment = products_.mean(0), slope = products_.mean(1) / moment;
+  const double independent = products_.weight() / kDifference.size();  // neighbouring differences share readings
+  const double stddev = std::sqrt(products_.mean(2) * products_.mean(3) / independent) / std::abs(moment);
+  const bool is_certain = products_.weight() >= kFewest && std::abs(slope - 0.5) > kSignificant * stddev;
+  less_than_half_ = !is_certain ? 0 : slope < 0.5 ? 1 : -1;
 }
 
 }  // namespace suspension_health_monitor

@@ -33,7 +33,7 @@ Stamp StreamClock::add(Stamp stamp, double value) {
     follow(now);
     const double off = (now - time_) / period_;
     sampling_.add(value, off);
-    if (sampling_.isRegular() || std::abs(off) > kNear) {
+    if (sampling_.isRegular() || (!sampling_.isAsStamped() && std::abs(off) > kNear)) {
       taken = *origin_ + fromSeconds(time_);
       apart = fromSeconds(0.5 * period_);  // one that was counted too far before: a curve through the readings holds
     }

@@ -14,10 +14,9 @@ namespace suspension_health_monitor {
 
 /// When the readings of one stream were taken, by their stamps: phase and period of a stream that reads regularly, by
 /// one alpha-beta filter, whose gains are those of least squares over the newest 1000 readings (Kalata, IEEE Trans.
-/// AES 20 (1984), 174-182). A stamp within kNear periods of the regular time is used as it is: jitter is noise like any
-/// other. A stamp farther off is that of a message that waited, and the regular time is used. Two readings in a row
-/// that are off by the same number of periods show that readings were lost between them and those before.
-/// Cost per reading: O(1), no allocation.
+/// AES 20 (1984), 174-182). A stamp near the regular time is used as it is, unless the readings show that they were
+/// taken regularly (SamplingTest); one farther off is that of a message that waited, and the regular time is used,
+/// unless they show that they were taken as stamped. Cost per reading: O(1), no allocation.
 class StreamClock {
  public:
   static constexpr double kMemory = 0.999;  ///< forgetting factor
