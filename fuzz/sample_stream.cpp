@@ -6,12 +6,12 @@
 #include <string>
 #include <utility>
 
+#include "../test/core/uniform_grid.h"
 #include "entry_points.h"
 #include "fuzz_bytes.h"
 #include "fuzz_law.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/signal/uniform_grid.h"
 
 namespace suspension_health_monitor {
 namespace {

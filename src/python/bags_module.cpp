@@ -26,7 +26,6 @@ po::variables_map parsed(const Arguments& arguments) {
   po::options_description description("options");
   addBagOptions(description);
   addModelOptions(description);
-  addVehicleOptions(description);
   description.add_options()(kBaseline, po::value<std::string>());
   const po::variables_map values = *parse(arguments, "", description, "bag");
   isOfVehicle(values);  // refuses a strut of none

@@ -71,7 +71,7 @@ auto identifyStrutsOf(const Arguments& arguments, LongWork& work) {
     const PipelineOptions& options = asked.settings.struts[i];
     result.sprung_mass = options.monitor.sprung_mass;
     result.change = describeChange(result, knownHealthy({}, options), options.monitor);
-    result.course = recorded.courses[i];
+    result.course = courses[i];
     return result;
   });
 }

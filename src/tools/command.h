@@ -11,7 +11,7 @@
 
 namespace suspension_health_monitor {
 
-class DriveSource;
+struct SimulatedDrive;
 
 /// Exit statuses of suspension_bag, as promised to scripts.
 enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kWrongInput = 3, kTooLittle = 4 };
@@ -91,8 +91,7 @@ std::vector<std::string> fileNames(const std::vector<std::string>& paths);
 bool isOfVehicle(const boost::program_options::variables_map& values);
 
 /// Writes a whole simulated drive, with progress.
-/// @param duration  [s].  @param start  stamp at its start [s].
-void writeBag(DriveSource& drive, double duration, double start, const std::string& path);
+void writeBag(const SimulatedDrive& drive, const std::string& path);
 
 inline constexpr const char* kBaseline = "baseline";  ///< name of an option
 

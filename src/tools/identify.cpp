@@ -40,7 +40,7 @@ struct Files {
 
 json toJson(RecordedMonitor& recorded, const IdentifyResult& found, const std::string& change) {
   const MonitorReport& report = recorded.monitor().report();
-  const StreamGrid& streams = recorded.grid().streams();
+  const StreamGrid& streams = recorded.grid();
   const RejectCounts counts = recorded.rejected();
   json whole = toJson(found, change);
   whole.update({{"alignment", streams.describeAlignment()},

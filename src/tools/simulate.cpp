@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "../ros/simulated_drive.h"
-#include "../ros/vehicle_messages.h"
 #include "../ros/whole_bag.h"
 #include "command.h"
 #include "long_work.h"
@@ -97,8 +96,7 @@ void simulateVehicle(const po::variables_map& values, const std::string& model, 
   for (const std::string& effect : values["effect"].as<std::vector<std::string>>()) hide(effect, settings);
   const auto options = VehicleSimulationOptions::fromValues(model, std::move(settings));
   const auto path = values["output"].as<std::string>();
-  VehicleMessageSource drive(options, fromSeconds(options.playing.start_time));
-  writeBag(drive, options.drive.duration, options.playing.start_time, path);
+  writeBag(driveOf(options), path);
   std::string written = path;
   if (std::optional<TextFile> file = outputFile(values, "vehicle-file")) {
     file->commit(vehicleFile(options));
@@ -113,11 +111,13 @@ void simulateVehicle(const po::variables_map& values, const std::string& model, 
 
 }  // namespace
 
-void writeBag(DriveSource& drive, double duration, double start, const std::string& path) {
+void writeBag(const SimulatedDrive& drive, const std::string& path) {
   const Interruption interruption;
   WholeBag bag(path);
-  Progress progress("simulating", duration);
-  while (const std::optional<SimulatedInstant> instant = drive.next()) {
+  Progress progress("simulating", drive.duration);
+  const double start = drive.playing.start_time;
+  const DriveSource source = drive.begin(fromSeconds(start));
+  while (const std::optional<SimulatedInstant> instant = source()) {
     for (const auto& [topic, any] : instant->messages)
       std::visit([&, &name = topic](const auto& message) { bag.write(inBag(name), instant->time, message); }, any);
     progress.update(instant->time.toSec() - start);

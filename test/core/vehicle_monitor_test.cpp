@@ -133,7 +133,7 @@ TEST(VehicleMonitor, KnowsTheRatiosAfterAStop) {
 }
 
 TEST(VehicleMonitor, RefusesNoStrutAndPeriodsThatDiffer) {
-  EXPECT_THROW(VehicleMonitor({}, {}), std::invalid_argument);
+  EXPECT_THROW(VehicleMonitor(std::vector<MonitorSettings>{}, {}), std::invalid_argument);
   EXPECT_THROW(VehicleMonitor({settingsAt(0.01), settingsAt(0.02)}, {}), std::invalid_argument);
   EXPECT_THROW(VehicleMonitor({MonitorSettings()}, {}), std::invalid_argument);
 }
