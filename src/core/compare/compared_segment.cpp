@@ -70,7 +70,7 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
       segments.back().record = r;
       segments.back().predicted = std::move(predicted);
     }
-  const double mean = joined(residualsOf(segments)).mean();
+  const double mean = meanOf(residualsOf(segments));
   const std::vector<const DriveSegment*> sources = segmentsOf(records);
   for (std::size_t i = 0; i < segments.size(); ++i)
     addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);

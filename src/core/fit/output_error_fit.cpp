@@ -174,6 +174,11 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
   return fit;
 }
 
+double meanOf(const Residuals& residuals) {
+  const Eigen::VectorXd all = joined(residuals);
+  return all.size() > 0 ? all.mean() : 0.0;
+}
+
 double meanSquare(const Residuals& residuals) {
   const Eigen::VectorXd all = joined(residuals);
   return all.size() > 0 ? all.squaredNorm() / static_cast<double>(all.size()) : 0.0;

@@ -102,7 +102,7 @@ ForceEffect frequencyRival(const ForceEffect& effect, const Records& records, do
 
 double wandering(const Residuals& residuals, double natural_period) {
   const auto length = static_cast<std::size_t>(std::max(1.0, std::ceil(natural_period)));
-  const double mean = joined(residuals).mean();
+  const double mean = meanOf(residuals);
   double products = 0.0, count = 0.0;
   for (const std::vector<double>& segment : residuals) {
     double last = 0.0;
@@ -120,7 +120,7 @@ double wandering(const Residuals& residuals, double natural_period) {
 }
 
 bool isWanderingOffset(const Residuals& before, const Residuals& after, double natural_period) {
-  const double offset = joined(before).mean() - joined(after).mean();
+  const double offset = meanOf(before) - meanOf(after);
   return square(offset) > kMostOfIt * (meanSquare(before) - meanSquare(after)) &&
          std::abs(offset) < normalQuantile(kSure) * wandering(after, natural_period);
 }

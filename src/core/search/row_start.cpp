@@ -40,7 +40,7 @@ RowStart::RowStart(const Records& records, const HoldOut& held_out, const ModelF
     const DriveSegment& segment = *segments[s];
     std::vector<double> relative = segment.driving;
     for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment.sprung[k];
-    const MotionError motion = motionError(relative, joined<double>({relative}).mean(), segment.period, b0);
+    const MotionError motion = motionError(relative, meanOf({relative}), segment.period, b0);
     const auto length =
         static_cast<std::size_t>(std::ceil(kStretchPeriods * 2.0 * M_PI / (std::sqrt(b0) * segment.period)));
     for (const auto& [first, end] : stretchesOf(segment.size(), length, kMostRows / samples)) {

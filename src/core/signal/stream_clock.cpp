@@ -33,7 +33,7 @@ Stamp StreamClock::add(Stamp stamp, double value) {
     follow(now);
     const double off = (now - time_) / period_;
     sampling_.add(value, off);
-    if (sampling_.isRegular() || (!sampling_.isAsStamped() && std::abs(off) > kNear)) {
+    if (sampling_.isRegular() || (messages_wait_ && !sampling_.isAsStamped() && std::abs(off) > kNear)) {
       taken = *origin_ + fromSeconds(time_);
       apart = fromSeconds(0.5 * period_);  // one that was counted too far before: a curve through the readings holds
     }
@@ -102,6 +102,7 @@ int StreamClock::periodsSinceLast(double stamp) {
   const double ratio = miscount_ * (2.0 * off - miscount_) * square(period_) / (2.0 * square_.mean());
   const double most = (std::abs(whole) > 1.0 || whole_before_ != 0.0) ? kOfOneStamp * kConvincing : kConvincing;
   evidence_ = std::max(0.0, evidence_ + std::min(ratio, most));
+  if (std::abs(whole_before_) > 1.0 && whole != whole_before_) messages_wait_ = true;
   whole_before_ = whole;
   const bool is_pause = std::abs(whole) > kPause;
   if (!is_pause && evidence_ < kConvincing) {
@@ -110,6 +111,7 @@ int StreamClock::periodsSinceLast(double stamp) {
   }
   out_of_step_ += kMiscount;
   if (!is_pause) lost_ += static_cast<std::int64_t>(miscount_);
+  messages_wait_ = messages_wait_ && std::abs(miscount_) == 1.0;
   sampling_.interrupt();
   evidence_ = whole_before_ = 0.0;
   return 1 + static_cast<int>(std::clamp(whole, -1e9, 1e9));

@@ -25,6 +25,7 @@ Eigen::VectorXd joined(const std::vector<std::vector<Value>>& segments) {
 }
 
 /// @return of all segments; 0 of none.
+double meanOf(const Residuals& residuals);
 double meanSquare(const Residuals& residuals);
 
 /// FreeRun::follow() over a segment, with the filter that its signals have passed and the faults of the reading that

@@ -73,7 +73,8 @@ class VehiclePipeline {
   /// @return nullptr also while the rows of a vehicle are not known.
   const SuspensionMonitor* strut(std::size_t i = 0) const { return monitor_ ? monitor_->strut(i) : nullptr; }
 
-  std::optional<double> period() const { return starts_.front().settings.sample_period; }  ///< T [s], once it is known
+  /// @return T [s], once there is a monitor.
+  std::optional<double> period() const { return monitor_ ? starts_.front().settings.sample_period : std::nullopt; }
   Stamp newest() const { return newest_; }           ///< stamp of the newest sample; 0 before the first
   double roadAcceleration() const { return road_; }  ///< of the newest sample [m/s^2]; NaN: not measured
 
