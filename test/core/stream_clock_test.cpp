@@ -74,7 +74,7 @@ Found run(const Way& way, int seed = 7, int readings = 20000) {
     }
     before = time;
   }
-  found.off = std::sqrt(squares / count - sum * sum / count / count);
+  found.off = std::sqrt(std::max(0.0, squares / count - sum * sum / count / count));
   found.stamps = std::sqrt(stamp_squares / count);
   return found;
 }
