@@ -15,13 +15,13 @@ namespace suspension_health_monitor {
 /// While it lives, what the tools do on this thread (src/tools/long_work.h) is part of a long work of Python.
 class ToolsWork {
  public:
-  /// @param bags  whose reading is what the callback is told of; 0: reading is not, but something else.
+  /// @param bags  number of bags whose reading the callback reports; 0: it reports something else.
   ToolsWork(LongWork& work, std::size_t bags);
   ~ToolsWork();
   ToolsWork(const ToolsWork&) = delete;
   ToolsWork& operator=(const ToolsWork&) = delete;
 
-  /// From now on the reading of so many bags is told of.
+  /// From now on the callback reports the reading of so many bags.
   void tellReading(std::size_t bags);
 
   void beginBar();

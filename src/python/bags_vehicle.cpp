@@ -20,7 +20,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-/// What all commands begin with: the vehicle and its settings. What its bags lack is told later.
+/// What all commands begin with: the vehicle and its settings. Gaps in its bags are reported later.
 struct AskedWork {
   ToolsWork tools;
   po::variables_map values;

@@ -59,7 +59,7 @@ VehicleStreams streamsOf(ImuBags& bags, const PipelineOptions& options, VehicleL
 /// @param options  without a sample_period it is measured and set.
 /// @param layout  as streamsOf(); its positions become those in upright axes, if the body's IMU leans in the first
 /// drive.
-/// @param gaps  is told of all that is read.
+/// @param gaps  collects the gaps in all that is read.
 /// @throws InputError, TooLittleError  as readTopics().
 /// @throws std::invalid_argument  if a frame has no static transform.
 std::vector<VehicleBag> readVehicleDrives(ImuBags bags, PipelineOptions& options, VehicleLayout& layout,
