@@ -20,9 +20,12 @@ std::vector<MonitorSettings> settingsOf(const VehicleOptions& options) {
 }  // namespace
 
 MessagePipeline::MessagePipeline(const VehicleOptions& options, const VehicleStreams& streams,
-                                 const tf2::BufferCore* transforms, VehicleMonitor::Sink report)
+                                 const tf2::BufferCore* transforms, VehicleMonitor::Sink report, bool keeps_samples)
     : VehiclePipeline(settingsOf(options), streams,
-                      {std::move(report), [this](const VehicleSample& sample) { keep(sample); }}),
+                      {std::move(report),
+                       [this, keeps_samples](const auto& sample) {
+                         if (keeps_samples) keep(sample);
+                       }}),
       sensors_(streams, options.common.shell, transforms),
       forces_(options.forceNames()),
       num_struts_(options.struts.size()),

@@ -22,9 +22,10 @@ class MessagePipeline : public VehiclePipeline {
  public:
   /// @param streams  with the positions of all struts that need one.
   /// @param transforms  with a target_frame: where those of the IMUs are looked up; outlives this object.
+  /// @param keeps_samples  for newestSamples(): a recording needs none.
   /// @throws std::invalid_argument  as VehiclePipeline.
   MessagePipeline(const VehicleOptions& options, const VehicleStreams& streams, const tf2::BufferCore* transforms,
-                  VehicleMonitor::Sink report);
+                  VehicleMonitor::Sink report, bool keeps_samples);
 
   /// @param sensor  its place in VehicleStreams::sensors.
   /// @throws std::invalid_argument  as VehiclePipeline::push().

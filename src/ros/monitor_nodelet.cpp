@@ -141,8 +141,9 @@ void MonitorNodelet::makePipeline() {
   pipeline_.reset();
   const std::optional<VehicleStreams> placed = placement_->find(options_.common.shell, imus_->transforms());
   if (!placed) return;
-  pipeline_.emplace(options_, *placed, &imus_->transforms(),
-                    [this](std::size_t strut, const MonitorReport& report) { struts_[strut]->publish(report); });
+  pipeline_.emplace(
+      options_, *placed, &imus_->transforms(),
+      [this](std::size_t strut, const MonitorReport& report) { struts_[strut]->publish(report); }, true);
   for (std::size_t i = 0; i < struts_.size(); ++i)
     struts_[i]->begin([&](const auto& effects, const auto& strut) { pipeline_->setEffects(effects, strut, i); },
                       [&](const Baseline& baseline) { pipeline_->setBaseline(baseline, i); });

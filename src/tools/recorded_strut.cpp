@@ -43,12 +43,14 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, const std::optional<
            [this, row](const HealthMoment& moment) {
              if (row) row(moment, pipeline_.baseline());
            }),
-      pipeline_(VehicleOptions::ofOneStrut(options.pipeline),
-                VehicleStreams(VehicleLayout::ofOneStrut(options.pipeline.monitor.tyre)), options.bags.transforms.get(),
-                [this, report](std::size_t, const MonitorReport& newest) {
-                  log_.addReport(newest);
-                  if (report) report(newest);
-                }) {
+      pipeline_(
+          VehicleOptions::ofOneStrut(options.pipeline),
+          VehicleStreams(VehicleLayout::ofOneStrut(options.pipeline.monitor.tyre)), options.bags.transforms.get(),
+          [this, report](std::size_t, const MonitorReport& newest) {
+            log_.addReport(newest);
+            if (report) report(newest);
+          },
+          false) {
   pipeline_.setEffects(LiveModel(options.pipeline.shell).effects());
   if (healthy_) pipeline_.setBaseline(healthy_->baseline);
 }

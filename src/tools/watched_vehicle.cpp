@@ -38,11 +38,13 @@ WatchedVehicle::WatchedVehicle(const boost::program_options::variables_map& valu
       streams_(streamsOf(bags_, options.common, vehicle.layout)),
       topics_(topicsOf(streams_)),
       gaps_(options.common.shell.input_timeout),
-      pipeline_(options, streams_, bags_.transforms.get(),
-                [this, report](std::size_t strut, const MonitorReport& newest) {
-                  logs_[strut].addReport(newest);
-                  if (report) report(strut, newest);
-                }) {
+      pipeline_(
+          options, streams_, bags_.transforms.get(),
+          [this, report](std::size_t strut, const MonitorReport& newest) {
+            logs_[strut].addReport(newest);
+            if (report) report(strut, newest);
+          },
+          false) {
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const LiveModel& model = watched_[i].model;
     pipeline_.setEffects(model.effects(), model.strutFor(model.effects()), i);
