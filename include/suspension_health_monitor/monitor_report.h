@@ -23,6 +23,7 @@ enum class EstimateDoubt {
   kStiffnessNotExcited,  ///< the same of the stiffness alone
   kNotExplained,         ///< the strut explains less than half of the body's motion
   kNotAStrut,            ///< a parameter that has to be above 0 is not
+  kBodyDoesNotTurn,      ///< the body's IMU tells of less pitch or roll than any body on struts has
   kOldData,              ///< the vehicle has not moved for longer than health/oldest_data
   kDisagrees,            ///< LS or LA is not what the block estimate says
   kFreeRunFails,         ///< the model, driven by the wheel, fits worse than a constant
@@ -74,9 +75,11 @@ struct StrutEstimate {
   std::size_t num_effects = 0;          ///< in the model
   std::array<double, kMostEffects> coefficients = unknownCoefficients();  ///< c_j [unit of the effect's coefficient]
   std::array<double, kMostEffects> coefficient_stddevs = unknownCoefficients();  ///< likewise
-  double offset = std::nan("");         ///< of the wheel carrier's reading against the body's [m/s^2]; of LS and LA
-  double delay = std::nan("");          ///< by which the wheel carrier's readings are stamped late [s]; of the blocks
-  double delay_stddev = std::nan("");   ///< [s]
+  double offset = std::nan("");        ///< of the wheel carrier's reading against the body's [m/s^2]; of LS and LA
+  double delay = std::nan("");         ///< by which the wheel carrier's readings are stamped late [s]; of the blocks
+  double delay_stddev = std::nan("");  ///< [s]
+  double gain = std::nan("");  ///< of the body's sensor over that of the wheel's, less 1 [-]; of the blocks, where it is
+  double gain_stddev = std::nan("");    ///< more than 5 %, else 0 [-]
   std::optional<DryFriction> friction;  ///< of the blocks; empty: other effects are in the model
   double effective_rows = 0.0;          ///< rows in the memory of LS, LA; blocks of the window
   double explained = 0.0;  ///< share of what was measured: of mean sizes of rows (LS, LA), of the body's power (blocks)
@@ -158,12 +161,14 @@ enum class SensorFault : unsigned char {
   kUnsprungInG,       ///< the wheel carrier's IMU, likewise
   kNegativeDamping,   ///< damping is certainly negative
   kUnrelated,         ///< both move, but the one is not what a strut makes of the other
+  kGainsDiffer,       ///< of slow motion, which a strut passes as it is, one reads more than the other
 };
 
 /// What was found, with the mean readings [m/s^2] that say so.
 struct SensorReport {
   SensorFault fault = SensorFault::kNone;
   std::array<double, 2> mean{};  ///< sprung, unsprung
+  double gain = 0.0;             ///< StrutEstimate::gain, of kGainsDiffer
 };
 
 /// @return the finding in words for a person; empty for kNone.

@@ -309,6 +309,8 @@ class StrutEstimate:
     delay_stddev: float
     explained: float
     friction: Optional[DryFriction]
+    gain: float
+    gain_stddev: float
     natural_frequency: float
     offset: float
     reason: str

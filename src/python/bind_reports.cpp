@@ -72,6 +72,8 @@ void bindEstimates(py::module& module) {
       .add("delay", "by which the wheel carrier's readings are stamped late [s]; of estimate, else NaN",
            &StrutEstimate::delay)
       .add("delay_stddev", "[s]", &StrutEstimate::delay_stddev)
+      .add("gain", "of the body's sensor over that of the wheel's, less 1 [-]", &StrutEstimate::gain)
+      .add("gain_stddev", "[-]", &StrutEstimate::gain_stddev)
       .add("friction", "of estimate without other effects, or None", &StrutEstimate::friction)
       .add("rows", "of estimate blocks, else regression rows in the memory", &StrutEstimate::effective_rows)
       .add("age", "of the data behind estimate, on average [s]; else NaN", &StrutEstimate::age)

@@ -109,6 +109,8 @@ void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& 
     return;
   }
   status.summary(DiagnosticStatus::OK, "it is known how the struts move one another");
+  if (const std::string mistake = describeMistake(*monitor, struts_); !mistake.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, mistake);
   status.addf("model error", "%.2g %%", 100.0 * coupling.model_error);
   if (struts_.size() > 1) describeBody(inertiaOf(monitor->body(), placesOf(*monitor)), status);
   for (const AntiRollBarFound& bar : coupling.bars)

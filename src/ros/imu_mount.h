@@ -52,6 +52,9 @@ class ImuMount {
   /// @pre as across().
   std::array<double, 3> turned(const geometry_msgs::Vector3& v) const;
 
+  /// @return the direction up along the strut, in the IMU's axes.
+  const std::array<double, 3>& up() const { return directions_[2]; }
+
   /// @return the frame of the IMU whose transform is missing; empty if none is.
   const std::string& missingTransform() const { return missing_; }
 

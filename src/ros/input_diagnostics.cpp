@@ -35,6 +35,7 @@ void InputDiagnostics::describe(const MessagePipeline& pipeline, Status& status)
   if (const std::string newly = rejected_.describe(pipeline.rejected(), "", status); !newly.empty())
     status.mergeSummary(DiagnosticStatus::WARN, "readings rejected: " + newly);
   describeTransforms(pipeline, status);
+  describeMounts(pipeline, status);
   describeSilence(all_sensors_, status);
   clock_.describe(status);
 }

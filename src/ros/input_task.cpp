@@ -47,6 +47,13 @@ void InputTask::describeSensor(std::size_t sensor, const StreamGate* gate, Statu
   if (gate != nullptr) describeTiming(gate->clock(), its.name, its.expected_rate, status);
 }
 
+void InputTask::describeMounts(const MessagePipeline& pipeline, Status& status) const {
+  std::vector<std::string> names;
+  for (const Sensor& sensor : sensors_) names.push_back("the " + sensor.name + " IMU");
+  for (const std::string& fault : pipeline.mountFaults(names))
+    if (!fault.empty()) status.mergeSummary(DiagnosticStatus::WARN, fault);
+}
+
 void InputTask::describeSilence(const Sensors& sensors, Status& status) {
   if (!refusal_.empty())
     return status.mergeSummary(DiagnosticStatus::ERROR, "stopped listening until reset: " + refusal_);

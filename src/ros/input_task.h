@@ -10,6 +10,7 @@
 
 #include "conversions.h"
 #include "input_history.h"
+#include "message_pipeline.h"
 #include "shell_options.h"
 #include "suspension_health_monitor/internal/signal/silent_sensors.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
@@ -59,6 +60,7 @@ class InputTask {
   /// @param gate  nullptr: none yet.
   void describeSensor(std::size_t sensor, const StreamGate* gate, Status& status) const;
   void describeSilence(const Sensors& sensors, Status& status);
+  void describeMounts(const MessagePipeline& pipeline, Status& status) const;
 
   std::vector<Sensor> sensors_;
   Sensors all_sensors_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "conversions.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -27,6 +28,8 @@ MessagePipeline::MessagePipeline(const VehicleOptions& options, const VehicleStr
                          if (keeps_samples) keep(sample);
                        }}),
       sensors_(streams, options.common.shell, transforms),
+      streams_(streams),
+      mounts_(streams.sensors.size()),
       forces_(options.forceNames()),
       num_struts_(options.struts.size()),
       num_sensors_(streams.sensors.size()),
@@ -35,6 +38,8 @@ MessagePipeline::MessagePipeline(const VehicleOptions& options, const VehicleStr
 void MessagePipeline::push(std::size_t sensor, const sensor_msgs::Imu& message) {
   const std::vector<double>& values = sensors_.read(sensor, message);
   if (values.empty()) return;
+  const geometry_msgs::Vector3& a = message.linear_acceleration;
+  mounts_[sensor].add(toStamp(message.header.stamp), {a.x, a.y, a.z});
   if (recent_body_ && sensor == indexOf(Side::kSprung))
     if (const BodyMotion motion = sensors_.mount(sensor).across(message); recent_body_->isNewer(motion))
       recent_body_->push(motion);
@@ -77,6 +82,35 @@ VehicleDrive MessagePipeline::newestSamples(double span) const {
     for (std::size_t k = 0; k < drive.forces.size(); ++k)
       drive.forces[k].values.push_back(forces.values[static_cast<Eigen::Index>(k)]);
   return drive;
+}
+
+std::optional<MountClaim::Finding> MessagePipeline::mount(std::size_t sensor) const {
+  return mounts_[sensor].find(Eigen::Map<const Eigen::Vector3d>(sensors_.mount(sensor).up().data()));
+}
+
+std::vector<std::string> MessagePipeline::mountFaults(const std::vector<std::string>& names) const {
+  std::vector<bool> is_inclined(num_sensors_, false);
+  for (const VehicleChannels::Strut& strut : streams_.channels.struts) {
+    if (!strut.sprung) continue;
+    const std::size_t top = streams_.options[*strut.sprung].sensor, wheel = streams_.options[strut.unsprung].sensor;
+    const auto a = mount(top), b = mount(wheel);
+    is_inclined[top] = is_inclined[wheel] = a && b && a->leansAs(*b);
+  }
+  std::vector<std::string> faults(num_sensors_);
+  for (std::size_t i = 0; i < std::min(num_sensors_, names.size()); ++i) {
+    using Place = VehicleStreams::Place;
+    const Place place = streams_.sensors[i].place;
+    if (place == Place::kForce) continue;
+    std::optional<MountClaim::Finding> found = mount(i);
+    if (!found) continue;
+    // The body's IMU is turned upright.
+    if (is_inclined[i] || place == Place::kBody) found->lean = 0.0;
+    const char* setting = place == Place::kUnsprung ? "unsprung_axis"
+                          : place == Place::kRoad   ? "road_axis"
+                                                    : "sprung_axis";
+    faults[i] = describe(*found, names[i], setting);
+  }
+  return faults;
 }
 
 RejectCounts MessagePipeline::rejected(std::size_t sensor) const {

@@ -6,9 +6,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "suspension_health_monitor/internal/signal/recent_samples.h"
+#include "suspension_health_monitor/internal/vehicle/mount_claim.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "vehicle_options.h"
@@ -39,6 +41,11 @@ class MessagePipeline : public VehiclePipeline {
   /// @return the frame of an IMU whose transform is missing; empty if none is.
   const std::string& missingTransform(std::size_t sensor) const { return sensors_.mount(sensor).missingTransform(); }
 
+  /// @param names  of sensors, from the first on.
+  /// @return by sensor how its gravity contradicts the settings, in a sentence; empty: it does not. Two IMUs of a strut
+  /// that lean alike are along an inclined strut.
+  std::vector<std::string> mountFaults(const std::vector<std::string>& names) const;
+
   /// @return messages of a sensor, or of all, that were kept out so far, wherever it was noticed.
   RejectCounts rejected(std::size_t sensor) const;
   RejectCounts rejected() const;
@@ -57,7 +64,11 @@ class MessagePipeline : public VehiclePipeline {
 
   void keep(const VehicleSample& sample);
 
+  std::optional<MountClaim::Finding> mount(std::size_t sensor) const;
+
   VehicleSensors sensors_;
+  VehicleStreams streams_;
+  std::vector<MountClaim> mounts_;  // by sensor
   std::vector<std::string> forces_;
   std::size_t num_struts_, num_sensors_;
   double kept_span_;                               // [s]

@@ -51,7 +51,7 @@ std::string VehicleDiagnostics::whyNoMonitor(const MessagePipeline* pipeline) co
   if (pipeline == nullptr) return placement_.missing();
   const VehicleMonitor* monitor = pipeline->monitor();
   if (monitor == nullptr) return kMeasuringPeriod;
-  return "the drives so far " + suspension_health_monitor::whyNotCoupled(monitor->mostAlike(), struts_);
+  return "the drives so far " + suspension_health_monitor::whyNotCoupled(monitor->mistake(), struts_);
 }
 
 }  // namespace suspension_health_monitor

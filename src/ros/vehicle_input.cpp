@@ -49,6 +49,7 @@ void VehicleInput::describe(const MessagePipeline* pipeline, const std::string& 
     if (const std::string leans = suspension_health_monitor::describe(pipeline->grid()->bodyLevel()); !leans.empty())
       status.add("body IMU", leans);
   }
+  if (pipeline != nullptr) describeMounts(*pipeline, status);
   describeSensors(all_sensors_, pipeline, told_of_vehicle_, status);
   clock_.describe(status);
 }

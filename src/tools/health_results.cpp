@@ -74,6 +74,8 @@ json estimatesJson(const SuspensionMonitor& monitor) {
   json blocks = toJson(toIdentified(report.estimate));
   blocks["delay"] = report.estimate.delay;
   blocks["delay_stddev"] = report.estimate.delay_stddev;
+  blocks["gain"] = report.estimate.gain;
+  blocks["gain_stddev"] = report.estimate.gain_stddev;
   if (const auto& friction = report.estimate.friction)
     blocks["friction"] = {
         {"force", friction->force}, {"stddev", friction->stddev}, {"damping_gain", friction->damping_gain}};

@@ -89,7 +89,9 @@ void identifyStrut(const po::variables_map& values) {
   recorded.read();
   files.rows.finish();
   VehiclePipeline& strut = recorded.strut();
-  const IdentifyResult found = identified(recorded.monitor(), strut.overTheDrive(), strut.rejected());
+  IdentifyResult found = identified(recorded.monitor(), strut.overTheDrive(), strut.rejected());
+  const std::vector<std::string> faults = recorded.mountFaults();
+  found.warnings.insert(found.warnings.end(), faults.begin(), faults.end());
   const std::string change = describeChange(found, healthy, settings);
   files.commitTables(toJson(recorded, found, change));
   const std::string not_nominal = whyNotNominal(found, settings);

@@ -1,5 +1,6 @@
 #include "recorded_strut.h"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
@@ -9,8 +10,11 @@
 #include "../ros/live_model.h"
 #include "command.h"
 #include "recorded_vehicle.h"
+#include "suspension_health_monitor/internal/signal/alignment_judge.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -27,7 +31,9 @@ std::vector<Drive> readDrives(const BagOptions& options, TopicGaps& gaps) {
       drive.samples.push_back(sample);
       return true;
     };
-    readSamples(bag, options.pipeline, take, [&](const BodyMotion& motion) { drive.body.push_back(motion); });
+    readSamples(
+        bag, options.pipeline, take, [&](const BodyMotion& motion) { drive.body.push_back(motion); },
+        [&] { dropNewest(drive.samples, AlignmentJudge::kOutcomes); });
   }
   return drives;
 }
@@ -79,7 +85,15 @@ void RecordedMonitor::requireEnough() const {
   if (pipeline_.strut() == nullptr)
     throw TooLittleError(describeNoStart("on one of the topics") + describeRejected(rejected()));
   const std::string nothing = describeNoRow(monitor(), grid(), rejected());
-  if (!nothing.empty()) throw TooLittleError(nothing);
+  std::vector<std::string> all = mountFaults();
+  all.insert(all.begin(), nothing);
+  if (!nothing.empty()) throw TooLittleError(join(all, "; "));
+}
+
+std::vector<std::string> RecordedMonitor::mountFaults() const {
+  std::vector<std::string> faults = pipeline_.mountFaults({"the sprung IMU", "the unsprung IMU"});
+  faults.erase(std::remove(faults.begin(), faults.end(), ""), faults.end());
+  return faults;
 }
 
 void RecordedMonitor::printInput() const {
@@ -97,12 +111,15 @@ void RecordedMonitor::printInput() const {
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     if (const std::uint64_t count = counts.count(static_cast<RejectReason>(i)))
       std::printf(", rejected %s %" PRIu64, std::string(kRejectReasonNames[i]).c_str(), count);
-  std::printf("\nreadings %s\n\n", grid().describeAlignment().c_str());
+  std::printf("\nreadings %s\n", grid().describeAlignment().c_str());
+  for (const std::string& fault : mountFaults()) std::printf("warning: %s\n", fault.c_str());
+  std::printf("\n");
 }
 
 ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
                         const std::function<bool(const CornerSample&)>& take,
-                        const std::function<void(const BodyMotion&)>& take_body) {
+                        const std::function<void(const BodyMotion&)>& take_body,
+                        const std::function<void()>& take_back) {
   const VehicleStreams streams(VehicleLayout::ofOneStrut(false));
   VehicleSensors sensors(streams, options.shell, bags.transforms.get());
   MonitorSettings settings = options.monitor;
@@ -121,7 +138,9 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
       last_body = stamp;
       take_body(sensors.mount(place).across(imu));
     }
+    const bool paired = !grid.streams().resamples();
     grid.push(place, stamp, acceleration);
+    if (take_back && paired && grid.streams().resamples()) take_back();
     return goes_on;
   };
   readTopics(bags, {take_imu, {}});

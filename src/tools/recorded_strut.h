@@ -45,6 +45,9 @@ class RecordedMonitor {
   const StreamGrid& grid() const { return pipeline_.grid()->streams(); }
   RejectCounts rejected() const { return pipeline_.rejected(); }
 
+  /// @return how gravity in the IMUs contradicts the settings, in sentences.
+  std::vector<std::string> mountFaults() const;
+
   /// @return the file that the baseline was read from; empty: none was.
   std::string baselineFile() const { return healthy_ ? healthy_->file : ""; }
 
@@ -68,9 +71,12 @@ struct ReadSamples {
 /// @param take  called with every sample; returns false to stop.
 /// @param take_body  if given, called with what the body's IMU measures across the strut, message by message, in the
 /// order of their stamps.
+/// @param take_back  if given, called where the grid begins to resample: the newest AlignmentJudge::kOutcomes samples
+/// were found to be badly paired.
 ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
                         const std::function<bool(const CornerSample&)>& take,
-                        const std::function<void(const BodyMotion&)>& take_body = {});
+                        const std::function<void(const BodyMotion&)>& take_body = {},
+                        const std::function<void()>& take_back = {});
 
 /// `suspension_bag compare`.
 Comparison compareBags(const BagOptions& options, const ModelOptions& models, TopicGaps& gaps,

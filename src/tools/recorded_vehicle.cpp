@@ -9,6 +9,7 @@
 #include "../ros/vehicle_sensors.h"
 #include "bag_options.h"
 #include "command.h"
+#include "suspension_health_monitor/internal/signal/alignment_judge.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
@@ -46,7 +47,9 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
   VehicleGrid grid(period, streams, MonitorSettings(options.monitor).grid(period),
                    [&](const VehicleSample& sample) { append(sample, read.drive); });
   const auto take = [&](std::size_t sensor, const auto& message, Stamp) {
+    const bool paired = !grid.streams().resamples();
     grid.push(sensor, toStamp(message.header.stamp), sensors.read(sensor, message));
+    if (paired && grid.streams().resamples()) dropNewest(read.drive, AlignmentJudge::kOutcomes);
     return true;
   };
   readTopics(bag, {take, take});

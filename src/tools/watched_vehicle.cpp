@@ -86,6 +86,8 @@ void WatchedVehicle::printInput() const {
     printReadings(pipeline_.grid()->numInstants(), logs_.size(), alignment(), pipeline_.grid()->bodyLevel());
     for (std::size_t i = 0; i < topics_.size(); ++i) printRejected(topics_[i], pipeline_.rejected(i));
   }
+  for (const std::string& fault : pipeline_.mountFaults(topics_))
+    if (!fault.empty()) std::printf("warning: %s\n", fault.c_str());
   gaps_.print();
 }
 
@@ -99,13 +101,20 @@ void WatchedVehicle::requireCoupling() const {
   gaps_.explain([&] {
     const VehicleMonitor* monitor = pipeline_.monitor();
     if (monitor == nullptr) throw TooLittleError(describeNoStart("on one of " + join(topics_)));
-    if (!monitor->isCoupled()) throw TooLittleError("the drives " + whyNotCoupled(monitor->mostAlike(), names_));
+    if (!monitor->isCoupled()) throw TooLittleError("the drives " + whyNotCoupled(monitor->mistake(), names_));
   });
 }
 
 VehicleIdentification WatchedVehicle::identified() {
   requireCoupling();
-  return suspension_health_monitor::identified(*pipeline_.monitor(), names_, options_.forceNames());
+  VehicleIdentification result =
+      suspension_health_monitor::identified(*pipeline_.monitor(), names_, options_.forceNames());
+  const std::vector<std::string> faults = pipeline_.mountFaults(topics_);
+  for (std::size_t i = 0; i < result.struts.size(); ++i)
+    for (const std::size_t sensor :
+         {streams_.bodyImuOf(i), streams_.options[streams_.channels.struts[i].unsprung].sensor})
+      if (!faults[sensor].empty()) result.struts[i].warnings.push_back(faults[sensor]);
+  return result;
 }
 
 VehicleCoupling WatchedVehicle::coupling() const { return couplingOf(monitor(), names_, options_.forceNames()); }

@@ -170,16 +170,17 @@ inline std::vector<StrutBlock> sampledBlocks(const StrutEquations& equations, co
   return blocks;
 }
 
-inline BlockVector blockTheta(double b1, double b0, double delay = 0.0, double share = 0.5, double friction = 0.0) {
-  BlockVector theta(5);
-  theta << b1, b0, delay, share, friction;
+inline BlockVector blockTheta(double b1, double b0, double delay = 0.0, double share = 0.5, double friction = 0.0,
+                              double gain = 0.0) {
+  BlockVector theta(kNumBlockParameters + 1);
+  theta << b1, b0, delay, share, gain, friction;
   return theta;
 }
 
-/// Knows nothing of b1 and b0, r as the estimator has it, and the delay so well; there is no force.
-inline BlockPrior blockPrior(double delay_stddev = 0.005) {
+/// Knows nothing of b1 and b0, r as the estimator has it, and the delay and the gain so well; there is no force.
+inline BlockPrior blockPrior(double delay_stddev = 0.005, double gain_stddev = 1e-6) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  BlockPrior prior{blockTheta(0.0, 0.0), blockTheta(kUnknown, kUnknown, delay_stddev, 0.29, 0.1)};
+  BlockPrior prior{blockTheta(0.0, 0.0), blockTheta(kUnknown, kUnknown, delay_stddev, 0.29, 0.1, gain_stddev)};
   return prior;
 }
 

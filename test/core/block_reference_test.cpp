@@ -54,11 +54,11 @@ class ReferenceDrive {
   explicit ReferenceDrive(const Values& settings, const std::vector<Values>& readings)
       : number(static_cast<int>(settings[0])),
         equations(BlockBand(settings[1], settings[2]), BlockColumns{}),
-        theta(Eigen::Map<const Eigen::VectorXd>(settings.data() + 5, 5)) {
+        theta(Eigen::Map<const Eigen::VectorXd>(settings.data() + 5, 6)) {
     const BlockBand& band = equations.band();
     const Stream body = streamOf(readings, number, 0, settings[3]), wheel = streamOf(readings, number, 1, settings[4]);
     SlidingFriction friction(band.length / 4096.0, 2.0 * band.length);
-    friction.setStrut(theta[0], theta[1], theta[4]);
+    friction.setStrut(theta[0], theta[1], theta[kNumBlockParameters]);
     FourierIntegrals wheels(band, 2), bodies(band, 1);
     std::size_t next = 0;
     for (std::size_t i = 0; i < wheel.values.size(); ++i) {
@@ -101,9 +101,9 @@ class ReferenceDrive {
 
 // R'R with the residual at theta as the last column; a band has that of b1 = b0 = 0 there, without columns.
 Eigen::MatrixXd momentsAt(const StrutBlock::Band& band, const BlockVector& theta) {
-  Eigen::MatrixXd change = Eigen::MatrixXd::Identity(6, 6);
-  change.col(5).head(5) = -theta;
-  change(kBlockWheelShare, 5) = 0.0;
+  Eigen::MatrixXd change = Eigen::MatrixXd::Identity(7, 7);
+  change.col(6).head(6) = -theta;
+  change(kBlockWheelShare, 6) = 0.0;
   return change.transpose() * band.moments * change;
 }
 
@@ -149,7 +149,7 @@ class BlockReference : public testing::Test {
     const int m = found.blocks;
     const Eigen::VectorXd stddev = found.covariance.diagonal().cwiseSqrt();
     const Values &known = expected(drive, theta, m), &others = expected(drive, rest, m);
-    for (Eigen::Index i = 0; i < 5; ++i) {
+    for (Eigen::Index i = 0; i < 6; ++i) {
       const double value = known[static_cast<std::size_t>(i)];
       EXPECT_NEAR(found.theta[i], value, kTolerance * (std::abs(value) + stddev[i]))
           << "drive " << drive.number << ", " << m << " blocks, parameter " << i;
@@ -162,7 +162,7 @@ class BlockReference : public testing::Test {
 
   static WindowEstimate fit(const ReferenceDrive& drive, int count, const Eigen::VectorXd& usual = {}) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
-    const BlockPrior prior{blockTheta(0.0, 0.0), blockTheta(kUnknown, kUnknown, 0.005, 0.29, 0.3)};
+    const BlockPrior prior{blockTheta(0.0, 0.0), blockTheta(kUnknown, kUnknown, 0.005, 0.29, 0.3, 0.1)};
     WindowFit window_fit(drive.equations.band(), drive.equations.columns(), 64);
     WindowEstimate result;
     window_fit.fit(drive.newest(count), prior, drive.theta, usual, 0.0, result);
@@ -190,7 +190,7 @@ TEST_F(BlockReference, HasTheSameSumsOfEveryBand) {
       const StrutBlock::Band& band = drive.blocks[kSummed].bands[static_cast<std::size_t>(i)];
       const Eigen::VectorXd sizes = momentsAt(band, drive.theta).diagonal().cwiseSqrt();
       // An instrument is as large as its regressor or somewhat larger, by noise.
-      const Eigen::VectorXd regressors = sizes.head(5), residual = sizes.tail(1);
+      const Eigen::VectorXd regressors = sizes.head(6), residual = sizes.tail(1);
       expectMatrix(drive, kInformation, i, band.information, regressors, regressors);
       expectMatrix(drive, kScore, i, scoreOf(band, drive.theta, 1.0), regressors, residual);
       expectMatrix(drive, kMoments, i, momentsAt(band, drive.theta), sizes, sizes);

@@ -83,6 +83,21 @@ TEST(StrutBlocks, GiveTheStrutTheDelayAndTheTimeOfTheNewestBlock) {
   EXPECT_LE(last.age, 2.0);
 }
 
+TEST(StrutBlocks, KnowTheStrutWhateverTheGainOfASensor) {
+  for (const double gain : {0.8, 1.1, 1.25})
+    for (const bool of_wheel : {false, true}) {
+      NoisyDrive drive;
+      auto sampled = drive.sample();
+      for (double& value : of_wheel ? sampled.wheel : sampled.body) value *= gain;
+      StrutBlocks blocks({}, 1.0 / drive.rate);
+      const BlockEstimate last = feed(blocks, readingsOf(sampled)).back();
+      EXPECT_NEAR(last.theta[0] / drive.b1, 1.0, 4.0 * last.relativeStddev(0)) << gain;
+      EXPECT_NEAR(last.theta[1] / drive.b0, 1.0, 4.0 * last.relativeStddev(1)) << gain;
+      const double expected = (of_wheel ? 1.0 / gain : gain) - 1.0;
+      EXPECT_NEAR(last.theta[kBlockGain], expected, 4.0 * std::sqrt(last.covariance(kBlockGain, kBlockGain))) << gain;
+    }
+}
+
 // d' = s w'' / A, white from the lowest bin on; what is below is little.
 TEST(StrutBlocks, GiveTheTravelRateOfTheStrut) {
   NoisyDrive drive;
@@ -118,11 +133,11 @@ TEST(StrutBlocks, DependOnNoUnit) {
   StrutBlocks one(options, 1.0 / sampled.rate), other(scaled_options, 1.0 / scaled.rate);
   const std::vector<BlockEstimate> plain = feed(one, readingsOf(sampled)), turned = feed(other, readingsOf(scaled));
   ASSERT_EQ(plain.size(), turned.size());
-  const double units[] = {16.0, 256.0, 1.0 / 16.0, 1.0, 1000.0};
+  const double units[] = {16.0, 256.0, 1.0 / 16.0, 1.0, 1.0, 1000.0};
   for (std::size_t i = 0; i < plain.size(); ++i) {
     ASSERT_EQ(plain[i].blocks, turned[i].blocks) << i;
     EXPECT_NEAR(turned[i].explained, plain[i].explained, 1e-6);
-    for (int j = 0; j < 5; ++j) {
+    for (int j = 0; j < 6; ++j) {
       const double stddev = std::sqrt(plain[i].covariance(j, j));
       ASSERT_NEAR(turned[i].theta[j] / units[j], plain[i].theta[j], 1e-5 * stddev) << i << ", " << j;
       ASSERT_NEAR(std::sqrt(turned[i].covariance(j, j)) / units[j] / stddev, 1.0, 1e-5) << i << ", " << j;

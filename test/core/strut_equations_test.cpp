@@ -47,18 +47,18 @@ struct Printed {
   Eigen::ArrayXcd a(const BlockVector& t) const { return s * s + t[0] * s + t[1]; }
   Eigen::ArrayXcd g(const BlockVector& t) const { return t[0] * s + t[1]; }
   Eigen::ArrayXcd leftOver(const BlockVector& t) const {
-    const auto x = [&](std::size_t p) { return delayed(p, block.wheel, t[2]); };
+    const auto x = [&](std::size_t p) -> Eigen::ArrayXcd { return (1.0 + t[4]) * delayed(p, block.wheel, t[2]); };
     Eigen::ArrayXcd result = block.body.col(2) - t[0] * (x(1) - block.body.col(1)) - t[1] * (x(0) - block.body.col(0));
-    for (int m = 0; m < block.forces.cols(); ++m) result -= t[4 + m] * delayed(2, block.forces.col(m), t[2]);
+    for (int m = 0; m < block.forces.cols(); ++m) result -= t[5 + m] * delayed(2, block.forces.col(m), t[2]);
     for (int m = 0; m < block.neighbours.cols(); ++m)
-      result -= t[4 + block.forces.cols() + m] * block.neighbours.col(m);
+      result -= t[5 + block.forces.cols() + m] * block.neighbours.col(m);
     return result;
   }
   Eigen::ArrayXd rho(const BlockVector& t) const {
     return t[3] * g(t).abs2() / (t[3] * g(t).abs2() + (1.0 - t[3]) * a(t).abs2());
   }
   Eigen::ArrayXcd wheel(const BlockVector& t) const {
-    return delayed(0, block.wheel, t[2]) + rho(t) * (leftOver(t) / a(t)) * a(t) / g(t);
+    return (1.0 + t[4]) * delayed(0, block.wheel, t[2]) + rho(t) * (leftOver(t) / a(t)) * a(t) / g(t);
   }
 };
 
@@ -123,7 +123,7 @@ TEST(StrutEquations, HearADriftOfTheWheelNoMoreThanItsClosedForm) {
       expected += std::pow(kTrueB0 * left, 2) / std::norm(s[i] * s[i] + kTrueB1 * s[i] + kTrueB0);
     }
     const Eigen::MatrixXd& moments = blocks.front().bands[static_cast<std::size_t>(b)].moments;
-    EXPECT_NEAR(residualPower(moments, truth), expected, 1e-6 * expected + kRounding * kRounding * moments(5, 5))
+    EXPECT_NEAR(residualPower(moments, truth), expected, 1e-6 * expected + kRounding * kRounding * moments(6, 6))
         << "band " << b;
   }
 
@@ -157,6 +157,22 @@ TEST(StrutEquations, RecoverADelayOfTheWheelAndItsSign) {
   }
 }
 
+TEST(StrutEquations, RecoverTheDifferenceOfBothSensorsGainsAndItsSign) {
+  StrutEquations equations(kBand, BlockColumns{});
+  Exponentials wheel;
+  for (const int bin : {2, 3, 5, 8, 13, 21, 34}) wheel.addSine(1.0, bin / kBand.length, 0.3 * bin);
+  const Exponentials body = wheel.throughStrut(kTrueB1, kTrueB0);
+  for (const double gain : {0.8, 1.1}) {
+    std::vector<StrutBlock> blocks = exactBlocks(equations, wheel, body, 3);
+    for (StrutBlock& block : blocks) block.wheel *= gain;
+    const WindowEstimate estimate =
+        fitBlocks(equations, blocks, blockTheta(kTrueB1, kTrueB0), blockPrior(0.005, 0.1), 20);
+    EXPECT_NEAR(estimate.theta[kBlockGain], 1.0 / gain - 1.0, 1e-9);
+    EXPECT_NEAR(estimate.theta[0] / kTrueB1, 1.0, 1e-8);
+    EXPECT_NEAR(estimate.theta[1] / kTrueB0, 1.0, 1e-8);
+  }
+}
+
 TEST(StrutEquations, SumDerivativesOfTheModelAndOfTheResidualOverEveryBand) {
   const BlockColumns columns{2, 2};
   StrutEquations equations(kBand, columns);
@@ -169,7 +185,7 @@ TEST(StrutEquations, SumDerivativesOfTheModelAndOfTheResidualOverEveryBand) {
   block.predicted_neighbours.setRandom();
   block.predicted_travel.setRandom();
   BlockVector theta(columns.numParameters());
-  theta << kTrueB1, kTrueB0, 0.003, 0.3, 0.7, -0.4, 2.0, 9.0;
+  theta << kTrueB1, kTrueB0, 0.003, 0.3, 0.05, 0.7, -0.4, 2.0, 9.0;
   equations.linearise(theta, block);
 
   const Printed printed{block, equations.undelayed().s()};
@@ -187,8 +203,10 @@ TEST(StrutEquations, SumDerivativesOfTheModelAndOfTheResidualOverEveryBand) {
     regressors[i] = (printed.leftOver(below) - printed.leftOver(above)) / (2.0 * step) / a;
     if (at == kBlockDelay) {
       // The forces' columns are delayed, too, but the delay is the wheel's: their part is of second order in f.
-      for (int m = 0; m < 2; ++m) regressors[i] -= theta[4 + m] * printed.delayed(3, block.forces.col(m), theta[2]) / a;
+      for (int m = 0; m < 2; ++m) regressors[i] -= theta[5 + m] * printed.delayed(3, block.forces.col(m), theta[2]) / a;
       instruments[i] = g / a * printed.s * w;  // of G W^ e^(s tau)
+    } else if (at == kBlockGain) {
+      instruments[i] = g / a * w / (1.0 + theta[at]);
     } else if (at == kBlockWheelShare) {
       instruments[i] = -((printed.rho(above) - printed.rho(below)) / (2.0 * step)) / (g / a).conjugate() * w;
       regressors[i] = instruments[i];
@@ -226,7 +244,7 @@ TEST(StrutEquations, SumDerivativesOfTheModelAndOfTheResidualOverEveryBand) {
     EXPECT_NEAR(band.wheel_power, sum(w, w), 1e-9 * band.wheel_power);
     const Eigen::ArrayXcd body = block.body.col(0);
     const Eigen::ArrayXcd rate =
-        (printed.delayed(1, block.wheel, theta[2]) - block.body.col(1)) / (printed.s * printed.s);
+        ((1.0 + theta[4]) * printed.delayed(1, block.wheel, theta[2]) - block.body.col(1)) / (printed.s * printed.s);
     EXPECT_NEAR(band.body_power, sum(body, body), 1e-9 * band.body_power);
     EXPECT_NEAR(band.rate_power, sum(rate, rate), 1e-9 * band.rate_power);
   }

@@ -8,63 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "../../benchmark/vehicle_drive.h"
+#include "vehicle_told.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using vehicle_drive::Tracks;
-
-constexpr double kGravity = 9.81;
-
-/// A drive and what was told of it.
-struct Told {
-  std::vector<std::vector<TopEstimate>> estimates;  // by strut
-  StrutPair most_alike{};
-  std::vector<std::optional<WindowEstimate>> over_the_drive;
-};
-
-vehicle_drive::Drive shortDrive(double seconds = 60.0) {
-  vehicle_drive::Drive drive;
-  drive.seconds = seconds;
-  return drive;
-}
-
-VehicleTops topsOf(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Drive& drive) {
-  VehicleTops tops;
-  for (const vehicle_drive::Strut& strut : vehicle.struts) {
-    VehicleTops::Top top;
-    top.has_own = !drive.imu;
-    if (drive.imu) top.position = Eigen::Vector3d(strut.x - drive.imu->x, strut.y - drive.imu->y, 0.0);
-    tops.tops.push_back(top);
-  }
-  tops.known_forces = drive.pull > 0.0 ? 1 : 0;
-  return tops;
-}
-
-Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Drive& drive) {
-  const vehicle_drive::Record record = vehicle_drive::drive(vehicle, drive);
-  const std::size_t n = vehicle.struts.size();
-  VehicleBlocks blocks(topsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
-  Told told;
-  told.estimates.resize(n);
-  const auto keep = [&](const TopEstimate* estimate) {
-    if (estimate != nullptr) told.estimates[estimate->strut].push_back(*estimate);
-  };
-  for (std::size_t k = 0; k < record.wheel.front().size(); ++k) {
-    const Stamp stamp = fromSeconds(100.0 + static_cast<double>(k) / drive.rate);
-    if (drive.imu)
-      keep(blocks.pushBody(stamp, {0.0, 0.0, kGravity + record.imu[0][k]}, {record.imu[1][k], record.imu[2][k], 0.0}));
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!drive.imu) keep(blocks.pushTop(i, stamp, kGravity + record.body[i][k]));
-      keep(blocks.pushWheel(i, stamp, kGravity + record.wheel[i][k]));
-    }
-    if (drive.pull > 0.0) keep(blocks.pushForce(0, stamp, record.pull[k]));
-  }
-  for (std::size_t i = 0; i < n; ++i) told.over_the_drive.push_back(blocks.overTheDrive(i));
-  told.most_alike = blocks.mostAlike();
-  return told;
-}
 
 void expectTruth(const vehicle_drive::Vehicle& vehicle, const Told& told, double tolerance) {
   for (std::size_t i = 0; i < vehicle.struts.size(); ++i) {
@@ -151,7 +100,8 @@ TEST(VehicleBlocks, IdenticalTracksAreSaid) {
     EXPECT_FALSE(by_body.over_the_drive[i]);
   }
   for (const Told& told : {own, by_body}) {
-    const auto [first, second] = told.most_alike;
+    EXPECT_EQ(told.mistake.kind, VehicleMistake::Kind::kAlike);
+    const auto [first, second] = told.mistake.struts;
     EXPECT_NE(first, second);
     EXPECT_EQ(first / 2, second / 2) << "left and right of one axle";
   }

@@ -50,6 +50,10 @@ void StrutEquations::linearise(const BlockVector& theta, StrutBlock& block) {
   delayed_.apply(0, block.wheel, x0_);
   delayed_.apply(1, block.wheel, x1_);
   delayed_.apply(2, block.wheel, x2_);
+  const double own_gain = 1.0 + theta[kBlockGain];
+  x0_ *= own_gain;
+  x1_ *= own_gain;
+  x2_ *= own_gain;
   const auto y0 = block.body.col(0), y1 = block.body.col(1), y2 = block.body.col(2);
   g_ = b1 * s_ + b0;
   a_ = s_ * s_ + g_;
@@ -59,6 +63,7 @@ void StrutEquations::linearise(const BlockVector& theta, StrutBlock& block) {
   regressors_.col(kBlockDamping).array() = (x1_ - y1) / a_;
   regressors_.col(kBlockStiffness).array() = (x0_ - y0) / a_;
   regressors_.col(kBlockDelay).array() = (b1 * x2_ + b0 * x1_) / a_;
+  regressors_.col(kBlockGain).array() = (b1 * x1_ + b0 * x0_) / (own_gain * a_);
   residual = y2 / a_ - b1 * regressors_.col(kBlockDamping).array() - b0 * regressors_.col(kBlockStiffness).array();
   for (int m = 0; m < columns_.forces; ++m) {
     auto force = regressors_.col(columns_.firstForce() + m).array();
@@ -86,6 +91,7 @@ void StrutEquations::linearise(const BlockVector& theta, StrutBlock& block) {
     travel = s_ * s_ / a_ * wheel_ / a_;
   instruments_.col(kBlockDamping).array() = s_ * travel;
   instruments_.col(kBlockDelay).array() = gain_ * s_ * wheel_;
+  instruments_.col(kBlockGain).array() = gain_ * wheel_ / own_gain;
   instruments_.col(kBlockWheelShare).array() = -rho_slope_ / gain_.conjugate() * wheel_;
   regressors_.col(kBlockWheelShare) = instruments_.col(kBlockWheelShare);
   block.at = theta;

@@ -66,7 +66,7 @@ void SensorCheck::add(const CornerSample& sample) {
 }
 
 const SensorReport& SensorCheck::judge(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells) {
-  const SensorFault found = find(la, la_tells && !estimate.tellsChanges());
+  const SensorFault found = find(estimate, la, la_tells);
   if (found != pending_) pending_since_ = samples_;
   pending_ = found;
   const bool stuck = found == SensorFault::kSprungStuck || found == SensorFault::kUnsprungStuck;
@@ -74,18 +74,29 @@ const SensorReport& SensorCheck::judge(const StrutEstimate& estimate, const Stru
   if (stuck || samples_ - pending_since_ >= memory_) {
     report_.fault = found;
     report_.mean = {readings_[0].mean(), readings_[1].mean()};
+    if (found == SensorFault::kGainsDiffer) report_.gain = estimate.gain;
   }
   return report_;
 }
 
-SensorFault SensorCheck::find(const StrutEstimate& la, bool la_tells) const {
+SensorFault SensorCheck::find(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells) const {
   const bool sprung_still = isStill(readings_[0]), unsprung_still = isStill(readings_[1]);
   if (sprung_still && unsprung_still) return SensorFault::kNone;  // at rest, and nothing resolves its noise
   if (sprung_still) return SensorFault::kSprungStuck;
   if (unsprung_still) return SensorFault::kUnsprungStuck;
   if (samples_ < memory_) return SensorFault::kNone;
   if (const SensorFault fault = judgeMeans(); fault != SensorFault::kNone) return fault;
+  if (estimate.tellsChanges()) return judgeGains(estimate);
   return la_tells ? judgeMotion(la) : SensorFault::kNone;
+}
+
+// A law with memory looks like a gain as it looks like a delay, but leaves more unexplained.
+SensorFault SensorCheck::judgeGains(const StrutEstimate& estimate) {
+  constexpr double kUsualGain = 0.05;  // of sensors that are in order
+  constexpr double kExplained = 0.9;
+  const bool differ =
+      estimate.explained > kExplained && std::abs(estimate.gain) > kUsualGain + kProven * estimate.gain_stddev;
+  return differ ? SensorFault::kGainsDiffer : SensorFault::kNone;
 }
 
 SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {

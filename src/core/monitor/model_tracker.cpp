@@ -48,6 +48,8 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
       blocks.covariance(0, 1) / (estimate.damping_to_mass_stddev * estimate.stiffness_to_mass_stddev);
   estimate.delay = blocks.theta[kBlockDelay];
   estimate.delay_stddev = stddev(kBlockDelay);
+  estimate.gain = blocks.theta[kBlockGain];
+  estimate.gain_stddev = stddev(kBlockGain);
   estimate.num_effects = num_effects;
   for (std::size_t j = 0; j < num_effects; ++j) {
     const int i = kNumBlockParameters + static_cast<int>(j);

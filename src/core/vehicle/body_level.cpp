@@ -46,6 +46,7 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
     gravity += part / kParts;
   }
   if (!(gravity.norm() >= kStandardGravity / 2.0)) return;  // which no offset is
+  if (std::abs(gravity.norm() - kStandardGravity) > kUsualOffset) gain_ = gravity.norm() / kStandardGravity;
   lean_ = angleBetween(gravity, Eigen::Vector3d::UnitZ());
   is_steady_ = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
     return angleBetween(part, gravity) <= 0.5 * kSteepestRoad;

@@ -72,6 +72,14 @@ void append(const VehicleSample& sample, VehicleDrive& drive) {
     drive.forces[k].values.push_back(sample.forces[static_cast<Eigen::Index>(k)]);
 }
 
+void dropNewest(VehicleDrive& drive, std::size_t count) {
+  for (Drive& strut : drive.struts) {
+    dropNewest(strut.samples, count);
+    dropNewest(strut.low_pass.unfiltered, count);
+  }
+  for (KnownForceRecord& force : drive.forces) dropNewest(force.values, count);
+}
+
 std::vector<std::string> forceNames(const VehicleDrive& drive) {
   std::vector<std::string> names;
   for (const KnownForceRecord& force : drive.forces) names.push_back(force.name);

@@ -166,6 +166,7 @@ void VehicleBlocks::fillNeighbours() {
     modulation_.setDelay(estimators_[j].hasTheta() ? estimators_[j].slowPrior().mean[kBlockDelay] : 0.0);
     for (const std::size_t p : {1, 0}) {
       modulation_.apply(p, block.wheel, motion_);
+      if (estimators_[j].hasTheta()) motion_ *= 1.0 + estimators_[j].slowPrior().mean[kBlockGain];
       motions_.col(static_cast<Eigen::Index>(2 * j + 1 - p)) = motion_ - block.body.col(static_cast<Eigen::Index>(p));
     }
   }

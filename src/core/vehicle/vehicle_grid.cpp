@@ -90,11 +90,11 @@ void VehicleGrid::give(VehicleReading reading) {
     waiting_readings_.push_back(reading);
     return;
   }
-  if (reading.sensor == Sensor::kBody)
-    for (const std::ptrdiff_t first : {0, 3}) {
-      Eigen::Map<Eigen::Vector3d> axes(reading.values.data() + first);
-      axes = vehicle_.body_mount * axes.eval();
-    }
+  if (reading.sensor == Sensor::kBody) {
+    Eigen::Map<Eigen::Vector3d> acceleration(reading.values.data()), rate(reading.values.data() + 3);
+    acceleration = vehicle_.body_mount * acceleration.eval() / level_.gain();
+    rate = vehicle_.body_mount * rate.eval();
+  }
   readings_(reading);
 }
 

@@ -14,7 +14,17 @@ VehicleCoupling couplingOf(const VehicleMonitor& monitor, const std::vector<std:
     alone.stddevs = {{0.0}};
     return alone;
   }
-  return describe(monitor.rows(), monitor.body(), whyNotCoupled(monitor.mostAlike(), names), forces);
+  const BodyRows* rows = monitor.rows();
+  return describe(rows, monitor.body(), rows == nullptr ? whyNotCoupled(monitor.mistake(), names) : "", forces);
+}
+
+std::string describeMistake(const VehicleMonitor& monitor, const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const SuspensionMonitor* strut = monitor.strut(i); strut == nullptr || !strut->report().estimate.valid()) {
+      const std::string mistake = describe(monitor.mistake(), names);
+      return mistake.empty() ? "" : "the drives do not fit the vehicle file: " + mistake;
+    }
+  return "";
 }
 
 VehicleIdentification identified(VehicleMonitor& monitor, const std::vector<std::string>& names,
@@ -23,6 +33,8 @@ VehicleIdentification identified(VehicleMonitor& monitor, const std::vector<std:
   VehicleIdentification result{couplingOf(monitor, names, forces), {}};
   for (std::size_t i = 0; result && i < names.size(); ++i)
     result.struts.push_back(identified(*monitor.strut(i), monitor.overTheDrive(i), monitor.strut(i)->rejected()));
+  if (const std::string mistake = describeMistake(monitor, names); !mistake.empty())
+    for (IdentifyResult& strut : result.struts) strut.warnings.push_back(mistake);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -16,6 +17,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kFarthest = 100.0;  // [m]: of any vehicle's struts from its IMU
+constexpr double kNearest = 0.01;    // [m]: two struts nearer than that are one
 
 struct StrutSettings {
   std::string sprung_imu, unsprung_imu, frame;
@@ -163,6 +165,17 @@ void checkTopics(const VehicleLayout& layout) {
   }
 }
 
+// Of two struts in one place the body's IMU says the same, whatever the body does.
+void checkPositions(const VehicleLayout& layout) {
+  for (auto strut = layout.struts.begin(); strut != layout.struts.end(); ++strut)
+    for (auto other = layout.struts.begin(); other != strut; ++other)
+      if (strut->position && other->position &&
+          std::hypot((*strut->position)[0] - (*other->position)[0], (*strut->position)[1] - (*other->position)[1]) <
+              kNearest)
+        refuse("struts/" + strut->name + "/position is that of struts/" + other->name +
+               " too, must be another x or y: it is where the strut meets the body");
+}
+
 }  // namespace
 
 VehicleLayout VehicleLayout::ofOneStrut(bool has_road) {
@@ -198,6 +211,7 @@ VehicleLayout takeVehicle(OptionMap& values) {
   checkNumber("struts", layout.struts.size(), kMostStruts);
   checkNumber("known_forces", layout.known_forces.size(), kMostKnownForces);
   checkTopics(layout);
+  checkPositions(layout);
   return layout;
 }
 

@@ -164,10 +164,9 @@ Eigen::Vector2d VehicleMonitor::modelStddev(const TopEstimate& estimate) const {
   return absolute.diagonal().cwiseSqrt();
 }
 
-std::optional<StrutPair> VehicleMonitor::mostAlike() const {
-  if (!blocks_ || numStruts() < 2) return std::nullopt;
-  const StrutPair pair = blocks_->mostAlike();
-  return pair.first == pair.second ? std::nullopt : std::optional(pair);
+VehicleMistake VehicleMonitor::mistake() const {
+  if (!blocks_ || numStruts() < 2) return {VehicleMistake::Kind::kTooLittle, {}, 0.0};
+  return blocks_->mistake();
 }
 
 StrutEstimate VehicleMonitor::overTheDrive(std::size_t strut) {

@@ -73,31 +73,26 @@ std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
   return rows;
 }
 
-// In the row with the least certain coefficient: that one, and the one whose error goes with it most.
-StrutPair VehicleBlocks::mostAlike() const {
-  StrutPair worst{0, 0};
-  double largest = 0.0;
-  for (std::size_t i = 0; i < tops_.size(); ++i) {
-    const WindowEstimate* estimate = estimators_[i].refused();
-    if (estimate == nullptr && has_[i]) estimate = &estimates_[i];
-    if (estimate == nullptr) continue;
-    const BlockMatrix& covariance = estimate->covariance;
-    const auto travelOf = [&](std::size_t j) { return columnOf(i, j) + kBlockStiffness; };
-    for (std::size_t j = 0; j < tops_.size(); ++j) {
-      const int at = travelOf(j);
-      const double share = std::sqrt(covariance(at, at)) / std::abs(estimate->theta[kBlockStiffness]);
-      if (!(share > largest)) continue;
-      largest = share;
-      double closest = 0.0;
-      for (std::size_t k = 0; k < tops_.size(); ++k) {
-        const double together = std::abs(covariance(at, travelOf(k))) / std::sqrt(covariance(travelOf(k), travelOf(k)));
-        if (k == j || !(together > closest)) continue;
-        closest = together;
-        worst = {j, k};
+VehicleMistake VehicleBlocks::mistake() const {
+  const auto n = static_cast<Eigen::Index>(tops_.size());
+  const bool is_by_body =
+      std::none_of(tops_.tops.begin(), tops_.tops.end(), [](const auto& top) { return top.has_own; });
+  const Modulation modulation(estimators_.front().equations().band());
+  const Eigen::ArrayXcd s = modulation.s();
+  VehicleClaims claims(tops_.size());
+  VehicleClaims::Spectra wheels, tops;
+  for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);
+  for (int age = 0; age < estimators_.front().count(); ++age) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const StrutBlock& block = estimators_[static_cast<std::size_t>(i)].block(age);
+      for (std::size_t p = 0; p < 3; ++p) {
+        modulation.apply(p, block.wheel, wheels[p].col(i));
+        tops[p].col(i) = block.body.col(static_cast<Eigen::Index>(p));
       }
     }
+    claims.add(wheels, tops, s);
   }
-  return worst;
+  return claims.find(is_by_body ? tops_.places() : StrutPlaces{});
 }
 
 std::vector<BodyRows> VehicleBlocks::rowsOfHalves() {

@@ -30,6 +30,9 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNotExplained:
       return "the strut explains less than half of the body's motion: other struts, other forces, or a sensor";
     case EstimateDoubt::kNotAStrut: return "the estimates are not those of a spring and a damper";
+    case EstimateDoubt::kBodyDoesNotTurn:
+      return "the body's IMU tells of no pitch or no roll, though the wheels differ: dead gyro, wrong axis, or wrong "
+             "positions of the struts";
     case EstimateDoubt::kOldData: return "parked: the newest data on the strut are older than health/oldest_data";
     case EstimateDoubt::kDisagrees: return "not what the block estimate says";
     case EstimateDoubt::kFreeRunFails:
@@ -78,6 +81,11 @@ std::string describe(const SensorReport& report) {
     case SensorFault::kUnrelated:
       return "both IMUs move, but no strut makes the one of the other: "
              "sensor fault, wrong axis, wrong topic, or the two swapped";
+    case SensorFault::kGainsDiffer:
+      return formatted(
+          "the sprung IMU reads %.2f times what the unsprung one reads of the same slow motion: gain or tilt of one of "
+          "them; damping and stiffness take it into account",
+          1.0 + report.gain);
   }
   return {};
 }

@@ -22,12 +22,52 @@ std::string namesOf(const Diagnosis& strut) {
 
 }  // namespace
 
-std::string whyNotCoupled(const std::optional<StrutPair>& most_alike, const std::vector<std::string>& struts) {
-  if (!most_alike)
-    return "are too short or too calm to tell how the struts move one another, or something else than the wheels moves "
-           "the body: check which IMU is on the body and which on a wheel, and that their axes point up";
-  return "cannot tell " + struts[most_alike->first] + " from " + struts[most_alike->second] +
-         ": their wheels move alike, or too little. Drive over bumps on one side";
+std::string whyNotCoupled(const VehicleMistake& mistake, const std::vector<std::string>& struts) {
+  using Kind = VehicleMistake::Kind;
+  if (mistake.kind == Kind::kTooLittle)
+    return "are too short or too calm to tell how the struts move one another: drive on, or on a rougher road";
+  if (mistake.kind == Kind::kAlike)
+    return "cannot tell " + struts[mistake.struts.first] + " from " + struts[mistake.struts.second] +
+           ": their wheels move alike. Drive over bumps on one side";
+  if (mistake.kind == Kind::kNone)
+    return "are too calm for these sensors to tell how the struts move one another, and show no mistake in the vehicle "
+           "file: drive on, or on a rougher road";
+  return "do not fit the vehicle file: " + describe(mistake, struts);
+}
+
+std::string describe(const VehicleMistake& mistake, const std::vector<std::string>& struts) {
+  using Kind = VehicleMistake::Kind;
+  const auto name = [&](std::size_t i) { return i < struts.size() ? struts[i] : std::string(); };
+  const std::string first = name(mistake.struts.first), second = name(mistake.struts.second);
+  const auto sign = [&](const char* axis) {
+    return std::string("with the other sign of ") + axis + " in the position of " + first + " they do";
+  };
+  const auto mirrored = [](const char* axis, const char* sides) {
+    return std::string("with the other sign of ") + axis + " in all positions they do: " + sides +
+           ", or the body's IMU is mounted so";
+  };
+  switch (mistake.kind) {
+    case Kind::kNone:
+    case Kind::kTooLittle:
+    case Kind::kAlike: return "";
+    case Kind::kSameWheels: return "the wheel topics of " + first + " and " + second + " carry the same data";
+    case Kind::kSameTops: return "the sprung IMUs of " + first + " and " + second + " carry the same data";
+    case Kind::kSwapped:
+      return "with the wheel topics of " + first + " and " + second +
+             " swapped they do: swap these, or what the file says of the two strut tops";
+    case Kind::kUpsideDown: return "with the wheel of " + first + " the other way up they do: turn its axis round";
+    case Kind::kMirroredAhead: return mirrored("x", "front and rear are swapped");
+    case Kind::kMirroredSides: return mirrored("y", "left and right are swapped");
+    case Kind::kSignAhead: return sign("x");
+    case Kind::kSignSide: return sign("y");
+    case Kind::kOthers:
+      return formatted(
+          "the wheels in it leave %.0f %% of the body's motion unexplained: a strut that is missing in the file, a "
+          "wrong "
+          "topic, a stream that is late, or something else that moves the body",
+          100.0 * mistake.unexplained);
+  }
+  return "";
 }
 
 std::string describe(InertiaDoubt doubt) {
@@ -46,6 +86,21 @@ std::string describe(const BodyLevel& level) {
   const double degrees = level.lean() / M_PI * 180.0;
   return "the body's IMU leans by " + std::to_string(std::lround(degrees)) +
          " degrees: gravity tells which way is up; positions are in its own axes";
+}
+
+std::string describe(const MountClaim::Finding& mount, const std::string& name, const char* setting) {
+  if (mount.isOnAnotherAxis())
+    return formatted("gravity of %s is on another axis: give %s: %s%c", name.c_str(), setting,
+                     mount.is_negative ? "-" : "", 'x' + mount.axis);
+  std::vector<std::string> faults;
+  if (mount.isLeaning())
+    faults.push_back(
+        formatted("leans by %.0f degrees and reads %.2f of the motion along its strut: turn it, or give "
+                  "target_frame",
+                  mount.lean * 180.0 / M_PI, std::cos(mount.lean)));
+  if (mount.isWrongSize())
+    faults.push_back(formatted("reads gravity as %.2f m/s^2: gain %.2f", mount.size, mount.size / kStandardGravity));
+  return faults.empty() ? "" : name + " " + join(faults, " and ");
 }
 
 std::string summaryOf(const VehicleDiagnosis& diagnosis, const std::vector<std::string>& struts) {

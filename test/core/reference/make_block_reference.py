@@ -6,7 +6,7 @@ no recurrences. Ten struts, 50 to 500 Hz, some of them on uneven stamps of two c
 Coulomb's friction and noise. Readings are whole mm/s^2, stamps whole microseconds, so that what is stored is exact.
 Writes into ../data:
   block_drives.csv     drive, T [s], longest sampling time [s], period of body and wheel [us] (0: stamps are stored),
-                       theta that everything is linearised at (b1, b0, tau, r, f)
+                       theta that everything is linearised at (b1, b0, tau, r, gamma, f)
   block_readings.csv   drive, kind (0 body, 1 wheel [mm/s^2]; 2, 3 their stamps' differences, the first from 0 [us]), values
   block_reference.csv  drive, kind, index, values; the kinds as in KINDS below
 """
@@ -30,7 +30,7 @@ KINDS = {"wheel": 0, "force": 1, "body0": 2, "body1": 3, "body2": 4,            
          "theta": 9, "covariance": 10, "noise": 11, "rest": 12,                 # of the newest 3, 8, all blocks; index: blocks
          "usual": 13, "theta_usual": 14, "covariance_usual": 15, "rest_usual": 16}  # of all with a usual spectrum
 SPECTRA, SUMMED = (1, 4), 3  # blocks
-PRIOR_MEAN, PRIOR_SD = np.array([0, 0, 0, 0.5, 0.0]), np.array([np.inf, np.inf, 0.005, 0.29, 0.3])
+PRIOR_MEAN, PRIOR_SD = np.array([0, 0, 0, 0.5, 0, 0]), np.array([np.inf, np.inf, 0.005, 0.29, 0.1, 0.3])
 FIRST, LAST = 2, 40
 
 
@@ -118,8 +118,8 @@ class Block:
         self.X, self.F, self.end = X, F, end
         self.Y = [modulated(p, Y, s_all) for p in range(3)]
         s = s_all[1:-1]
-        b1, b0, tau, r, f = theta
-        x = [modulated(p, X, s_all, tau) for p in range(3)]
+        b1, b0, tau, r, gamma, f = theta
+        x = [(1 + gamma) * modulated(p, X, s_all, tau) for p in range(3)]
         force = modulated(2, F, s_all, tau)
         A, g = s * s + b1 * s + b0, b1 * s + b0
         G = g / A
@@ -130,8 +130,9 @@ class Block:
         self.W = x[0] + rho * self.e / G
         dG = [s * (A - g) / A ** 2, (A - g) / A ** 2]  # by b1, b0
         share = -rho_by_r / np.conj(G) * self.W
-        self.Z = np.array([dG[0] * self.W, dG[1] * self.W, s * G * self.W, share, force / A])
-        self.R = np.array([(x[1] - self.Y[1]) / A, (x[0] - self.Y[0]) / A, (b1 * x[2] + b0 * x[1]) / A, share, force / A])
+        self.Z = np.array([dG[0] * self.W, dG[1] * self.W, s * G * self.W, share, G * self.W / (1 + gamma), force / A])
+        self.R = np.array([(x[1] - self.Y[1]) / A, (x[0] - self.Y[0]) / A, (b1 * x[2] + b0 * x[1]) / A, share,
+                           (b1 * x[1] + b0 * x[0]) / A / (1 + gamma), force / A])
         self.rate = (x[1] - self.Y[1]) / s ** 2
 
 
@@ -146,7 +147,7 @@ def power(x): return float(np.sum(np.abs(x) ** 2))
 def window(blocks, bands, at, usual=None):
     sizes = np.array([b.stop - b.start for b in bands])
     P = np.diag(PRIOR_SD ** -2.0)
-    not_r = np.array([1, 1, 1, 0, 1.0])
+    not_r = np.array([1, 1, 1, 0, 1, 1.0])
 
     def powers(theta):
         return np.array([[power((k.e - (not_r * (theta - at)) @ k.R)[b]) for b in bands] for k in blocks]) / sizes
@@ -164,7 +165,7 @@ def window(blocks, bands, at, usual=None):
     def cells(w, s2, scale):
         for i, k in enumerate(blocks):
             for j, b in enumerate(bands):
-                turn = np.array([1, 1, 1, scale[j], 1])[:, None]
+                turn = np.array([1, 1, 1, scale[j], 1, 1])[:, None]
                 yield i, j, w[i] / s2[j], turn * k.Z[:, b], turn * k.R[:, b], k.e[b]
 
     def normal(w, s2, scale):
@@ -222,7 +223,7 @@ def main():
         ty, y, tx, x = simulate(drive, rng)
         period = max(np.diff(ty).mean(), np.diff(tx).mean()) * 1e-6
         period = float("%.6g" % period)
-        theta = np.array([1.03 * b1, 0.96 * b0, tau + 0.0005, 0.4, 0.9 * f])
+        theta = np.array([1.03 * b1, 0.96 * b0, tau + 0.0005, 0.4, 0.02, 0.9 * f])
         drives.append([n, T, period, 0 if uneven else round(1e6 / rate_y), 0 if uneven else round(1e6 / rate_x), *theta])
         readings += [[n, 0, *y], [n, 1, *x]]
         if uneven: readings += [[n, 2, *np.diff(ty, prepend=0)], [n, 3, *np.diff(tx, prepend=0)]]
@@ -231,7 +232,7 @@ def main():
         omega = 2 * np.pi * np.arange(FIRST - 1, last + 2) / T
         s = 1j * omega
         bands = noise_bands(last - FIRST + 1)
-        direction = friction_direction(tx, x, T, theta[0], theta[1], theta[4])
+        direction = friction_direction(tx, x, T, theta[0], theta[1], theta[5])
         blocks = []
         count = int(np.floor(2 * min(ty[-1], tx[-1]) / T)) - 1
         for b in range(count):
@@ -260,12 +261,12 @@ def main():
         t, covariance, _, *rest = window(blocks, bands, theta, usual)
         for kind, value in zip(("usual", "theta_usual", "covariance_usual", "rest_usual"), (usual, t, covariance, rest)):
             keep(kind, count, value)
-        print(n, count, t / [b1, b0, 1, 1, 1], rest)
+        print(n, count, t / [b1, b0, 1, 1, 1, 1], rest)
     # A rate over blocks of length T is stored as the library has it, in m/s.
     lengths = {line[0]: line[1] for line in drives}
     for line in reference:
         if line[1] in (KINDS["rest"], KINDS["rest_usual"]): line[5] /= lengths[line[0]]
-    for name, header, lines in (("drives", "drive,length,period,body_us,wheel_us,b1,b0,tau,r,f", drives),
+    for name, header, lines in (("drives", "drive,length,period,body_us,wheel_us,b1,b0,tau,r,gamma,f", drives),
                                 ("readings", "drive,kind,values", readings),
                                 ("reference", "drive,kind,index,values", reference)):
         with open(f"block_{name}.csv", "w") as file:

@@ -48,7 +48,8 @@ class BlockEstimator {
   void setWheelNoise(const std::vector<WheelNoise>& each) { window_fit_.setWheelNoise(each); }
 
   /// A block that is kept, 0 the newest, to have its instruments predicted again: then call linearise() with it.
-  StrutBlock& block(int age);
+  StrutBlock& block(int age) { return ring_[placeOf(age)]; }
+  const StrutBlock& block(int age) const { return ring_[placeOf(age)]; }
   int count() const { return count_; }  ///< blocks kept
   void linearise(StrutBlock& block) { equations_.linearise(theta_, block); }
 
@@ -81,13 +82,14 @@ class BlockEstimator {
   const BlockPrior& slowPrior() const { return slow_; }
 
  private:
+  std::size_t placeOf(int age) const { return static_cast<std::size_t>((head_ - age + kMostBlocks) % kMostBlocks); }
   std::vector<const StrutBlock*>& newest(int count);
   void scaleSlow();
   double delayStddev() const;
   bool start();
   bool startBy(int window);
   void learnSlow();
-  void lookForDelay();
+  void lookAtSensors();
   bool contradictsSlow();
   bool contradictsShorter(const WindowEstimate& estimate);
   bool leavesUnusual(int blocks);

@@ -21,10 +21,11 @@ enum BlockParameter : int {
   kBlockStiffness,   ///< b0 [1/s^2]
   kBlockDelay,       ///< tau by which the wheel's readings are stamped late [s]
   kBlockWheelShare,  ///< r: the wheel sensor's share of what is unexplained [-], in (0, 1)
+  kBlockGain,        ///< gamma: the gain of the body's sensor over that of the wheel's is 1 + gamma [-]
   kNumBlockParameters
 };
 
-/// How many columns the equations of one strut top have beside b1, b0, tau and r.
+/// How many columns the equations of one strut top have beside b1, b0, tau, r and gamma.
 struct BlockColumns {
   int forces = 1;  ///< known shapes of a force over the body's mass, on the wheel's stamps: dry friction, or effects
   int neighbours = 0;  ///< travel rates and travels of the other struts of the body
@@ -65,7 +66,8 @@ struct StrutBlock {
   long version = 0;  ///< of the linearisation: no two of an estimator are alike
 };
 
-/// The equations of a strut top in the bins of one block. With y = z'', x = w'' (delayed by tau), s = j w_k,
+/// The equations of a strut top in the bins of one block. With y = z'', x = (1 + gamma) w'' (delayed by tau), s =
+/// j w_k,
 ///     H_2(y) = b1 H_1(x - y) + b0 H_0(x - y) + sum c_m H_2(f_m) + sum of neighbours' columns
 /// holds exactly in every bin, whatever the initial states. With A = s^2 + b1 s + b0, g = b1 s + b0 and G = g / A the
 /// residual counts as an output's, e = (left - right) / A. A share r of its power is the wheel sensor's, so that

@@ -13,6 +13,7 @@ namespace suspension_health_monitor {
 /// - a vehicle does not climb for good, so a mean reading is gravity (REP 145: +9.81 at rest on the up axis) or 0
 ///   (taken out before). A gain error shows there as well as in the parameters, a worn damper does not; so do an offset
 ///   and a mount that has turned;
+/// - a strut passes slow motion as it is: of both sensors' gains the blocks know the difference;
 /// - a strut takes energy: damping that is certainly negative is that of readings of which one has the wrong sign, and
 ///   a body that shakes three times as much as the wheel may be the wheel;
 /// - a spring lets no wheel move without the body;
@@ -70,9 +71,10 @@ class SensorCheck {
   static constexpr double kStill = 0.5;       // of the memory
 
   bool isStill(const Reading& reading) const { return reading.still >= kStill * memory_; }
-  SensorFault find(const StrutEstimate& la, bool la_tells) const;
+  SensorFault find(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells) const;
   SensorFault judgeMeans() const;
   SensorFault judgeGravity() const;
+  static SensorFault judgeGains(const StrutEstimate& estimate);
   SensorFault judgeMotion(const StrutEstimate& la) const;
   bool isOff(const Reading& reading) const;
 

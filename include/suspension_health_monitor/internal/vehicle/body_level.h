@@ -22,6 +22,9 @@ class BodyLevel {
   /// each other and do no harm.
   bool isTurned() const;
 
+  /// @return of the accelerations, by the size of gravity in them; 1 unless it is off by more than an offset makes.
+  double gain() const { return gain_; }
+
   /// @return true if gravity was the same in all parts of the while, but for half of that: else the vehicle braked,
   /// pulled away or went round a bend.
   bool isSteady() const { return is_steady_; }
@@ -30,7 +33,7 @@ class BodyLevel {
   Eigen::Matrix3d mount() const { return mount_; }
 
  private:
-  double lean_ = 0.0;
+  double lean_ = 0.0, gain_ = 1.0;
   bool is_steady_ = true;
   Eigen::Matrix3d mount_ = Eigen::Matrix3d::Identity();
 };

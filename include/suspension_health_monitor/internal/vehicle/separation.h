@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +17,14 @@ VehicleSample sampleOf(const VehicleDrive& drive, std::size_t k);
 
 /// Writes it down as the next one of a drive, which has its struts and known forces.
 void append(const VehicleSample& sample, VehicleDrive& drive);
+
+/// Takes the newest samples of a drive back.
+void dropNewest(VehicleDrive& drive, std::size_t count);
+
+template <class T>
+void dropNewest(std::vector<T>& series, std::size_t count) {
+  series.erase(series.end() - static_cast<std::ptrdiff_t>(std::min(count, series.size())), series.end());
+}
 
 /// @param rows  of all tops; nullptr: not known, for this reason.  @param body  that fits them, if one was looked for.
 /// @param forces  names of the known forces.

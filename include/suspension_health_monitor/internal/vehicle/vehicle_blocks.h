@@ -12,6 +12,7 @@
 #include "suspension_health_monitor/internal/blocks/strut_blocks.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_spectra.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_tops.h"
@@ -74,8 +75,8 @@ class VehicleBlocks {
   const VehicleTops& tops() const { return tops_; }
   double length() const { return length_; }  ///< T of the blocks [s]
 
-  /// @return the two struts that the newest blocks can hardly tell apart.
-  StrutPair mostAlike() const;
+  /// @return what the blocks kept say against the vehicle file. Not for the sample path.
+  VehicleMistake mistake() const;
 
   /// Another drive: blocks are forgotten, but to overTheDrive(); estimates stay until there are new ones.
   void restart();

@@ -13,6 +13,9 @@ namespace suspension_health_monitor {
 VehicleIdentification identified(VehicleMonitor& monitor, const std::vector<std::string>& names,
                                  const std::vector<std::string>& forces);
 
+/// @return what in the vehicle file is likely wrong, if a strut has no valid estimate now; else empty.
+std::string describeMistake(const VehicleMonitor& monitor, const std::vector<std::string>& names);
+
 /// @return how the struts move one another, as it is known now.
 VehicleCoupling couplingOf(const VehicleMonitor& monitor, const std::vector<std::string>& names,
                            const std::vector<std::string>& forces);

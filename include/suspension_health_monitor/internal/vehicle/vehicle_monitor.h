@@ -83,8 +83,8 @@ class VehicleMonitor {
   const std::optional<BodyFitResult>& body() const { return body_; }
   const VehicleTops* tops() const { return blocks_ ? &blocks_->tops() : nullptr; }
 
-  /// @return the two struts that are hardest to tell apart; empty: nothing is known yet, or there is one strut.
-  std::optional<StrutPair> mostAlike() const;
+  /// @return as VehicleBlocks::mistake(); of one strut there is none.
+  VehicleMistake mistake() const;
 
   /// @return the estimate over all readings so far, as SuspensionMonitor::overTheDrive(). Not for the sample path.
   StrutEstimate overTheDrive(std::size_t strut);

@@ -6,19 +6,27 @@
 
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/body_level.h"
+#include "suspension_health_monitor/internal/vehicle/mount_claim.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
-/// @param most_alike  the two struts that are hardest to tell apart; empty: nothing is known.
 /// @return why the rows of the struts are not known, to be read after "the drives".
-std::string whyNotCoupled(const std::optional<StrutPair>& most_alike, const std::vector<std::string>& struts);
+std::string whyNotCoupled(const VehicleMistake& mistake, const std::vector<std::string>& struts);
+
+/// @return what in the vehicle file is likely wrong, and the mend, in a sentence; empty: nothing that the data tell.
+std::string describe(const VehicleMistake& mistake, const std::vector<std::string>& struts);
 
 /// @return why it is not known how the body's mass is spread, in a sentence; empty if it is.
 std::string describe(InertiaDoubt doubt);
 
 /// @return how the body's IMU was found to be turned, if it was; else empty.
 std::string describe(const BodyLevel& level);
+
+/// @param name  of the IMU.  @param setting  that names its axis.
+/// @return how gravity contradicts the settings, and the mend; empty: it does not.
+std::string describe(const MountClaim::Finding& mount, const std::string& name, const char* setting);
 
 /// To be added to a reason.
 inline constexpr const char* kWheelsFolded =

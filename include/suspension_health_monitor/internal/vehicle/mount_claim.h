@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+
+namespace suspension_health_monitor {
+
+/// Gravity as an IMU reads it: a vehicle neither climbs for good nor pulls away more than it brakes, so that the mean
+/// of many readings is gravity. It is taken of parts of two seconds, whose scatter says how sure it is. Cost per
+/// reading: O(1), no allocation.
+class MountClaim {
+ public:
+  struct Finding {
+    double size = 0.0;         ///< of gravity as it is read [m/s^2]
+    double lean = 0.0;         ///< angle between gravity and the axis that the settings call upward [rad]
+    double lean_stddev = 0.0;  ///< [rad]
+    int axis = 0;              ///< of the IMU that is nearest to gravity: 0 x, 1 y, 2 z
+    bool is_negative = false;  ///< that axis points down
+    bool isLeaning() const;    ///< by more than a road, a load or a careful hand makes
+    bool isOnAnotherAxis() const;
+    bool leansAs(const Finding& other) const;  ///< the two of a strut that is inclined
+    bool isWrongSize() const;                  ///< by more than an offset that is usual makes
+  };
+
+  /// @param acceleration  in the IMU's axes [m/s^2].
+  void add(Stamp stamp, const Eigen::Vector3d& acceleration);
+
+  /// @param up  in the IMU's axes, of length 1.
+  /// @return nothing as long as too little was read, or if the readings are without gravity.
+  std::optional<Finding> find(const Eigen::Vector3d& up) const;
+
+ private:
+  std::optional<Stamp> begin_;  // of the part
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero(), mean_ = Eigen::Vector3d::Zero();
+  double count_ = 0.0, parts_ = 0.0;
+  double scatter_ = 0.0;  // sum of squares of parts' distances from the mean, over both axes across
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,108 @@
+// What the data say against a vehicle file, on drives of benchmark/vehicle_drive.h.
+#include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "vehicle_told.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+using Kind = VehicleMistake::Kind;
+using vehicle_drive::Record;
+
+vehicle_drive::Drive byBody() {
+  vehicle_drive::Drive drive = shortDrive();
+  drive.imu = vehicle_drive::BodyImu{-0.1, 0.05};
+  return drive;
+}
+
+void expectMistake(Kind kind, StrutPair struts, const vehicle_drive::Drive& drive,
+                   const std::function<void(Record&, VehicleTops&)>& change) {
+  // A sedan's pitch and roll are little more than the gyro's noise.
+  const std::vector<std::string> vehicles =
+      drive.imu ? std::vector<std::string>{"robot"} : std::vector<std::string>{"robot", "sedan"};
+  for (const std::string& made : vehicles) {
+    const VehicleMistake found = tell(vehicle_drive::made(made, 1), drive, change).mistake;
+    EXPECT_EQ(found.kind, kind) << made << ": " << describe(found, {"a", "b", "c", "d"});
+    EXPECT_EQ(found.struts, struts) << made;
+  }
+}
+
+TEST(VehicleClaims, OfVehiclesAsTheyAreAreNotContradicted) {
+  for (const vehicle_drive::Drive& drive : {shortDrive(), byBody()})
+    for (const char* made : {"half", "robot", "sedan", "truck"}) {
+      const Told told = tell(vehicle_drive::made(made, 1), drive);
+      EXPECT_EQ(told.mistake.kind, Kind::kNone) << made;
+      EXPECT_LT(told.mistake.unexplained, 0.2) << made << ": noise of the gyro";
+      ASSERT_TRUE(told.body) << made;
+      EXPECT_TRUE(told.body->turnsAtAll()) << made;
+    }
+}
+
+TEST(VehicleClaims, NameWheelsThatAreSwappedAndOneThatIsUpsideDown) {
+  for (const vehicle_drive::Drive& drive : {shortDrive(), byBody()}) {
+    expectMistake(Kind::kSwapped, {0, 3}, drive,
+                  [](Record& record, VehicleTops&) { std::swap(record.wheel[0], record.wheel[3]); });
+    expectMistake(Kind::kUpsideDown, {2, 2}, drive, [](Record& record, VehicleTops&) {
+      for (double& value : record.wheel[2]) value = -value;
+    });
+  }
+  expectMistake(Kind::kSwapped, {1, 2}, shortDrive(),
+                [](Record& record, VehicleTops&) { std::swap(record.body[1], record.body[2]); });
+}
+
+TEST(VehicleClaims, NameTwoTopicsWithTheSameData) {
+  expectMistake(Kind::kSameWheels, {1, 2}, shortDrive(),
+                [](Record& record, VehicleTops&) { record.wheel[1] = record.wheel[2]; });
+  expectMistake(Kind::kSameTops, {0, 1}, shortDrive(),
+                [](Record& record, VehicleTops&) { record.body[1] = record.body[0]; });
+}
+
+TEST(VehicleClaims, NamePositionsOfTheWrongSign) {
+  const auto turned = [](int axis) {
+    return [axis](Record&, VehicleTops& tops) {
+      for (VehicleTops::Top& top : tops.tops) (*top.position)[axis] *= -1.0;
+    };
+  };
+  expectMistake(Kind::kMirroredAhead, {0, 0}, byBody(), turned(0));
+  expectMistake(Kind::kMirroredSides, {0, 0}, byBody(), turned(1));
+  expectMistake(Kind::kSignAhead, {3, 3}, byBody(),
+                [](Record&, VehicleTops& tops) { tops.tops[3].position->x() *= -1.0; });
+}
+
+TEST(VehicleClaims, NameNoMistakeWhereAStrutIsMissing) {
+  for (const char* made : {"robot", "sedan"}) {
+    vehicle_drive::Vehicle vehicle = vehicle_drive::made(made, 1);
+    Record record = vehicle_drive::drive(vehicle, shortDrive());
+    VehicleTops tops;
+    tops.tops.resize(2);
+    VehicleBlocks blocks(tops, BlockOptions{}, 0.01);
+    for (std::size_t k = 0; k < record.wheel.front().size(); ++k)
+      for (const std::size_t i : {0u, 1u}) {
+        blocks.pushTop(i, fromSeconds(0.01 * static_cast<double>(k)), record.body[i][k]);
+        blocks.pushWheel(i, fromSeconds(0.01 * static_cast<double>(k)), record.wheel[i][k]);
+      }
+    const Kind kind = blocks.mistake().kind;
+    EXPECT_TRUE(kind == Kind::kOthers || kind == Kind::kNone) << made;
+  }
+}
+
+TEST(VehicleClaims, OfADeadGyroAreOfABodyThatDoesNotTurn) {
+  for (const bool dies : {false, true})
+    for (const std::size_t axis : {1u, 2u}) {  // of Record::imu: rolling, pitching
+      const Told told = tell(vehicle_drive::made("robot", 1), byBody(), [&](Record& record, VehicleTops&) {
+        std::vector<double>& gyro = record.imu[axis];
+        std::fill(gyro.begin() + (dies ? static_cast<std::ptrdiff_t>(gyro.size() / 3) : 0), gyro.end(), 0.0);
+      });
+      if (!told.body) continue;  // nothing is known: nothing is wrong
+      EXPECT_FALSE(told.body->turnsAtAll()) << axis << (dies ? " dies" : " is dead");
+    }
+}
+
+}  // namespace
+}  // namespace suspension_health_monitor
