@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "suspension_health_monitor/internal/signal/alignment_judge.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
@@ -80,7 +82,9 @@ std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& 
     recording.forEach([&](Side side, Stamp stamp, double value) {
       if (side == Side::kRoad) return;
       work.step();
+      const bool paired = !grid.streams().resamples();
       grid.push(indexOf(side), stamp + shift, &value);
+      if (paired && grid.streams().resamples()) dropNewest(drive.samples, AlignmentJudge::kOutcomes);
     });
   }
   return drives;
