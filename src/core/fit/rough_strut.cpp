@@ -40,6 +40,7 @@ RoughStrut::RoughStrut(const BlockEstimate& estimate, double lag) {
   const double b1 = estimate.theta[kBlockDamping], b0 = estimate.theta[kBlockStiffness];
   const double friction = estimate.frictionGain() * estimate.theta[kNumBlockParameters];
   strut = {leastDamping(b1 + friction, b0), b0};
+  explained = estimate.explained;
   clock_offset = lag - estimate.theta[kBlockDelay];
   clock_offset_stddev = std::sqrt(estimate.covariance(kBlockDelay, kBlockDelay));
 }
@@ -55,9 +56,14 @@ int RoughStrut::horizonSamples(double period) const {
 }
 
 std::optional<RoughStrut> roughStrut(const std::vector<Drive>& drives, double period, double length) {
-  for (const Trial& trial : kTrials)
-    if (auto found = find(drives, period, trial.length * length, trial.lag * length)) return found;
-  return std::nullopt;
+  constexpr double kHalf = 0.5;
+  std::optional<RoughStrut> best;
+  for (const Trial& trial : kTrials) {
+    const auto found = find(drives, period, trial.length * length, trial.lag * length);
+    if (found && (!best || found->explained > best->explained)) best = found;
+    if (best && best->explained > kHalf) break;
+  }
+  return best;
 }
 
 }  // namespace suspension_health_monitor

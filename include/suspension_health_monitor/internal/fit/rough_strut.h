@@ -12,6 +12,7 @@ namespace suspension_health_monitor {
 /// A linear strut that fits may begin with, by the blocks of drives.
 struct RoughStrut {
   LinearStrut strut;                 ///< dry friction is part of its damping
+  double explained = 0.0;            ///< share of the body's power [-]
   double clock_offset = 0.0;         ///< by which the body's clock is late [s]
   double clock_offset_stddev = 0.0;  ///< [s]
 
