@@ -9,9 +9,10 @@ import sys
 import numpy as np
 
 from suspension_health_monitor.fleet import change_points
-from suspension_health_monitor.fleet.history import MONTH, YEAR, StrutHistory, series
+from suspension_health_monitor.fleet.history import MONTH, YEAR, StrutHistory
 from suspension_health_monitor.fleet.part_wear import Options
 from suspension_health_monitor.fleet.prognosis import prognosis
+from suspension_health_monitor.fleet.view import view
 
 BEGIN = 1.6e9  # [s since 1970]
 LOOKS = 10  # at a history, as it grows
@@ -103,9 +104,9 @@ def told_changes(history, truth, options):
     for drives in (len(history.time) * look // LOOKS for look in range(1, LOOKS + 1)):
         if truth.kind == "repaired" and 0 < drives - truth.first_new < change_points.LEAST_DRIVES:
             continue
-        ratio, *_ = series(cut(history, drives))
-        starts, _ = change_points.find(ratio, options.season, options.false_changes)
-        yield {ratio.time[start] for start in starts[1:]}
+        seen = view(cut(history, drives), "damping", options.season)
+        starts, _ = change_points.find(seen, options.false_changes)
+        yield {seen.time[start] for start in starts[1:]}
 
 
 @dataclasses.dataclass

@@ -23,7 +23,7 @@ enum class EstimateDoubt {
   kStiffnessNotExcited,  ///< the same of the stiffness alone
   kNotExplained,         ///< the strut explains less than half of the body's motion
   kNotAStrut,            ///< a parameter that has to be above 0 is not
-  kBodyDoesNotTurn,      ///< the body's IMU tells of less pitch or roll than any body on struts has
+  kVehicleFile,          ///< the drives contradict the vehicle file, or the body's gyro is dead
   kOldData,              ///< the vehicle has not moved for longer than health/oldest_data
   kDisagrees,            ///< LS or LA is not what the block estimate says
   kFreeRunFails,         ///< the model, driven by the wheel, fits worse than a constant

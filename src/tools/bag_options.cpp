@@ -17,7 +17,8 @@ namespace po = boost::program_options;
 void addBagOptions(po::options_description& description) {
   auto add = description.add_options();
   add("bag", po::value<std::vector<std::string>>()->required(), "bags, read one after the other");
-  add("config", po::value<std::string>()->default_value(""), "YAML file like config/monitor.yaml");
+  add("config", po::value<std::string>()->default_value(""),
+      "YAML file like config/monitor.yaml, or a model that diagnose -o has written");
   add("set", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
       "NAME=VALUE: any option of `suspension_bag options monitor`");
   add("sprung-topic", po::value<std::string>()->default_value("/sprung/imu"), "Imu topic of the body");
@@ -80,9 +81,25 @@ ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
   return bags;
 }
 
+OptionMap monitorSettings(const po::variables_map& values) {
+  OptionMap settings = gatherOptions(values);
+  for (const char* number : {"damping_to_mass", "stiffness_to_mass"}) {
+    const auto found = settings.find(number);
+    if (found == settings.end()) continue;
+    settings.insert({std::string("nominal/") + number, found->second});
+    settings.insert({"model_file", values["config"].as<std::string>()});
+    settings.erase(found);
+  }
+  if (settings.count("model_file") == 0) return settings;
+  for (auto each = settings.begin(); each != settings.end();)
+    each = each->first.rfind("effects/", 0) == 0 || each->first.rfind("readings/", 0) == 0 ? settings.erase(each)
+                                                                                           : std::next(each);
+  return settings;
+}
+
 BagOptions readLiveOptions(const po::variables_map& values) {
   BagOptions options;
-  options.pipeline = PipelineOptions::fromValues(gatherOptions(values));
+  options.pipeline = PipelineOptions::fromValues(monitorSettings(values));
   ImuBags& bags = options.bags;
   bags = readBags(values, options.pipeline.shell);
   bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};

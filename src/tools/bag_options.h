@@ -48,6 +48,11 @@ double measurePeriod(const ImuBags& bags);
 /// bags that nearly all samples would be made up. Bags whose stamps tell no spacing are left to what reads them.
 void requireFittingPeriod(const ImuBags& bags, double sample_period);
 
+/// @return the settings of a monitor that --config and --set give. A model, as diagnose -o writes it, is a config, too:
+/// its effects by model_file, its b1 and b0 as nominal values.
+/// @throws std::invalid_argument  as command.h.
+OptionMap monitorSettings(const boost::program_options::variables_map& values);
+
 /// Collects the common options. What they leave open, sample_period and integration_horizon, stays open: a monitor
 /// finds it out as it does live.
 /// @throws std::invalid_argument, InputError, TooLittleError  as command.h.

@@ -96,7 +96,7 @@ void identifyStrut(const po::variables_map& values) {
   files.commitTables(toJson(recorded, found, change));
   const std::string not_nominal = whyNotNominal(found, settings);
   if (files.settings && not_nominal.empty())
-    files.settings->commit(settingsOf(*strutOf(found), gatherOptions(values), fileNames(options.bags.paths)));
+    files.settings->commit(settingsOf(*strutOf(found), monitorSettings(values), fileNames(options.bags.paths)));
   recorded.printInput();
   printTable(digest.items());
   std::printf("\n");

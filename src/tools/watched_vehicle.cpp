@@ -77,6 +77,7 @@ std::vector<HealthContent::Recording> WatchedVehicle::read() {
     pipeline_.finish();
     for (HealthLog& log : logs_) log.finishRecording();
   }
+  if (pipeline_.monitor() != nullptr) pipeline_.monitor()->fitBody();
   return recordings;
 }
 

@@ -102,7 +102,7 @@ def make_schema_1(url):
         for number, (estimator, damping) in enumerate((("iv", 5.0), ("la", 4.0)), 1):
             connection.execute(database.drives.insert().values(
                 key=f"old {number}", path=f"old_{number}.bag", vehicle="robot", start=1e9 + number, duration=60.0,
-                status="ok", diagnosed=False, options="", scanned_at=1e9))
+                status="ok", diagnosed=False, options="", scanned_at=1e9 + 100))
             connection.execute(struts.insert().values(
                 drive_id=number, strut="left", estimator=estimator, damping_to_mass=damping, damping_to_mass_stddev=0.1,
                 stiffness_to_mass=60.0, stiffness_to_mass_stddev=0.5, damping_excitation=7.0, stiffness_excitation=8.0,

@@ -2,7 +2,9 @@
 import re
 import sqlite3
 import threading
+import time
 
+import numpy as np
 import pytest
 
 import fleet
@@ -204,6 +206,27 @@ def test_drives_of_wrong_clocks_are_counted_and_left_out(engine):
         assert history.time.tolist() == [database.EARLIEST, 1.7e9] and history.wrong_clocks == 2
         assert len(history.events) == len(history.findings) == (2 if history.strut == "left" else 0)
         assert wording.of_strut(history, None) == "no drive whose estimates are valid; 2 drives have a wrong clock"
+
+
+def test_a_drive_stamped_after_its_scan_has_a_wrong_clock(engine):
+    """And keeps it when it is scanned again, a year later."""
+    now = time.time()
+    for number, start in enumerate([1.7e9, now - 600, now + 3600]):
+        database.write(engine, bag(str(number), f"{number}.bag"), drive(start, 4.0))
+    with engine.begin() as connection:
+        connection.execute(database.text("UPDATE drives SET start = start - 1e7, scanned_at = scanned_at - 1e7"))
+    database.write(engine, bag("2", "2.bag"), drive(now - 1e7 + 3600, 4.0), again=True)
+    for history in database.histories(engine):
+        assert history.time == pytest.approx([1.69e9, now - 600 - 1e7]) and history.wrong_clocks == 1
+
+
+def test_temperatures_go_with_the_drives(engine):
+    warm = drive(1e9, 4.0)
+    warm.struts[0]["temperature"] = 21.5
+    database.write(engine, bag("warm", "warm.bag"), warm)
+    database.write(engine, bag("later", "later.bag"), drive(1e9 + 9, 4.0))
+    left, right = database.histories(engine)
+    assert left.temperature[0] == 21.5 and np.isnan(left.temperature[1]) and right.temperature is None
 
 
 def test_simulated_time_is_a_clock_of_its_own(engine):

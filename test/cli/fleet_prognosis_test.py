@@ -7,19 +7,20 @@ import pytest
 from scipy import integrate, stats
 
 import imu_bag
-from suspension_health_monitor.fleet import change_points, grid, history, prognosis, student_t, wear, wording
+from suspension_health_monitor.fleet import change_points, grid, history, laws, prognosis, student_t, wording
 from suspension_health_monitor.fleet.errors import UsageError
-from suspension_health_monitor.fleet.history import MONTH, YEAR, Event, Finding, Series, StrutHistory
+from suspension_health_monitor.fleet.history import MONTH, YEAR, Event, Finding, StrutHistory
 from suspension_health_monitor.fleet.part_wear import Options
+from suspension_health_monitor.fleet.view import view, walk
 
 NEW_DAMPING, NEW_STIFFNESS = 4.0, 60.0
 BEGIN = 1.6e9
 NO_SEASON = Options(season=0.0)
 
 
-def battery():
-    path = imu_bag.REPOSITORY / "benchmark" / "fleet_prognosis.py"
-    spec = importlib.util.spec_from_file_location("fleet_prognosis", str(path))
+def battery(name):
+    path = imu_bag.REPOSITORY / "benchmark" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(name, str(path))
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -41,19 +42,19 @@ def noise(seed, size, stddev=0.01):
 def test_regression_without_noise_is_exact_and_one_wild_value_moves_it_little():
     time = np.linspace(0, 1, 30)
     design = np.column_stack([np.ones(30), time])
-    values, offset = 2.0 - 3.0 * time + time ** 2, time ** 2
+    values = 2.0 - 3.0 * time
     scale = np.full((1, 30), 0.1)
-    exact = student_t.fit(values, offset[None], scale, design, np.zeros(2))
+    exact = student_t.fit(values, scale, design, np.zeros((1, 2)))
     assert exact.coefficients[0] == pytest.approx([2, -3], abs=1e-9)
     values[20] += 50
-    moved = student_t.fit(values, offset[None], scale, design, np.zeros(2))
+    moved = student_t.fit(values, scale, design, np.zeros((1, 2)))
     assert np.all(np.abs(moved.coefficients - exact.coefficients) < 0.5 * np.sqrt(np.diag(exact.covariance[0])))
 
 
 def test_covariance_is_that_of_students_t():
     random, scale = np.random.default_rng(1), np.full((1, 100), 0.3)
-    found = [student_t.fit(0.3 * random.standard_t(student_t.DEGREES_OF_FREEDOM, 100), np.zeros((1, 100)), scale,
-                           np.ones((100, 1)), np.zeros(1)) for _ in range(400)]
+    found = [student_t.fit(0.3 * random.standard_t(student_t.DEGREES_OF_FREEDOM, 100), scale, np.ones((100, 1)),
+                           np.zeros((1, 1))) for _ in range(400)]
     z = [fits.coefficients[0, 0] / np.sqrt(fits.covariance[0, 0, 0]) for fits in found]
     assert np.std(z) == pytest.approx(1, abs=4 / np.sqrt(2 * 400))
 
@@ -65,7 +66,7 @@ def test_evidence_is_the_integral_over_the_coefficient():
     def joint(level):
         return np.exp(student_t.log_density(values - level, 1.1).sum() + 60) * stats.norm.pdf(level, scale=0.5)
     expected = np.log(integrate.quad(joint, -2, 2)[0]) - 60
-    fits = student_t.fit(values, np.zeros((1, 40)), scale, np.ones((40, 1)), np.array([precision]))
+    fits = student_t.fit(values, scale, np.ones((40, 1)), np.array([[precision]]))
     assert fits.log_evidence[0] == pytest.approx(expected, abs=0.1)
     assert student_t.log_density(0.7, 2.0) == pytest.approx(stats.t(student_t.DEGREES_OF_FREEDOM, scale=2).logpdf(0.7))
 
@@ -79,10 +80,19 @@ def test_grid_closes_in_on_a_peak(stddev):
     assert same is found.centres
 
 
-def test_wear_of_the_numerator_falls_and_of_the_denominator_rises():
-    assert wear.worn(0.3, 2.0, 1.0, 1.0) == 0.15 and wear.worn(0.3, 2.0, 1.7, 2.0) == pytest.approx(0.3)
-    falls, rises, healthy = (wear.change_of_logarithm(kind, 0.15) for kind in (1, 2, 0))
-    assert (falls, rises, healthy) == (pytest.approx(np.log(0.85)), pytest.approx(-np.log(0.85)), 0)
+def test_walk_is_brownian():
+    """Covariance of a random walk at two times: the earlier of them; what more modes would add is left to the scatter."""
+    share = np.linspace(0, 1, 21)
+    columns = walk(share)
+    assert columns @ columns.T == pytest.approx(np.minimum(share[:, None], share), abs=0.03)
+
+
+def test_every_law_begins_at_0_and_is_1_at_the_last_drive():
+    share = np.linspace(0, 1, 50)
+    for law in laws.LAWS[1:]:
+        shape = law.shape(share)
+        assert shape[0] == 0 and shape[-1] == pytest.approx(1) and np.all(np.diff(shape) >= 0)
+    assert sum(law.weight for law in laws.LAWS) == pytest.approx(1)
 
 
 # Dates -------------------------------------------------------------------------------------------------------------
@@ -95,10 +105,11 @@ def test_date_of_linear_wear_without_noise_is_exact(part, threshold):
     worn = found.wear[part]
     assert worn.rate == pytest.approx(0.01, rel=0.01)
     date = BEGIN + YEAR * threshold / 0.12
-    assert worn.date[0] <= date <= worn.date[2] and worn.date[2] - worn.date[0] < 0.05 * YEAR
+    assert worn.date[0] <= date <= worn.date[2]
+    assert worn.date[2] - worn.date[0] < 0.1 * (date - found.last)  # another power of time is not ruled out
     assert worn.loss[1] == pytest.approx(0.24, abs=0.003)
     other = found.wear["stiffness" if part == "damping" else "damping"]
-    assert other.loss[1] == 0 and other.probability < 1e-6
+    assert other.loss[1] == pytest.approx(0, abs=0.01) and other.probability["falls"] < 0.05
 
 
 def fieller(time, ratio, stddev, threshold, level=0.9):
@@ -110,18 +121,15 @@ def fieller(time, ratio, stddev, threshold, level=0.9):
     return np.sort(np.roots([excess[1, 1], 2 * threshold * excess[0, 1], threshold ** 2 * excess[0, 0]]))
 
 
-def test_interval_of_linear_wear_is_fiellers():
-    """Of the ratio of two normal numbers; in the mean, since Student's t weighs every drive in another way."""
-    time, stddev, differences = np.linspace(0, 3, 80), 0.03, []
+def test_interval_of_linear_wear_is_fiellers_at_least():
+    """Of the ratio of two normal numbers, which knows that wear is linear and that nothing hides it."""
+    time, stddev, wider = np.linspace(0, 3, 80), 0.03, []
     for seed in range(10):
         damping = (1 - 0.1 * time) * noise(seed, 80, stddev)
-        values = Series(BEGIN + YEAR * time, np.log(damping), np.full(80, stddev))
-        draws = wear.posterior(values, [0], 0.0, 0.3)
         early, late = fieller(time, damping, stddev * (1 - 0.1 * time), 0.3)
-        found = np.quantile(draws.life[draws.kind == 1], [0.05, 0.95])
-        differences.append((found - [early, late]) / (late - early))
-    assert np.mean(differences, axis=0) == pytest.approx([-0.03, 0.03], abs=0.09)  # 0.13 is what they scatter by alone
-    assert np.std(differences) < 0.25
+        found = prognosis.prognosis(strut(time, damping, stddev=stddev / np.sqrt(2)), NO_SEASON).wear["damping"].date
+        wider.append((found[2] - found[0]) / YEAR / (late - early))
+    assert 1.0 < np.mean(wider) < 2.5
 
 
 def test_interval_holds_the_date_of_wear_that_is_not_linear():
@@ -138,7 +146,8 @@ def test_payload_changes_nothing():
     load = np.random.default_rng(4).pareto(2.0, 60)
     dates = [prognosis.prognosis(strut(time, (1 - 0.12 * time) * noise(5, 60), load=each)).wear["damping"].date
              for each in (0.0, load)]
-    assert dates[0] == pytest.approx(dates[1], abs=1.0)
+    low, _, high = dates[0]
+    assert dates[0] == pytest.approx(dates[1], abs=0.2 * (high - low))
 
 
 def test_time_is_in_seconds_from_any_begin_and_the_unit_of_b_is_any():
@@ -161,11 +170,23 @@ def test_a_single_wrong_drive_moves_nothing_and_is_no_change():
     assert abs(wrong.wear["damping"].date[1] - middle) < 0.5 * (high - low)
 
 
-def test_threshold_that_is_passed_already_has_a_date_in_the_past():
-    time = np.linspace(0, 3, 60)
-    found = prognosis.prognosis(strut(time, (1 - 0.15 * time) * noise(8, 60)))
-    assert found.wear["damping"].date[2] < found.last
-    assert "has reached -30 % between" in wording.outlook(found)
+def test_no_date_that_is_said_is_before_the_last_drive():
+    for lost, words in ((0.45, "has reached -30 %"), (0.3, "has reached -30 % by now or will by "),
+                        (0.2, "reaches -30 % between ")):
+        time = np.linspace(0, 3, 60)
+        found = prognosis.prognosis(strut(time, (1 - lost * time / 3) * noise(8, 60)))
+        said, (early, _, late) = wording.outlook(found), found.wear["damping"].date
+        assert words in said
+        assert (early <= found.last) == ("has reached" in said) and (late <= found.last) == said.endswith(words)
+
+
+@pytest.mark.parametrize("rate", [-0.3, 0.3])
+def test_what_is_certain_beyond_any_number_is_said(rate):
+    """Thousands of standard deviations: the other laws have no probability that a computer knows."""
+    time = np.linspace(0, 2, 200)
+    found = prognosis.prognosis(strut(time, (1 + rate * time) * noise(22, 200, 1e-3), noise(23, 200, 1e-3), stddev=1e-3))
+    assert found.dated == ("damping" if rate < 0 else None)
+    assert all(np.all(np.isfinite([*each.loss, *each.date[:1]])) for each in found.wear.values())
 
 
 # No date -----------------------------------------------------------------------------------------------------------
@@ -197,32 +218,56 @@ def test_half_a_year_does_not_tell_a_season_from_wear():
     time = np.linspace(0, 0.5, 60)
     damping = (1 + 0.05 * np.cos(2 * np.pi * time)) * noise(10, 60)
     found = prognosis.prognosis(strut(time, damping))
-    assert found.dated is None and found.season_or_wear
-    assert "season" in wording.outlook(found)
-    assert prognosis.prognosis(strut(time, damping), NO_SEASON).dated == "damping"
+    assert found.dated is None and found.wear["damping"].probability["stays"] > 0.5
+    assert prognosis.prognosis(strut(time, damping), NO_SEASON).wear["damping"].probability["stays"] < 0.1
 
 
 def test_two_years_do():
     time = np.linspace(0, 2, 100)
     damping = (1 + 0.05 * np.cos(2 * np.pi * time)) * noise(11, 100)
-    assert not prognosis.prognosis(strut(time, damping)).season_or_wear
+    assert prognosis.prognosis(strut(time, damping)).dated is None
     found = prognosis.prognosis(strut(time, damping * (1 - 0.1 * time)))
-    assert found.dated == "damping" and found.wear["damping"].rate == pytest.approx(0.1 * MONTH / YEAR, rel=0.1)
+    assert found.dated == "damping" and found.wear["damping"].rate == pytest.approx(0.1 * MONTH / YEAR, rel=0.3)
+
+
+def test_temperature_tells_a_season_from_wear():
+    """Half a year of spring: damping falls by 12 % with the temperature, or by as much again because it wears."""
+    time = np.linspace(0, 0.5, 80)
+    warm = 10 - 10 * np.cos(2 * np.pi * time) + np.random.default_rng(40).normal(0, 3, 80)
+    damping = (1 - 0.006 * (warm - 10)) * noise(41, 80)
+    for worn, dated in ((0.0, None), (0.6, "damping")):
+        history = strut(time, damping * (1 - worn * time))
+        assert prognosis.prognosis(dataclasses.replace(history, temperature=warm)).dated == dated
+
+
+@pytest.mark.parametrize("shape", [lambda time: np.minimum(time, 1.0), lambda time: 1 - np.exp(-time / 0.4)])
+def test_wear_that_has_saturated_has_no_date(shape):
+    time = np.linspace(0, 2, 80)
+    found = prognosis.prognosis(strut(time, (1 - 0.2 * shape(time)) * noise(42, 80)))
+    assert found.dated is None
+    assert found.changes or found.wear["damping"].probability["settles"] > 0.9
+    low, _, high = found.wear["damping"].loss
+    assert low <= 0.2 <= high
+
+
+def test_a_load_that_grows_on_a_progressive_spring_is_no_wear():
+    """K goes with the square root of the load: b1/b0 falls as if the damper wore."""
+    time, random = np.linspace(0, 2, 80), np.random.default_rng(43)
+    for load in (0.3 * time, 0.3 * time + 0.2 * random.random(80)):
+        found = prognosis.prognosis(strut(time, noise(44, 80), np.sqrt(1 + load) * noise(45, 80), load=load))
+        assert found.dated is None
 
 
 def test_damping_that_rises_is_not_a_spring_that_wears():
     time = np.linspace(0, 2, 60)
     found = prognosis.prognosis(strut(time, 1 / (1 - 0.12 * time) * noise(12, 60)))
-    assert found.dated is None and found.stiffer_or_softer
+    assert found.dated is None
 
 
-def test_both_parts_falling_alike_is_said():
+def test_a_payload_that_grows_is_no_wear():
     time = np.linspace(0, 2, 60)
-    found = prognosis.prognosis(strut(time, load=0.2 * time, damping=noise(13, 60)))
-    assert found.dated is None and found.both_fall
-    worn = prognosis.prognosis(strut(time, load=0.2 * time, damping=(1 - 0.1 * time) * noise(13, 60)))
-    alone = prognosis.prognosis(strut(time, damping=(1 - 0.1 * time) * noise(13, 60)))
-    assert worn.both_fall and worn.wear["damping"].date[0] < alone.wear["damping"].date[0]
+    found = prognosis.prognosis(strut(time, load=0.2 * time, damping=noise(13, 60), stiffness=noise(14, 60)))
+    assert found.dated is None
 
 
 # Changes -----------------------------------------------------------------------------------------------------------
@@ -247,8 +292,6 @@ def test_another_estimator_is_no_change_of_the_strut(shift):
     time = np.linspace(0, 2, 120)
     former = time < 1
     seen = dict(damping=np.exp(shift * former) * noise(31, 120), stddev=0.003)
-    unaware = prognosis.prognosis(strut(time, **seen))
-    assert unaware.changes or unaware.dated, "who does not know it takes it for a change"
     found = prognosis.prognosis(dataclasses.replace(strut(time, **seen), former=former))
     assert found.changes == [] and found.likely_change is None and found.dated is None
     broken = seen["damping"] * np.where(time < 1.5, 1.0, 0.75)
@@ -287,28 +330,37 @@ def test_damper_that_fails_at_once_is_not_new():
         assert worn.date[0] <= BEGIN + YEAR * (1 - 0.7 / 0.8) / 0.06 <= worn.date[2]
 
 
-def test_linear_wear_is_not_bent():
-    """Its logarithm is, and a straight line through it would need a change."""
+def test_linear_wear_is_no_change():
     time = np.linspace(0, 3, 300)
-    values = Series(BEGIN + YEAR * time, np.log((1 - 0.2 * time) * noise(18, 300)), np.full(300, 0.01))
-    assert change_points.find(values, 0.04, 1 / 200) == ([0], None)
+    seen = view(strut(time, (1 - 0.2 * time) * noise(18, 300)), "damping", 0.06)
+    assert change_points.find(seen, 1 / 200) == ([0], None)
 
 
 # Fleets ------------------------------------------------------------------------------------------------------------
 
 def test_fleets_whose_truth_is_known():
     """benchmark/fleet_prognosis.py, small: bounds that a right prognosis misses once in some thousand seeds."""
-    module, options, random = battery(), Options(), np.random.default_rng(20)
+    module, options, random = battery("fleet_prognosis"), Options(), np.random.default_rng(20)
     tallies = {kind: module.Tally() for kind in ("healthy", "wearing", "repaired")}
     for kind, tally in tallies.items():
-        for _ in range(30):
+        for _ in range(6):
             truth = module.draw_truth(random, kind)
             tally.add(module.make(random, truth), truth, options)
-    assert sum(tally.false_changes for tally in tallies.values()) <= 3  # of 0.7 at the most in the mean
-    assert tallies["healthy"].dates <= 3  # 0.6
+    assert sum(tally.false_changes for tally in tallies.values()) <= 2  # of 0.2 at the most in the mean
+    assert tallies["healthy"].dates <= 1  # 0.1
     wearing = tallies["wearing"]
-    assert wearing.dates >= 15 and wearing.right >= stats.binom.ppf(1e-3, wearing.dates, 0.9)
-    assert tallies["repaired"].found >= stats.binom.ppf(1e-3, 30, 0.9)
+    assert wearing.dates >= 2 and wearing.right >= stats.binom.ppf(1e-3, wearing.dates, 0.9)
+    assert tallies["repaired"].found >= stats.binom.ppf(1e-3, 6, 0.8)
+
+
+def test_laws_that_are_not_the_models_own():
+    """benchmark/fleet_laws.py, small: 18 struts that do not go on wearing, 12 that do."""
+    module, random = battery("fleet_laws"), np.random.default_rng(21)
+    ended, went_on = ([module.judge(random, law) for law in kinds for _ in range(2)]
+                      for kinds in (module.ENDS, module.GOES_ON))
+    assert sum(dated for dated, _ in ended) <= 2  # 0.4 of them in the mean, if it is one in 50
+    dates = [inside for dated, inside in went_on if dated]
+    assert len(dates) >= 2 and sum(dates) >= stats.binom.ppf(1e-3, len(dates), 0.9)
 
 
 # Words and options -------------------------------------------------------------------------------------------------
@@ -344,7 +396,7 @@ def test_words_of_a_date():
     low, _, high = found.wear["damping"].loss
     assert wording.span(found.wear["damping"]) in (f"{-100 * high:+.0f} .. {-100 * low:+.0f} %",
                                                    f"{-100 * high:+.1f} .. {-100 * low:+.1f} %")
-    assert wording.span(found.wear["stiffness"]) == "0 .. 0 %"
+    assert wording.span(dataclasses.replace(found.wear["stiffness"], loss=(0.0, 0.0, 0.0))) == "0 .. 0 %"
     assert (wording.percent(-0.1234), wording.percent(0.0512)) == ("-12 %", "+5.1 %")
 
 
@@ -354,12 +406,6 @@ def test_damping_that_broke_at_once_has_reached_the_threshold():
     found = prognosis.prognosis(strut(time, damping=half * noise(1, 60), stiffness=noise(2, 60)))
     assert found.dated is None and found.reached == ["damping"]
     assert wording.outlook(found) == "damping has reached -30 %"
-
-
-def test_damping_that_grows_is_not_told_as_a_spring_that_wears():
-    time = np.linspace(0, 0.8, 80)
-    found = prognosis.prognosis(strut(time, damping=(1 + 0.36 * time) * noise(1, 80), stiffness=noise(2, 80)), NO_SEASON)
-    assert found.stiffer_or_softer and list(found.told) == ["damping"]
 
 
 def test_an_error_is_taken_back_only_by_who_judges():

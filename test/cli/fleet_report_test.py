@@ -132,6 +132,27 @@ def test_wrong_clocks_change_nothing_but_are_named(fleet, tmp_path):
     assert [{**told[0], "wrong_clocks": 0, "outlook": told[0]["outlook"][:-len(said)]}, *told[1:]] == fleet.told
 
 
+def test_a_renamed_folder_is_named_in_the_table(fleet, tmp_path, capsys):
+    """One more drive of the same struts, from a folder of another name."""
+    copy = tmp_path / "fleet.db"
+    shutil.copy(fleet.url[len("sqlite:///"):], str(copy))
+    engine = database.connect(f"sqlite:///{copy}")
+    struts = [dict(strut=name, estimator="estimate", damping_to_mass=4.0 * share, damping_to_mass_stddev=0.04,
+                   stiffness_to_mass=60.0, stiffness_to_mass_stddev=0.6, offset=0.0, temperature=None, valid=True, reason=None)
+              for name, share in (("left", 0.76), ("right", 1.0))]
+    database.write(engine, database.Bag("again", "unit_7/0.bag", "unit_7"),
+                   Drive(OK, start=BEGIN + 2.1 * YEAR, duration=60.0, struts=struts))
+    for told in ([], ["--renamed", f"unit_7={HOSTILE}"], ["--renamed", "unit_7="]):
+        assert main(["show", "--db", f"sqlite:///{copy}", "--json", "-", *told]) == 0
+        found = [each for each in json.loads(capsys.readouterr().out) if each["vehicle"] == "unit_7"]
+        assert len(found) == 2
+        if told != ["--renamed", "unit_7="]:
+            assert all(each["formerly"] == [HOSTILE] and each["drives"] == DRIVES + 1 for each in found)
+            assert all(f"the vehicle was called {HOSTILE} until " in each["outlook"] for each in found)
+        else:
+            assert all(each["formerly"] == [] and each["drives"] == 1 for each in found)
+
+
 def test_json_goes_to_standard_output(fleet, capsys):
     assert main(["show", "--db", fleet.url, "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out) == fleet.told
@@ -139,6 +160,7 @@ def test_json_goes_to_standard_output(fleet, capsys):
 
 @pytest.mark.parametrize("command, words", [
     (["show", "--threshold", "2"], ["--threshold 2", "[0.01, 0.9]"]),
+    (["show", "--renamed", "robot_9=new"], ["--renamed robot_9=new", "NEW=OLD"]),
     (["report", "-o", "page", "--level", "nan"], ["--level nan", "[0.5, 0.99]"])])
 def test_wrong_options_are_refused(fleet, capsys, tmp_path, monkeypatch, command, words):
     monkeypatch.chdir(tmp_path)
@@ -215,7 +237,8 @@ def test_a_report_that_is_interrupted_leaves_what_was_there(fleet, tmp_path, mon
     place = outlook if ended_at == "in_order" else report
     monkeypatch.setattr(place, ended_at, interrupted)
     with pytest.raises(KeyboardInterrupt):
-        report.run(types.SimpleNamespace(db=fleet.url, output=str(page), workers=1, **vars(outlook.Options())))
+        report.run(types.SimpleNamespace(db=fleet.url, output=str(page), workers=1, renamed=[],
+                                         **vars(outlook.Options())))
     assert sorted(tmp_path.rglob("*")) == ([] if is_new else [page, page / "notes.txt"])
 
 

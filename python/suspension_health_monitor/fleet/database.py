@@ -22,8 +22,10 @@ from .history import Event, Finding, StrutHistory
 
 SCHEMA_VERSION = 2
 READABLE = (1, SCHEMA_VERSION)
-# A computer without a clock begins at 1970 or where its maker did, ROS is of 2007; simulated time begins at 0.
-EARLIEST = 946684800.0  # [s since 1970] 1 January 2000: what begins before is no date, or a clock of its own
+# A computer without a clock begins at 1970 or where its maker did, ROS is of 2007; simulated time begins at 0. What begins
+# before 1 January 2000 [s since 1970], or after it was scanned, is no date, or of a clock of its own.
+EARLIEST = 946684800.0
+_HAS_DATE = "drives.start BETWEEN :earliest AND drives.scanned_at"
 LOCK_TIMEOUT = 60  # [s] that a client waits while others write into the same SQLite file
 
 
@@ -159,14 +161,14 @@ def is_known(engine, bag):
 
 
 def _row(connection, bag):
-    return connection.execute(text("SELECT id, status, diagnosed, options FROM drives WHERE key = :key"),
+    return connection.execute(text("SELECT id, status, diagnosed, options, scanned_at FROM drives WHERE key = :key"),
                               {"key": bag.key}).fetchone()
 
 
 def _answers(row, bag):
     if row is None or row[1] == UNREAD:
         return False
-    _, status, diagnosed, options = row
+    _, status, diagnosed, options, _ = row
     return bool(diagnosed) or not bag.diagnose if status == OK else options == bag.options
 
 
@@ -187,6 +189,8 @@ def write(engine, bag, drive, again=False):
             if not again and _answers(before, bag) or good and drive.status in (CRASHED, UNREAD):
                 return False
             _forget(connection, bag, before)
+            if before is not None:
+                row["scanned_at"] = before[4]  # what a scan has read was driven before
             (drive_id,) = connection.execute(drives.insert().values(**row)).inserted_primary_key
             for table, rows in ((struts, drive.struts), (events, drive.events), (findings, drive.findings)):
                 if rows:
@@ -218,7 +222,7 @@ def counts(engine):
 # What is read: vehicle and strut, by which it is put together, the time that it is of, and the rest.
 _ESTIMATES = (drives.c.vehicle, struts.c.strut, drives.c.start, struts.c.damping_to_mass,
               struts.c.damping_to_mass_stddev, struts.c.stiffness_to_mass, struts.c.stiffness_to_mass_stddev,
-              drives.c.path, struts.c.estimator, struts.c.valid)
+              struts.c.temperature, drives.c.path, struts.c.estimator, struts.c.valid)
 _EVENTS = (drives.c.vehicle, events.c.strut, events.c.time, events.c.level, events.c.message, drives.c.path)
 _FINDINGS = (drives.c.vehicle, findings.c.strut, drives.c.start, findings.c.verdict, findings.c.effects, drives.c.path,
              findings.c.page)
@@ -233,13 +237,13 @@ def _by_strut(connection, columns, with_dates, wrong_clocks):
     """
     vehicle, strut, time, *_ = columns
     known = " AND ".join(f"{column} IS NOT NULL" for column in (vehicle, time) if column.nullable)
-    query = (f"SELECT drives.id, drives.start, {', '.join(map(str, columns))} FROM drives JOIN {strut.table} "
+    query = (f"SELECT drives.id, drives.start, {_HAS_DATE}, {', '.join(map(str, columns))} FROM drives JOIN {strut.table} "
              f"ON {strut.table}.drive_id = drives.id WHERE {known} ORDER BY {time}, {strut.table}.id")
     rows = collections.defaultdict(list)
-    for drive, start, *row in connection.execute(text(query)):
+    for drive, start, has_date, *row in connection.execute(text(query), {"earliest": EARLIEST}):
         for column, value in zip((drives.c.start, *columns), (start, *row)):
             _require_kind(connection, drive, column, value)
-        if start is None or start >= EARLIEST or row[0] not in with_dates:
+        if start is None or has_date or row[0] not in with_dates:
             rows[tuple(row[:2])].append(row[2:])
         else:
             wrong_clocks[tuple(row[:2])].add(drive)
@@ -270,18 +274,19 @@ def histories(engine):
     """
     wrong_clocks = collections.defaultdict(set)
     with in_words(engine), engine.begin() as connection:
-        dated = text("SELECT DISTINCT vehicle FROM drives WHERE start >= :earliest")
+        dated = text(f"SELECT DISTINCT vehicle FROM drives WHERE {_HAS_DATE}")
         with_dates = {vehicle for (vehicle,) in connection.execute(dated, {"earliest": EARLIEST})}
         estimates, happened, found = (_by_strut(connection, columns, with_dates, wrong_clocks)
                                       for columns in (_ESTIMATES, _EVENTS, _FINDINGS))
     result = []
     for vehicle, strut in sorted({*estimates, *happened, *found, *wrong_clocks}):
         rows = [row for row in estimates[vehicle, strut] if row[-1]]
-        numbers = np.array([row[:5] for row in rows], dtype=float).reshape(len(rows), 5).T
-        former = np.array([row[6] != ESTIMATOR for row in rows], dtype=bool)
-        result.append(StrutHistory(vehicle, strut, *numbers, [row[5] for row in rows],
+        *numbers, warm = np.array([row[:6] for row in rows], dtype=float).reshape(len(rows), 6).T
+        former = np.array([row[7] != ESTIMATOR for row in rows], dtype=bool)
+        result.append(StrutHistory(vehicle, strut, *numbers, [row[6] for row in rows],
                                    [Event(*row) for row in happened[vehicle, strut]],
                                    [Finding(when, verdict, effects.split(), path, page)
                                     for when, verdict, effects, path, page in found[vehicle, strut]],
-                                   len(wrong_clocks[vehicle, strut]), former if former.any() and not former.all() else None))
+                                   len(wrong_clocks[vehicle, strut]), former if former.any() and not former.all() else None,
+                                   warm if np.isfinite(warm).any() else None))
     return result

@@ -18,13 +18,13 @@ class Grid:
         return np.logaddexp.reduce(self.log_density) + np.log(self.widths).sum()
 
 
-def close_in(evaluate, lower, upper, points):
+def close_in(evaluate, lower, upper, points, rounds=_MOST_ROUNDS):
     """:param evaluate: log density (C,), and whatever else it finds, at the centres (C, d).
     :returns: the grid, and what else was found there.
     """
     lower, upper = np.array(lower, dtype=float), np.array(upper, dtype=float)
     least, most = lower.copy(), upper.copy()
-    for _ in range(_MOST_ROUNDS):
+    for _ in range(rounds):
         widths = (upper - lower) / points
         axes = [low + width * (0.5 + np.arange(count)) for low, width, count in zip(lower, widths, points)]
         centres = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(points))

@@ -1,6 +1,6 @@
 """What is known of a strut over its drives, and what of it is free of the payload."""
 import dataclasses
-from typing import List, Optional
+from typing import List, Optional, Tuple
 
 import numpy as np
 
@@ -43,6 +43,9 @@ class StrutHistory:
     findings: List[Finding] = dataclasses.field(default_factory=list)
     wrong_clocks: int = 0  # drives that are left out, since their dates cannot be
     former: Optional[np.ndarray] = None  # (N,) whether it was estimated otherwise than the others; None: all alike
+    temperature: Optional[np.ndarray] = None  # (N,) [deg C], NaN where it is not known; None: of no drive
+    formerly: Tuple[Tuple[str, float], ...] = ()  # names that the vehicle had, and its last drive under each [s since 1970]
+    perhaps: Tuple[str, ...] = ()  # names that it may have had, between which its struts do not tell
 
     @property
     def last_event(self) -> Optional[Event]:
@@ -58,6 +61,7 @@ class Series:
     value: np.ndarray
     stddev: np.ndarray
     former: Optional[np.ndarray] = None  # as of StrutHistory
+    temperature: Optional[np.ndarray] = None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,9 +90,10 @@ def series(history):
             history.damping_to_mass, history.damping_to_mass_stddev, history.stiffness_to_mass,
             history.stiffness_to_mass_stddev))
     of_damping, of_stiffness = damping_stddev / damping, stiffness_stddev / stiffness
-    former = None if history.former is None else history.former[known]
-    return (Series(time, np.log(damping / stiffness), np.hypot(of_damping, of_stiffness), former),
-            Series(time, np.log(damping), of_damping, former), Series(time, np.log(stiffness), of_stiffness, former))
+    seen = [None if each is None else np.asarray(each, dtype=float)[known]
+            for each in (history.former, history.temperature)]
+    return (Series(time, np.log(damping / stiffness), np.hypot(of_damping, of_stiffness), *seen),
+            Series(time, np.log(damping), of_damping, *seen), Series(time, np.log(stiffness), of_stiffness, *seen))
 
 
 def effect_spans(findings):

@@ -14,14 +14,17 @@ from .progress import bar
 def add_options(command):
     add_db(command)
     Options.add_to(command)
+    command.add_argument("--renamed", metavar="NEW=OLD", action="append", default=[],
+                         help="vehicle NEW is the former OLD; NEW=: it is none of the others")
     command.add_argument("--workers", type=at_least_one, default=os.cpu_count() or 1, metavar="N",
                          help="processes; default: this machine's cores")
 
 
 def read(options):
     """(histories of the database, options of the prognosis). :raises UsageError: a value that is not allowed."""
+    from .renamed import joined  # with SciPy, as below
     its_options = Options.of(options)
-    return database.histories(database.connect(options.db)), its_options
+    return joined(database.histories(database.connect(options.db)), options.renamed), its_options
 
 
 def in_order(histories, options, workers):
@@ -52,5 +55,5 @@ def urgency(pair):
         when = min(when, result.last)
     if history.last_event and history.last_event.level == "ERROR":
         when = min(when, history.last_event.time)
-    worn = max(each.loss[1] for each in result.told.values()) if result else -math.inf
+    worn = max(each.loss[1] for each in result.wear.values()) if result else -math.inf
     return when, -worn, history.vehicle, history.strut

@@ -1,16 +1,14 @@
-"""How far a part is worn, and when it must go, of the draws of a posterior."""
+"""How far a part is worn, and when it must go."""
 import dataclasses
-from typing import Optional
+from typing import List, Optional
 
 import numpy as np
 
-from . import wear
-from .history import MONTH, YEAR
+from . import change_points, changes, laws
+from .changes import Change
+from .history import MONTH
 from .ranged import Ranged, option
-
-PARTS = ("damping", "stiffness")
-FALLS = {"damping": 1, "stiffness": 2}  # index into wear.KINDS: b1/b0 rises when the spring wears
-SIGN = {"damping": 1.0, "stiffness": -1.0}  # of its loss in log(b1/b0)
+from .view import View, view
 
 
 @dataclasses.dataclass(frozen=True)
@@ -18,19 +16,13 @@ class Options(Ranged):
     """Of the prognosis."""
     threshold: float = option(0.3, 0.01, 0.9, "share of a new part's damping or stiffness that it loses in its life")
     level: float = option(0.9, 0.5, 0.99, "probability of the intervals")
-    season: float = option(0.04, 0, 0.5, "yearly swing of the damping: standard deviation of its sine and its cosine")
-    false_dates: float = option(0.02, 1e-6, 0.5, "share of healthy struts that ever get a date, at most")
+    season: float = option(0.06, 0, 0.5, "yearly swing of the damping: standard deviation of its sine and its cosine")
+    false_dates: float = option(0.2, 1e-6, 0.5, "probability that a part with a date does not go on wearing, at most")
     false_changes: float = option(0.005, 1e-6, 1, "changes a year of a strut that are none, at most")
 
-
-@dataclasses.dataclass(frozen=True)
-class ChangePoint:
-    """Between two drives the strut became another one."""
-    time: float  # [s since 1970] of the first drive after it
-    before: float  # of the last one before it
-    step: float  # of log(b1/b0), right there
-    step_stddev: float
-    part: Optional[str]  # that changed, of PARTS, where stiffness/mass tells
+    @property
+    def certain(self):
+        return (1 + self.level) / 2
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,75 +30,64 @@ class Wear:
     """Of one part since it was new: the first drive, or the last change that made it new."""
     since: float  # [s since 1970]
     loss: tuple  # quantiles (low, median, high) of the worn share at the last drive
-    rate: float  # [1/month] of what it was after the last change, if it wears: in the mean until the threshold
+    rate: float  # [1/month] of what it was after the last change, at the last drive, if it goes on wearing
     rate_stddev: float
-    date: tuple  # quantiles of when the threshold is reached, if it wears [s since 1970]
-    probability: float  # that it wears
+    date: tuple  # quantiles of when the threshold is reached, if it goes on [s since 1970]
+    probability: dict  # of laws.KINDS
 
 
-def side(options):
-    return (1 + options.level) / 2
+@dataclasses.dataclass(frozen=True)
+class Part:
+    """What is known of a part, with the draws that it is known by."""
+    name: str  # of changes.PARTS
+    view: View  # of all drives
+    last: View  # of those since the last change
+    changes: List[Change]
+    likely: Optional[float]  # first drive after a change that is more probable than none [s since 1970]
+    posterior: laws.Posterior  # since the last change
+    new: float  # number of the new part, in the mean
+    wear: Wear
+
+    def is_dated(self, options):
+        """A trend across a change that is likely says nothing."""
+        return self.likely is None and self.wear.probability[laws.FALLS] >= 1 - options.false_dates
+
+
+def part(name, history, options):
+    """None without a drive."""
+    seen = view(history, name, options.season)
+    if seen is None:
+        return None
+    starts, likely = change_points.find(seen, options.false_changes)
+    alone = view(history, None, options.season)
+    found = changes.of_view(name, seen, alone, starts, options.certain)
+    last = seen.between(starts[-1], None)
+    posterior = laws.posterior(last, options.threshold)
+    segment, new = changes.new_level(name, found, of_all(posterior, lambda draws: draws.path(0.0)), options.certain)
+    wear = _wear(float(seen.time[starts[segment]]), last, posterior, np.split(new, 2), options)
+    return Part(name, seen, last, found, None if likely is None else float(seen.time[likely]), posterior,
+                float(np.average(new, weights=posterior.weight)), wear)
+
+
+def of_all(posterior, number):
+    """A number of the falling draws, then of the others."""
+    return np.concatenate([number(draws) for draws in (posterior.falling, posterior.other)])
+
+
+def _wear(since, last, posterior, new, options):
+    now, falling = last.share[-1], posterior.falling
+    left = of_all(posterior, lambda draws: draws.without_rise().path(now))
+    loss = 1 - left / np.concatenate(new)
+    date = last.time[0] + last.span * falling.when(new[0] * (1 - options.threshold))
+    rate = falling.rate(now or 1.0) / falling.level * MONTH / last.span
+    alike = np.ones(len(date))
+    return Wear(since, quantiles(loss, posterior.weight, options), float(rate.mean()), float(rate.std()),
+                quantiles(date, alike, options), posterior.probability)
 
 
 def quantiles(values, weights, options):
     """(low, median, high), each one of the values: between two of them may be infinity."""
     order = np.argsort(values)
     reached = np.cumsum(weights[order]) / weights.sum()
-    places = np.searchsorted(reached, [1 - side(options), 0.5, side(options)])
+    places = np.searchsorted(reached, [1 - options.certain, 0.5, options.certain])
     return tuple(float(each) for each in values[order[np.minimum(places, len(order) - 1)]])
-
-
-def average(values, weights):
-    """(mean, standard deviation)."""
-    mean = np.average(values, weights=weights)
-    return float(mean), float(np.sqrt(np.average((values - mean) ** 2, weights=weights)))
-
-
-def _is_of(part, change):
-    """Whether a step counts for a part. What may be either is the damper's: springs break seldom and do not stiffen."""
-    return change.part == part or (change.part is None and part == "damping")
-
-
-def _carried(part, draws, changes, options):
-    """(segment that began new, draws of what the part's logarithm has lost from there to the last change)."""
-    layout, sign = draws.layout, SIGN[part]
-    segment = 0
-    for place, change in enumerate(changes, start=1):
-        rises = np.average(sign * draws.coefficients[:, layout.step(place)] > 0, weights=draws.weight)
-        if rises >= side(options) and _is_of(part, change):
-            segment = place
-    carried = np.zeros(len(draws.kind))
-    for place in range(segment, len(changes)):
-        worn = sign * draws.coefficients[:, layout.slope(place)] * draws.lengths[place]
-        carried += np.minimum(worn, 0)  # what rises is the other part's wear
-        if _is_of(part, changes[place]):
-            carried += sign * draws.coefficients[:, layout.step(place + 1)]
-    return segment, carried
-
-
-def wear_of_part(part, ratio, draws, changes, options):
-    segment, carried = _carried(part, draws, changes, options)
-    return _of_draws(FALLS[part], ratio, draws, segment, carried, options)
-
-
-def wear_alone(own, draws, options):
-    return _of_draws(1, own, draws, len(draws.layout.starts) - 1, np.zeros(len(draws.kind)), options)
-
-
-def _of_draws(kind, values, draws, segment, carried, options):
-    starts = draws.layout.starts
-    begin, last = values.time[starts[-1]], values.time[-1]
-    wears = draws.kind == kind
-    # On another kind's way the part itself does not change.
-    change = np.where(wears, wear.change_of_logarithm(1, draws.worn((last - begin) / YEAR)), 0.0)
-    left = -np.expm1(np.log1p(-options.threshold) - carried[wears])  # to be worn after the last change
-    life = draws.life[wears] * (np.maximum(left, 0) / options.threshold) ** (1 / draws.power[wears])
-    alike = np.ones(len(life))  # of one kind
-    mean, stddev = average(options.threshold / draws.life[wears] * MONTH / YEAR, alike)
-    return Wear(float(values.time[starts[segment]]), quantiles(-np.expm1(carried + change), draws.weight, options),
-                mean, stddev, quantiles(begin + YEAR * life, alike, options), draws.probability[wear.KINDS[kind]])
-
-
-def earlier_of(one, other):
-    """The date as early as either says, the rest as the first."""
-    return dataclasses.replace(one, date=(min(one.date[0], other.date[0]), *one.date[1:]))

@@ -5,7 +5,7 @@ import shutil
 
 from . import outlook, wording
 from .errors import naming
-from .part_wear import PARTS
+from .changes import PARTS
 
 HELP = "say what every strut is like, and when it must go to the workshop"
 _HEAD = ("vehicle", "strut", "drives", "damping", "stiffness", "outlook", "last event", "effects")
@@ -59,7 +59,7 @@ def _row(history, prognosis):
     if prognosis is None:
         return history.vehicle, history.strut, "0", "-", "-", wording.of_strut(history, None), last, "-"
     effects = ", ".join(each.name for each in prognosis.effects if each.present) or "-"
-    spans = (wording.span(prognosis.told[part]) if part in prognosis.told else "-" for part in PARTS)
+    spans = (wording.span(prognosis.wear[part]) for part in PARTS)
     return (history.vehicle, history.strut, str(prognosis.drives), *spans, wording.of_strut(history, prognosis), last,
             effects)
 
@@ -67,6 +67,7 @@ def _row(history, prognosis):
 def as_dict(history, prognosis):
     """For programs: times in seconds since 1970, shares of 1, rates per month; null where there is none."""
     found = {"vehicle": history.vehicle, "strut": history.strut, "drives": 0, "wrong_clocks": history.wrong_clocks,
+             "formerly": [name for name, _ in history.formerly], "perhaps": [*history.perhaps],
              "outlook": wording.of_strut(history, prognosis), "dated": None, "wear": None, "changes": [],
              "likely_change": None, "remarks": [], "effects": [], "last_event": None}
     event = history.last_event
@@ -75,12 +76,13 @@ def as_dict(history, prognosis):
     if prognosis is None:
         return found
     return {**found, "drives": prognosis.drives, "dated": prognosis.dated,
-            "wear": {part: {"since": each.since, "loss": each.loss, "probability": each.probability, "rate": each.rate,
-                            "rate_stddev": each.rate_stddev, "date": [_time(time) for time in each.date]}
-                     for part, each in prognosis.told.items()},
+            "wear": {part: {"since": each.since, "loss": each.loss, "probability": each.probability["falls"],
+                            "laws": each.probability, "rate": each.rate, "rate_stddev": each.rate_stddev,
+                            "date": [_time(time) for time in each.date]}
+                     for part, each in prognosis.wear.items()},
             "changes": [{"before": each.before, "time": each.time, "step": each.step, "step_stddev": each.step_stddev,
                          "part": each.part} for each in prognosis.changes],
-            "likely_change": prognosis.likely_change, "remarks": wording.remarks(prognosis),
+            "likely_change": prognosis.likely_change, "remarks": [wording.change(each) for each in prognosis.changes],
             "effects": [{"name": each.name, "first": each.first, "last": each.last, "present": each.present}
                         for each in prognosis.effects]}
 

@@ -1,4 +1,4 @@
-"""Linear regression with errors of Student's t, for many offsets and scales at once."""
+"""Linear regression with errors of Student's t, for many scales and priors at once."""
 import dataclasses
 from math import lgamma
 
@@ -12,12 +12,12 @@ _CONSTANT = (lgamma((DEGREES_OF_FREEDOM + 1) / 2) - lgamma(DEGREES_OF_FREEDOM / 
 # Of a location, over that of normal errors of the same scale.
 _INFORMATION = (DEGREES_OF_FREEDOM + 1) / (DEGREES_OF_FREEDOM + 3)
 _MOST_STEPS = 100
-_TOLERANCE = 1e-4  # [standard deviations of a coefficient]: its square is what the evidence is wrong by
+_TOLERANCE = 1e-3  # [standard deviations of a coefficient]: its square is what the evidence is wrong by
 
 
 @dataclasses.dataclass(frozen=True)
 class Fits:
-    """One fit per row of offsets; p coefficients."""
+    """One fit per row of scales; p coefficients."""
     log_evidence: np.ndarray  # (C,) of the values, the coefficients integrated over
     coefficients: np.ndarray  # (C, p)
     covariance: np.ndarray    # (C, p, p)
@@ -29,17 +29,16 @@ def log_density(values, scale):
             - (DEGREES_OF_FREEDOM + 1) / 2 * np.log1p((values / scale) ** 2 / DEGREES_OF_FREEDOM))
 
 
-def fit(values, offsets, scales, design, precision):
-    """values = offset + design @ coefficients + scale * t, by iteratively reweighted least squares, for every offset.
+def fit(values, scales, design, precision):
+    """values = design @ coefficients + scale * t, by iteratively reweighted least squares, for every row of scales.
 
-    values: (N,). offsets, scales: (C, N). design: (N, p). precision: (p,) of the coefficients' normal priors about 0, 0
-    for a flat one (whose density is taken as 1). The evidence is Laplace's approximation with Fisher's information, which
-    is positive whatever the residuals are.
+    values: (N,). scales: (C, N). design: (N, p). precision: (C, p) of the coefficients' normal priors about 0, 0 for a flat
+    one (whose density is taken as 1). The evidence is Laplace's approximation with Fisher's information, which is positive
+    whatever the residuals are.
     """
-    count, size = len(offsets), design.shape[1]
+    count, size = precision.shape
     products = (design[:, :, None] * design[:, None, :]).reshape(len(values), -1)
-    prior = np.diag(precision)
-    target = values - offsets
+    prior = precision[:, :, None] * np.eye(size)
     information = _INFORMATION * (scales ** -2 @ products).reshape(count, size, size) + prior
     covariance = np.linalg.inv(information)
     spread = np.sqrt(np.einsum("cii->ci", covariance))
@@ -47,18 +46,17 @@ def fit(values, offsets, scales, design, precision):
     variances, weights, moving = scales ** 2, scales ** -2, np.arange(count)
     for _ in range(_MOST_STEPS):
         before = coefficients[moving]
-        normal = (weights @ products).reshape(-1, size, size) + prior
-        after = np.linalg.solve(normal, ((weights * target[moving]) @ design)[..., None])[..., 0]
+        normal = (weights @ products).reshape(-1, size, size) + prior[moving]
+        after = np.linalg.solve(normal, ((weights * values) @ design)[..., None])[..., 0]
         coefficients[moving] = after
         moving = moving[np.any(np.abs(after - before) > _TOLERANCE * spread[moving], axis=1)]
         if not len(moving):
             break
-        residuals = target[moving] - coefficients[moving] @ design.T
+        residuals = values - coefficients[moving] @ design.T
         weights = (DEGREES_OF_FREEDOM + 1) / (DEGREES_OF_FREEDOM * variances[moving] + residuals ** 2)
-    proper = precision > 0
-    log_prior = (0.5 * np.log(precision[proper] / (2 * np.pi)).sum()
-                 - 0.5 * (precision * coefficients ** 2).sum(axis=1))
-    residuals = target - coefficients @ design.T
+    proper = np.where(precision > 0, precision, 2 * np.pi)
+    log_prior = 0.5 * (np.log(proper / (2 * np.pi)) - precision * coefficients ** 2).sum(axis=1)
+    residuals = values - coefficients @ design.T
     log_evidence = (log_density(residuals, scales).sum(axis=1) + log_prior + 0.5 * size * np.log(2 * np.pi)
                     - 0.5 * np.linalg.slogdet(information)[1])
     return Fits(log_evidence, coefficients, covariance)

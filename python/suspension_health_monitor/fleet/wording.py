@@ -56,39 +56,53 @@ def rate(wear):
 
 
 def of_strut(history, prognosis):
-    """The outlook, and what is left out."""
-    said, count = outlook(prognosis) if prognosis else NO_DRIVES, history.wrong_clocks
-    return f"{said}; {count} drive{'s have' if count > 1 else ' has'} a wrong clock" if count else said
+    """The outlook, what is left out, and which names the vehicle has had."""
+    said, count = [outlook(prognosis) if prognosis else NO_DRIVES], history.wrong_clocks
+    if count:
+        said.append(f"{count} drive{'s have' if count > 1 else ' has'} a wrong clock")
+    said += [f"the vehicle was called {name} until {day(until)}" for name, until in history.formerly]
+    if history.perhaps:
+        new, names = history.vehicle, " or ".join(history.perhaps)
+        said.append(f"perhaps the vehicle was called {names}: --renamed {new}={history.perhaps[0]} says that it was, "
+                    f"--renamed {new}= that it is another one")
+    return "; ".join(said)
 
 
 def outlook(prognosis):
-    """The sentence about the part whose date is known, or why there is none."""
+    """The sentence about the part whose date is known, or why there is none. No date in it is before the last drive."""
     threshold = f"-{100 * prognosis.options.threshold:g} %"
     if prognosis.dated:
         wear = prognosis.wear[prognosis.dated]
-        early, _, late = wear.date
-        reaches = "has reached" if late <= prognosis.last else "reaches"
-        when = f"between {days(early, late)}" if _can_be_said(late) else f"not before {day(early)}"
-        return f"{prognosis.dated} falls {rate(wear)}, {reaches} {threshold} {when}"
+        return f"{prognosis.dated} falls {rate(wear)}, {_when(wear.date, prognosis.last, threshold)}"
     if prognosis.reached:
         return f"{' and '.join(prognosis.reached)} has reached {threshold}"
     if prognosis.likely_change:
         return f"probably changed on {day(prognosis.likely_change)} or before: more drives will tell"
-    reason = ("the spring wears, or damping grows: stiffness/mass does not tell" if prognosis.stiffer_or_softer else
-              "a season may be all of the trend" if prognosis.season_or_wear else "no trend that is certain")
-    early = prognosis.wear["damping"].date[0]
-    if early <= prognosis.last:
+    damping = prognosis.wear["damping"]
+    reason = why_no_date(damping.probability)
+    if damping.loss[2] >= prognosis.options.threshold:
         return f"{reason}; whether damping has reached {threshold} cannot be told"
+    early = max(damping.date[0], prognosis.last)
     return f"{reason}; damping reaches {threshold} not before {day(early)}" if _can_be_said(early) else reason
 
 
-def remarks(prognosis):
-    """What else is to be known of it, a sentence each."""
-    said = [change(each) for each in prognosis.changes]
-    if prognosis.both_fall:
-        said.append("damping and stiffness per mass probably both fall: a payload that grows, or both parts wear; "
-                    "one strut alone cannot tell")
-    return said
+def _when(date, last, threshold):
+    early, _, late = date
+    if late <= last:
+        return f"has reached {threshold}"
+    if not _can_be_said(late):
+        return f"reaches {threshold} not before {day(max(early, last))}"
+    if early <= last:
+        return f"has reached {threshold} by now or will by {day(late)}"
+    return f"reaches {threshold} between {days(early, late)}"
+
+
+def why_no_date(probability):
+    """What the drives bear out instead of wear that goes on, or beside it."""
+    if probability["falls"] <= 0.5:
+        return "has changed, but may have settled" if probability["settles"] > 0.5 else "no trend that is certain"
+    rival = "may settle" if probability["settles"] > probability["stays"] else "a season, loads or chance may be all of it"
+    return f"probably falls, but {rival}"
 
 
 def change(point):

@@ -37,8 +37,8 @@ constexpr std::array kRules{
     Rule{EstimateDoubt::kNotExplained, [](const EstimateFacts& f) { return !(f.explained >= kLeastExplained); }},
     // A spring and a damper have positive rates.
     Rule{EstimateDoubt::kNotAStrut, [](const EstimateFacts& f) { return !f.is_physical; }},
-    // A dead gyro: nothing is known of how the struts move one another.
-    Rule{EstimateDoubt::kBodyDoesNotTurn, [](const EstimateFacts& f) { return std::isinf(f.absolute_stddev); }},
+    // Swapped topics, wrong positions, a dead gyro: not even changes are known.
+    Rule{EstimateDoubt::kVehicleFile, [](const EstimateFacts& f) { return std::isinf(f.absolute_stddev); }},
     // Parked for long: the strut may have been mended meanwhile.
     Rule{EstimateDoubt::kOldData, [](const EstimateFacts& f) { return !(f.age <= f.oldest); }},
     // LS and LA know neither the noise of the regressors nor the clocks' difference.

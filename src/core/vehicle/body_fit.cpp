@@ -19,7 +19,6 @@ constexpr double kSideBySide = 0.1;  // of the wheelbase
 constexpr double kLeastLeft = 0.02;
 constexpr double kFall = 3.0;  // phi without bars over that with them
 constexpr double kSmallest = 1e-6;
-constexpr double kLeastTurning = 0.1;  // S_11, S_22: no body's radius of gyration is 3 times the struts' distance
 
 /// @return x or y less its middle, over its mean size; zero where all are alike.
 Eigen::VectorXd scaled(const Eigen::VectorXd& values, double& middle, double& scale) {
@@ -113,17 +112,6 @@ std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitRes
   return best;
 }
 
-// The rows of a rigid body's motions are S Q' K: those of pitch and roll are as S_11, S_22 to those of the heave.
-std::array<bool, 2> BodyFit::turns(const BodyRows& rows) const {
-  const Eigen::MatrixXd inverse = q_.completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::VectorXd rates = (inverse * rows.rate).rowwise().norm();
-  const Eigen::VectorXd travels = (inverse * rows.travel).rowwise().norm();
-  const auto does = [&](Eigen::Index axis) {
-    return rates[axis] >= kLeastTurning * rates[0] || travels[axis] >= kLeastTurning * travels[0];
-  };
-  return {!sees_pitch_ || does(1), !sees_roll_ || does(q_.cols() - 1)};
-}
-
 bool BodyFit::hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars) const {
   const auto count = static_cast<Eigen::Index>(pairs_.size());
   const Eigen::Index bar_parameters = bars == BodyFitResult::Bars::kNone        ? 0
@@ -177,11 +165,6 @@ std::optional<BodyFitResult> BodyFit::fit(const BodyRows& rows, const std::vecto
     if (hasNegativeBar(*with, bars)) break;
   }
   result.phi_of = phi_of;
-  if (!rows.is_by_body) return result;
-  result.turns = turns(rows);
-  if (halves.empty()) return result;
-  const std::array<bool, 2> newer = turns(halves.back());  // a gyro may have died
-  for (const std::size_t axis : {0, 1}) result.turns[axis] = result.turns[axis] && newer[axis];
   return result;
 }
 

@@ -50,7 +50,6 @@ std::vector<StrutModel> BodyRows::models() const {
 
 Eigen::Matrix2d BodyFitResult::absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own,
                                                   const Eigen::Matrix2d& covariance, double friction_damping) const {
-  if (!turnsAtAll()) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
   const Measured &damping = b1[strut], &stiffness = b0[strut];
   Eigen::Matrix2d result = covariance;
   // Uniform between nothing and all of it: the mean square from one end is a third.

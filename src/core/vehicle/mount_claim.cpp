@@ -13,6 +13,7 @@ constexpr double kPart = 2.0;    // [s]
 constexpr double kFewest = 5.0;  // parts: ten seconds
 constexpr double kMost = 60.0;   // parts that count: two minutes
 constexpr double kOtherAxis = M_PI / 4.0;
+constexpr double kRoundsToUsual = kUsualLean - 0.5 / 180.0 * M_PI;
 
 }  // namespace
 
@@ -40,7 +41,7 @@ std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) c
   return found;
 }
 
-bool MountClaim::Finding::isLeaning() const { return lean > kUsualLean + kProven * lean_stddev; }
+bool MountClaim::Finding::isLeaning() const { return lean > kRoundsToUsual + kProven * lean_stddev; }
 
 bool MountClaim::Finding::isOnAnotherAxis() const { return lean > kOtherAxis; }
 

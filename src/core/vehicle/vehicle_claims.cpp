@@ -3,8 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
-#include <functional>
-#include <vector>
+#include <cmath>
 
 namespace suspension_health_monitor {
 namespace {
@@ -16,15 +15,9 @@ constexpr double kSame = 1e-9;   // 1 - r^2 of two streams of one sensor, by rou
 constexpr double kAlike = 0.01;  // of a wheel's power is all that the other wheels do not have: a tenth of its motion
 constexpr double kBetter = 0.5;  // of what the file leaves
 constexpr double kFits = 0.2;    // of the tops' motion, that a file which is right leaves at most
-constexpr std::size_t kMotions = 3;  // of a body that struts see
-constexpr double kMuch = 0.25;       // that is left where something else moves the body
+constexpr double kMuch = 0.02;   // that goes with the wheels, and no strut of theirs makes; links make 0.003
 
-// Complex columns as real ones of twice the length.
-Eigen::MatrixXd asReal(const Eigen::ArrayXXcd& columns) {
-  Eigen::MatrixXd result(2 * columns.rows(), columns.cols());
-  result << columns.real().matrix(), columns.imag().matrix();
-  return result;
-}
+constexpr int kRefinements = 3;
 
 double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j) {
   const double own = products(i, i) * products(j, j);
@@ -33,46 +26,97 @@ double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j
 
 }  // namespace
 
-VehicleClaims::VehicleClaims(std::size_t struts) : n_(static_cast<Eigen::Index>(struts)) {
-  moments_.setZero(6 * n_, 6 * n_);
+VehicleClaims::VehicleClaims(std::size_t struts, const Eigen::ArrayXcd& s)
+    : n_(static_cast<Eigen::Index>(struts)), s_(s) {
+  products_.assign(static_cast<std::size_t>(s.size()), Eigen::MatrixXcd::Zero(6 * n_, 6 * n_));
   whole_.setZero(2 * n_, 2 * n_);
 }
 
-void VehicleClaims::add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXcd& s) {
-  Eigen::ArrayXXcd columns(s.size(), 6 * n_);
-  for (std::size_t p = 0; p < 3; ++p)
-    columns.middleCols(static_cast<Eigen::Index>(p) * 2 * n_, 2 * n_) << wheels[p], tops[p];
-  const Eigen::MatrixXd plain = asReal(columns.leftCols(2 * n_));
-  whole_ += plain.transpose() * plain;
-  columns.colwise() /= s * s;  // displacements, which a bounce has most of
-  const Eigen::MatrixXd rows = asReal(columns);
-  moments_ += rows.transpose() * rows;
+void VehicleClaims::add(const Spectra& wheels, const Spectra& tops) {
+  Eigen::MatrixXcd columns(6 * n_, s_.size());
+  for (std::size_t p = 0; p < 3; ++p) {
+    const auto first = static_cast<Eigen::Index>(p) * 2 * n_;
+    columns.middleRows(first, n_) = wheels[p].matrix().transpose();
+    columns.middleRows(first + n_, n_) = tops[p].matrix().transpose();
+  }
+  whole_ += (columns.topRows(2 * n_) * columns.topRows(2 * n_).adjoint()).real();
+  columns.array().rowwise() /= (s_ * s_).transpose();  // displacements, which a bounce has most of
+  for (Eigen::Index k = 0; k < s_.size(); ++k)
+    products_[static_cast<std::size_t>(k)] += columns.col(k) * columns.col(k).adjoint();
   ++blocks_;
 }
 
 VehicleClaims::Mapping VehicleClaims::asFiled() const {
-  Mapping mapping{Eigen::MatrixXd::Zero(n_, 2 * n_), Eigen::MatrixXd::Zero(n_, 2 * n_)};
+  Mapping mapping{Eigen::MatrixXd::Zero(n_, 2 * n_), Eigen::MatrixXd::Zero(n_, 2 * n_), Eigen::VectorXd::Zero(2 * n_)};
   mapping.wheels.leftCols(n_).setIdentity();
   mapping.tops.rightCols(n_).setIdentity();
   return mapping;
 }
 
-double VehicleClaims::unexplained(const Mapping& mapping) const {
-  const Eigen::MatrixXd travel = mapping.wheels - mapping.tops;
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < n_; ++i) {
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(2 * n_ + 1, 6 * n_);
-    columns.topRows(n_).middleCols(2 * n_, 2 * n_) = travel;          // rates: p = 1
-    columns.middleRows(n_, n_).leftCols(2 * n_) = travel;             // travels: p = 0
-    columns.bottomRows<1>().rightCols(2 * n_) = mapping.tops.row(i);  // z'': p = 2
-    const Eigen::MatrixXd products = columns * moments_ * columns.transpose();
-    const Eigen::VectorXd score = products.topRightCorner(2 * n_, 1);
-    const double total = products(2 * n_, 2 * n_);
-    const double explained =
-        score.dot(products.topLeftCorner(2 * n_, 2 * n_).completeOrthogonalDecomposition().solve(score));
-    sum += total > 0.0 ? 1.0 - explained / total : 1.0;
+// Of all streams the part that goes with the wheels: noise of other sensors does not.
+void VehicleClaims::keepWhatWheelsTell() {
+  for (Eigen::MatrixXcd& products : products_) {
+    const Eigen::MatrixXcd with_wheels = products.middleCols(2 * n_, n_);  // p = 1
+    const Eigen::MatrixXcd wheels = with_wheels.middleRows(2 * n_, n_);
+    products = with_wheels * wheels.completeOrthogonalDecomposition().solve(with_wheels.adjoint());
   }
-  return sum / static_cast<double>(n_);
+}
+
+// A stream that is late by tau has exp(-s tau) of what happened.
+Eigen::MatrixXd VehicleClaims::moments(const Eigen::VectorXd& delays) const {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(6 * n_, 6 * n_);
+  for (std::size_t k = 0; k < products_.size(); ++k) {
+    const Eigen::ArrayXcd turn = (s_[static_cast<Eigen::Index>(k)] * delays.array()).exp();
+    const Eigen::VectorXcd all = turn.matrix().replicate(3, 1);
+    sum += (all.asDiagonal() * products_[k] * all.conjugate().asDiagonal()).real();
+  }
+  return sum;
+}
+
+double VehicleClaims::unexplained(const Mapping& mapping, const Eigen::MatrixXd& moments) const {
+  const Eigen::MatrixXd travel = mapping.wheels - mapping.tops;
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3 * n_, 6 * n_);
+  columns.topRows(n_).middleCols(2 * n_, 2 * n_) = travel;  // rates: p = 1
+  columns.middleRows(n_, n_).leftCols(2 * n_) = travel;     // travels: p = 0
+  columns.bottomRows(n_).rightCols(2 * n_) = mapping.tops;  // z'': p = 2
+  const Eigen::MatrixXd products = columns * moments * columns.transpose();
+  const Eigen::MatrixXd scores = products.topRightCorner(2 * n_, n_);
+  const Eigen::MatrixXd rows = products.topLeftCorner(2 * n_, 2 * n_).completeOrthogonalDecomposition().solve(scores);
+  const Eigen::ArrayXd total = products.diagonal().tail(n_).array();
+  const Eigen::ArrayXd explained = (scores.array() * rows.array()).colwise().sum().transpose();
+  return (total > 0.0).select(1.0 - explained / total, 1.0).mean();
+}
+
+double VehicleClaims::unexplained(const Hypothesis& hypothesis, double size) const {
+  Mapping mapping = asFiled();
+  hypothesis.apply(size, mapping);
+  return unexplained(mapping, mapping.delays.isZero() ? in_step_ : moments(mapping.delays));
+}
+
+// The best size by a parabola through the best of those to begin with and its neighbours, then closer and closer.
+VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
+  VehicleMistake found{hypothesis.kind, hypothesis.struts};
+  const std::vector<double>& sizes = hypothesis.sizes;
+  std::vector<double> left;
+  for (const double size : sizes) left.push_back(unexplained(hypothesis, size));
+  const auto best = std::min_element(left.begin(), left.end()) - left.begin();
+  found.size = sizes[static_cast<std::size_t>(best)];
+  found.unexplained = left[static_cast<std::size_t>(best)];
+  if (sizes.size() == 1) return found;
+  double step = sizes[1] - sizes[0], curvature = 0.0;
+  for (int i = 0; i < kRefinements; ++i, step *= 0.5) {
+    const double below = unexplained(hypothesis, found.size - step), above = unexplained(hypothesis, found.size + step);
+    curvature = (below + above - 2.0 * found.unexplained) / (step * step);
+    if (!(curvature > 0.0)) break;
+    found.size = std::clamp(found.size + (below - above) / (2.0 * curvature * step), sizes.front(), sizes.back());
+    found.unexplained = unexplained(hypothesis, found.size);
+  }
+  // At an end of the range it is something else.
+  if (found.size <= sizes.front() || found.size >= sizes.back()) found.unexplained = 1.0;
+  // Of a sum of squares over as many equations; half of each block is the next one's, too.
+  const double equations = 0.5 * blocks_ * 2.0 * static_cast<double>(s_.size() * n_);
+  found.stddev = std::sqrt(std::max(0.0, 2.0 * found.unexplained / (curvature * equations)));
+  return found;
 }
 
 VehicleMistake VehicleClaims::sameOrAlike(bool has_own_tops) const {
@@ -99,54 +143,27 @@ VehicleMistake VehicleClaims::sameOrAlike(bool has_own_tops) const {
   return found;
 }
 
-VehicleMistake VehicleClaims::find(const StrutPlaces& places) const {
+VehicleMistake VehicleClaims::find(const StrutPlaces& places) {
   if (blocks_ < kFewestBlocks || n_ < 2) return {Kind::kTooLittle, {}};
   VehicleMistake found = sameOrAlike(places.empty());
   const Mapping filed = asFiled();
-  found.unexplained = unexplained(filed);
+  found.unexplained = unexplained(filed, moments(filed.delays));
   if (found.kind != Kind::kNone) return found;
-
-  double least = std::min(kBetter * found.unexplained, kFits);
-  const auto attempt = [&](Kind kind, std::size_t i, std::size_t j, const Mapping& mapping) {
-    const double left = unexplained(mapping);
-    if (!(left < least)) return;
-    least = left;
-    found.kind = kind;
-    found.struts = {i, j};
-  };
-  for (Eigen::Index i = 0; i < n_; ++i) {
-    Mapping turned = filed;
-    turned.wheels.row(i) *= -1.0;
-    attempt(Kind::kUpsideDown, static_cast<std::size_t>(i), static_cast<std::size_t>(i), turned);
-    for (Eigen::Index j = i + 1; j < n_; ++j) {
-      Mapping swapped = filed;
-      swapped.wheels.row(i).swap(swapped.wheels.row(j));
-      attempt(Kind::kSwapped, static_cast<std::size_t>(i), static_cast<std::size_t>(j), swapped);
-    }
+  const double all = found.unexplained;
+  keepWhatWheelsTell();
+  in_step_ = moments(filed.delays);
+  const double filed_leaves = unexplained(filed, in_step_);
+  double least = std::min(kBetter * filed_leaves, kFits);
+  for (const Hypothesis& hypothesis : hypotheses(places)) {
+    VehicleMistake other = attempt(hypothesis);
+    if (!(other.unexplained < least) || !other.isLarge()) continue;
+    least = other.unexplained;
+    found = other;
+    found.unexplained = all;
   }
-  const auto motions = [&](const StrutPlaces& at) {
-    Eigen::MatrixXd q = Eigen::MatrixXd::Ones(n_, 3);
-    for (Eigen::Index i = 0; i < n_; ++i)
-      q.row(i).tail<2>() << at[static_cast<std::size_t>(i)][0], at[static_cast<std::size_t>(i)][1];
-    return q;
-  };
-  const auto moved = [&](Kind kind, std::size_t strut, const std::function<void(StrutPlaces&)>& change) {
-    StrutPlaces other = places;
-    change(other);
-    Mapping mapping = filed;
-    const Eigen::MatrixXd inverse = motions(places).completeOrthogonalDecomposition().pseudoInverse();
-    mapping.tops.rightCols(n_) = motions(other) * inverse;
-    attempt(kind, strut, strut, mapping);
-  };
-  for (const std::size_t axis : {0u, 1u}) {
-    if (places.size() <= kMotions) break;  // any body would do
-    moved(axis == 0 ? Kind::kMirroredAhead : Kind::kMirroredSides, 0, [&](StrutPlaces& other) {
-      for (auto& place : other) place[axis] *= -1.0;
-    });
-    for (std::size_t i = 0; i < places.size(); ++i)
-      moved(axis == 0 ? Kind::kSignAhead : Kind::kSignSide, i, [&](StrutPlaces& other) { other[i][axis] *= -1.0; });
-  }
-  if (found.kind == Kind::kNone && found.unexplained > kMuch) found.kind = Kind::kOthers;
+  // Of noise n wheels "tell" n / B in B blocks that share no reading, to a tenth.
+  const double of_noise = 1.5 * static_cast<double>(n_) / (0.5 * blocks_) * all;
+  if (found.kind == Kind::kNone && filed_leaves > std::max(kMuch, of_noise)) found.kind = Kind::kOthers;
   return found;
 }
 

@@ -19,12 +19,8 @@ VehicleCoupling couplingOf(const VehicleMonitor& monitor, const std::vector<std:
 }
 
 std::string describeMistake(const VehicleMonitor& monitor, const std::vector<std::string>& names) {
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (const SuspensionMonitor* strut = monitor.strut(i); strut == nullptr || !strut->report().estimate.valid()) {
-      const std::string mistake = describe(monitor.mistake(), names);
-      return mistake.empty() ? "" : "the drives do not fit the vehicle file: " + mistake;
-    }
-  return "";
+  const std::string mistake = describe(monitor.mistake(), names);
+  return mistake.empty() ? "" : "the drives do not fit the vehicle file: " + mistake;
 }
 
 VehicleIdentification identified(VehicleMonitor& monitor, const std::vector<std::string>& names,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -11,8 +12,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kModelsEvery = 0.1;                    // [s]
-constexpr Stamp kBodyEvery = std::chrono::seconds(30);  // half of the blocks that are kept are new then
+constexpr double kModelsEvery = 0.1;  // [s]
+// Half of the blocks are new then, of those that there are or that are kept.
+constexpr Stamp kBodyFirst = std::chrono::seconds(5), kBodyEvery = std::chrono::seconds(30);
 
 Stamp periodOf(const std::vector<VehicleMonitor::Start>& starts) {
   requireNumStruts(starts.size());
@@ -146,27 +148,27 @@ void VehicleMonitor::takeModels() {
 }
 
 void VehicleMonitor::fitBody() {
+  if (!blocks_ || numStruts() < 2) return;
+  mistake_ = blocks_->mistake();
   BodyRows rows;
-  if (!blocks_ || numStruts() < 2 || !blocks_->rows(rows)) return;
+  if (!blocks_->rows(rows)) return;
   body_ = BodyFit::of(numStruts(), blocks_->tops().places()).fit(rows, blocks_->rowsOfHalves());
 }
 
 void VehicleMonitor::fitBodyIfDue() {
-  if (!decoupler_ || !last_ || (fitted_ && *last_ - *fitted_ < kBodyEvery && *last_ >= *fitted_)) return;
-  fitted_ = last_;
+  if (!decoupler_ || !last_ || (body_due_ && *last_ < *body_due_ && *last_ >= fitted_)) return;
+  if (!body_due_) coupled_ = *last_;
+  body_due_ = *last_ + std::clamp(*last_ - coupled_, kBodyFirst, kBodyEvery);
+  fitted_ = *last_;
   fitBody();
 }
 
 Eigen::Vector2d VehicleMonitor::modelStddev(const TopEstimate& estimate) const {
+  if (mistake_.isContradiction()) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   if (!body_) return Eigen::Vector2d::Zero();
   const Eigen::Matrix2d absolute = body_->absoluteCovariance(estimate.strut, estimate.theta.head<2>(),
                                                              Eigen::Matrix2d::Zero(), estimate.frictionDamping());
   return absolute.diagonal().cwiseSqrt();
-}
-
-VehicleMistake VehicleMonitor::mistake() const {
-  if (!blocks_ || numStruts() < 2) return {VehicleMistake::Kind::kTooLittle, {}, 0.0};
-  return blocks_->mistake();
 }
 
 StrutEstimate VehicleMonitor::overTheDrive(std::size_t strut) {

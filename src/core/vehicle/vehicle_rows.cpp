@@ -79,7 +79,7 @@ VehicleMistake VehicleBlocks::mistake() const {
       std::none_of(tops_.tops.begin(), tops_.tops.end(), [](const auto& top) { return top.has_own; });
   const Modulation modulation(estimators_.front().equations().band());
   const Eigen::ArrayXcd s = modulation.s();
-  VehicleClaims claims(tops_.size());
+  VehicleClaims claims(tops_.size(), s), newer(tops_.size(), s);
   VehicleClaims::Spectra wheels, tops;
   for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);
   for (int age = 0; age < estimators_.front().count(); ++age) {
@@ -90,9 +90,12 @@ VehicleMistake VehicleBlocks::mistake() const {
         tops[p].col(i) = block.body.col(static_cast<Eigen::Index>(p));
       }
     }
-    claims.add(wheels, tops, s);
+    claims.add(wheels, tops);
+    if (2 * age < estimators_.front().count()) newer.add(wheels, tops);
   }
-  return claims.find(is_by_body ? tops_.places() : StrutPlaces{});
+  if (!is_by_body) return claims.find({});
+  if (newer.hasDeadGyro(tops_.places())) return {VehicleMistake::Kind::kDeadGyro, {}};  // it may have died
+  return claims.find(tops_.places());
 }
 
 std::vector<BodyRows> VehicleBlocks::rowsOfHalves() {

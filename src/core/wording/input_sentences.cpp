@@ -30,9 +30,7 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNotExplained:
       return "the strut explains less than half of the body's motion: other struts, other forces, or a sensor";
     case EstimateDoubt::kNotAStrut: return "the estimates are not those of a spring and a damper";
-    case EstimateDoubt::kBodyDoesNotTurn:
-      return "the body's IMU tells of no pitch or no roll, though the wheels differ: dead gyro, wrong axis, or wrong "
-             "positions of the struts";
+    case EstimateDoubt::kVehicleFile: return "the drives contradict the vehicle file: see what is said of the coupling";
     case EstimateDoubt::kOldData: return "parked: the newest data on the strut are older than health/oldest_data";
     case EstimateDoubt::kDisagrees: return "not what the block estimate says";
     case EstimateDoubt::kFreeRunFails:

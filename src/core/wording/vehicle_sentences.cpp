@@ -39,13 +39,21 @@ std::string describe(const VehicleMistake& mistake, const std::vector<std::strin
   using Kind = VehicleMistake::Kind;
   const auto name = [&](std::size_t i) { return i < struts.size() ? struts[i] : std::string(); };
   const std::string first = name(mistake.struts.first), second = name(mistake.struts.second);
-  const auto sign = [&](const char* axis) {
-    return std::string("with the other sign of ") + axis + " in the position of " + first + " they do";
+  const auto position = [&](const char* axis, const std::string& of) {
+    const std::string where = std::string(axis) + " in " + of;
+    if (mistake.size < 0.0) return "with the other sign of " + where + " they do";
+    return formatted("with %s times %.2f (+- %.2f) they do", where.c_str(), mistake.size, mistake.stddev);
   };
-  const auto mirrored = [](const char* axis, const char* sides) {
-    return std::string("with the other sign of ") + axis + " in all positions they do: " + sides +
-           ", or the body's IMU is mounted so";
+  const auto shifted = [&](const char* axis) {
+    return formatted("with %+.2f m (+- %.2f) in %s of all positions they do: the body's IMU stands elsewhere",
+                     mistake.size, mistake.stddev, axis);
   };
+  const auto late = [&](const std::string& sensor) {
+    return formatted("with the stamps of %s %.1f ms (+- %.1f) %s they do: its clock, its driver's delay",
+                     sensor.c_str(), 1000.0 * std::abs(mistake.size), 1000.0 * mistake.stddev,
+                     mistake.size > 0.0 ? "earlier" : "later");
+  };
+  const std::string all = "all positions", of_first = "the position of " + first;
   switch (mistake.kind) {
     case Kind::kNone:
     case Kind::kTooLittle:
@@ -56,15 +64,25 @@ std::string describe(const VehicleMistake& mistake, const std::vector<std::strin
       return "with the wheel topics of " + first + " and " + second +
              " swapped they do: swap these, or what the file says of the two strut tops";
     case Kind::kUpsideDown: return "with the wheel of " + first + " the other way up they do: turn its axis round";
-    case Kind::kMirroredAhead: return mirrored("x", "front and rear are swapped");
-    case Kind::kMirroredSides: return mirrored("y", "left and right are swapped");
-    case Kind::kSignAhead: return sign("x");
-    case Kind::kSignSide: return sign("y");
+    case Kind::kAhead:
+      return position("x", all) + (mistake.size < 0.0 ? ": front and rear are swapped, or the body's IMU is" : "");
+    case Kind::kSide:
+      return position("y", all) + (mistake.size < 0.0 ? ": left and right are swapped, or the body's IMU is" : "");
+    case Kind::kAheadOfOne: return position("x", of_first);
+    case Kind::kSideOfOne: return position("y", of_first);
+    case Kind::kShiftAhead: return shifted("x");
+    case Kind::kShiftSide: return shifted("y");
+    case Kind::kLateWheel: return late("the wheel of " + first);
+    case Kind::kLateTop: return late("the sprung IMU of " + first);
+    case Kind::kLateBody: return late("the body's IMU");
+    case Kind::kDeadGyro:
+      return "the body's IMU tells of no pitch or no roll, though the wheels differ: dead gyro, wrong axis, or wrong "
+             "positions of the struts";
     case Kind::kOthers:
       return formatted(
           "the wheels in it leave %.0f %% of the body's motion unexplained: a strut that is missing in the file, a "
           "wrong "
-          "topic, a stream that is late, or something else that moves the body",
+          "topic, or something else that moves the body",
           100.0 * mistake.unexplained);
   }
   return "";

@@ -57,7 +57,7 @@ struct BodyFitResult {
   /// @param friction_damping  what friction counts as in b1, TopEstimate::frictionDamping(): a damper that is not
   /// linear looks like friction, in part or as a whole.
   /// @return that of their absolute values: with the model's error, as far as the rows of all tops leave it in the
-  /// strut's own column; infinite unless the body turns. A change has none of it.
+  /// strut's own column. A change has none of it.
   Eigen::Matrix2d absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own, const Eigen::Matrix2d& covariance,
                                      double friction_damping) const;
 
@@ -70,11 +70,6 @@ struct BodyFitResult {
   Measured mass_to_pitch_inertia{}, mass_to_roll_inertia{};  ///< M/Iyy, M/Ixx [1/m^2]; infinite stddev: not seen
   Measured product{};                                        ///< their common term, M (I^-1)_xy [1/m^2]
   Measured x{}, y{};                                         ///< of the centre of gravity [m]
-
-  /// Pitch and roll: the body's IMU tells of as much as a body on struts turns. Else its gyro is dead, or the struts
-  /// stand elsewhere than their positions say, and no number is right.
-  std::array<bool, 2> turns{true, true};
-  bool turnsAtAll() const { return turns[0] && turns[1]; }
 };
 
 /// Minimum-distance fit of a rigid body on linear struts and anti-roll bars to the rows of its tops, (B23) in
@@ -112,7 +107,6 @@ class BodyFit {
   std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
                                 const Eigen::VectorXd& start) const;
   std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars) const;
-  std::array<bool, 2> turns(const BodyRows& rows) const;
   bool hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars) const;
   bool isNamed(const Solution& without, const Solution& with, BodyFitResult::Bars bars,
                const std::vector<BodyRows>& halves) const;

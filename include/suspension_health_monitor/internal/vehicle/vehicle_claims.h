@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <vector>
 
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 
@@ -11,52 +13,87 @@ namespace suspension_health_monitor {
 /// What a vehicle file says that the data contradict.
 struct VehicleMistake {
   enum class Kind {
-    kNone,           ///< the data fit the file
-    kTooLittle,      ///< of data
-    kSameWheels,     ///< the topics of two wheels carry the same data
-    kSameTops,       ///< those of two strut tops
-    kAlike,          ///< two wheels move alike: no mistake, but the road cannot tell the struts apart
-    kSwapped,        ///< the wheels of two struts, or their tops
-    kUpsideDown,     ///< the axis of a wheel's sensor
-    kMirroredAhead,  ///< all positions, x for -x
-    kMirroredSides,  ///< y for -y
-    kSignAhead,      ///< x of one position
-    kSignSide,       ///< y of one position
-    kOthers,         ///< no such mistake explains how the tops move
+    kNone,        ///< the data fit the file
+    kTooLittle,   ///< of data
+    kSameWheels,  ///< the topics of two wheels carry the same data
+    kSameTops,    ///< those of two strut tops
+    kAlike,       ///< two wheels move alike: no mistake, but the road cannot tell the struts apart
+    kSwapped,     ///< the wheels of two struts, or their tops
+    kUpsideDown,  ///< the axis of a wheel's sensor
+    kAhead,       ///< x of all positions
+    kSide,        ///< y of all positions
+    kAheadOfOne,  ///< x of one position
+    kSideOfOne,   ///< y of one position
+    kShiftAhead,  ///< x of the body's IMU
+    kShiftSide,   ///< y of the body's IMU
+    kLateWheel,   ///< the stamps of a wheel's sensor
+    kLateTop,     ///< those of the sensor at a strut top
+    kLateBody,    ///< those of the body's IMU
+    kDeadGyro,    ///< of the body's IMU, in pitch or roll: it turns less than any body on struts
+    kOthers,      ///< no such mistake explains how the tops move
   };
   Kind kind = Kind::kNone;
   StrutPair struts{};        ///< that it is about; of one strut twice the same
+  double size = 0.0;         ///< what times the file's positions, what added to them [m], by how much late [s]
+  double stddev = 0.0;       ///< of size
   double unexplained = 0.0;  ///< share of the tops' motion that the file as it stands leaves [-]
+
+  /// @return true: what is estimated of any strut with this file is wrong. Delays are among what is estimated, and what
+  /// no mistake explains is an error of the model (BodyFit).
+  bool isContradiction() const;
+  /// @return false: it costs less than the model's error does.
+  bool isLarge() const;
 };
 
-/// Sums over blocks and bins of the products of all wheels' and tops' motions, by which every mapping of topics and
-/// positions is judged at once: for each, the rows (B20) are fitted by least squares, and what they leave is compared.
-/// Noise in the columns draws all mappings alike.
+/// Products of all wheels' and tops' spectra, summed over blocks, by which every mistake is judged at once: for each,
+/// the rows (B20) are fitted by least squares to what the sensors would have read without it, and what they leave is
+/// compared. Noise in the columns draws all of them alike.
 class VehicleClaims {
  public:
   using Spectra = std::array<Eigen::ArrayXXcd, 3>;  ///< H_p of p = 0, 1, 2, bins by struts
 
-  explicit VehicleClaims(std::size_t struts);
+  /// @param s  of the bins of a block [rad/s].
+  VehicleClaims(std::size_t struts, const Eigen::ArrayXcd& s);
 
   /// Adds one block.
-  /// @param wheels, tops  of w'' and z''.  @param s  of the bins.
-  void add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXcd& s);
+  /// @param wheels, tops  of w'' and z''.
+  void add(const Spectra& wheels, const Spectra& tops);
 
   /// @param places  of struts whose tops the body's IMU tells; empty: tops have sensors of their own.
-  VehicleMistake find(const StrutPlaces& places) const;
+  VehicleMistake find(const StrutPlaces& places);
+
+  /// @return true: the body's IMU tells of less pitch or roll than any body on these wheels has.
+  bool hasDeadGyro(const StrutPlaces& places) const;
 
  private:
-  /// Streams of all struts as the file would have them, from those that were measured.
+  /// Streams of all struts as they would be without a mistake, from those that were measured.
   struct Mapping {
     Eigen::MatrixXd wheels, tops;
+    Eigen::VectorXd delays;  ///< of wheels, then of tops [s]
   };
+  /// A mistake of a size that is not known.
+  struct Hypothesis {
+    VehicleMistake::Kind kind;
+    StrutPair struts;
+    std::vector<double> sizes;  ///< to begin with; one: there are no others
+    std::function<void(double size, Mapping& mapping)> apply;
+  };
+  void keepWhatWheelsTell();
   Mapping asFiled() const;
-  double unexplained(const Mapping& mapping) const;
+  Eigen::MatrixXd moments(const Eigen::VectorXd& delays) const;
+  double unexplained(const Mapping& mapping, const Eigen::MatrixXd& moments) const;
+  double unexplained(const Hypothesis& hypothesis, double size) const;
+  VehicleMistake attempt(const Hypothesis& hypothesis) const;
+  std::vector<Hypothesis> hypotheses(const StrutPlaces& places) const;
+  void addPositions(const StrutPlaces& places, std::vector<Hypothesis>& all) const;
+  void addDelays(bool is_by_body, std::vector<Hypothesis>& all) const;
   VehicleMistake sameOrAlike(bool has_own_tops) const;
 
   Eigen::Index n_;
-  Eigen::MatrixXd moments_;  // by p, then wheels, then tops
-  Eigen::MatrixXd whole_;    // of H_0 of wheels and tops, unweighted
+  Eigen::ArrayXcd s_;
+  std::vector<Eigen::MatrixXcd> products_;  // by bin: by p, then wheels, then tops; of displacements
+  Eigen::MatrixXd in_step_;                 // moments() if no stream is late
+  Eigen::MatrixXd whole_;                   // of H_0 of wheels and tops, all bins
   int blocks_ = 0;
 };
 

@@ -83,8 +83,8 @@ class VehicleMonitor {
   const std::optional<BodyFitResult>& body() const { return body_; }
   const VehicleTops* tops() const { return blocks_ ? &blocks_->tops() : nullptr; }
 
-  /// @return as VehicleBlocks::mistake(); of one strut there is none.
-  VehicleMistake mistake() const;
+  /// @return what fitBody() found last against the vehicle file; of one strut there is nothing.
+  const VehicleMistake& mistake() const { return mistake_; }
 
   /// @return the estimate over all readings so far, as SuspensionMonitor::overTheDrive(). Not for the sample path.
   StrutEstimate overTheDrive(std::size_t strut);
@@ -102,11 +102,14 @@ class VehicleMonitor {
   std::optional<VehicleBlocks> blocks_;  // from the first reading on
   BodyRows rows_, newest_rows_;
   std::optional<BodyFitResult> body_;
+  VehicleMistake mistake_{VehicleMistake::Kind::kTooLittle, {}};
   std::optional<Decoupler> decoupler_;
   std::vector<SuspensionMonitor> struts_;
   EveryN models_due_;
-  bool is_alone_;  // nothing known moves the one strut
-  std::optional<Stamp> last_, fitted_;
+  bool is_alone_;                  // nothing known moves the one strut
+  std::optional<Stamp> last_;      // sample
+  std::optional<Stamp> body_due_;  // of the next fit of the body
+  Stamp coupled_{0}, fitted_{0};   // first and last fit
 };
 
 }  // namespace suspension_health_monitor
