@@ -78,7 +78,8 @@ struct StrutEstimate {
   double offset = std::nan("");        ///< of the wheel carrier's reading against the body's [m/s^2]; of LS and LA
   double delay = std::nan("");         ///< by which the wheel carrier's readings are stamped late [s]; of the blocks
   double delay_stddev = std::nan("");  ///< [s]
-  double gain = std::nan("");  ///< of the body's sensor over that of the wheel's, less 1 [-]; of the blocks, where it is
+  double gain =
+      std::nan("");  ///< of the body's sensor over that of the wheel's, less 1 [-]; of the blocks, where it is
   double gain_stddev = std::nan("");    ///< more than 5 %, else 0 [-]
   std::optional<DryFriction> friction;  ///< of the blocks; empty: other effects are in the model
   double effective_rows = 0.0;          ///< rows in the memory of LS, LA; blocks of the window
@@ -201,9 +202,11 @@ struct Baseline {
 /// What is known of the strut's condition.
 struct HealthReport {
   HealthLevel level = HealthLevel::kStale;
-  std::optional<double> damping_change;        ///< beta / healthy - 1 [-]; empty without healthy value or estimate
-  std::optional<double> stiffness_change;      ///< K / healthy - 1 [-]
-  std::optional<double> payload_change;        ///< M / healthy - 1 [-]; needs both healthy values
+  std::optional<double> damping_change;    ///< beta / healthy - 1 [-]; empty without healthy value or estimate
+  std::optional<double> stiffness_change;  ///< K / healthy - 1 [-]
+  std::optional<double> payload_change;    ///< M / healthy - 1 [-]; needs both healthy values
+  /// What all dampers of a vehicle have changed alike [-], as they warm or cool, where that is why there is no warning.
+  std::optional<double> shared_damping_change;
   double damping_significance = std::nan("");  ///< change in its standard deviations; NaN: not known
   double stiffness_significance = std::nan("");
   HealthLevel damping_level = HealthLevel::kOk;

@@ -48,6 +48,41 @@ TEST(VehicleMonitor, AccusesTheCornerThatLosesItsDampingAndNoOther) {
   EXPECT_LT(error_at, kLoss + 30.0);
 }
 
+// Dampers that soften together while they warm, by less than the error threshold, and one that softens beyond that.
+TEST(VehicleMonitor, TakesWhatAllDampersShareForTheirTemperature) {
+  constexpr double kWarm = 0.8, kWornToo = 0.72, kFrom = 100.0, kTo = 160.0;
+  for (const bool is_one_worn : {false, true}) {
+    Vehicle vehicle = namedVehicle("sedan");
+    for (VehicleStrut& strut : vehicle.struts) {
+      strut.damping_end_fraction = kWarm;
+      strut.ramp_start = kFrom;
+      strut.ramp_end = kTo;
+    }
+    if (is_one_worn) vehicle.struts[1].damping_end_fraction = kWornToo * kWarm;
+    const StrutDrives drive = strutDrives(vehicle, vehicleDrive(260.0));
+    std::array<double, 4> warned{};
+    std::array<HealthReport, 4> last;
+    VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)),
+                           [&](std::size_t strut, const MonitorReport& report) {
+                             const HealthLevel level = report.health.level;
+                             warned[strut] += level == HealthLevel::kWarn || level == HealthLevel::kError ? 0.01 : 0.0;
+                             last[strut] = report.health;
+                           });
+    for (std::size_t k = 0; k < drive.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (is_one_worn && i == 1) {
+        EXPECT_EQ(last[i].level, HealthLevel::kError);
+        continue;
+      }
+      EXPECT_LT(warned[i], 3.0) << i;  // [s]: estimates of the struts come one after the other
+      EXPECT_EQ(last[i].level, HealthLevel::kOk) << i << describe(last[i]);
+      ASSERT_TRUE(last[i].shared_damping_change) << i << describe(last[i]);
+      EXPECT_NEAR(*last[i].shared_damping_change, kWarm - 1.0, 0.05);
+      EXPECT_NE(describe(last[i]).find("softer: warm?"), std::string::npos);
+    }
+  }
+}
+
 TEST(VehicleMonitor, OfOneStrutIsASuspensionMonitor) {
   const Vehicle vehicle = namedVehicle("half_sedan");
   const StrutDrives drive = strutDrives(vehicle, vehicleDrive(30.0));

@@ -52,6 +52,20 @@ HealthLevel levelOf(const PartChange& change, HealthLevel before, const HealthOp
   return options.min_significance * change.blind > change.error ? HealthLevel::kStale : HealthLevel::kOk;
 }
 
+/// @return the change beyond what the others have, too.
+PartChange beyond(const LogChange& others, PartChange change) {
+  const double stddev = std::hypot(change.stddev, others.stddev);
+  change.size = std::expm1(std::log1p(change.size) - others.size);
+  change.significance = std::fmin(change.significance, logSize(change.size) / stddev);
+  change.stddev = stddev;
+  return change;
+}
+
+double sharedBy(const LogChange& a, const LogChange& b) {
+  if (a.size * b.size <= 0.0) return 0.0;
+  return std::abs(a.size) < std::abs(b.size) ? a.size : b.size;
+}
+
 }  // namespace
 
 void HealthOptions::validate() const {
@@ -131,6 +145,7 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   carryOn(stiffness_, changed.change.stiffness);
   const StrutChange change = splitChange(changed.change, options_.payload_range, known_load_);
   judged_ = HealthReport();
+  damping_change_.reset();
   judge(change);
   judged_.friction_doubt = judged_.uncertain && changed.is_mostly_friction;
   noteLoad(change);
@@ -185,7 +200,15 @@ void HealthAssessment::judge(const StrutChange& change) {
     const PartChange damping = part(*change.damping, change.damping_stddev, *change.measured.damping,
                                     options_.damping_warn, options_.damping_error);
     now.damping_significance = damping.significance;
-    damping_.level = levelOf(damping, damping_.level, options_);
+    const HealthLevel before = damping_.level;
+    damping_.level = levelOf(damping, before, options_);
+    damping_change_ = LogChange{std::log1p(*change.damping), change.damping_stddev};
+    if (others_ && damping_.level < HealthLevel::kError) {
+      const HealthLevel own = levelOf(beyond(*others_, damping), before, options_);
+      if (own == HealthLevel::kOk && damping_.level == HealthLevel::kWarn)
+        now.shared_damping_change = std::expm1(sharedBy(*damping_change_, *others_));
+      if (own != HealthLevel::kStale) damping_.level = std::min(own, HealthLevel::kWarn);
+    }
   }
   if (change.stiffness) {
     const PartChange stiffness = part(*change.stiffness, change.stiffness_stddev, *change.measured.stiffness,
@@ -204,7 +227,8 @@ void HealthAssessment::judge(const StrutChange& change) {
 void HealthAssessment::warnEarly(const StrutChange& change, double window) {
   if (since_early_ < window) return;
   since_early_ = 0.0;
-  if (change.damping) damping_.early.add(*change.damping, change.damping_stddev);
+  if (change.damping)
+    damping_.early.add(std::expm1(damping_change_->size - (others_ ? others_->size : 0.0)), change.damping_stddev);
   if (change.stiffness) stiffness_.early.add(*change.stiffness, change.stiffness_stddev);
 }
 

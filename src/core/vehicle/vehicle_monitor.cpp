@@ -85,7 +85,25 @@ void VehicleMonitor::addReading(const VehicleTops& tops, const VehicleReading& r
   const TopEstimate* estimate = blocks_->push(reading);
   if (estimate == nullptr) return;
   if (estimate->strut + 1 == numStruts() || !decoupler_) learnRows();
-  if (isCoupled()) struts_[estimate->strut].takeEstimate(*estimate, modelStddev(*estimate));
+  if (!isCoupled()) return;
+  struts_[estimate->strut].setOthers(sharedByOthers(estimate->strut));
+  struts_[estimate->strut].takeEstimate(*estimate, modelStddev(*estimate));
+}
+
+// The least that all of them have: a worn one among them has no say.
+std::optional<LogChange> VehicleMonitor::sharedByOthers(std::size_t strut) const {
+  constexpr std::size_t kFewestStruts = 3;
+  std::optional<LogChange> shared;
+  if (numStruts() < kFewestStruts) return shared;
+  for (std::size_t i = 0; i < numStruts(); ++i) {
+    if (i == strut) continue;
+    const std::optional<LogChange>& change = struts_[i].dampingChange();
+    if (!change) return std::nullopt;
+    if (!shared || std::abs(change->size) < std::abs(shared->size)) shared = change;
+  }
+  for (std::size_t i = 0; i < numStruts(); ++i)
+    if (i != strut && struts_[i].dampingChange()->size * shared->size < 0.0) shared->size = 0.0;
+  return shared;
 }
 
 void VehicleMonitor::addGridSample(const VehicleSample& sample) {

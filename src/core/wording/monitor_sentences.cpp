@@ -66,6 +66,12 @@ std::string describeJudgement(const HealthReport& report) {
          (report.learning_restarted ? " (begun anew: the strut was changing)" : "");
 }
 
+std::string describeShared(const HealthReport& report) {
+  if (!report.shared_damping_change) return "";
+  const double change = *report.shared_damping_change;
+  return "all dampers " + sizeInPercent(change) + (change < 0.0 ? " softer: warm?" : " stiffer: cold?");
+}
+
 std::string nameOf(std::size_t corner) { return std::string(kCornerNames[corner]); }
 
 std::string describe(const CornerDamage& damage, CornerVerdict verdict) {
@@ -104,7 +110,7 @@ std::string describeNoReading(double seconds, const std::vector<std::string>& si
 }
 
 std::string describe(const HealthReport& report) {
-  return join({describe(report.sensor), describeJudgement(report),
+  return join({describe(report.sensor), describeJudgement(report), describeShared(report),
                report.early_warning && report.level == HealthLevel::kOk ? "early warning: a change is certain" : "",
                report.outliers ? "outliers or saturation present (residuals have heavy tails)" : ""},
               "; ");

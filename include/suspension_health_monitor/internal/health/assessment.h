@@ -29,6 +29,8 @@ struct HealthOptions : HealthThresholds {
 ///   (ChangeTrend).
 /// - Residuals of LS that have heavy tails for long are reported: outliers.
 /// - Payload moves both parameters, damage one (splitChange()).
+/// - What all dampers of a vehicle share is their temperature: below the error threshold a damper is judged by what it
+///   has beyond it.
 /// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation), of one
 /// estimate
 ///   to the next at least. It ends when the change is below the threshold by the hysteresis, or a standard deviation if
@@ -48,6 +50,13 @@ class HealthAssessment {
 
   /// @param sensor  what is known of the sensors; counts from the next update().
   void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
+
+  /// @param others  the damping's change that all other struts of the vehicle share; empty: not known, or fewer than
+  /// two. Counts from the next update().
+  void setOthers(const std::optional<LogChange>& others) { others_ = others; }
+
+  /// @return ln of damping over the healthy strut's by the newest estimate, without a load; empty: not known.
+  const std::optional<LogChange>& dampingChange() const { return damping_change_; }
 
   /// LS as it is now, to be called for each check of the sensors.
   void watch(const StrutEstimate& ls) { outlying_ += ((ls.tails > kHeavy ? 1.0 : 0.0) - outlying_) / kOutlyingMemory; }
@@ -93,6 +102,7 @@ class HealthAssessment {
   HealthLevel level_ = HealthLevel::kStale;
   Stamp report_stamp_{};
   SensorReport sensor_;
+  std::optional<LogChange> others_, damping_change_;
   HealthReport report_;
 };
 

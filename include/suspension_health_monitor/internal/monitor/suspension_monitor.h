@@ -48,6 +48,10 @@ class SuspensionMonitor {
   /// Takes the block estimate of the plain model from elsewhere.  @param model_stddev  as ModelTracker::takeEstimate().
   void takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev);
 
+  /// As HealthAssessment has them.
+  void setOthers(const std::optional<LogChange>& others) { health_.setOthers(others); }
+  const std::optional<LogChange>& dampingChange() const { return health_.dampingChange(); }
+
   /// While the newest blocks of elsewhere say nothing of the strut LS and LA stay as they are.
   void hold(bool holds) { plain_.hold(holds); }
 

@@ -93,6 +93,7 @@ class VehicleMonitor {
   void learnRows();
   void beginStruts();
   void takeModels();
+  std::optional<LogChange> sharedByOthers(std::size_t strut) const;
   Eigen::Vector2d modelStddev(const TopEstimate& estimate) const;
 
   Stamp period_;
