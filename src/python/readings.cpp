@@ -82,9 +82,7 @@ std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& 
     recording.forEach([&](Side side, Stamp stamp, double value) {
       if (side == Side::kRoad) return;
       work.step();
-      const bool paired = !grid.streams().resamples();
-      grid.push(indexOf(side), stamp + shift, &value);
-      if (paired && grid.streams().resamples()) dropNewest(drive.samples, AlignmentJudge::kOutcomes);
+      if (grid.push(indexOf(side), stamp + shift, &value)) dropNewest(drive.samples, AlignmentJudge::kOutcomes);
     });
   }
   return drives;

@@ -32,7 +32,6 @@ MessagePipeline::MessagePipeline(const VehicleOptions& options, const VehicleStr
       mounts_(streams.sensors.size()),
       forces_(options.forceNames()),
       num_struts_(options.struts.size()),
-      num_sensors_(streams.sensors.size()),
       kept_span_(options.common.shell.diagnose_window) {}
 
 void MessagePipeline::push(std::size_t sensor, const sensor_msgs::Imu& message) {
@@ -89,15 +88,15 @@ std::optional<MountClaim::Finding> MessagePipeline::mount(std::size_t sensor) co
 }
 
 std::vector<std::string> MessagePipeline::mountFaults(const std::vector<std::string>& names) const {
-  std::vector<bool> is_inclined(num_sensors_, false);
+  std::vector<bool> is_inclined(mounts_.size(), false);
   for (const VehicleChannels::Strut& strut : streams_.channels.struts) {
     if (!strut.sprung) continue;
     const std::size_t top = streams_.options[*strut.sprung].sensor, wheel = streams_.options[strut.unsprung].sensor;
     const auto a = mount(top), b = mount(wheel);
     is_inclined[top] = is_inclined[wheel] = a && b && a->leansAs(*b);
   }
-  std::vector<std::string> faults(num_sensors_);
-  for (std::size_t i = 0; i < std::min(num_sensors_, names.size()); ++i) {
+  std::vector<std::string> faults(mounts_.size());
+  for (std::size_t i = 0; i < std::min(mounts_.size(), names.size()); ++i) {
     using Place = VehicleStreams::Place;
     const Place place = streams_.sensors[i].place;
     if (place == Place::kForce) continue;
@@ -121,7 +120,7 @@ RejectCounts MessagePipeline::rejected(std::size_t sensor) const {
 
 RejectCounts MessagePipeline::rejected() const {
   RejectCounts all = VehiclePipeline::rejected();
-  for (std::size_t i = 0; i < num_sensors_; ++i) all += sensors_.rejected(i);
+  for (std::size_t i = 0; i < mounts_.size(); ++i) all += sensors_.rejected(i);
   return all;
 }
 

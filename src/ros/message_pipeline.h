@@ -70,7 +70,7 @@ class MessagePipeline : public VehiclePipeline {
   VehicleStreams streams_;
   std::vector<MountClaim> mounts_;  // by sensor
   std::vector<std::string> forces_;
-  std::size_t num_struts_, num_sensors_;
+  std::size_t num_struts_;
   double kept_span_;                               // [s]
   std::vector<Recent<StrutSample>> recent_;        // by strut, from the first sample on, as are the others
   std::optional<Recent<Forces>> recent_forces_;    // if there are any

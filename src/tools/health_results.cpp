@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "results.h"
+#include "suspension_health_monitor/internal/blocks/block_options.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
@@ -10,11 +11,9 @@ namespace {
 
 using nlohmann::json;
 
-// A strut with memory turns the phase as a delay does, but it leaves more of the motion unexplained.
 bool isDelayed(const StrutEstimate& estimate) {
   constexpr double kBeyondDoubt = 3.0;  // standard deviations
-  constexpr double kExplained = 0.9;
-  return std::abs(estimate.delay) > kBeyondDoubt * estimate.delay_stddev && estimate.explained > kExplained;
+  return std::abs(estimate.delay) > kBeyondDoubt * estimate.delay_stddev && estimate.explained > kNearlyAll;
 }
 
 void printBlocks(const StrutEstimate& estimate, const std::optional<double>& mass) {

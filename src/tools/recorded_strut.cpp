@@ -85,9 +85,10 @@ void RecordedMonitor::requireEnough() const {
   if (pipeline_.strut() == nullptr)
     throw TooLittleError(describeNoStart("on one of the topics") + describeRejected(rejected()));
   const std::string nothing = describeNoRow(monitor(), grid(), rejected());
+  if (nothing.empty()) return;
   std::vector<std::string> all = mountFaults();
   all.insert(all.begin(), nothing);
-  if (!nothing.empty()) throw TooLittleError(join(all, "; "));
+  throw TooLittleError(join(all, "; "));
 }
 
 std::vector<std::string> RecordedMonitor::mountFaults() const {
@@ -138,9 +139,7 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options,
       last_body = stamp;
       take_body(sensors.mount(place).across(imu));
     }
-    const bool paired = !grid.streams().resamples();
-    grid.push(place, stamp, acceleration);
-    if (take_back && paired && grid.streams().resamples()) take_back();
+    if (grid.push(place, stamp, acceleration) && take_back) take_back();
     return goes_on;
   };
   readTopics(bags, {take_imu, {}});

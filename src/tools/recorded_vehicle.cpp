@@ -47,9 +47,8 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
   VehicleGrid grid(period, streams, MonitorSettings(options.monitor).grid(period),
                    [&](const VehicleSample& sample) { append(sample, read.drive); });
   const auto take = [&](std::size_t sensor, const auto& message, Stamp) {
-    const bool paired = !grid.streams().resamples();
-    grid.push(sensor, toStamp(message.header.stamp), sensors.read(sensor, message));
-    if (paired && grid.streams().resamples()) dropNewest(read.drive, AlignmentJudge::kOutcomes);
+    if (grid.push(sensor, toStamp(message.header.stamp), sensors.read(sensor, message)))
+      dropNewest(read.drive, AlignmentJudge::kOutcomes);
     return true;
   };
   readTopics(bag, {take, take});

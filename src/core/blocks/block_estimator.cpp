@@ -18,12 +18,9 @@ constexpr double kNoShare = 0.02;
 // on recorded multibody vehicles. What a delay then takes from b0 at high frequencies is as much as 17 % of it.
 constexpr double kLeastPhase = 0.15;  // in the last bin [rad]
 constexpr double kNoDelay = 1e-6;     // [s]
-// Likewise links and the wheel's turning make a gain of up to 2 % there, and a law with memory up to 9 % on measured
-// records, with a standard deviation of 2 %.
-constexpr double kLeastGain = 0.05, kNoGain = 1e-9;  // also beside data without noise
-constexpr double kExplained = 0.9;   // of the body's power: else the gain is that of something that is missing
-constexpr int kSlowEvery = 4;        // blocks: all blocks then have changed by a sixteenth
-constexpr double kSlowFactor = 1.5;  // standard deviations of what changes slowly count so much more for fewer blocks
+constexpr double kNoGain = 1e-9;      // also beside data without noise
+constexpr int kSlowEvery = 4;         // blocks: all blocks then have changed by a sixteenth
+constexpr double kSlowFactor = 1.5;   // standard deviations of what changes slowly count so much more for fewer blocks
 constexpr double kContradiction = 3.0;  // standard deviations
 constexpr double kLost = 0.3;           // relative standard deviation from which there is no estimate to linearise at
 constexpr double kHalf = 0.5;           // of the body's power
@@ -42,7 +39,7 @@ bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
   constexpr double kMostAmplified = 20.0;  // 1 + 1 / (4 0.115^2)
   constexpr double kMostUndriven = 0.5;
   const double values = band.size() * (estimate.blocks + 1.0);
-  const double least_explained = 2.0 * static_cast<double>(estimate.theta.size() - 1) / values;  // but the gain
+  const double least_explained = 2.0 * static_cast<double>(estimate.theta.size()) / values;
   return estimate.is_settled && estimate.explained > least_explained && estimate.amplified < kMostAmplified &&
          (1.0 - estimate.explained) * estimate.amplified < kMostUndriven;
 }
@@ -209,7 +206,7 @@ void BlockEstimator::lookAtSensors() {
   const double gain = trial_.theta[kBlockGain];
   if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kLeastPhase))
     first_.stddev[kBlockDelay] = kNoDelay;
-  if (!is_known || trial_.explained < kExplained ||
+  if (!is_known || trial_.explained < kNearlyAll ||
       std::abs(gain) < kLeastGain + kCertain * std::sqrt(trial_.covariance(kBlockGain, kBlockGain)))
     first_.stddev[kBlockGain] = kNoGain;
 }
@@ -232,7 +229,7 @@ void BlockEstimator::scaleSlow() {
 }
 
 void BlockEstimator::learnSlow() {
-  if (options_.gain_stddev > kNoGain) lookAtSensors();
+  lookAtSensors();
   if (!fit(count_, first_, trial_)) return;
   slow_ = first_;
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {

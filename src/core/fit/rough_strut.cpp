@@ -23,7 +23,6 @@ constexpr Trial kTrials[] = {{1.0, 0.0}, {1.0, kLag}, {1.0, -kLag}, {1.0, 2.0 * 
 std::optional<RoughStrut> find(const std::vector<Drive>& drives, double period, double length, double lag) {
   BlockOptions options;
   options.length = length;
-  options.gain_stddev = 1e-9;  // none: a law that is missing may look like one
   StrutBlocks blocks(options, period);
   for (const Drive& drive : drives) {
     blocks.restart();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "suspension_health_monitor/internal/blocks/block_options.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
@@ -90,12 +91,9 @@ SensorFault SensorCheck::find(const StrutEstimate& estimate, const StrutEstimate
   return la_tells ? judgeMotion(la) : SensorFault::kNone;
 }
 
-// A law with memory looks like a gain as it looks like a delay, but leaves more unexplained.
 SensorFault SensorCheck::judgeGains(const StrutEstimate& estimate) {
-  constexpr double kUsualGain = 0.05;  // of sensors that are in order
-  constexpr double kExplained = 0.9;
   const bool differ =
-      estimate.explained > kExplained && std::abs(estimate.gain) > kUsualGain + kProven * estimate.gain_stddev;
+      estimate.explained > kNearlyAll && std::abs(estimate.gain) > kLeastGain + kProven * estimate.gain_stddev;
   return differ ? SensorFault::kGainsDiffer : SensorFault::kNone;
 }
 

@@ -163,13 +163,6 @@ std::optional<BodyFitResult> BodyFit::fit(const BodyRows& rows, const std::vecto
   const auto without = solve(rows, Bars::kNone);
   if (!without) return std::nullopt;
   BodyFitResult result = describe(*without, Bars::kNone);
-  if (rows.is_by_body) {
-    result.turns = turns(rows);
-    // The newer half, too: a gyro may have died.
-    if (!halves.empty() && !turns(halves.back())[0]) result.turns[0] = false;
-    if (!halves.empty() && !turns(halves.back())[1]) result.turns[1] = false;
-  }
-  const std::array<bool, 2> turned = result.turns;
   std::array<std::optional<double>, 3> phi_of;
   phi_of[0] = without->phi;
   for (const Bars bars : {Bars::kStiffness, Bars::kStiffnessAndDamping}) {
@@ -184,7 +177,11 @@ std::optional<BodyFitResult> BodyFit::fit(const BodyRows& rows, const std::vecto
     if (hasNegativeBar(*with, bars)) break;
   }
   result.phi_of = phi_of;
-  result.turns = turned;
+  if (!rows.is_by_body) return result;
+  result.turns = turns(rows);
+  if (halves.empty()) return result;
+  const std::array<bool, 2> newer = turns(halves.back());  // a gyro may have died
+  for (const std::size_t axis : {0, 1}) result.turns[axis] = result.turns[axis] && newer[axis];
   return result;
 }
 

@@ -12,10 +12,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-// A road of 9 %: steeper ones are rare. An IMU that leans by less reads so little of the gravity that pitch and roll
-// turn that b0 is wrong by 2 %.
-constexpr double kSteepestRoad = 5.0 / 180.0 * M_PI;
-
 constexpr std::ptrdiff_t kParts = 5;  // of the while: of ten seconds, shorter ones than braking takes
 
 using Readings = std::vector<Eigen::Vector3d>;
@@ -30,11 +26,11 @@ Eigen::Vector3d medianOf(Readings::const_iterator begin, Readings::const_iterato
   return medians;
 }
 
+}  // namespace
+
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
-
-}  // namespace
 
 BodyLevel::BodyLevel(const Readings& accelerations) {
   const auto begin = accelerations.begin(), end = accelerations.end();
@@ -49,11 +45,11 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
   if (std::abs(gravity.norm() - kStandardGravity) > kUsualOffset) gain_ = gravity.norm() / kStandardGravity;
   lean_ = angleBetween(gravity, Eigen::Vector3d::UnitZ());
   is_steady_ = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
-    return angleBetween(part, gravity) <= 0.5 * kSteepestRoad;
+    return angleBetween(part, gravity) <= 0.5 * kUsualLean;
   });
   if (isTurned()) mount_ = Eigen::Quaterniond::FromTwoVectors(gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-bool BodyLevel::isTurned() const { return lean_ > kSteepestRoad; }
+bool BodyLevel::isTurned() const { return lean_ > kUsualLean; }
 
 }  // namespace suspension_health_monitor

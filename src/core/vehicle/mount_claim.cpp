@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/vehicle/body_level.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -11,7 +12,6 @@ namespace {
 constexpr double kPart = 2.0;    // [s]
 constexpr double kFewest = 5.0;  // parts: ten seconds
 constexpr double kMost = 60.0;   // parts that count: two minutes
-constexpr double kUsualLean = 5.0 / 180.0 * M_PI;
 constexpr double kOtherAxis = M_PI / 4.0;
 
 }  // namespace
@@ -33,7 +33,7 @@ std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) c
   Finding found;
   found.size = mean_.norm();
   if (parts_ < kFewest || found.size < kStandardGravity / 2.0) return std::nullopt;
-  found.lean = std::atan2(mean_.cross(up).norm(), mean_.dot(up));
+  found.lean = angleBetween(mean_, up);
   found.lean_stddev = std::sqrt(scatter_ / (parts_ - 1.0) / parts_) / found.size;
   mean_.cwiseAbs().maxCoeff(&found.axis);
   found.is_negative = mean_[found.axis] < 0.0;

@@ -62,8 +62,8 @@ void Separator::learnRows(const std::vector<std::string>& names) {
     if (names.size() > 1) body = BodyFit::of(names.size(), drives_.front().places).fit(*rows, blocks.rowsOfHalves());
     rows_ = body ? body->combined(*rows) : *rows;
   }
-  coupling_ =
-      describe(are_known ? &rows_ : nullptr, body, whyNotCoupled(blocks.mistake(), names), forceNames(drives_.front()));
+  coupling_ = describe(are_known ? &rows_ : nullptr, body, are_known ? "" : whyNotCoupled(blocks.mistake(), names),
+                       forceNames(drives_.front()));
 }
 
 bool Separator::sharesNoise() const { return sharesSensors(drives_.front().noise); }

@@ -57,7 +57,8 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
   waiting_.reserve(kMostWindows * level_window_);
 }
 
-void VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
+bool VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
+  const bool did_pair = !grid_.resamples();
   const Channels& channels = channels_[sensor];
   const std::size_t count = channels.end - channels.first;
   bool is_taken = true;
@@ -67,6 +68,7 @@ void VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
     if (is_taken && i + 1 == count) lead(channels, values, *grid_.taken());
     for (; instant != nullptr; instant = grid_.next()) take(*instant);
   }
+  return did_pair && grid_.resamples();
 }
 
 void VehicleGrid::lead(const Channels& channels, const double* values, Stamp taken) {

@@ -84,7 +84,10 @@ void VehiclePipeline::reconfigure(const MonitorSettings& settings, std::size_t s
 
 void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const double* values) {
   if (is_refused_) return;
-  if (monitor_ && early_.isEmpty()) return grid_->push(sensor, stamp, values);
+  if (monitor_ && early_.isEmpty()) {
+    grid_->push(sensor, stamp, values);
+    return;
+  }
   const VehicleStreams::Sensor& its = streams_.sensors[sensor];
   const std::size_t next =
       sensor + 1 < streams_.sensors.size() ? streams_.sensors[sensor + 1].stream : streams_.options.size();

@@ -1,9 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 namespace suspension_health_monitor {
+
+/// Lean of a road of 9 %, steeper ones are rare, of the load or of a careful hand [rad]. An IMU that leans by less
+/// reads so little of the gravity that pitch and roll turn that b0 is wrong by 2 %.
+inline constexpr double kUsualLean = 5.0 / 180.0 * M_PI;
+
+/// @return the angle between two directions [rad].
+double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 /// How the IMU of a body is turned against upright, from the gravity in its readings.
 class BodyLevel {

@@ -34,11 +34,12 @@ struct VehicleMistake {
 /// Noise in the columns draws all mappings alike.
 class VehicleClaims {
  public:
+  using Spectra = std::array<Eigen::ArrayXXcd, 3>;  ///< H_p of p = 0, 1, 2, bins by struts
+
   explicit VehicleClaims(std::size_t struts);
 
   /// Adds one block.
-  /// @param wheels, tops  H_p of w'' and z'' [p = 0, 1, 2], bins by struts.  @param s  of the bins.
-  using Spectra = std::array<Eigen::ArrayXXcd, 3>;
+  /// @param wheels, tops  of w'' and z''.  @param s  of the bins.
   void add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXcd& s);
 
   /// @param places  of struts whose tops the body's IMU tells; empty: tops have sensors of their own.

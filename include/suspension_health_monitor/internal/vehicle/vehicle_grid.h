@@ -37,8 +37,12 @@ class VehicleGrid {
 
   /// Takes in one message of a sensor.
   /// @param sensor  its place in VehicleStreams::sensors.  @param values  of its streams.
-  void push(std::size_t sensor, Stamp stamp, const double* values);
-  void push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) { push(sensor, stamp, values.data()); }
+  /// @return true if the grid has begun to resample: the newest AlignmentJudge::kOutcomes samples were badly paired,
+  /// and a record is better without them.
+  bool push(std::size_t sensor, Stamp stamp, const double* values);
+  bool push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) {
+    return push(sensor, stamp, values.data());
+  }
 
   /// After the last reading: what waits is led on.
   void finish();
