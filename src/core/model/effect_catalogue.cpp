@@ -9,7 +9,13 @@ namespace {
 
 using M = StrutMotion;
 
-constexpr bool kPositive = true, kOpenBelow = true, kOpenAbove = true;
+constexpr bool kPositive = true, kLasts = true, kOpenBelow = true, kOpenAbove = true;
+
+// @param memory  the load's place on its spring and its speed there.  @param shapes  f [Hz], zeta.
+double pullOfLoad(const Memory& memory, const double* shapes) {
+  const double w = 2.0 * M_PI * shapes[0];
+  return w * (2.0 * shapes[1] * memory.second + w * memory.s);
+}
 
 // d travel, v travel rate, t time, s memory, c the coefficient. A new effect is one more record.
 std::vector<ForceEffect> makeForceEffects() {
@@ -36,6 +42,15 @@ std::vector<ForceEffect> makeForceEffects() {
        "topping out",
        [](const M& m, const double* g) { return std::min(0.0, m.travel + g[0]); },
        {{"g", "m", ShapeScale::kTravel, 0.2, 4.0}},
+       {},
+       kPositive},
+      // b0 is the spring beyond the play, b0 - c the one within.
+      {"backlash",
+       "-c max(-w/2, min(d, w/2))",
+       "1/s^2",
+       "play of a worn joint or bushing",
+       [](const M& m, const double* w) { return -std::clamp(m.travel, -w[0] / 2.0, w[0] / 2.0); },
+       {{"w", "m", ShapeScale::kTravel, 0.2, 4.0}},
        {},
        kPositive},
       {"coulomb_friction",
@@ -110,6 +125,27 @@ std::vector<ForceEffect> makeForceEffects() {
        {{"tau", "s", ShapeScale::kTime, 10.0, 30.0, kOpenBelow, kOpenAbove}},
        [](const M& m, const double* tau) { return m.body_acceleration - m.memory / tau[0]; },
        kPositive},
+      // s the load's place on its spring, counted from rest; c its mass, per mass of the body.
+      {"load_on_spring",
+       "c (2 zeta w s' + w^2 s), s'' = -z'' - 2 zeta w s' - w^2 s, w = 2 pi f",
+       "-",
+       "load with a spring of its own: passenger, tank, cargo on mounts",
+       [](const M& m, const double* p) { return pullOfLoad(m.memory, p); },
+       {{"f", "Hz", ShapeScale::kFrequency, 0.5, 20.0}, {"zeta", "-", ShapeScale::kNone, 0.05, 2.0, kOpenBelow}},
+       [](const M& m, const double* p) {
+         return Memory(m.memory.second, -m.body_acceleration - pullOfLoad(m.memory, p));
+       },
+       kPositive},
+      // Heat comes as the damper's power, v^2, and goes as the damper is warmer than its surroundings.
+      {"warming",
+       "-c s v, s' = (v^2 - s)/tc",
+       "s/m^2",
+       "damper that gets warm: thin oil",
+       [](const M& m, const double*) { return -m.memory * m.travel_rate; },
+       {{"tc", "s", ShapeScale::kTime, 200.0, 8000.0}},
+       [](const M& m, const double* tc) { return (m.travel_rate * m.travel_rate - m.memory) / tc[0]; },
+       kPositive,
+       kLasts},
       {"damping_drift", "c t v", "1/s^2", "damping changes during the drive: oil loss, heat",
        [](const M& m, const double*) { return m.time * m.travel_rate; }},
       {"stiffness_drift", "c t d", "1/s^3", "stiffness changes during the drive: broken coil, load",
