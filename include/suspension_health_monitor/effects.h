@@ -62,7 +62,7 @@ struct ForceEffect {
   std::vector<ShapeParameter> shapes = {};
   MemoryLaw memory_rate = {};  ///< g [unit of s per second]; empty: no memory
   bool positive = false;       ///< c > 0 by physics: what dissipates or pushes back cannot do the opposite
-  /// The memory lasts, as heat does: after a gap it goes on with what g at rest leaves of it. Others begin anew.
+  /// The memory, one number, lasts as heat does: over a gap it goes on by g at rest, linear in s; others begin anew.
   bool lasts = false;
 };
 

@@ -136,14 +136,15 @@ std::vector<ForceEffect> makeForceEffects() {
          return Memory(m.memory.second, -m.body_acceleration - pullOfLoad(m.memory, p));
        },
        kPositive},
-      // Heat comes as the damper's power, v^2, and goes as the damper is warmer than its surroundings.
+      // Heat comes as the damper's power, v^2, and goes as the damper is warmer than its surroundings. s counts from
+      // how warm it was at the start, as a drive of that rms rate would have made it.
       {"warming",
-       "-c s v, s' = (v^2 - s)/tc",
+       "-c s v, s' = (v^2 - vh^2 - s)/tc",
        "s/m^2",
        "damper that gets warm: thin oil",
        [](const M& m, const double*) { return -m.memory * m.travel_rate; },
-       {{"tc", "s", ShapeScale::kTime, 200.0, 8000.0}},
-       [](const M& m, const double* tc) { return (m.travel_rate * m.travel_rate - m.memory) / tc[0]; },
+       {{"tc", "s", ShapeScale::kTime, 100.0, 8000.0}, {"vh", "m/s", ShapeScale::kTravelRate, 0.1, 2.0, kOpenBelow}},
+       [](const M& m, const double* p) { return (m.travel_rate * m.travel_rate - p[1] * p[1] - m.memory) / p[0]; },
        kPositive,
        kLasts},
       {"damping_drift", "c t v", "1/s^2", "damping changes during the drive: oil loss, heat",

@@ -207,9 +207,14 @@ void followMemories(const StrutModel& model, const StrutMotion& from, const Stru
 
 void keepLasting(const StrutModel& model, double rest, std::array<Memory, kMostEffects>& memory) {
   for (std::size_t j = 0; j < model.effects.size(); ++j) {
-    const bool stays = model.effects[j].effect.lasts && rest >= 0.0 && std::isfinite(rest);
-    const double left = stays ? std::exp(-rest * ownRate(model.effects[j], {})) : 0.0;
-    memory[j] = {left * memory[j].s, left * memory[j].second};
+    const ActiveEffect& active = model.effects[j];
+    if (!active.effect.lasts || !(rest >= 0.0 && std::isfinite(rest))) {
+      memory[j] = {};
+      continue;
+    }
+    const double rate = ownRate(active, {}), gone = -std::expm1(-rate * rest);
+    const double at_rest = active.effect.memory_rate({}, active.shapes.data()) / rate;
+    if (rate > 0.0) memory[j].s += gone * (at_rest - memory[j].s);
   }
 }
 

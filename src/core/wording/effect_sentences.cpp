@@ -62,8 +62,7 @@ constexpr std::array kAdvice{
         "Design as far as any oil gets thinner, and it comes back after a rest; more than when new is wear: check the "
         "damper for oil and for the right grade."},
     Advice{"damping_drift",
-           "Wear: what heat does comes back after a rest (warming), this does not; check the damper for oil, and drive "
-           "again with a cold one."},
+           "Wear if it stays, heat if it comes back: check the damper for oil, and drive again with a cold one."},
     Advice{"stiffness_drift",
            "Damage, unless the load has changed while driving: check for a broken coil or an air spring that leaks."},
     Advice{"clock_offset",

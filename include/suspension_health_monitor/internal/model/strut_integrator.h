@@ -94,8 +94,8 @@ void integrateStrut(const StrutModel& model, double time, double step, const Whe
 void followMemories(const StrutModel& model, const StrutMotion& from, const StrutMotion& to, double step,
                     std::array<Memory, kMostEffects>& memory);
 
-/// Keeps of the memories what is left after a rest: of those that last (ForceEffect::lasts) what they do not forget at
-/// rest, of the others nothing.
+/// What a rest makes of the memories: those that last (ForceEffect::lasts) go on by s' = g at rest, of the others
+/// nothing is left.
 /// @param rest  [s]; below 0 or not finite: unknown, nothing is left.
 void keepLasting(const StrutModel& model, double rest, std::array<Memory, kMostEffects>& memory);
 
