@@ -199,6 +199,20 @@ TEST(EffectSearch, TellsADamperThatWarmsFromOneThatWears) {
   EXPECT_EQ(worn.selected, std::vector<std::string>{"damping_drift"});
 }
 
+// The damper hangs on its eye by a stiff rubber with play: its force is 0 until the play is crossed.
+TEST(EffectSearch, TellsThePlayOfADampersEye) {
+  const SearchResult result = search(
+      shaken(100.0,
+             [](const ShakenState& x) {  // s: the rod's place
+               const double stretched = x.d - x.s, force = 600.0 * (stretched - std::clamp(stretched, -0.004, 0.004));
+               return ShakenState{63.0 * x.d + force, 0.0, force / 6.0, 0.0};
+             }),
+      {6.6, 60.0, {}, {}});
+  EXPECT_EQ(result.selected, std::vector<std::string>{"damper_backlash"});
+  ASSERT_TRUE(result.final_fit);
+  EXPECT_NEAR(result.final_fit->model.effects.at(0).shapes.at(0), 0.008, 0.1 * 0.008);
+}
+
 // A spring with play, which rest leaves anywhere within it.
 TEST(EffectSearch, TellsTheWidthOfAPlay) {
   const SearchResult result = search(

@@ -11,6 +11,8 @@ using M = StrutMotion;
 
 constexpr bool kPositive = true, kLasts = true, kOpenBelow = true, kOpenAbove = true;
 
+double beyondPlay(double x, double width) { return x - std::clamp(x, -width / 2.0, width / 2.0); }
+
 // @param memory  the load's place on its spring and its speed there.  @param shapes  f [Hz], zeta.
 double pullOfLoad(const Memory& memory, const double* shapes) {
   const double w = 2.0 * M_PI * shapes[0];
@@ -49,7 +51,7 @@ std::vector<ForceEffect> makeForceEffects() {
        "-c max(-w/2, min(d, w/2))",
        "1/s^2",
        "play of a worn joint or bushing",
-       [](const M& m, const double* w) { return -std::clamp(m.travel, -w[0] / 2.0, w[0] / 2.0); },
+       [](const M& m, const double* w) { return beyondPlay(m.travel, w[0]) - m.travel; },
        {{"w", "m", ShapeScale::kTravel, 0.2, 4.0}},
        {},
        kPositive},
@@ -115,6 +117,15 @@ std::vector<ForceEffect> makeForceEffects() {
        [](const M& m, const double*) { return m.travel - m.memory; },
        {{"tau", "s", ShapeScale::kTime, 0.1, 10.0}},
        [](const M& m, const double* tau) { return (m.travel - m.memory) / tau[0]; },
+       kPositive},
+      // s the rod's place: it moves as its joint pulls. The end without play is viscoelastic_mount.
+      {"damper_backlash",
+       "c x, x = d - s - max(-w/2, min(d - s, w/2)), s' = x/tau",
+       "1/s^2",
+       "damper with play in its eye or top mount",
+       [](const M& m, const double* p) { return beyondPlay(m.travel - m.memory, p[0]); },
+       {{"w", "m", ShapeScale::kTravel, 0.05, 4.0}, {"tau", "s", ShapeScale::kTime, 0.01, 10.0}},
+       [](const M& m, const double* p) { return beyondPlay(m.travel - m.memory, p[0]) / p[1]; },
        kPositive},
       // The body's velocity is its acceleration, integrated with a memory that is long against the strut's motion.
       {"body_drag",

@@ -23,10 +23,9 @@ constexpr std::array kAdvice{
     Advice{"rebound_stop",
            "The stop is design, to be in it often is not: check ride height and rebound damping, then the stop for "
            "knocking."},
-    Advice{
-        "backlash",
-        "Wear: a joint or bushing that moves freely before it carries; check ball joints, bushings, the damper's eyes "
-        "and the stabiliser's links for play of the width w."},
+    Advice{"backlash",
+           "Wear: a joint or bushing that moves freely before it carries; check ball joints, bushings "
+           "and the stabiliser's links for play of the width w."},
     Advice{"coulomb_friction",
            "A little is design of any seal; more than when new is wear: check for a bent or scored rod, a dry seal, a "
            "top mount or bushing that binds."},
@@ -50,6 +49,10 @@ constexpr std::array kAdvice{
     Advice{"viscoelastic_mount",
            "Design of a soft top mount; wear if it has become softer: check its rubber for cracks and its nut for "
            "torque."},
+    Advice{
+        "damper_backlash",
+        "Wear: the damper pulls only after the play w; check its eyes, the bushings in them and the top mount's nut, "
+        "and the damper itself for air in the oil."},
     Advice{"body_drag",
            "Neither design nor wear of the strut, it holds the body itself: check guides, cables, hoses and what is "
            "towed."},
