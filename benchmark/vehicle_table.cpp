@@ -101,7 +101,7 @@ double forceError(const Driven& driven, std::size_t at, const StrutModel& model)
   for (const ActiveEffect& active : model.effects)
     if (active.effect.memory_rate) return std::nan("");
   const double mobility = driven.vehicle.mobility(at, at);
-  const std::vector<double> memory(model.effects.size());
+  const std::vector<Memory> memory(model.effects.size());
   double error = 0.0, size = 0.0;
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
