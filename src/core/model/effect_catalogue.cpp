@@ -120,7 +120,7 @@ std::vector<ForceEffect> makeForceEffects() {
        kPositive},
       // s the rod's place: it moves as its joint pulls. The end without play is viscoelastic_mount.
       {"damper_backlash",
-       "c x, x = d - s - max(-w/2, min(d - s, w/2)), s' = x/tau",
+       "c x, x = d - s beyond +-w/2, s' = x/tau",
        "1/s^2",
        "damper with play in its eye or top mount",
        [](const M& m, const double* p) { return beyondPlay(m.travel - m.memory, p[0]); },
@@ -138,7 +138,7 @@ std::vector<ForceEffect> makeForceEffects() {
        kPositive},
       // s the load's place on its spring, counted from rest; c its mass, per mass of the body.
       {"load_on_spring",
-       "c (2 zeta w s' + w^2 s), s'' = -z'' - 2 zeta w s' - w^2 s, w = 2 pi f",
+       "c (-z'' - s''), s'' = -z'' - 2 zeta w s' - w^2 s, w = 2 pi f",
        "-",
        "load with a spring of its own: passenger, tank, cargo on mounts",
        [](const M& m, const double* p) { return pullOfLoad(m.memory, p); },

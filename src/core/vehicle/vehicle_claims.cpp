@@ -26,14 +26,16 @@ double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j
 
 }  // namespace
 
-VehicleClaims::VehicleClaims(std::size_t struts, const Eigen::ArrayXcd& s)
-    : n_(static_cast<Eigen::Index>(struts)), s_(s) {
-  products_.assign(static_cast<std::size_t>(s.size()), Eigen::MatrixXcd::Zero(6 * n_, 6 * n_));
+VehicleClaims::VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s)
+    : n_(static_cast<Eigen::Index>(struts)), forces_(static_cast<Eigen::Index>(forces)), s_(s) {
+  const Eigen::Index size = 6 * n_ + forces_;
+  products_.assign(static_cast<std::size_t>(s.size()), Eigen::MatrixXcd::Zero(size, size));
   whole_.setZero(2 * n_, 2 * n_);
 }
 
-void VehicleClaims::add(const Spectra& wheels, const Spectra& tops) {
-  Eigen::MatrixXcd columns(6 * n_, s_.size());
+void VehicleClaims::add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXXcd& forces) {
+  Eigen::MatrixXcd columns(6 * n_ + forces_, s_.size());
+  columns.bottomRows(forces_) = forces.matrix().transpose();
   for (std::size_t p = 0; p < 3; ++p) {
     const auto first = static_cast<Eigen::Index>(p) * 2 * n_;
     columns.middleRows(first, n_) = wheels[p].matrix().transpose();
@@ -53,21 +55,26 @@ VehicleClaims::Mapping VehicleClaims::asFiled() const {
   return mapping;
 }
 
-// Of all streams the part that goes with the wheels: noise of other sensors does not.
+// Of all streams the part that goes with the wheels and the known forces: noise of other sensors does not.
 void VehicleClaims::keepWhatWheelsTell() {
   for (Eigen::MatrixXcd& products : products_) {
-    const Eigen::MatrixXcd with_wheels = products.middleCols(2 * n_, n_);  // p = 1
-    const Eigen::MatrixXcd wheels = with_wheels.middleRows(2 * n_, n_);
-    products = with_wheels * wheels.completeOrthogonalDecomposition().solve(with_wheels.adjoint());
+    Eigen::MatrixXcd causes = Eigen::MatrixXcd::Zero(products.rows(), n_ + forces_);
+    causes.block(2 * n_, 0, n_, n_).setIdentity();  // p = 1
+    causes.bottomRightCorner(forces_, forces_).setIdentity();
+    const Eigen::MatrixXcd with_causes = products * causes;
+    products = with_causes *
+               (causes.adjoint() * with_causes).completeOrthogonalDecomposition().solve(with_causes.adjoint());
   }
 }
 
 // A stream that is late by tau has exp(-s tau) of what happened.
 Eigen::MatrixXd VehicleClaims::moments(const Eigen::VectorXd& delays) const {
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(6 * n_, 6 * n_);
+  const Eigen::Index size = 6 * n_ + forces_;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXcd all = Eigen::VectorXcd::Ones(size);
   for (std::size_t k = 0; k < products_.size(); ++k) {
     const Eigen::ArrayXcd turn = (s_[static_cast<Eigen::Index>(k)] * delays.array()).exp();
-    const Eigen::VectorXcd all = turn.matrix().replicate(3, 1);
+    all.head(6 * n_) = turn.matrix().replicate(3, 1);
     sum += (all.asDiagonal() * products_[k] * all.conjugate().asDiagonal()).real();
   }
   return sum;
@@ -75,13 +82,16 @@ Eigen::MatrixXd VehicleClaims::moments(const Eigen::VectorXd& delays) const {
 
 double VehicleClaims::unexplained(const Mapping& mapping, const Eigen::MatrixXd& moments) const {
   const Eigen::MatrixXd travel = mapping.wheels - mapping.tops;
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3 * n_, 6 * n_);
-  columns.topRows(n_).middleCols(2 * n_, 2 * n_) = travel;  // rates: p = 1
-  columns.middleRows(n_, n_).leftCols(2 * n_) = travel;     // travels: p = 0
-  columns.bottomRows(n_).rightCols(2 * n_) = mapping.tops;  // z'': p = 2
+  const Eigen::Index regressors = 2 * n_ + forces_;
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(regressors + n_, moments.rows());
+  columns.block(0, 2 * n_, n_, 2 * n_) = travel;  // rates: p = 1
+  columns.block(n_, 0, n_, 2 * n_) = travel;      // travels: p = 0
+  columns.block(2 * n_, 6 * n_, forces_, forces_).setIdentity();
+  columns.block(regressors, 4 * n_, n_, 2 * n_) = mapping.tops;  // z'': p = 2
   const Eigen::MatrixXd products = columns * moments * columns.transpose();
-  const Eigen::MatrixXd scores = products.topRightCorner(2 * n_, n_);
-  const Eigen::MatrixXd rows = products.topLeftCorner(2 * n_, 2 * n_).completeOrthogonalDecomposition().solve(scores);
+  const Eigen::MatrixXd scores = products.topRightCorner(regressors, n_);
+  const Eigen::MatrixXd rows =
+      products.topLeftCorner(regressors, regressors).completeOrthogonalDecomposition().solve(scores);
   const Eigen::ArrayXd total = products.diagonal().tail(n_).array();
   const Eigen::ArrayXd explained = (scores.array() * rows.array()).colwise().sum().transpose();
   return (total > 0.0).select(1.0 - explained / total, 1.0).mean();

@@ -79,8 +79,10 @@ VehicleMistake VehicleBlocks::mistake() const {
       std::none_of(tops_.tops.begin(), tops_.tops.end(), [](const auto& top) { return top.has_own; });
   const Modulation modulation(estimators_.front().equations().band());
   const Eigen::ArrayXcd s = modulation.s();
-  VehicleClaims claims(tops_.size(), s), newer(tops_.size(), s);
+  const auto num_forces = static_cast<Eigen::Index>(tops_.known_forces);
+  VehicleClaims claims(tops_.size(), tops_.known_forces, s), newer(claims);
   VehicleClaims::Spectra wheels, tops;
+  Eigen::ArrayXXcd forces(s.size(), num_forces);
   for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);
   for (int age = 0; age < estimators_.front().count(); ++age) {
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -90,8 +92,11 @@ VehicleMistake VehicleBlocks::mistake() const {
         tops[p].col(i) = block.body.col(static_cast<Eigen::Index>(p));
       }
     }
-    claims.add(wheels, tops);
-    if (2 * age < estimators_.front().count()) newer.add(wheels, tops);
+    const StrutBlock& first = estimators_.front().block(age);
+    for (Eigen::Index k = 0; k < num_forces; ++k)
+      modulation.apply(2, first.forces.col(firstKnownForce() + k), forces.col(k));
+    claims.add(wheels, tops, forces);
+    if (2 * age < estimators_.front().count()) newer.add(wheels, tops, forces);
   }
   if (!is_by_body) return claims.find({});
   if (newer.hasDeadGyro(tops_.places())) return {VehicleMistake::Kind::kDeadGyro, {}};  // it may have died

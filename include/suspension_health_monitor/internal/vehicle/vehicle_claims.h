@@ -53,11 +53,11 @@ class VehicleClaims {
   using Spectra = std::array<Eigen::ArrayXXcd, 3>;  ///< H_p of p = 0, 1, 2, bins by struts
 
   /// @param s  of the bins of a block [rad/s].
-  VehicleClaims(std::size_t struts, const Eigen::ArrayXcd& s);
+  VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s);
 
   /// Adds one block.
-  /// @param wheels, tops  of w'' and z''.
-  void add(const Spectra& wheels, const Spectra& tops);
+  /// @param wheels, tops  of w'' and z''.  @param forces  H_2 of the known forces, bins by forces.
+  void add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXXcd& forces);
 
   /// @param places  of struts whose tops the body's IMU tells; empty: tops have sensors of their own.
   VehicleMistake find(const StrutPlaces& places);
@@ -89,9 +89,9 @@ class VehicleClaims {
   void addDelays(bool is_by_body, std::vector<Hypothesis>& all) const;
   VehicleMistake sameOrAlike(bool has_own_tops) const;
 
-  Eigen::Index n_;
+  Eigen::Index n_, forces_;
   Eigen::ArrayXcd s_;
-  std::vector<Eigen::MatrixXcd> products_;  // by bin: by p, then wheels, then tops; of displacements
+  std::vector<Eigen::MatrixXcd> products_;  // by bin: by p, then wheels, then tops; forces; of displacements
   Eigen::MatrixXd in_step_;                 // moments() if no stream is late
   Eigen::MatrixXd whole_;                   // of H_0 of wheels and tops, all bins
   int blocks_ = 0;
