@@ -101,10 +101,12 @@ class BatteryDriver {
   double between(double low, double high) { return low * std::pow(high / low, random_.uniform()); }
 
   // Of the shapes named here the part of the range in which the drive can show them; of others the middle half.
+  // Frequencies lie about that of the drive: a road of slow waves shows no load on a stiff spring.
   std::vector<double> shapesOf(const ForceEffect& effect) {
     const std::map<std::string, std::pair<double, double>> shown{
-        {"p", {2.0, 4.0}},  {"g", {0.5, 1.5}},   {"vs", {0.03, 0.1}}, {"v0", {0.4, 1.2}},
-        {"x", {0.15, 1.0}}, {"tau", {0.4, 2.0}}, {"xa", {0.3, 1.0}},  {"xb", {0.5, 1.5}}};
+        {"p", {2.0, 4.0}},    {"g", {0.5, 1.5}},      {"vs", {0.03, 0.1}}, {"v0", {0.4, 1.2}}, {"x", {0.15, 1.0}},
+        {"tau", {0.4, 2.0}},  {"xa", {0.3, 1.0}},     {"xb", {0.5, 1.5}},  {"w", {0.5, 2.0}},  {"f", {0.5, 1.8}},
+        {"zeta", {0.1, 0.5}}, {"tc", {110.0, 220.0}}, {"vh", {0.35, 0.7}}};
     const MotionScale scale{travel_, travel_rate_, 1.0 / std::sqrt(stiffness())};
     std::vector<double> shapes;
     for (const ShapeParameter& shape : effect.shapes) {
@@ -112,7 +114,9 @@ class BatteryDriver {
       const double quarter = std::pow(shape.max / shape.min, 0.25);
       const auto [low, high] =
           known != shown.end() ? known->second : std::pair{shape.min * quarter, shape.max / quarter};
-      shapes.push_back(between(low, high) * scale.unit(shape.scale));
+      const double unit =
+          shape.scale == ShapeScale::kFrequency ? travel_rate_ / (2.0 * M_PI * travel_) : scale.unit(shape.scale);
+      shapes.push_back(between(low, high) * unit);
     }
     return shapes;
   }
@@ -123,18 +127,23 @@ class BatteryDriver {
   ActiveEffect sized(const ForceEffect& effect) {
     ActiveEffect active{effect, 0.0, shapesOf(effect)};
     constexpr int steps = 20;
-    double square = 0.0, memory = 0.0;
+    double square = 0.0, most = 0.0;
+    Memory memory;
     for (const DriveSample& sample : plain_) {
       StrutMotion motion{sample.truth.travel, sample.truth.travel_rate, toSeconds(sample.stamp), memory,
                          sample.truth.sprung_acceleration};
       square += std::pow(effect.force(motion, active.shapes.data()), 2);
       if (!effect.memory_rate) continue;
+      most = std::max(most, memory.s);
       for (int i = 0; i < steps; ++i) {
         motion.memory = memory;
-        memory += effect.memory_rate(motion, active.shapes.data()) / options_.rate / steps;
+        const Memory rate = effect.memory_rate(motion, active.shapes.data());
+        memory = {memory.s + rate.s / options_.rate / steps, memory.second + rate.second / options_.rate / steps};
       }
     }
     active.coefficient = 0.15 * linear_ / std::sqrt(square / static_cast<double>(plain_.size()));
+    if (effect.name == "warming")  // less damping is more heat: it would run away
+      active.coefficient = std::min(active.coefficient, 0.15 * plain_.front().truth.damping_to_mass / most);
     const bool either_sign = effect.name.find("asymmetric") == 0 || effect.name.find("drift") != std::string::npos;
     if (either_sign && random_.uniform() < 0.5) active.coefficient *= -1.0;
     return active;

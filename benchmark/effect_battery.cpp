@@ -1,5 +1,6 @@
 // Prints the tables of doc/effect_search.md: how often the search names what is hidden in simulated drives.
-//   effect_battery [SEEDS [FIRST_SEED [KIND [VEHICLE]]]]     KIND: single, none, two, elsewhere, undersampled or all
+//   effect_battery [SEEDS [FIRST_SEED [KIND [VEHICLE [EFFECT]]]]]
+// KIND: single, none, two, elsewhere, undersampled or all; EFFECT: what is hidden in single drives
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -133,9 +134,10 @@ void print(const char* title, const Tally& tally) {
       quantile(tally.seconds, 0.5), quantile(tally.seconds, 1.0));
 }
 
-Tally runKind(const std::string& kind, const BatteryVehicle& vehicle, int seed) {
+Tally runKind(const std::string& kind, const BatteryVehicle& vehicle, int seed, const std::string& wanted) {
   Tally tally;
   const auto hide = [&](const Names& hidden) {
+    if (join(hidden).find(wanted) == std::string::npos) return;
     BatteryDriver driver(vehicle, seed);
     tally.add(searchIn(vehicle.label, driver.drive(hidden), hidden, true));
   };
@@ -170,17 +172,18 @@ int main(int argc, char** argv) {
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 1;
   const int first = argc > 2 ? std::atoi(argv[2]) : 1;
   const std::string wanted = argc > 3 ? argv[3] : "all";
-  const std::string vehicle_part = argc > 4 ? argv[4] : "";
+  const std::string vehicle_part = argc > 4 ? argv[4] : "", effect_part = argc > 5 ? argv[5] : "";
   for (const char* kind : {"single", "none", "two", "elsewhere", "undersampled"}) {
     if (wanted != "all" && wanted != kind) continue;
     Tally tally;
     for (int seed = first; seed < first + seeds; ++seed) {
       if (kind == std::string("undersampled")) {
-        tally.add(runKind("single", kUndersampled, seed));
+        tally.add(runKind("single", kUndersampled, seed, effect_part));
         continue;
       }
       for (const BatteryVehicle& vehicle : kBatteryVehicles)
-        if (std::string(vehicle.label).find(vehicle_part) != std::string::npos) tally.add(runKind(kind, vehicle, seed));
+        if (std::string(vehicle.label).find(vehicle_part) != std::string::npos)
+          tally.add(runKind(kind, vehicle, seed, effect_part));
     }
     print(kind, tally);
   }

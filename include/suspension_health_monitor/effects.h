@@ -9,12 +9,21 @@
 
 namespace suspension_health_monitor {
 
+/// The state of an effect, or its rate. Most laws have one number, s, and may take and return it as a double.
+struct Memory {
+  double s = 0.0;
+  double second = 0.0;  ///< of a law that has two, such as the speed of a mass
+
+  Memory(double first = 0.0, double other = 0.0) : s(first), second(other) {}
+  operator double() const { return s; }
+};
+
 /// What an effect may depend on, at one instant.
 struct StrutMotion {
   double travel = 0.0;             ///< d [m], compression positive
   double travel_rate = 0.0;        ///< v [m/s]
   double time = 0.0;               ///< t [s] since the start of the drive; offline on from drive to drive
-  double memory = 0.0;             ///< s, the effect's own state, 0 at the start
+  Memory memory = {};              ///< the effect's own state, 0 at the start
   double body_acceleration = 0.0;  ///< z'' [m/s^2]; for memory rates only, as forces make it
 };
 
@@ -23,7 +32,8 @@ enum class ShapeScale {
   kNone,        ///< a plain number
   kTravel,      ///< of the drive's rms travel [m]
   kTravelRate,  ///< of its rms travel rate [m/s]
-  kTime         ///< of the strut's natural time 1/sqrt(b0) [s]
+  kTime,        ///< of the strut's natural time 1/sqrt(b0) [s]
+  kFrequency    ///< of its natural frequency sqrt(b0)/(2 pi) [Hz]
 };
 
 /// A number inside a law that does not enter linearly, such as the gap of a stop. Fitted offline, fixed online.
@@ -42,6 +52,7 @@ struct ShapeParameter {
 /// A law of your own is one more record; searches call its functions on several threads at once.
 struct ForceEffect {
   using Law = std::function<double(const StrutMotion&, const double* shapes)>;
+  using MemoryLaw = std::function<Memory(const StrutMotion&, const double* shapes)>;
 
   std::string name;
   std::string law;      ///< the formula for people, c included
@@ -49,8 +60,10 @@ struct ForceEffect {
   std::string finding;  ///< what a workshop would find
   Law force;            ///< f, per unit of c; shapes in SI
   std::vector<ShapeParameter> shapes = {};
-  Law memory_rate = {};   ///< g [unit of s per second]; empty: no memory
-  bool positive = false;  ///< c > 0 by physics: what dissipates or pushes back cannot do the opposite
+  MemoryLaw memory_rate = {};  ///< g [unit of s per second]; empty: no memory
+  bool positive = false;       ///< c > 0 by physics: what dissipates or pushes back cannot do the opposite
+  /// The memory, one number, lasts as heat does: over a gap it goes on by g at rest, linear in s; others begin anew.
+  bool lasts = false;
 };
 
 /// What the body's IMU measures besides the changing part of z'', in the strut's frame: z up along the strut, x and y

@@ -38,7 +38,7 @@ struct StrutModel {
 
   /// @param memory  one state per effect, those without memory included.
   /// @return z'' [m/s^2].
-  double force(double travel, double travel_rate, double time, const double* memory) const {
+  double force(double travel, double travel_rate, double time, const Memory* memory) const {
     double sum = damping_to_mass * travel_rate + stiffness_to_mass * travel;
     for (std::size_t j = 0; j < effects.size(); ++j)
       sum += effects[j].coefficient *

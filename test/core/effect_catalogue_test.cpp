@@ -20,7 +20,7 @@ struct WorkedValue {
   std::vector<double> shapes;
   StrutMotion motion;  // d, v, t, s
   double force;
-  double memory_rate = kNoMemory;
+  Memory memory_rate = kNoMemory;
 };
 
 const std::vector<WorkedValue>& workedValues() {
@@ -36,6 +36,13 @@ const std::vector<WorkedValue>& workedValues() {
       {"rebound_stop", {0.02}, {-0.05, 0.7, 5.0, 0.6}, -0.03},
       {"rebound_stop", {0.02}, {-0.01, -0.7, 5.0, 0.6}, 0.0},
       {"rebound_stop", {0.02}, {0.05, 0.7, 5.0, 0.6}, 0.0},
+      {"backlash", {0.02}, {0.05, -0.7, 5.0, 0.6}, -0.01},
+      {"backlash", {0.02}, {-0.05, 0.7, 5.0, 0.6}, 0.01},
+      {"backlash", {0.02}, {0.006, 0.7, 5.0, 0.6}, -0.006},
+      {"backlash", {0.02}, {-0.006, 0.7, 5.0, 0.6}, 0.006},
+      {"damper_backlash", {0.02, 0.5}, {0.05, -0.7, 5.0, 0.02}, 0.02, 0.04},
+      {"damper_backlash", {0.02, 0.5}, {-0.05, 0.7, 5.0, -0.01}, -0.03, -0.06},
+      {"damper_backlash", {0.02, 0.5}, {-0.05, 0.7, 5.0, -0.045}, 0.0, 0.0},
       {"coulomb_friction", {0.1}, {-0.3, 0.1, 5.0, 0.6}, 0.76159415595576},
       {"coulomb_friction", {0.1}, {0.3, -0.1, 5.0, 0.6}, -0.76159415595576},
       {"coulomb_friction", {0.1}, {-0.3, 10.0, 5.0, 0.6}, 1.0},
@@ -55,6 +62,13 @@ const std::vector<WorkedValue>& workedValues() {
       {"bouc_wen", {0.02, 0.05}, {0.3, 0.4, 5.0, -0.01}, -0.01, 0.68},  // 0.4 + 0.2 + 0.08
       {"body_drag", {2.0}, {0.3, -0.4, 5.0, 0.6, 1.5}, -0.6, 1.2},      // 1.5 - 0.6 / 2
       {"body_drag", {2.0}, {-0.3, 0.4, 5.0, -0.2, -1.0}, 0.2, -0.9},
+      // w = 2, 2 zeta w = 1: the pull is s' + 4 s.
+      {"load_on_spring", {1.0 / M_PI, 0.25}, {0.3, -0.4, 5.0, {0.5, -0.7}, 1.5}, 1.3, {-0.7, -2.8}},
+      {"load_on_spring", {1.0 / M_PI, 0.25}, {-0.3, 0.4, 5.0, {-0.5, 0.2}, -1.0}, -1.8, {0.2, 2.8}},
+      {"load_on_spring", {1.0 / M_PI, 0.5}, {-0.3, 0.4, 5.0, {0.0, 0.2}, 0.0}, 0.4, {0.2, -0.4}},
+      {"warming", {20.0, 0.1}, {0.3, -0.4, 5.0, 0.1}, 0.04, 0.0025},  // (0.16 - 0.01 - 0.1) / 20
+      {"warming", {20.0, 0.1}, {-0.3, 0.4, 5.0, 0.1, 1.5}, -0.04, 0.0025},
+      {"warming", {50.0, 0.2}, {0.3, 0.0, 5.0, -0.1}, 0.0, 0.0012},
       {"viscoelastic_mount", {0.5}, {0.05, -0.7, 5.0, 0.02}, 0.03, 0.06},
       {"viscoelastic_mount", {0.5}, {-0.01, 0.7, 5.0, 0.02}, -0.03, -0.06},
       {"damping_drift", {}, {0.2, -0.3, 10.0, 0.6}, -3.0},
@@ -73,7 +87,9 @@ TEST(EffectCatalogue, ForcesAndMemoryRatesAreAsWorkedByHand) {
         << value.name << " at d = " << value.motion.travel << ", v = " << value.motion.travel_rate;
     ASSERT_EQ(static_cast<bool>(effect.memory_rate), !std::isnan(value.memory_rate)) << value.name;
     if (!effect.memory_rate) continue;
-    EXPECT_NEAR(effect.memory_rate(value.motion, value.shapes.data()), value.memory_rate, 1e-12) << value.name;
+    const Memory rate = effect.memory_rate(value.motion, value.shapes.data());
+    EXPECT_NEAR(rate.s, value.memory_rate.s, 1e-12) << value.name;
+    EXPECT_NEAR(rate.second, value.memory_rate.second, 1e-12) << value.name;
   }
 }
 
@@ -115,7 +131,7 @@ TEST(EffectCatalogue, ShapesHaveNamesUnitsAndPositiveRangesAndStandInTheLaw) {
       EXPECT_NE(effect.law.find(shape.name), std::string::npos) << effect.name;
       EXPECT_GT(shape.min, 0.0) << effect.name;
       EXPECT_LT(shape.min, shape.max) << effect.name;
-      const char* units[] = {"-", "m", "m/s", "s"};  // in the order of ShapeScale
+      const char* units[] = {"-", "m", "m/s", "s", "Hz"};  // in the order of ShapeScale
       EXPECT_EQ(shape.unit, units[static_cast<int>(shape.scale)]) << effect.name;
     }
 }
@@ -127,10 +143,10 @@ TEST(EffectCatalogue, ForcesAreFiniteFromRestToViolentMotion) {
         for (const double sign : {-1.0, 1.0}) {
           std::vector<double> shapes;
           for (const ShapeParameter& shape : effect.shapes) shapes.push_back(largest ? shape.max : shape.min);
-          const StrutMotion motion{sign * size, -sign * size, 1e4, sign};
+          const StrutMotion motion{sign * size, -sign * size, 1e4, {sign, sign}};
           EXPECT_TRUE(std::isfinite(effect.force(motion, shapes.data()))) << effect.name;
-          const double rate = effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : 0.0;
-          EXPECT_TRUE(std::isfinite(rate)) << effect.name;
+          const Memory rate = effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : Memory();
+          EXPECT_TRUE(std::isfinite(rate.s) && std::isfinite(rate.second)) << effect.name;
         }
     const StrutMotion rest{0.0, 0.0, 100.0, 0.0};
     const std::vector<double> shapes(effect.shapes.size(), 1.0);

@@ -124,6 +124,111 @@ TEST(EffectSearch, ReconsidersTheFirstEffectWhenTheSecondIsKnown) {
   EXPECT_EQ(names, (std::set<std::string>{"asymmetric_spring", "coulomb_friction"}));
 }
 
+struct ShakenState {
+  double d = 0.0, v = 0.0, s = 0.0, r = 0.0;  // travel, its rate, two numbers of a law
+};
+
+// A car's strut under a wheel that is shaken by many sines, and rests from 100 to 190 s; integrated here.
+// @param law  gives z'' in the place of d, s' and r' in theirs.  @param x  the start.
+template <class Law>
+DriveRecord shaken(double seconds, const Law& law, ShakenState x = {}) {
+  constexpr double period = 0.01, h = period / 10.0;
+  const auto wheel = [](double t) {
+    double sum = 0.0;
+    for (int i = 0; i < 40; ++i) sum += std::sin(2.0 * M_PI * (0.6 + 0.31 * i) * t + 1.3 * i * i);
+    return t > 100.0 && t < 190.0 ? 0.0 : 0.7 * sum;
+  };
+  RandomStream random(7, RandomPurpose::kSprungNoise);
+  Drive record_drive;
+  for (int k = 0; k < static_cast<int>(seconds / period); ++k) {
+    const double t = k * period;
+    record_drive.samples.push_back(
+        {fromSeconds(t), law(x).d + 0.02 * random.gaussian(), wheel(t) + 0.02 * random.gaussian()});
+    for (int i = 0; i < 10; ++i) {
+      const auto rate = [&](const ShakenState& at, double time) {
+        const ShakenState told = law(at);  // z'' in its d
+        return ShakenState{at.v, wheel(time) - told.d, told.s, told.r};
+      };
+      const auto moved = [&](const ShakenState& by, double share) {
+        return ShakenState{x.d + share * by.d, x.v + share * by.v, x.s + share * by.s, x.r + share * by.r};
+      };
+      const double now = t + i * h;  // the explicit midpoint rule
+      x = moved(rate(moved(rate(x, now), h / 2), now + h / 2), h);
+    }
+  }
+  const DriveRecord record(record_drive, period, 1);
+  return record;
+}
+
+TEST(EffectSearch, NamesAPassengerOnASeat) {
+  constexpr double mu = 0.25, w = 2.0 * M_PI * 4.0, zeta = 0.25;
+  const SearchResult result = search(shaken(100.0,
+                                            [](const ShakenState& x) {
+                                              const double pull = w * w * x.s + 2.0 * zeta * w * x.r,
+                                                           body = 6.0 * x.v + 63.0 * x.d + mu * pull;
+                                              return ShakenState{body, 0.0, x.r, -body - pull};
+                                            }),
+                                     {6.6, 60.0, {}, {}});
+  EXPECT_EQ(result.selected, std::vector<std::string>{"load_on_spring"});
+  ASSERT_TRUE(result.final_fit);
+  const ActiveEffect& load = result.final_fit->model.effects.at(0);
+  EXPECT_NEAR(load.coefficient, mu, 0.02 * mu);
+  EXPECT_NEAR(load.shapes.at(0), 4.0, 0.1);
+  EXPECT_NEAR(load.shapes.at(1), zeta, 0.05 * zeta);
+}
+
+// The damper heats by its own power, and its oil thins exponentially. Warm at the start, it is harder after the rest.
+TEST(EffectSearch, TellsADamperThatWarmsFromOneThatWears) {
+  for (const double at_start : {0.0, 0.2}) {
+    const SearchResult warm =
+        search(shaken(300.0,
+                      [](const ShakenState& x) {
+                        const double damper = 6.0 * std::exp(-x.s) * x.v;
+                        return ShakenState{damper + 63.0 * x.d, 0.0, (damper * x.v * 1.5 - x.s) / 40.0, 0.0};
+                      },
+                      {0.0, 0.0, at_start}),
+               {6.6, 60.0, {}, {}});
+    EXPECT_EQ(warm.selected, std::vector<std::string>{"warming"}) << at_start;
+  }
+  const SearchResult worn =
+      search(shaken(300.0,
+                    [](const ShakenState& x) {  // s: the time
+                      return ShakenState{6.0 * (1.0 - 0.001 * x.s) * x.v + 63.0 * x.d, 0.0, 1.0, 0.0};
+                    }),
+             {6.6, 60.0, {}, {}});
+  EXPECT_EQ(worn.selected, std::vector<std::string>{"damping_drift"});
+}
+
+// The damper hangs on its eye by a stiff rubber with play: its force is 0 until the play is crossed.
+TEST(EffectSearch, TellsThePlayOfADampersEye) {
+  const SearchResult result = search(
+      shaken(100.0,
+             [](const ShakenState& x) {  // s: the rod's place
+               const double stretched = x.d - x.s, force = 600.0 * (stretched - std::clamp(stretched, -0.004, 0.004));
+               return ShakenState{63.0 * x.d + force, 0.0, force / 6.0, 0.0};
+             }),
+      {6.6, 60.0, {}, {}});
+  EXPECT_EQ(result.selected, std::vector<std::string>{"damper_backlash"});
+  ASSERT_TRUE(result.final_fit);
+  EXPECT_NEAR(result.final_fit->model.effects.at(0).shapes.at(0), 0.008, 0.1 * 0.008);
+}
+
+// A spring with play, which rest leaves anywhere within it.
+TEST(EffectSearch, TellsTheWidthOfAPlay) {
+  const SearchResult result = search(
+      shaken(
+          100.0,
+          [](const ShakenState& x) {
+            const double off = x.d - 0.001;
+            return ShakenState{6.0 * x.v + 20.0 * x.d + 43.0 * (off - std::clamp(off, -0.004, 0.004)), 0.0, 0.0, 0.0};
+          }),
+      {6.6, 60.0, {}, {}});
+  EXPECT_EQ(result.selected, std::vector<std::string>{"backlash"});
+  ASSERT_TRUE(result.final_fit);
+  EXPECT_NEAR(result.final_fit->model.effects.at(0).coefficient, 43.0, 0.1 * 43.0);
+  EXPECT_NEAR(result.final_fit->model.effects.at(0).shapes.at(0), 0.008, 0.1 * 0.008);
+}
+
 TEST(EffectSearch, SuggestsTheDriveThatSeparatesAGroup) {
   SimulationOptions options = scenario("paper_clean", 120.0);
   options.damping_end_fraction = 1.0;

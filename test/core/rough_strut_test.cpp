@@ -136,6 +136,7 @@ TEST(MotionScale, IsTheMotionOfTheStrut) {
   EXPECT_NEAR(scale->unit(ShapeScale::kTravel), rms(travel), 0.1 * rms(travel));
   EXPECT_NEAR(scale->unit(ShapeScale::kTravelRate), rms(rate), 0.1 * rms(rate));
   EXPECT_NEAR(scale->unit(ShapeScale::kTime), 1.0 / std::sqrt(13.8), 1e-12);
+  EXPECT_NEAR(scale->unit(ShapeScale::kFrequency), std::sqrt(13.8) / (2.0 * M_PI), 1e-12);
   EXPECT_EQ(scale->unit(ShapeScale::kNone), 1.0);
 }
 

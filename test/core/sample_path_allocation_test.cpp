@@ -235,7 +235,7 @@ TEST(SamplePath, AllocatesNothingInAMonitorWithEffectsOverGapsAndRunaways) {
   options.sample_period = 0.02;
   SuspensionMonitor monitor(options);
   std::vector<ActiveEffect> effects;
-  for (const char* name : {"quadratic_damping", "hysteresis", "viscoelastic_mount", "damping_drift"}) {
+  for (const char* name : {"quadratic_damping", "hysteresis", "load_on_spring", "warming"}) {
     const ForceEffect& effect = findEffect(forceEffects(), name);
     effects.push_back({effect, 0.0, std::vector<double>(effect.shapes.size(), 0.1)});
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <utility>
@@ -22,7 +24,7 @@ TEST(StrutModel, ForceSumsTheLinearStrutAndItsEffects) {
   StrutModel model{3.0, 10.0, {}, {}};
   model.effects.push_back(active("stiffness_drift", 2.0, {}));
   model.effects.push_back(active("hysteresis", 5.0, {0.01}));
-  const double memory[] = {7.0, 0.5};
+  const Memory memory[] = {7.0, 0.5};
   // 3 (-0.4) + 10 (0.2) + 2 (4) (0.2) + 5 (0.5)
   EXPECT_NEAR(model.force(0.2, -0.4, 4.0, memory), -1.2 + 2.0 + 1.6 + 2.5, 1e-12);
 }
@@ -118,6 +120,44 @@ TEST(IntegrateStrut, MemoriesFollowTheirClosedFormsSideBySide) {
   EXPECT_NEAR(state.memory[1], -(1.0 - std::exp(-0.1 * 0.5 / 0.05)), 1e-8);
   // s' = (-0.1 t - s) / tau
   EXPECT_NEAR(state.memory[2], -0.1 * (0.5 - 0.2 * (1.0 - std::exp(-0.5 / 0.2))), 1e-8);
+}
+
+// Strut and load as one linear system of four states, x' = A x, solved by its matrix exponential: d, v, e and e' of
+// d'' = -z'', z'' = b1 v + b0 d + mu (2 zeta w e' + w^2 e), e'' = -z'' - 2 zeta w e' - w^2 e.
+TEST(IntegrateStrut, ALoadOnASpringMovesAsTheCoupledMassesDo) {
+  constexpr double b1 = 3.0, b0 = 60.0, mu = 0.4, f = 4.0, zeta = 0.15, step = 0.01;
+  constexpr double w = 2.0 * M_PI * f, damp = 2.0 * zeta * w;
+  StrutModel model{b1, b0, {active("load_on_spring", mu, {f, zeta})}, {}};
+  Eigen::Matrix4d a;
+  a << 0.0, 1.0, 0.0, 0.0,                //
+      -b0, -b1, -mu * w * w, -mu * damp,  //
+      0.0, 0.0, 0.0, 1.0,                 //
+      -b0, -b1, -(1.0 + mu) * w * w, -(1.0 + mu) * damp;
+  const Eigen::EigenSolver<Eigen::Matrix4d> modes(a);
+  const Eigen::Vector4cd start = modes.eigenvectors().partialPivLu().solve(Eigen::Vector4cd(0.1, -0.5, 0.0, 0.0));
+  StrutState state{0.1, -0.5, {}};
+  for (int k = 1; k <= 300; ++k) {
+    integrateStrut(model, k * step, step, kStill, state);
+    const Eigen::Vector4cd now = (modes.eigenvalues() * (k * step)).array().exp() * start.array();
+    const Eigen::Vector4d expected = (modes.eigenvectors() * now).real();
+    ASSERT_NEAR(state.travel, expected[0], 2e-5) << k;
+    ASSERT_NEAR(state.memory[0].s, expected[2], 2e-5) << k;
+    ASSERT_NEAR(state.memory[0].second, expected[3], 5e-4) << k;
+  }
+}
+
+TEST(KeepLasting, HeatGoesAsTheRestIsLongAndNothingElseStays) {
+  const StrutModel model{3.0, 13.8, {active("warming", 1.0, {50.0, 0.2}), active("hysteresis", 1.0, {0.01})}, {}};
+  const auto after = [&](double rest) {
+    std::array<Memory, kMostEffects> memory{0.3, 0.7};
+    keepLasting(model, rest, memory);
+    EXPECT_EQ(memory[1].s, 0.0);
+    return memory[0].s;
+  };
+  EXPECT_DOUBLE_EQ(after(0.0), 0.3);
+  EXPECT_NEAR(after(25.0), -0.04 + 0.34 * std::exp(-0.5), 1e-9);
+  EXPECT_EQ(after(-1.0), 0.0);  // the clock has begun anew
+  EXPECT_EQ(after(INFINITY), 0.0);
 }
 
 TEST(IntegrateStrut, AMemoryThatForgetsWithinAStepFollowsTheWheelThroughIt) {

@@ -88,7 +88,8 @@ TEST(UserEffects, ScalesOfShapesAreThoseOfTheCatalogue) {
   const std::vector<std::pair<std::string, ShapeScale>> scales{{"none", ShapeScale::kNone},
                                                                {"travel", ShapeScale::kTravel},
                                                                {"travel_rate", ShapeScale::kTravelRate},
-                                                               {"time", ShapeScale::kTime}};
+                                                               {"time", ShapeScale::kTime},
+                                                               {"frequency", ShapeScale::kFrequency}};
   for (const auto& [name, scale] : scales)
     EXPECT_EQ(take(withShape(withForce("d * x"), "x", name)).shapes[0].scale, scale) << name;
 }

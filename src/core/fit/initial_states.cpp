@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "carried_memories.h"
 
 namespace suspension_health_monitor {
 
@@ -10,11 +10,12 @@ std::optional<std::vector<StrutState>> estimateInitialStates(const Records& reco
   const FitOutcome at_rest = withoutFit(records, model);
   if (!at_rest) return std::nullopt;
   const double size = std::sqrt(meanSquare(at_rest->residuals));
-  const auto stateAt = [&](const double* x) {
-    return StrutState{x[0] * size / model.stiffness_to_mass, x[1] * size / std::sqrt(model.stiffness_to_mass)};
-  };
   std::vector<StrutState> states;
   for (const DriveSegment* segment : segmentsOf(records)) {
+    const auto stateAt = [&](const double* x) {
+      return StrutState{x[0] * size / model.stiffness_to_mass, x[1] * size / std::sqrt(model.stiffness_to_mass),
+                        at_rest->initial[states.size()].memory};
+    };
     const auto left = [&](const double* x, double* residuals) {
       std::vector<double> predicted;
       if (!runFree(model, *segment, stateAt(x), predicted)) return false;

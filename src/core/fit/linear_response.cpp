@@ -22,7 +22,7 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
     : fit_(&fit), period_(records.front()->period()) {
   StrutModel force = fit.model;
   force.reading.clear();
-  std::vector<std::array<double, kMostEffects>> memory;
+  std::vector<std::array<Memory, kMostEffects>> memory;
   std::vector<double> predicted;
   std::vector<StrutState> states;
   for (const DriveSegment* segment : segmentsOf(records)) {
@@ -35,6 +35,7 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
       memory.push_back(states[k].memory);
     }
     ends_.push_back(motion_.size());
+    if (!segments_.empty()) rests_.push_back(restBetween(*segments_.back(), *segment));
     segments_.push_back(segment);
   }
   measureSizes();
@@ -67,12 +68,15 @@ void LinearResponse::measureSizes() {
 }
 
 Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
-                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends) {
+                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends,
+                           const std::vector<double>& rests) {
   const StrutModel alone{0.0, 0.0, {{effect, 1.0, shapes}}, {}};
   Eigen::VectorXd force(static_cast<Eigen::Index>(motion.size()));
+  std::array<Memory, kMostEffects> memory{};
   std::size_t k = 0;
-  for (const std::size_t end : ends) {
-    std::array<double, kMostEffects> memory{};
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const std::size_t end = ends[i];
+    if (i > 0) keepLasting(alone, rests.empty() ? -1.0 : rests[i - 1], memory);
     for (; k < end; ++k) {
       StrutMotion here = motion[k];
       here.memory = memory[0];
@@ -84,13 +88,13 @@ Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>&
 }
 
 Eigen::MatrixXd forcesAlong(const StrutModel& model, const std::vector<StrutMotion>& motion,
-                            const std::vector<std::size_t>& ends) {
+                            const std::vector<std::size_t>& ends, const std::vector<double>& rests) {
   Eigen::MatrixXd columns(motion.size(), 2 + model.effects.size());
   for (std::size_t k = 0; k < motion.size(); ++k)
     columns.row(static_cast<Eigen::Index>(k)).head<2>() << motion[k].travel_rate, motion[k].travel;
   for (std::size_t j = 0; j < model.effects.size(); ++j)
     columns.col(2 + static_cast<Eigen::Index>(j)) =
-        forceAlong(model.effects[j].effect, model.effects[j].shapes, motion, ends);
+        forceAlong(model.effects[j].effect, model.effects[j].shapes, motion, ends, rests);
   return columns;
 }
 

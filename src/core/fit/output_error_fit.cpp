@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "parameterization.h"
+#include "carried_memories.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/low_pass.h"
 
@@ -70,14 +70,15 @@ std::vector<double> standardDeviations(const ceres::Problem& problem, const Para
 /// @return the model's standard deviations; nothing if the solver fails.
 std::optional<std::vector<double>> solve(const Segments& segments, const std::vector<SampleMask>& masks,
                                          const StrutModel& start, const Parameterization& parameters,
-                                         const CostScales& scales, Eigen::VectorXd& x, LocalStates& initial) {
+                                         const CostScales& scales, CarriedMemories& memories, Eigen::VectorXd& x,
+                                         LocalStates& initial) {
   ceres::Problem problem;
   auto* ordering = new ceres::ParameterBlockOrdering;  // the solver's options own it
   ceres::Solver::Options solver;
   solver.linear_solver_ordering.reset(ordering);
   for (std::size_t s = 0; s < segments.size(); ++s) {
-    problem.AddResidualBlock(new SegmentCost(*segments[s], maskOf(masks, s), parameters, start, scales), nullptr,
-                             x.data(), initial[s].data());
+    problem.AddResidualBlock(new SegmentCost(segments, s, maskOf(masks, s), parameters, start, scales, memories),
+                             nullptr, x.data(), initial[s].data());
     ordering->AddElementToGroup(initial[s].data(), 0);
   }
   ordering->AddElementToGroup(x.data(), 1);
@@ -106,13 +107,16 @@ bool tame(const Segments& segments, const std::vector<StrutState>& initial, Stru
   return false;
 }
 
-/// Adds initial state and residuals of a segment.
-bool addResiduals(const DriveSegment& segment, const StrutState& state, ModelFit& fit) {
-  std::vector<double> residuals;
-  if (!runFree(fit.model, segment, state, residuals)) return false;
-  for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segment.sprung[k] - residuals[k];
-  fit.initial.push_back(state);
-  fit.residuals.push_back(std::move(residuals));
+/// Adds initial states and residuals.
+/// @param states  travel and travel rate that the segments begin with.
+bool addResiduals(const Segments& segments, std::vector<StrutState> states, ModelFit& fit) {
+  carryMemories(fit.model, segments, states);
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    std::vector<double>& residuals = fit.residuals.emplace_back();
+    if (!runFree(fit.model, *segments[s], states[s], residuals)) return false;
+    for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segments[s]->sprung[k] - residuals[k];
+  }
+  fit.initial = std::move(states);
   return true;
 }
 
@@ -155,10 +159,14 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
   const CostScales scales{sizes->travel, sizes->travel_rate,
                           std::max(kOutlierScale * sizes->residual, 1e-9 * sizes->acceleration)};
   Eigen::VectorXd x = parameters.initial();
+  std::vector<StrutState> states(segments.size());
   LocalStates initial(segments.size(), {0.0, 0.0});
-  for (std::size_t s = 0; s < guessed_states.size(); ++s)
-    initial[s] = {guessed_states[s].travel / scales.travel, guessed_states[s].travel_rate / scales.travel_rate};
-  auto stddev = solve(segments, masks, start, parameters, scales, x, initial);
+  for (std::size_t s = 0; s < guessed_states.size(); ++s) {
+    states[s] = {guessed_states[s].travel, guessed_states[s].travel_rate, {}};
+    initial[s] = {states[s].travel / scales.travel, states[s].travel_rate / scales.travel_rate};
+  }
+  CarriedMemories memories(segments, states);
+  auto stddev = solve(segments, masks, start, parameters, scales, memories, x, initial);
   if (!stddev) return FitFailure::kNotSolved;
 
   ModelFit fit;
@@ -169,8 +177,8 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
   if (!(fit.model.stiffness_to_mass > 0.0)) return FitFailure::kNoSpring;
   if (!canFollow(fit.model, records.front()->period())) return FitFailure::kTooFast;
   for (std::size_t s = 0; s < segments.size(); ++s)
-    if (!addResiduals(*segments[s], {initial[s][0] * scales.travel, initial[s][1] * scales.travel_rate, {}}, fit))
-      return FitFailure::kRunsAway;
+    states[s] = {initial[s][0] * scales.travel, initial[s][1] * scales.travel_rate, {}};
+  if (!addResiduals(segments, states, fit)) return FitFailure::kRunsAway;
   return fit;
 }
 
@@ -187,8 +195,8 @@ double meanSquare(const Residuals& residuals) {
 FitOutcome withoutFit(const Records& records, const StrutModel& model) {
   ModelFit fit;
   fit.model = model;
-  for (const DriveSegment* segment : segmentsOf(records))
-    if (!addResiduals(*segment, {}, fit)) return FitFailure::kRunsAway;
+  const Segments segments = segmentsOf(records);
+  if (!addResiduals(segments, std::vector<StrutState>(segments.size()), fit)) return FitFailure::kRunsAway;
   return fit;
 }
 

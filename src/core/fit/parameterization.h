@@ -74,13 +74,15 @@ struct CostScales {
   double outlier = 0.0;                    ///< [m/s^2]
 };
 
+class CarriedMemories;
+
 /// Residuals of one segment. Parameter blocks: the model, the segment's initial travel and travel rate.
 /// The arguments must outlive it.
 class SegmentCost : public ceres::CostFunction {
  public:
-  /// @param mask  none: all samples.
-  SegmentCost(const DriveSegment& segment, const SampleMask* mask, const Parameterization& parameters,
-              const StrutModel& model, const CostScales& scales);
+  /// @param index  of the segment.  @param mask  none: all samples.
+  SegmentCost(const Segments& segments, std::size_t index, const SampleMask* mask, const Parameterization& parameters,
+              const StrutModel& model, const CostScales& scales, CarriedMemories& memories);
 
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override;
 
@@ -96,9 +98,11 @@ class SegmentCost : public ceres::CostFunction {
   double dampSlope(double r) const;
 
   const DriveSegment& segment_;
+  std::size_t index_;
   const Parameterization& parameters_;
   const StrutModel& model_;
   CostScales scales_;
+  CarriedMemories& memories_;
   std::vector<std::size_t> used_;
 };
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parameterization.h"
+#include "carried_memories.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -10,10 +10,16 @@ constexpr double kParameterStep = 1e-6;  // relative step of the numerical deriv
 
 }  // namespace
 
-SegmentCost::SegmentCost(const DriveSegment& segment, const SampleMask* mask, const Parameterization& parameters,
-                         const StrutModel& model, const CostScales& scales)
-    : segment_(segment), parameters_(parameters), model_(model), scales_(scales) {
-  for (std::size_t k = 0; k < segment.size(); ++k)
+SegmentCost::SegmentCost(const Segments& segments, std::size_t index, const SampleMask* mask,
+                         const Parameterization& parameters, const StrutModel& model, const CostScales& scales,
+                         CarriedMemories& memories)
+    : segment_(*segments[index]),
+      index_(index),
+      parameters_(parameters),
+      model_(model),
+      scales_(scales),
+      memories_(memories) {
+  for (std::size_t k = 0; k < segment_.size(); ++k)
     if (mask == nullptr || (*mask)[k] != 0) used_.push_back(k);
   set_num_residuals(static_cast<int>(used_.size()));
   mutable_parameter_block_sizes()->push_back(parameters.size());
@@ -55,7 +61,7 @@ bool SegmentCost::evaluate(const Eigen::VectorXd& shared, const Eigen::VectorXd&
                            Eigen::VectorXd& residuals) const {
   StrutModel model = model_;
   parameters_.apply(shared.data(), model);
-  StrutState state;
+  StrutState state{0.0, 0.0, memories_.at(index_, model)};
   state.travel = local[0] * scales_.travel;
   state.travel_rate = local[1] * scales_.travel_rate;
   std::vector<double> predicted;

@@ -9,7 +9,15 @@ namespace {
 
 using M = StrutMotion;
 
-constexpr bool kPositive = true, kOpenBelow = true, kOpenAbove = true;
+constexpr bool kPositive = true, kLasts = true, kOpenBelow = true, kOpenAbove = true;
+
+double beyondPlay(double x, double width) { return x - std::clamp(x, -width / 2.0, width / 2.0); }
+
+// @param memory  the load's place on its spring and its speed there.  @param shapes  f [Hz], zeta.
+double pullOfLoad(const Memory& memory, const double* shapes) {
+  const double w = 2.0 * M_PI * shapes[0];
+  return w * (2.0 * shapes[1] * memory.second + w * memory.s);
+}
 
 // d travel, v travel rate, t time, s memory, c the coefficient. A new effect is one more record.
 std::vector<ForceEffect> makeForceEffects() {
@@ -36,6 +44,15 @@ std::vector<ForceEffect> makeForceEffects() {
        "topping out",
        [](const M& m, const double* g) { return std::min(0.0, m.travel + g[0]); },
        {{"g", "m", ShapeScale::kTravel, 0.2, 4.0}},
+       {},
+       kPositive},
+      // b0 is the spring beyond the play, b0 - c the one within.
+      {"backlash",
+       "-c max(-w/2, min(d, w/2))",
+       "1/s^2",
+       "play of a worn joint or bushing",
+       [](const M& m, const double* w) { return beyondPlay(m.travel, w[0]) - m.travel; },
+       {{"w", "m", ShapeScale::kTravel, 0.2, 4.0}},
        {},
        kPositive},
       {"coulomb_friction",
@@ -101,6 +118,15 @@ std::vector<ForceEffect> makeForceEffects() {
        {{"tau", "s", ShapeScale::kTime, 0.1, 10.0}},
        [](const M& m, const double* tau) { return (m.travel - m.memory) / tau[0]; },
        kPositive},
+      // s the rod's place: it moves as its joint pulls. The end without play is viscoelastic_mount.
+      {"damper_backlash",
+       "c x, x = d - s - max(-w/2, min(d - s, w/2)), s' = x/tau",
+       "1/s^2",
+       "damper with play in its eye or top mount",
+       [](const M& m, const double* p) { return beyondPlay(m.travel - m.memory, p[0]); },
+       {{"w", "m", ShapeScale::kTravel, 0.05, 4.0}, {"tau", "s", ShapeScale::kTime, 0.01, 10.0}},
+       [](const M& m, const double* p) { return beyondPlay(m.travel - m.memory, p[0]) / p[1]; },
+       kPositive},
       // The body's velocity is its acceleration, integrated with a memory that is long against the strut's motion.
       {"body_drag",
        "-c s, s' = z'' - s/tau",
@@ -110,6 +136,28 @@ std::vector<ForceEffect> makeForceEffects() {
        {{"tau", "s", ShapeScale::kTime, 10.0, 30.0, kOpenBelow, kOpenAbove}},
        [](const M& m, const double* tau) { return m.body_acceleration - m.memory / tau[0]; },
        kPositive},
+      // s the load's place on its spring, counted from rest; c its mass, per mass of the body.
+      {"load_on_spring",
+       "c (2 zeta w s' + w^2 s), s'' = -z'' - 2 zeta w s' - w^2 s, w = 2 pi f",
+       "-",
+       "load with a spring of its own: passenger, tank, cargo on mounts",
+       [](const M& m, const double* p) { return pullOfLoad(m.memory, p); },
+       {{"f", "Hz", ShapeScale::kFrequency, 0.5, 20.0}, {"zeta", "-", ShapeScale::kNone, 0.05, 2.0, kOpenBelow}},
+       [](const M& m, const double* p) {
+         return Memory(m.memory.second, -m.body_acceleration - pullOfLoad(m.memory, p));
+       },
+       kPositive},
+      // Heat comes as the damper's power, v^2, and goes as the damper is warmer than its surroundings. s counts from
+      // how warm it was at the start, as a drive of that rms rate would have made it.
+      {"warming",
+       "-c s v, s' = (v^2 - vh^2 - s)/tc",
+       "s/m^2",
+       "damper that gets warm: thin oil",
+       [](const M& m, const double*) { return -m.memory * m.travel_rate; },
+       {{"tc", "s", ShapeScale::kTime, 100.0, 8000.0}, {"vh", "m/s", ShapeScale::kTravelRate, 0.3, 2.0, kOpenBelow}},
+       [](const M& m, const double* p) { return (m.travel_rate * m.travel_rate - p[1] * p[1] - m.memory) / p[0]; },
+       kPositive,
+       kLasts},
       {"damping_drift", "c t v", "1/s^2", "damping changes during the drive: oil loss, heat",
        [](const M& m, const double*) { return m.time * m.travel_rate; }},
       {"stiffness_drift", "c t d", "1/s^3", "stiffness changes during the drive: broken coil, load",

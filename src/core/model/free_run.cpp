@@ -137,12 +137,14 @@ std::optional<double> FreeRun::push(double unsprung_acceleration, double time) {
   input_.push(unsprung_acceleration);
   mean_.add(unsprung_acceleration);
   if (!input_.full() || !hasModel()) return std::nullopt;
-  if (decayed_ == 0.0) startAnew();
+  if (decayed_ == 0.0) startAnew(answered);
   const double prediction = predict(answered);
+  last_time_ = answered;
   decayed_ += decay_rate_ * period_;
   if (withEffects() && ranAway(prediction)) {
     ++runaways_;
-    startAnew();
+    state_ = {};
+    startAnew(answered);
     return std::nullopt;
   }
   return prediction;
@@ -188,15 +190,16 @@ bool FreeRun::ranAway(double prediction) {
 }
 
 // At rest under the constant part of the input.
-void FreeRun::startAnew() {
-  state_ = {};
+void FreeRun::startAnew(double time) {
+  keepLasting(model_, time - last_time_, state_.memory);
+  state_ = {0.0, 0.0, state_.memory};
   offset_ = mean_.value;
   if (!withEffects()) countTravelFrom(0.0);
   decayed_ = 0.0;
 }
 
 void FreeRun::reset() {
-  state_ = {};
+  state_ = {0.0, 0.0, state_.memory};
   decayed_ = 0.0;
   input_.clear();
   largest_ = 0.0;

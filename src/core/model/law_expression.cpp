@@ -73,7 +73,7 @@ double LawExpression::operator()(const StrutMotion& motion, const double* shapes
   values[0] = motion.travel;
   values[1] = motion.travel_rate;
   values[2] = motion.time;
-  values[kMemory] = motion.memory;
+  values[kMemory] = motion.memory.s;
   std::copy_n(shapes, shapes_.size(), values.begin() + kVariables.size());
   return compiled_->parser.Eval();
 }

@@ -3,11 +3,18 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr double Memory::*kNumbers[] = {&Memory::s, &Memory::second};
+
 /// What changes along a step, or how fast: the body's part of the motion since its beginning, and the memories.
 struct Along {
   double position = 0.0, velocity = 0.0;
-  std::array<double, kMostEffects> memory;
+  std::array<Memory, kMostEffects> memory;
 };
+
+Memory moved(Memory memory, double by, const Memory& rate) {
+  for (const auto number : kNumbers) memory.*number += by * rate.*number;
+  return memory;
+}
 
 /// Where the strut is at one of the instants of a step. The plain strut leaves out everything about effects: it is on
 /// the sample path of every monitor.
@@ -32,7 +39,7 @@ struct Stage {
       for (std::size_t j = 0; j < num_effects; ++j) {
         const auto& [effect, coefficient, shapes] = model.effects[j];
         const StrutMotion motion{travel, travel_rate, time, body.memory[j], slope.velocity};
-        slope.memory[j] = effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : 0.0;
+        slope.memory[j] = effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : Memory();
       }
     }
     return slope;
@@ -43,7 +50,8 @@ struct Stage {
     body.position = by * slope.position;
     body.velocity = by * slope.velocity;
     if constexpr (kWithEffects)
-      for (std::size_t j = 0; j < num_effects; ++j) body.memory[j] = start.memory[j] + by * slope.memory[j];
+      for (std::size_t j = 0; j < num_effects; ++j)
+        body.memory[j] = suspension_health_monitor::moved(start.memory[j], by, slope.memory[j]);
     return body;
   }
 };
@@ -66,28 +74,38 @@ void integrate(const StrutModel& model, double time, double step, const WheelSte
   state.travel_rate = end_rate - sixth * (k1.velocity + 2 * (k2.velocity + k3.velocity) + k4.velocity);
   if constexpr (kWithEffects)
     for (std::size_t j = 0; j < stage.num_effects; ++j)
-      state.memory[j] += sixth * (k1.memory[j] + 2 * (k2.memory[j] + k3.memory[j]) + k4.memory[j]);
+      for (const auto n : kNumbers)
+        state.memory[j].*n += sixth * (k1.memory[j].*n + 2 * (k2.memory[j].*n + k3.memory[j].*n) + k4.memory[j].*n);
 }
 
-// How fast a memory forgets at some instant [1/s]: |dg/ds|.
-double forgettingRate(const ActiveEffect& active, StrutMotion motion) {
-  const double difference = 1e-3 * std::abs(motion.memory) + 1e-9;
-  const double before = active.effect.memory_rate(motion, active.shapes.data());
-  motion.memory += difference;
-  return std::abs(active.effect.memory_rate(motion, active.shapes.data()) - before) / difference;
+// How fast a memory changes by itself at some instant [1/s]: |dg/ds| where it forgets; where its two numbers swing,
+// twice their angular frequency, as that must last for many steps.
+double ownRate(const ActiveEffect& active, const StrutMotion& motion) {
+  const Memory before = active.effect.memory_rate(motion, active.shapes.data());
+  const auto slopeBy = [&](double Memory::*number) {
+    StrutMotion there = motion;
+    const double difference = 1e-3 * std::abs(motion.memory.*number) + 1e-9;
+    there.memory.*number += difference;
+    const Memory after = active.effect.memory_rate(there, active.shapes.data());
+    return Memory((after.s - before.s) / difference, (after.second - before.second) / difference);
+  };
+  const Memory by_s = slopeBy(&Memory::s);
+  if (by_s.second == 0.0) return std::abs(by_s.s);
+  const Memory by_second = slopeBy(&Memory::second);
+  return std::max(std::abs(by_s.s + by_second.second), 2.0 * std::sqrt(std::abs(by_s.second * by_second.s)));
 }
 
 // In how many parts a step must be taken so that the memories can follow: a hysteresis of short stroke forgets within a
 // fraction of a sample when the strut moves fast.
 int numParts(const StrutModel& model, const StrutMotion& from, const StrutMotion& to, double step,
-             const std::array<double, kMostEffects>& memory) {
+             const std::array<Memory, kMostEffects>& memory) {
   double fastest = 0.0;
   for (std::size_t j = 0; j < model.effects.size(); ++j) {
     const ActiveEffect& active = model.effects[j];
-    if (!active.effect.memory_rate) continue;
+    if (!active.effect.memory_rate || active.effect.lasts) continue;  // what lasts is slow
     for (StrutMotion motion : {from, to}) {
       motion.memory = memory[j];
-      fastest = std::max(fastest, forgettingRate(active, motion));
+      fastest = std::max(fastest, ownRate(active, motion));
     }
   }
   const double parts =
@@ -168,22 +186,35 @@ WheelStep WheelInterpolator::ofPart(const double* around) const {
 }
 
 void followMemories(const StrutModel& model, const StrutMotion& from, const StrutMotion& to, double step,
-                    std::array<double, kMostEffects>& memory) {
+                    std::array<Memory, kMostEffects>& memory) {
   const int parts = numParts(model, from, to, step, memory);
   const double h = step / parts;
   for (std::size_t j = 0; j < model.effects.size(); ++j) {
     const ActiveEffect& active = model.effects[j];
     if (!active.effect.memory_rate) continue;
-    const auto rate = [&](double share, double value) {
+    const auto rate = [&](double share, const Memory& value) {
       StrutMotion motion = between(from, to, share);
       motion.memory = value;
       return active.effect.memory_rate(motion, active.shapes.data());
     };
     for (int i = 0; i < parts; ++i) {  // Heun's method
-      const double start = rate(static_cast<double>(i) / parts, memory[j]);
-      const double end = rate((i + 1.0) / parts, memory[j] + h * start);
-      memory[j] += h / 2.0 * (start + end);
+      const Memory start = rate(static_cast<double>(i) / parts, memory[j]);
+      const Memory end = rate((i + 1.0) / parts, moved(memory[j], h, start));
+      memory[j] = moved(moved(memory[j], h / 2.0, start), h / 2.0, end);
     }
+  }
+}
+
+void keepLasting(const StrutModel& model, double rest, std::array<Memory, kMostEffects>& memory) {
+  for (std::size_t j = 0; j < model.effects.size(); ++j) {
+    const ActiveEffect& active = model.effects[j];
+    if (!active.effect.lasts || !(rest >= 0.0 && std::isfinite(rest))) {
+      memory[j] = {};
+      continue;
+    }
+    const double rate = ownRate(active, {}), gone = -std::expm1(-rate * rest);
+    const double at_rest = active.effect.memory_rate({}, active.shapes.data()) / rate;
+    if (rate > 0.0) memory[j].s += gone * (at_rest - memory[j].s);
   }
 }
 

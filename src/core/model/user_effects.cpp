@@ -35,7 +35,7 @@ using ShapeField = OptionField<ShapeSettings>;
 constexpr std::array kShapeFields{
     ShapeField{"unit", "-", "unit of the shape", &ShapeSettings::unit},
     ShapeField{"scale", "-", "what min and max are multiples of", &ShapeSettings::scale, 0.0, 0.0,
-               "none travel travel_rate time"},
+               "none travel travel_rate time frequency"},
     ShapeField{"min", "scale", "smallest value worth trying", &ShapeSettings::min, 1e-15, 1e15},
     ShapeField{"max", "scale", "largest value worth trying, above min", &ShapeSettings::max, 1e-15, 1e15},
 };
@@ -71,7 +71,8 @@ ShapeParameter makeShape(const std::string& where, const std::string& name, cons
   takeAll(where, values, kShapeFields, settings);
   if (settings.min >= settings.max) refuse(where, "min must be below max");
   checkText(where + "/unit", settings.unit);
-  static constexpr std::array kScales{"none", "travel", "travel_rate", "time"};  // in the order of ShapeScale
+  static constexpr std::array kScales{"none", "travel", "travel_rate", "time",
+                                      "frequency"};  // in the order of ShapeScale
   const auto scale = std::find(kScales.begin(), kScales.end(), settings.scale) - kScales.begin();
   return {name, settings.unit, static_cast<ShapeScale>(scale), settings.min, settings.max};
 }
@@ -99,7 +100,8 @@ std::vector<double> shapesAt(const std::vector<ShapeParameter>& shapes, double s
 }
 
 /// At rest and in gentle and rough motion, both ways.
-void checkFinite(const std::string& where, const ForceEffect::Law& law, const std::vector<ShapeParameter>& shapes) {
+template <class Law>
+void checkFinite(const std::string& where, const Law& law, const std::vector<ShapeParameter>& shapes) {
   for (const double size : {1e-3, 0.1})
     for (const double travel : {0.0, size, -size})
       for (const double rate : {0.0, size, -size})

@@ -116,6 +116,10 @@ std::vector<const DriveSegment*> segmentsOf(const Records& records) {
   return all;
 }
 
+double restBetween(const DriveSegment& before, const DriveSegment& after) {
+  return toSeconds(after.stamps.front() - before.stamps.back());
+}
+
 std::vector<std::vector<double>> seriesOf(const std::vector<const DriveSegment*>& segments,
                                           std::vector<double> DriveSegment::*series) {
   std::vector<std::vector<double>> all;

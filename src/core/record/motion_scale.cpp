@@ -13,6 +13,7 @@ double MotionScale::unit(ShapeScale scale) const {
     case ShapeScale::kTravel: return travel;
     case ShapeScale::kTravelRate: return travel_rate;
     case ShapeScale::kTime: return time;
+    case ShapeScale::kFrequency: return 1.0 / (2.0 * M_PI * time);
     case ShapeScale::kNone: break;
   }
   return 1.0;

@@ -21,7 +21,7 @@ bool actsOnBody(const ActiveEffect& active) {
   const auto rate = [&](double acceleration) {
     return active.effect.memory_rate({1.0, 1.0, 1.0, 0.5, acceleration}, active.shapes.data());
   };
-  return active.effect.memory_rate && rate(0.0) != rate(1.0);
+  return active.effect.memory_rate && (rate(0.0).s != rate(1.0).s || rate(0.0).second != rate(1.0).second);
 }
 
 }  // namespace

@@ -208,9 +208,9 @@ void ModelEvaluator::fitAll(const std::vector<std::size_t>& wanted, const Evalua
 bool ModelEvaluator::isToldByFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const {
   const std::vector<ActiveEffect>& effects = candidate.ranked.model.effects;
   if (!candidate.ranked.significant || effects.empty() || effects.back().effect.name != candidate.added ||
-      !dependsOnTime(effects.back()))
+      !changesSlowly(effects.back()))
     return false;
-  const ForceEffect rival = frequencyRival(effects.back().effect, records_, current.ranked.model.stiffness_to_mass);
+  const ForceEffect rival = frequencyRival(candidate.fit, records_, current.ranked.model.stiffness_to_mass);
   const std::optional<ScreenedModel> start = Screening(records_, held_out_, current.fit).screen(rival);
   if (!start) return false;
   const EvaluatedModel as_frequency = evaluate(start->model, current.fit.initial, &current);

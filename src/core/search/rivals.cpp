@@ -37,7 +37,7 @@ std::vector<Window> windowsOf(const Records& records, double stiffness_to_mass) 
   return windows;
 }
 
-/// What frequency says of the time at some time [s].
+/// What is said at some time [s]: by frequency of the time.
 struct TimeTold {
   double time, told;
 };
@@ -57,7 +57,7 @@ std::vector<TimeTold> toldByFrequency(std::vector<Window> windows) {
   return result;
 }
 
-/// In straight lines between the windows, and on along the outermost ones.
+/// In straight lines between the points, and on along the outermost ones.
 double at(const std::vector<TimeTold>& points, double time) {
   if (points.empty()) return 0.0;
   const auto after = std::lower_bound(points.begin() + 1, points.end() - 1, time,
@@ -65,6 +65,20 @@ double at(const std::vector<TimeTold>& points, double time) {
   const TimeTold& before = *(after - 1);
   const double share = (time - before.time) / (after->time - before.time);
   return before.told + share * (after->told - before.told);
+}
+
+/// s of the last effect over time.
+std::vector<TimeTold> lastMemories(const ModelFit& fit, const Records& records) {
+  std::vector<TimeTold> points;
+  std::vector<double> predicted;
+  std::vector<StrutState> motion;
+  const std::vector<const DriveSegment*> segments = segmentsOf(records);
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    if (!runFree(fit.model, *segments[s], fit.initial[s], predicted, &motion)) continue;
+    for (std::size_t k = 0; k < motion.size(); ++k)
+      points.push_back({segments[s]->timeDriven(k), motion[k].memory[fit.model.effects.size() - 1].s});
+  }
+  return points;
 }
 
 }  // namespace
@@ -80,21 +94,36 @@ bool mayBeTilt(const StrutModel& model, const std::string& fault, const Records&
          });
 }
 
-bool dependsOnTime(const ActiveEffect& active) {
+bool changesSlowly(const ActiveEffect& active) {
+  if (active.effect.lasts) return true;
   const auto force = [&](double time) { return active.effect.force({1.0, 1.0, time, 0.5}, active.shapes.data()); };
   return force(0.0) != force(1.0) || force(1.0) != force(std::sqrt(2.0));
 }
 
-ForceEffect frequencyRival(const ForceEffect& effect, const Records& records, double stiffness_to_mass) {
+ForceEffect frequencyRival(const ModelFit& fit, const Records& records, double stiffness_to_mass) {
+  const ActiveEffect& last = fit.model.effects.back();
+  const ForceEffect& effect = last.effect;
   const std::vector<TimeTold> told = toldByFrequency(windowsOf(records, stiffness_to_mass));
-  const auto instead = [told](ForceEffect::Law law) {
+  ForceEffect rival = effect;
+  if (effect.lasts) {
+    rival.memory_rate = {};
+    rival.lasts = false;
+    rival.shapes.clear();
+    rival.force = [told, law = effect.force, memory = lastMemories(fit, records), known = last.shapes](
+                      const StrutMotion& motion, const double*) {
+      StrutMotion there = motion;
+      there.memory = at(memory, at(told, motion.time));
+      return law(there, known.data());
+    };
+    return rival;
+  }
+  const auto instead = [told](const auto& law) {
     return [told, law](const StrutMotion& motion, const double* shapes) {
       StrutMotion there = motion;
       there.time = at(told, motion.time);
       return law(there, shapes);
     };
   };
-  ForceEffect rival = effect;
   rival.force = instead(effect.force);
   if (effect.memory_rate) rival.memory_rate = instead(effect.memory_rate);
   return rival;

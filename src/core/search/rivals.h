@@ -17,15 +17,16 @@ inline constexpr const char* kTilt = "mount_tilt";
 /// in drives whose sensors read gravity.
 bool mayBeTilt(const StrutModel& model, const std::string& fault, const Records& records);
 
-/// @return true if the force depends on time at some motion.
-bool dependsOnTime(const ActiveEffect& active);
+/// @return true if the force depends on time at some motion, or on a memory that lasts.
+bool changesSlowly(const ActiveEffect& active);
 
-/// The rival of a law that changes with time: the same with the time that the frequency of the wheel's motion tells.
+/// The rival of the last law of a fit, which changes slowly: the same with the time that the frequency of the wheel's
+/// motion tells, or with what it remembered at that time.
 /// Where that does as well, as on a sweep, nobody can tell a part that wears from one that answers to frequency.
 /// Frequency: ln of rms velocity over rms position of the wheel (motionError() of w'') in windows of four natural
 /// periods. It tells the mean time of the two windows that are next in frequency; in straight lines between the
 /// middles.
-ForceEffect frequencyRival(const ForceEffect& effect, const Records& records, double stiffness_to_mass);
+ForceEffect frequencyRival(const ModelFit& fit, const Records& records, double stiffness_to_mass);
 
 /// How far a residual wanders more slowly than the strut moves [m/s^2, rms]. Any strut passes what is slow as it is, so
 /// that no law of one leaves this: it is a reading that wanders, as that of a body that leans does, or of a sensor that

@@ -76,6 +76,7 @@ void RowStart::passLow(Eigen::Ref<Eigen::VectorXd> column) const {
 
 std::optional<RowStart::Start> RowStart::with(const ForceEffect& effect) const {
   std::optional<Start> best;
+  if (effect.lasts) return best;  // stretches know no heat
   const double left = rows_.left();
   for (const std::vector<double>& shapes : scanShapes(effect, scale_)) {
     Eigen::VectorXd column = forceAlong(effect, shapes, motion_, ends_);

@@ -10,7 +10,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kRatio = 1.45;  // between neighbours
-constexpr double kMostCombinations = 64.0;
+constexpr double kMostCombinations = 36.0;
 constexpr Eigen::Index kSurfaceRows = 20000;
 
 Residuals split(const Eigen::VectorXd& all, const std::vector<std::size_t>& ends) {
@@ -54,7 +54,7 @@ std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const Mot
 
 Screening::Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit)
     : records_(records), response_(records, fit) {
-  Eigen::MatrixXd common = forcesAlong(fit.model, response_.motion(), response_.ends());
+  Eigen::MatrixXd common = forcesAlong(fit.model, response_.motion(), response_.ends(), response_.rests());
   for (Eigen::Index j = 0; j < common.cols(); ++j) common.col(j) = response_.respond(common.col(j));
   const Eigen::VectorXd residual = joined(fit.residuals);
   rows_ = WeightedProjection(common, trainingWeights(held_out, residual), residual);
@@ -89,7 +89,8 @@ std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const 
   const double natural_time = 1.0 / std::sqrt(response_.fit().model.stiffness_to_mass);
   for (const std::vector<double>& shapes :
        scanShapes(effect, {response_.travel(), response_.travelRate(), natural_time})) {
-    Eigen::VectorXd column = response_.respond(forceAlong(effect, shapes, response_.motion(), response_.ends()));
+    Eigen::VectorXd column =
+        response_.respond(forceAlong(effect, shapes, response_.motion(), response_.ends(), response_.rests()));
     const std::optional<WeightedProjection::Part> projection = rows_.project(column);
     acts = acts || projection;
     if (!projection || (effect.positive && !(projection->coefficients[0] > 0.0))) continue;

@@ -34,8 +34,8 @@ std::vector<StrutMotion> scaled(const std::vector<StrutMotion>& motion, const Mo
 }
 
 Eigen::VectorXd totalForce(const StrutModel& model, const std::vector<StrutMotion>& motion,
-                           const std::vector<std::size_t>& ends) {
-  const Eigen::MatrixXd forces = forcesAlong(model, motion, ends);
+                           const LinearResponse& present) {
+  const Eigen::MatrixXd forces = forcesAlong(model, motion, present.ends(), present.rests());
   Eigen::VectorXd total = model.damping_to_mass * forces.col(0) + model.stiffness_to_mass * forces.col(1);
   for (std::size_t j = 0; j < model.effects.size(); ++j)
     total += model.effects[j].coefficient * forces.col(2 + static_cast<Eigen::Index>(j));
@@ -45,10 +45,10 @@ Eigen::VectorXd totalForce(const StrutModel& model, const std::vector<StrutMotio
 /// rms difference of the least different model from the first, as a share of the first one's force.
 double difference(const LinearResponse& present, const std::vector<StrutModel>& models, const MotionChange& change) {
   const std::vector<StrutMotion> motion = scaled(present.motion(), change);
-  const Eigen::VectorXd first = totalForce(models.front(), motion, present.ends());
+  const Eigen::VectorXd first = totalForce(models.front(), motion, present);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < models.size(); ++i)
-    least = std::min(least, (totalForce(models[i], motion, present.ends()) - first).norm() / first.norm());
+    least = std::min(least, (totalForce(models[i], motion, present) - first).norm() / first.norm());
   return least;
 }
 

@@ -76,7 +76,8 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
   const QuarterCar& car = scenario_.vehicle;
   const bool rigid = !car.tyre_stiffness;
   const double z = state[0], z_rate = state[1], w_state = state[2], w_rate_state = state[3];
-  const double* const memory = &state[4];
+  std::array<Memory, kMostHiddenEffects> memory;
+  for (std::size_t j = 0; j < memory.size(); ++j) memory[j] = {state[4 + 2 * j], state[5 + 2 * j]};
   const double w = rigid ? road.height : w_state;
   const double w_rate = rigid ? road.rate : w_rate_state;
 
@@ -88,7 +89,7 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
   truth.travel_rate = w_rate - z_rate;
   truth.road_height = road.height;
   truth.road_acceleration = road.acceleration;
-  truth.sprung_acceleration = scenario_.strut.forcePerMass(truth.travel, truth.travel_rate, t, memory);
+  truth.sprung_acceleration = scenario_.strut.forcePerMass(truth.travel, truth.travel_rate, t, memory.data());
   if (rigid) {
     truth.unsprung_acceleration = road.acceleration;
     motion.derivative = {z_rate, truth.sprung_acceleration, 0.0, 0.0};
@@ -97,9 +98,12 @@ DriveSimulator::Motion DriveSimulator::motionAt(const State& state, double t) {
     truth.unsprung_acceleration = -(strut_force + *car.tyre_stiffness * (w - road.height)) / car.unsprung_mass;
     motion.derivative = {z_rate, truth.sprung_acceleration, w_rate, truth.unsprung_acceleration};
   }
-  for (std::size_t j = 0; j < scenario_.strut.hidden.size(); ++j)
-    motion.derivative[4 + j] =
+  for (std::size_t j = 0; j < scenario_.strut.hidden.size(); ++j) {
+    const Memory rate =
         scenario_.strut.memoryRate(j, {truth.travel, truth.travel_rate, t, memory[j], truth.sprung_acceleration});
+    motion.derivative[4 + 2 * j] = rate.s;
+    motion.derivative[5 + 2 * j] = rate.second;
+  }
   return motion;
 }
 

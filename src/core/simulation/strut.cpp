@@ -13,7 +13,7 @@ double EndStops::forcePerMass(double travel) const {
   return stiffness_to_mass * (std::max(0.0, travel - gap) + std::min(0.0, travel + gap));
 }
 
-double Strut::forcePerMass(double travel, double travel_rate, double t, const double* memory) const {
+double Strut::forcePerMass(double travel, double travel_rate, double t, const Memory* memory) const {
   double force = damping_to_mass.at(t) * travel_rate + stiffness_to_mass * travel;
   if (end_stops) force += end_stops->forcePerMass(travel);
   for (std::size_t j = 0; j < hidden.size(); ++j) {
@@ -23,9 +23,9 @@ double Strut::forcePerMass(double travel, double travel_rate, double t, const do
   return force;
 }
 
-double Strut::memoryRate(std::size_t j, const StrutMotion& motion) const {
+Memory Strut::memoryRate(std::size_t j, const StrutMotion& motion) const {
   const ForceEffect& effect = hidden[j].effect;
-  return effect.memory_rate ? effect.memory_rate(motion, hidden[j].shapes.data()) : 0.0;
+  return effect.memory_rate ? effect.memory_rate(motion, hidden[j].shapes.data()) : Memory();
 }
 
 }  // namespace suspension_health_monitor

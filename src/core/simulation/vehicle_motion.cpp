@@ -25,7 +25,7 @@ Eigen::RowVector3d liftAt(const VehicleStrut& strut) { return liftAt(strut.x, st
 
 VehicleMotion::State restOn(const Vehicle& vehicle, std::vector<Road>& roads) {
   const std::size_t n = vehicle.struts.size();
-  VehicleMotion::State state(kWheels + 2 * n + hiddenIn(vehicle).size(), 0.0);
+  VehicleMotion::State state(kWheels + 2 * n + 2 * hiddenIn(vehicle).size(), 0.0);
   Eigen::MatrixXd lift(n, 3);
   Eigen::MatrixX2d wheels(n, 2);
   for (std::size_t i = 0; i < n; ++i) {
@@ -111,9 +111,11 @@ void VehicleMotion::findForces(const State& state, double t) {
     truth.damping_to_mass = own_mobility_[i] * strut.damping * strut.shareAt(t, strut.damping_end_fraction);
     truth.stiffness_to_mass = own_mobility_[i] * strut.stiffness * strut.shareAt(t, strut.stiffness_end_fraction);
     double per_mass = truth.damping_to_mass * truth.travel_rate + truth.stiffness_to_mass * truth.travel;
-    for (const ActiveEffect& active : strut.hidden)
-      per_mass += active.coefficient *
-                  active.effect.force({truth.travel, truth.travel_rate, t, *memory++}, active.shapes.data());
+    for (const ActiveEffect& active : strut.hidden) {
+      per_mass += active.coefficient * active.effect.force({truth.travel, truth.travel_rate, t, {memory[0], memory[1]}},
+                                                           active.shapes.data());
+      memory += 2;
+    }
     truth_.forces[i] = per_mass / own_mobility_[i];
   }
   for (const AntiRollBar& bar : vehicle_.anti_roll_bars) {
@@ -151,9 +153,12 @@ void VehicleMotion::accelerateWheels(const State& state, double t, State& deriva
     derivative[kWheels + i] = rate;
     derivative[kWheels + n + i] = truth.unsprung_acceleration;
     for (const ActiveEffect& active : strut.hidden) {
-      const StrutMotion motion{truth.travel, truth.travel_rate, t, state[memory], truth.sprung_acceleration};
-      const ForceEffect::Law& law = active.effect.memory_rate;
-      derivative[memory++] = law ? law(motion, active.shapes.data()) : 0.0;
+      const Memory now(state[memory], state[memory + 1]);
+      const StrutMotion motion{truth.travel, truth.travel_rate, t, now, truth.sprung_acceleration};
+      const ForceEffect::MemoryLaw& law = active.effect.memory_rate;
+      const Memory change = law ? law(motion, active.shapes.data()) : Memory();
+      derivative[memory++] = change.s;
+      derivative[memory++] = change.second;
     }
   }
 }

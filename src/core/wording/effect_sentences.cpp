@@ -23,6 +23,9 @@ constexpr std::array kAdvice{
     Advice{"rebound_stop",
            "The stop is design, to be in it often is not: check ride height and rebound damping, then the stop for "
            "knocking."},
+    Advice{"backlash",
+           "Wear: a joint or bushing that moves freely before it carries; check ball joints, bushings "
+           "and the stabiliser's links for play of the width w."},
     Advice{"coulomb_friction",
            "A little is design of any seal; more than when new is wear: check for a bent or scored rod, a dry seal, a "
            "top mount or bushing that binds."},
@@ -46,9 +49,21 @@ constexpr std::array kAdvice{
     Advice{"viscoelastic_mount",
            "Design of a soft top mount; wear if it has become softer: check its rubber for cracks and its nut for "
            "torque."},
+    Advice{
+        "damper_backlash",
+        "Wear: the damper pulls only after the play w; check its eyes, the bushings in them and the top mount's nut, "
+        "and the damper itself for air in the oil."},
     Advice{"body_drag",
            "Neither design nor wear of the strut, it holds the body itself: check guides, cables, hoses and what is "
            "towed."},
+    Advice{
+        "load_on_spring",
+        "Neither design nor wear of the strut, it is what the body carries: a passenger, a tank or cargo on mounts; if "
+        "nothing is loaded, check what is bolted to the body for a mount that is loose."},
+    Advice{
+        "warming",
+        "Design as far as any oil gets thinner, and it comes back after a rest; more than when new is wear: check the "
+        "damper for oil and for the right grade."},
     Advice{"damping_drift",
            "Wear if it stays, heat if it comes back: check the damper for oil, and drive again with a cold one."},
     Advice{"stiffness_drift",

@@ -8,15 +8,17 @@
 namespace suspension_health_monitor {
 
 /// The force of an effect, per unit of its coefficient, at every sample of a motion; the memory starts at 0 in every
-/// segment.
+/// segment, or with what lasts.
 /// @param ends  of the segments: segment i is [ends[i - 1], ends[i]).
+/// @param rests  [s], rests[i] between segment i and the next; empty: unknown.
 Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
-                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends);
+                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends,
+                           const std::vector<double>& rests = {});
 
 /// What the force of a model is made of along a motion: travel rate, travel and the forces of its effects, one column
 /// for each of b1, b0 and the coefficients.
 Eigen::MatrixXd forcesAlong(const StrutModel& model, const std::vector<StrutMotion>& motion,
-                            const std::vector<std::size_t>& ends);
+                            const std::vector<std::size_t>& ends, const std::vector<double>& rests = {});
 
 /// What a small additional force would do to a free run: the model linearised along the motion that a fit gave it.
 ///   x'' = -(F_d x + F_v x' + f),   change of z'' = F_d x + F_v x' + f, behind the filter of the drive, if it has one,
@@ -44,6 +46,7 @@ class LinearResponse {
 
   /// Ends of the segments, as forceAlong() has them.
   const std::vector<std::size_t>& ends() const { return ends_; }
+  const std::vector<double>& rests() const { return rests_; }  ///< between the segments, likewise
 
  private:
   void measureSizes();
@@ -55,6 +58,7 @@ class LinearResponse {
   std::vector<double> predicted_;
   std::vector<double> slope_travel_, slope_rate_;  // F_d [1/s^2], F_v [1/s]
   std::vector<std::size_t> ends_;
+  std::vector<double> rests_;
   std::vector<const DriveSegment*> segments_;
   ReadingSizes sizes_;  // of what is predicted
 };

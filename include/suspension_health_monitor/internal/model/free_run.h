@@ -97,7 +97,7 @@ class FreeRun {
   /// f_j, one per effect, per unit of its coefficient.
   const double* effectForces() const { return forces_.data(); }
 
-  /// Forgets travel and input, keeps the model and the mean of w'': for a gap in the series.
+  /// Forgets travel and input, keeps the model, the mean of w'' and the memories that last: for a gap in the series.
   void reset();
 
  private:
@@ -109,7 +109,7 @@ class FreeRun {
   void advance(double time);
   double predict(double time);
   void countTravelFrom(double offset);
-  void startAnew();
+  void startAnew(double time);
   bool ranAway(double prediction);
 
   /// How a sample is split into steps of integration.
@@ -140,6 +140,7 @@ class FreeRun {
   double offset_ = 0.0;           // travel is counted from where this constant holds it [m/s^2]
   double largest_ = 0.0;          // |w''| of this run [m/s^2]
   double decayed_ = 0.0;          // e-foldings since the start; 0: not running
+  double last_time_ = 0.0;        // of what was predicted [s]
   std::uint64_t runaways_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace suspension_health_monitor {
 struct StrutState {
   double travel = 0.0;       ///< d [m]
   double travel_rate = 0.0;  ///< v [m/s]
-  std::array<double, kMostEffects> memory{};
+  std::array<Memory, kMostEffects> memory{};
 
   bool finite() const { return std::isfinite(travel) && std::isfinite(travel_rate); }
 };
@@ -92,6 +92,11 @@ void integrateStrut(const StrutModel& model, double time, double step, const Whe
 /// travel, travel rate and body acceleration from one instant to another.
 /// @param step  between the instants [s].  @param memory  at the first, then at the second.
 void followMemories(const StrutModel& model, const StrutMotion& from, const StrutMotion& to, double step,
-                    std::array<double, kMostEffects>& memory);
+                    std::array<Memory, kMostEffects>& memory);
+
+/// What a rest makes of the memories: those that last (ForceEffect::lasts) go on by s' = g at rest, of the others
+/// nothing is left.
+/// @param rest  [s]; below 0 or not finite: unknown, nothing is left.
+void keepLasting(const StrutModel& model, double rest, std::array<Memory, kMostEffects>& memory);
 
 }  // namespace suspension_health_monitor

@@ -16,7 +16,8 @@ namespace suspension_health_monitor {
 ///       unit: "1/(m s^2)"                 # of c
 ///       finding: "second spring engages"  # optional: what a workshop would find
 ///       shapes:                           # numbers that do not enter linearly, at most kMostUserShapes of them
-///         gap: {unit: m, scale: travel, min: 0.2, max: 3}  # scale: none, travel, travel_rate or time (ShapeScale)
+///         gap: {unit: m, scale: travel, min: 0.2, max: 3}  # scale: none, travel, travel_rate, time or frequency
+///         (ShapeScale)
 ///
 /// Expressions are muParser's, on doubles: + - * / ^, comparisons, && and ||, `a ? b : c`, numbers, _pi, _e, and its
 /// functions (abs, sign, min, max, sqrt, exp, ln, log = ln, log10, tanh, sin, ...).

@@ -52,7 +52,7 @@ class DriveSimulator {
 
  private:
   // z, z' and, of a wheel on a tyre, w, w'; then the memories of hidden effects. Places that are not needed stay 0.
-  using State = std::array<double, 4 + kMostHiddenEffects>;
+  using State = std::array<double, 4 + 2 * kMostHiddenEffects>;
 
   struct Motion {
     DriveTruth truth;

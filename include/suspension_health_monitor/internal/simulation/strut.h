@@ -41,12 +41,12 @@ struct Strut {
   /// @param travel  d [m], compression positive.
   /// @param travel_rate  v [m/s].
   /// @param t  time since the start of the drive [s].
-  /// @param memory  one state per hidden effect.
+  /// @param memory  one per hidden effect.
   /// @return force on the body per unit sprung mass, z'' [m/s^2].
-  double forcePerMass(double travel, double travel_rate, double t, const double* memory) const;
+  double forcePerMass(double travel, double travel_rate, double t, const Memory* memory) const;
 
   /// Rate of the j-th hidden effect's memory [1/s]; 0 if it has none.
-  double memoryRate(std::size_t j, const StrutMotion& motion) const;
+  Memory memoryRate(std::size_t j, const StrutMotion& motion) const;
 };
 
 }  // namespace suspension_health_monitor

@@ -62,7 +62,7 @@ class Decoupler {
     RunningMean laws;                           // of the law's force
     boost::circular_buffer<Observed> observed;  // before the filter
     StrutMotion motion{};
-    std::array<double, kMostEffects> memory{};
+    std::array<Memory, kMostEffects> memory{};
   };
 
   void follow(Strut& strut, double body_acceleration) const;
