@@ -106,7 +106,7 @@ class BatteryDriver {
     const std::map<std::string, std::pair<double, double>> shown{
         {"p", {2.0, 4.0}},    {"g", {0.5, 1.5}},      {"vs", {0.03, 0.1}}, {"v0", {0.4, 1.2}}, {"x", {0.15, 1.0}},
         {"tau", {0.4, 2.0}},  {"xa", {0.3, 1.0}},     {"xb", {0.5, 1.5}},  {"w", {0.5, 2.0}},  {"f", {0.5, 1.8}},
-        {"zeta", {0.1, 0.5}}, {"tc", {110.0, 220.0}}, {"vh", {0.1, 0.7}}};
+        {"zeta", {0.1, 0.5}}, {"tc", {110.0, 220.0}}, {"vh", {0.35, 0.7}}};
     const MotionScale scale{travel_, travel_rate_, 1.0 / std::sqrt(stiffness())};
     std::vector<double> shapes;
     for (const ShapeParameter& shape : effect.shapes) {

@@ -138,7 +138,7 @@ std::vector<ForceEffect> makeForceEffects() {
        kPositive},
       // s the load's place on its spring, counted from rest; c its mass, per mass of the body.
       {"load_on_spring",
-       "c (-z'' - s''), s'' = -z'' - 2 zeta w s' - w^2 s, w = 2 pi f",
+       "c r, r = 2 zeta w s' + w^2 s, s'' = -z'' - r",
        "-",
        "load with a spring of its own: passenger, tank, cargo on mounts",
        [](const M& m, const double* p) { return pullOfLoad(m.memory, p); },
@@ -154,7 +154,7 @@ std::vector<ForceEffect> makeForceEffects() {
        "s/m^2",
        "damper that gets warm: thin oil",
        [](const M& m, const double*) { return -m.memory * m.travel_rate; },
-       {{"tc", "s", ShapeScale::kTime, 100.0, 8000.0}, {"vh", "m/s", ShapeScale::kTravelRate, 0.1, 2.0, kOpenBelow}},
+       {{"tc", "s", ShapeScale::kTime, 100.0, 8000.0}, {"vh", "m/s", ShapeScale::kTravelRate, 0.3, 2.0, kOpenBelow}},
        [](const M& m, const double* p) { return (m.travel_rate * m.travel_rate - p[1] * p[1] - m.memory) / p[0]; },
        kPositive,
        kLasts},

@@ -81,11 +81,11 @@ void integrate(const StrutModel& model, double time, double step, const WheelSte
 // How fast a memory changes by itself at some instant [1/s]: |dg/ds| where it forgets; where its two numbers swing,
 // twice their angular frequency, as that must last for many steps.
 double ownRate(const ActiveEffect& active, const StrutMotion& motion) {
+  const Memory before = active.effect.memory_rate(motion, active.shapes.data());
   const auto slopeBy = [&](double Memory::*number) {
     StrutMotion there = motion;
     const double difference = 1e-3 * std::abs(motion.memory.*number) + 1e-9;
     there.memory.*number += difference;
-    const Memory before = active.effect.memory_rate(motion, active.shapes.data());
     const Memory after = active.effect.memory_rate(there, active.shapes.data());
     return Memory((after.s - before.s) / difference, (after.second - before.second) / difference);
   };
@@ -102,7 +102,7 @@ int numParts(const StrutModel& model, const StrutMotion& from, const StrutMotion
   double fastest = 0.0;
   for (std::size_t j = 0; j < model.effects.size(); ++j) {
     const ActiveEffect& active = model.effects[j];
-    if (!active.effect.memory_rate) continue;
+    if (!active.effect.memory_rate || active.effect.lasts) continue;  // what lasts is slow
     for (StrutMotion motion : {from, to}) {
       motion.memory = memory[j];
       fastest = std::max(fastest, ownRate(active, motion));

@@ -10,7 +10,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kRatio = 1.45;  // between neighbours
-constexpr double kMostCombinations = 64.0;
+constexpr double kMostCombinations = 36.0;
 constexpr Eigen::Index kSurfaceRows = 20000;
 
 Residuals split(const Eigen::VectorXd& all, const std::vector<std::size_t>& ends) {
