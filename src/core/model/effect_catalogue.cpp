@@ -138,7 +138,7 @@ std::vector<ForceEffect> makeForceEffects() {
        kPositive},
       // s the load's place on its spring, counted from rest; c its mass, per mass of the body.
       {"load_on_spring",
-       "c r, r = 2 zeta w s' + w^2 s, s'' = -z'' - r",
+       "c r, r = 2 zeta w s' + w^2 s = -z'' - s'', w = 2 pi f",
        "-",
        "load with a spring of its own: passenger, tank, cargo on mounts",
        [](const M& m, const double* p) { return pullOfLoad(m.memory, p); },
