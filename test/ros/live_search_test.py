@@ -131,8 +131,9 @@ class LiveSearchTest(unittest.TestCase):
         for message in self.extended:
             self.assertLess(message.rmse, 0.7 * message.base_rmse)
             self.assertGreater(message.fit_percent, message.base_fit_percent)
-        self.assertAlmostEqual(self.extended[-1].base_rmse, self.found.base_held_out_rmse,
-                               delta=0.5 * self.found.base_held_out_rmse)
+        # Stretches of the road differ; how long the search takes decides which one this is.
+        base_rmse = sum(message.base_rmse for message in self.extended) / len(self.extended)
+        self.assertAlmostEqual(base_rmse, self.found.base_held_out_rmse, delta=0.5 * self.found.base_held_out_rmse)
 
     def test_estimates_go_on_with_the_effect(self):
         last = self.la.messages[-1]
