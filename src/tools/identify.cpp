@@ -94,7 +94,8 @@ void identifyStrut(const po::variables_map& values) {
   found.warnings.insert(found.warnings.end(), faults.begin(), faults.end());
   const std::string change = describeChange(found, healthy, settings);
   files.commitTables(toJson(recorded, found, change));
-  const std::string not_nominal = whyNotNominal(found, settings);
+  std::string not_nominal = whyNotNominal(found, settings);
+  if (not_nominal.empty() && !faults.empty()) not_nominal = "mend a sensor first: " + faults.front();
   if (files.settings && not_nominal.empty())
     files.settings->commit(settingsOf(*strutOf(found), monitorSettings(values), fileNames(options.bags.paths)));
   recorded.printInput();
