@@ -78,9 +78,9 @@ struct StrutEstimate {
   double offset = std::nan("");        ///< of the wheel carrier's reading against the body's [m/s^2]; of LS and LA
   double delay = std::nan("");         ///< by which the wheel carrier's readings are stamped late [s]; of the blocks
   double delay_stddev = std::nan("");  ///< [s]
-  double gain =
-      std::nan("");  ///< of the body's sensor over that of the wheel's, less 1 [-]; of the blocks, where it is
-  double gain_stddev = std::nan("");    ///< more than 5 %, else 0 [-]
+  /// Of the body's sensor over that of the wheel's, less 1 [-]; of the blocks, where it is more than 5 %, else 0.
+  double gain = std::nan("");
+  double gain_stddev = std::nan("");    ///< [-]
   std::optional<DryFriction> friction;  ///< of the blocks; empty: other effects are in the model
   double effective_rows = 0.0;          ///< rows in the memory of LS, LA; blocks of the window
   double explained = 0.0;  ///< share of what was measured: of mean sizes of rows (LS, LA), of the body's power (blocks)

@@ -82,15 +82,15 @@ ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
 }
 
 OptionMap monitorSettings(const po::variables_map& values) {
+  constexpr const char *kDamping = "damping_to_mass", *kStiffness = "stiffness_to_mass";
   OptionMap settings = gatherOptions(values);
-  for (const char* number : {"damping_to_mass", "stiffness_to_mass"}) {
-    const auto found = settings.find(number);
-    if (found == settings.end()) continue;
-    settings.insert({std::string("nominal/") + number, found->second});
-    settings.insert({"model_file", values["config"].as<std::string>()});
-    settings.erase(found);
+  const auto path = values["config"].as<std::string>();
+  if (path.empty() || settings.count(kDamping) == 0 || settings.count(kStiffness) == 0) return settings;
+  settings.insert({"model_file", path});
+  for (const char* number : {kDamping, kStiffness}) {
+    settings.insert({std::string("nominal/") + number, settings.at(number)});
+    settings.erase(number);
   }
-  if (settings.count("model_file") == 0) return settings;
   for (auto each = settings.begin(); each != settings.end();)
     each = each->first.rfind("effects/", 0) == 0 || each->first.rfind("readings/", 0) == 0 ? settings.erase(each)
                                                                                            : std::next(each);

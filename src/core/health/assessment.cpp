@@ -61,11 +61,6 @@ PartChange beyond(const LogChange& others, PartChange change) {
   return change;
 }
 
-double sharedBy(const LogChange& a, const LogChange& b) {
-  if (a.size * b.size <= 0.0) return 0.0;
-  return std::abs(a.size) < std::abs(b.size) ? a.size : b.size;
-}
-
 }  // namespace
 
 void HealthOptions::validate() const {
@@ -206,7 +201,7 @@ void HealthAssessment::judge(const StrutChange& change) {
     if (others_ && damping_.level < HealthLevel::kError) {
       const HealthLevel own = levelOf(beyond(*others_, damping), before, options_);
       if (own == HealthLevel::kOk && damping_.level == HealthLevel::kWarn)
-        now.shared_damping_change = std::expm1(sharedBy(*damping_change_, *others_));
+        now.shared_damping_change = std::expm1(nearestToNone(std::minmax(damping_change_->size, others_->size)));
       if (own != HealthLevel::kStale) damping_.level = std::min(own, HealthLevel::kWarn);
     }
   }

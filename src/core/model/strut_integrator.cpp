@@ -11,7 +11,7 @@ struct Along {
   std::array<Memory, kMostEffects> memory;
 };
 
-Memory moved(Memory memory, double by, const Memory& rate) {
+Memory advanced(Memory memory, double by, const Memory& rate) {
   for (const auto number : kNumbers) memory.*number += by * rate.*number;
   return memory;
 }
@@ -50,8 +50,7 @@ struct Stage {
     body.position = by * slope.position;
     body.velocity = by * slope.velocity;
     if constexpr (kWithEffects)
-      for (std::size_t j = 0; j < num_effects; ++j)
-        body.memory[j] = suspension_health_monitor::moved(start.memory[j], by, slope.memory[j]);
+      for (std::size_t j = 0; j < num_effects; ++j) body.memory[j] = advanced(start.memory[j], by, slope.memory[j]);
     return body;
   }
 };
@@ -199,8 +198,8 @@ void followMemories(const StrutModel& model, const StrutMotion& from, const Stru
     };
     for (int i = 0; i < parts; ++i) {  // Heun's method
       const Memory start = rate(static_cast<double>(i) / parts, memory[j]);
-      const Memory end = rate((i + 1.0) / parts, moved(memory[j], h, start));
-      memory[j] = moved(moved(memory[j], h / 2.0, start), h / 2.0, end);
+      const Memory end = rate((i + 1.0) / parts, advanced(memory[j], h, start));
+      memory[j] = advanced(advanced(memory[j], h / 2.0, start), h / 2.0, end);
     }
   }
 }

@@ -58,6 +58,7 @@ VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, c
       monitor.addSample(sampleOf(drive, k));
       monitor.fitBodyIfDue();
     }
+  monitor.fitBody();
   return identified(monitor, names, forceNames(drives.front()));
 }
 

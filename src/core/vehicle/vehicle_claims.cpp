@@ -16,7 +16,6 @@ constexpr double kAlike = 0.01;  // of a wheel's power is all that the other whe
 constexpr double kBetter = 0.5;  // of what the file leaves
 constexpr double kFits = 0.2;    // of the tops' motion, that a file which is right leaves at most
 constexpr double kMuch = 0.02;   // that goes with the wheels, and no strut of theirs makes; links make 0.003
-
 constexpr int kRefinements = 3;
 
 double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j) {
@@ -57,13 +56,13 @@ VehicleClaims::Mapping VehicleClaims::asFiled() const {
 
 // Of all streams the part that goes with the wheels and the known forces: noise of other sensors does not.
 void VehicleClaims::keepWhatWheelsTell() {
+  Eigen::MatrixXcd causes = Eigen::MatrixXcd::Zero(6 * n_ + forces_, n_ + forces_);
+  causes.block(2 * n_, 0, n_, n_).setIdentity();  // p = 1
+  causes.bottomRightCorner(forces_, forces_).setIdentity();
   for (Eigen::MatrixXcd& products : products_) {
-    Eigen::MatrixXcd causes = Eigen::MatrixXcd::Zero(products.rows(), n_ + forces_);
-    causes.block(2 * n_, 0, n_, n_).setIdentity();  // p = 1
-    causes.bottomRightCorner(forces_, forces_).setIdentity();
     const Eigen::MatrixXcd with_causes = products * causes;
-    products = with_causes *
-               (causes.adjoint() * with_causes).completeOrthogonalDecomposition().solve(with_causes.adjoint());
+    products =
+        with_causes * (causes.adjoint() * with_causes).completeOrthogonalDecomposition().solve(with_causes.adjoint());
   }
 }
 

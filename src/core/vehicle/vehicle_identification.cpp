@@ -25,7 +25,6 @@ std::string describeMistake(const VehicleMonitor& monitor, const std::vector<std
 
 VehicleIdentification identified(VehicleMonitor& monitor, const std::vector<std::string>& names,
                                  const std::vector<std::string>& forces) {
-  monitor.fitBody();
   VehicleIdentification result{couplingOf(monitor, names, forces), {}};
   for (std::size_t i = 0; result && i < names.size(); ++i)
     result.struts.push_back(identified(*monitor.strut(i), monitor.overTheDrive(i), monitor.strut(i)->rejected()));

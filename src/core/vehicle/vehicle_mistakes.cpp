@@ -15,7 +15,7 @@ const std::vector<double> kFactors{0.6, 0.8, 1.0, 1.2, 1.4, 1.6}, kOtherSign{-1.
 const std::vector<double> kDelays{-0.05, -0.04, -0.03, -0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05};
 const std::vector<double> kShifts{-0.4, -0.2, 0.0, 0.2, 0.4};  // of the wheelbase, or of the track
 
-constexpr int kFewestBlocks = 4;
+constexpr int kFewestOfHalf = 4;       // of the blocks
 constexpr double kLeastTurning = 0.1;  // of the heave that wheels pass on
 constexpr double kLeastSpread = 0.1;   // of the larger of wheelbase and track
 
@@ -73,7 +73,7 @@ bool VehicleMistake::isLarge() const {
 
 // At bounce and below a body follows its wheels, in pitch and roll as in heave.
 bool VehicleClaims::hasDeadGyro(const StrutPlaces& places) const {
-  if (blocks_ < kFewestBlocks) return false;
+  if (blocks_ < kFewestOfHalf) return false;
   Eigen::MatrixXd wheels = Eigen::MatrixXd::Zero(n_, n_), tops = wheels;
   for (const Eigen::MatrixXcd& products : products_) {
     const Eigen::MatrixXcd of_wheels = products.topLeftCorner(n_, n_), both = products.block(n_, 0, n_, n_);

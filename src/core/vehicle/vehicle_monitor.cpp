@@ -95,14 +95,15 @@ std::optional<LogChange> VehicleMonitor::sharedByOthers(std::size_t strut) const
   constexpr std::size_t kFewestStruts = 3;
   std::optional<LogChange> shared;
   if (numStruts() < kFewestStruts) return shared;
+  std::pair<double, double> range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < numStruts(); ++i) {
     if (i == strut) continue;
     const std::optional<LogChange>& change = struts_[i].dampingChange();
     if (!change) return std::nullopt;
     if (!shared || std::abs(change->size) < std::abs(shared->size)) shared = change;
+    range = {std::min(range.first, change->size), std::max(range.second, change->size)};
   }
-  for (std::size_t i = 0; i < numStruts(); ++i)
-    if (i != strut && struts_[i].dampingChange()->size * shared->size < 0.0) shared->size = 0.0;
+  shared->size = nearestToNone(range);
   return shared;
 }
 
@@ -174,9 +175,10 @@ void VehicleMonitor::fitBody() {
 }
 
 void VehicleMonitor::fitBodyIfDue() {
-  if (!decoupler_ || !last_ || (body_due_ && *last_ < *body_due_ && *last_ >= fitted_)) return;
-  if (!body_due_) coupled_ = *last_;
-  body_due_ = *last_ + std::clamp(*last_ - coupled_, kBodyFirst, kBodyEvery);
+  if (!decoupler_ || !last_) return;
+  if (coupled_ && *last_ >= fitted_ && *last_ - fitted_ < std::clamp(fitted_ - *coupled_, kBodyFirst, kBodyEvery))
+    return;
+  if (!coupled_) coupled_ = last_;
   fitted_ = *last_;
   fitBody();
 }

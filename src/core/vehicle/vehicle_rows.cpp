@@ -96,7 +96,7 @@ VehicleMistake VehicleBlocks::mistake() const {
     for (Eigen::Index k = 0; k < num_forces; ++k)
       modulation.apply(2, first.forces.col(firstKnownForce() + k), forces.col(k));
     claims.add(wheels, tops, forces);
-    if (2 * age < estimators_.front().count()) newer.add(wheels, tops, forces);
+    if (is_by_body && 2 * age < estimators_.front().count()) newer.add(wheels, tops, forces);
   }
   if (!is_by_body) return claims.find({});
   if (newer.hasDeadGyro(tops_.places())) return {VehicleMistake::Kind::kDeadGyro, {}};  // it may have died

@@ -81,8 +81,7 @@ std::string describe(const VehicleMistake& mistake, const std::vector<std::strin
     case Kind::kOthers:
       return formatted(
           "the wheels in it leave %.0f %% of the body's motion unexplained: a strut that is missing in the file, a "
-          "wrong "
-          "topic, or something else that moves the body",
+          "wrong topic, or something else that moves the body",
           100.0 * mistake.unexplained);
   }
   return "";

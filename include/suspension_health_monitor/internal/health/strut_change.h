@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace suspension_health_monitor {
 
@@ -9,6 +11,12 @@ struct LogChange {
   double size;    ///< ln(value / healthy)
   double stddev;  ///< of size; NaN: not known
 };
+
+/// @param range  the smallest and the largest of several changes.
+/// @return what all of them have: the one nearest to none; 0 if they differ in sign.
+inline double nearestToNone(const std::pair<double, double>& range) {
+  return std::clamp(0.0, range.first, range.second);
+}
 
 /// Both parameters against those of the healthy strut.
 struct MeasuredChange {

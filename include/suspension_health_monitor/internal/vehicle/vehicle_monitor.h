@@ -107,10 +107,10 @@ class VehicleMonitor {
   std::optional<Decoupler> decoupler_;
   std::vector<SuspensionMonitor> struts_;
   EveryN models_due_;
-  bool is_alone_;                  // nothing known moves the one strut
-  std::optional<Stamp> last_;      // sample
-  std::optional<Stamp> body_due_;  // of the next fit of the body
-  Stamp coupled_{0}, fitted_{0};   // first and last fit
+  bool is_alone_;                 // nothing known moves the one strut
+  std::optional<Stamp> last_;     // sample
+  std::optional<Stamp> coupled_;  // first fit of the body when it was due
+  Stamp fitted_{};                // the last one
 };
 
 }  // namespace suspension_health_monitor
