@@ -15,7 +15,6 @@ struct HealthThresholds {
   double stiffness_error = 0.30;                    ///< [-]
   double confirm_time = 0.5;                        ///< a new level must last this long before it is reported [s]
   double payload_range = 0.35;                      ///< relative change of the body's mass that may be payload; 0: none
-  double gravity_tolerance = 0.1;                   ///< of a mean reading, as a share of g; 0: not judged
   double oldest_data = 60.0;                        ///< of which an estimate may be, as of a parked vehicle [s]
   double learn_time = 60.0;                         ///< of valid estimates for a baseline [s]; 0: none is learned
 };
@@ -28,9 +27,9 @@ struct MonitorOptions : HealthThresholds {
   std::string alignment = "auto";             ///< or "paired", "resampled": how readings become samples
   bool tyre = false;                          ///< there is a third sensor, where the tyre touches the road
   std::optional<double> integration_horizon;  ///< h of the integral filter [s]; left out: 0.6
-  std::optional<double> block_length;     ///< T of the first blocks [s]; then it follows the bounce by factors of two
-  std::optional<double> memory;  ///< of LS and LA: a row that old counts 1/e [s]; left out: 2, or 10/3 of the
-                                 ///< horizon if that is more
+  std::optional<double> block_length;  ///< T of the first blocks [s]; then it follows the bounce by factors of two
+  std::optional<double> memory;        ///< of LS and LA: a row that old counts 1/e [s]; left out: 2, or 10/3 of the
+                                       ///< horizon if that is more
   std::optional<double> forgetting_factor;  ///< lambda, instead of memory: 1/(1 - lambda) rows [-]
   double comparison_window = 10.0;          ///< memory of the free run's rmse [s]
   std::optional<double> sprung_mass;        ///< [kg], for results in SI

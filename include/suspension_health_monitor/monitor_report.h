@@ -16,6 +16,7 @@ namespace suspension_health_monitor {
 enum class EstimateDoubt {
   kNone,                 ///< it is valid
   kWrongPeriod,          ///< samples do not come at the sample period
+  kWrongUnit,            ///< one of the IMUs reads in g
   kNoRows,               ///< the integral filter fills, or the first blocks do, at the start and after a gap
   kFewRows,              ///< LS and LA have seen fewer rows than they need
   kNotExcited,           ///< too little motion: neither damping nor stiffness is known to kMostRelativeStddev
@@ -152,17 +153,12 @@ enum class HealthLevel : unsigned char { kOk = 0, kWarn = 1, kError = 2, kStale 
 /// What is wrong with the sensors, or how they are read, rather than with the strut.
 enum class SensorFault : unsigned char {
   kNone,
-  kSprungStuck,       ///< the body's IMU reads one value while the other moves
-  kUnsprungStuck,     ///< the wheel carrier's IMU, likewise
-  kSprungGravity,     ///< the body's IMU reads on average neither gravity nor 0: gain, offset or mount
-  kUnsprungGravity,   ///< the wheel carrier's IMU, likewise
-  kGravityOnOneSide,  ///< one reads gravity, the other does not
-  kGravityOpposed,    ///< one reads gravity upward, the other downward
-  kSprungInG,         ///< the body's IMU reads 1 where the other reads gravity
-  kUnsprungInG,       ///< the wheel carrier's IMU, likewise
-  kNegativeDamping,   ///< damping is certainly negative
-  kUnrelated,         ///< both move, but the one is not what a strut makes of the other
-  kGainsDiffer,       ///< of slow motion, which a strut passes as it is, one reads more than the other
+  kSprungStuck,      ///< the body's IMU reads one value while the other moves
+  kUnsprungStuck,    ///< the wheel carrier's IMU, likewise
+  kInG,              ///< one IMU reads 1 on average where the other reads gravity
+  kNegativeDamping,  ///< damping is certainly negative
+  kUnrelated,        ///< both move, but the one is not what a strut makes of the other
+  kGainsDiffer,      ///< of slow motion, which a strut passes as it is, one reads more than the other
 };
 
 /// What was found, with the mean readings [m/s^2] that say so.
@@ -242,6 +238,7 @@ struct InputStatus {
   std::uint64_t restarts = 0;  ///< times that the clock went back and the series began anew
   double mean_period = 0.0;    ///< of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
   bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
+  bool unit_fits = true;       ///< no mean reading is that of a sensor in g
 
   double beyond_strut = 0.0;        ///< share of the body's power above the strut's band, likewise, in [0, 1]
   double beyond_strut_level = 0.0;  ///< and its rms [m/s^2]

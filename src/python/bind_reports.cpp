@@ -143,7 +143,8 @@ void bindCondition(py::module& module) {
       .add("gaps", "", &InputStatus::gaps)
       .add("clock_jumps", "", &InputStatus::restarts)
       .add("mean_period", "[s]", &InputStatus::mean_period)
-      .add("period_fits", "", &InputStatus::period_fits);
+      .add("period_fits", "", &InputStatus::period_fits)
+      .add("unit_fits", "", &InputStatus::unit_fits);
 }
 
 void bindCourse(py::module& module) {

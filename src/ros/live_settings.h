@@ -27,7 +27,6 @@ inline constexpr std::array kLiveSettings{
     LiveSetting{"health/stiffness_error", 0.01, 1.0},
     LiveSetting{"health/confirm_time", 0.0, 10.0},
     LiveSetting{"health/payload_range", 0.0, 1.0},
-    LiveSetting{"health/gravity_tolerance", 0.0, 0.5},
     LiveSetting{"health/oldest_data", 1.0, 3600.0},
     LiveSetting{"publish_every", 1.0, 100.0},
 };

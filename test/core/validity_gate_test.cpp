@@ -31,6 +31,7 @@ struct Flaw {
 // In the order of EstimateDoubt.
 const std::vector<Flaw> kFlaws{
     {EstimateDoubt::kWrongPeriod, [](EstimateFacts& f) { f.period_fits = false; }},
+    {EstimateDoubt::kWrongUnit, [](EstimateFacts& f) { f.unit_fits = false; }},
     {EstimateDoubt::kNoRows, [](EstimateFacts& f) { f.has_row = false; }},
     {EstimateDoubt::kFewRows, [](EstimateFacts& f) { f.rows = 49.9; }},
     {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.damping_stddev = f.stiffness_stddev = 0.151; }},

@@ -17,11 +17,11 @@ START = 1000.0  # [s]
 # Not one of them is the default. b1 of the drive is 3 1/s: 25 % below nominal.
 GIVEN = {"memory": 1.0, "publish_every": 1,
          "health": {"damping_warn": 0.2, "damping_error": 0.5, "stiffness_warn": 0.4, "stiffness_error": 2,
-                    "confirm_time": 0.5, "payload_range": 0.3, "gravity_tolerance": 0.2, "oldest_data": 90.0},
+                    "confirm_time": 0.5, "payload_range": 0.3, "oldest_data": 90.0},
          "nominal": {"damping_to_mass": 4.0, "stiffness_to_mass": 13.8}}
 AS_GIVEN = {"memory": 1.0, "publish_every": 1, "health/damping_warn": 0.2, "health/damping_error": 0.5,
             "health/stiffness_warn": 0.4, "health/stiffness_error": 2.0, "health/confirm_time": 0.5,
-            "health/payload_range": 0.3, "health/gravity_tolerance": 0.2, "health/oldest_data": 90.0}
+            "health/payload_range": 0.3, "health/oldest_data": 90.0}
 # What is asked for, and what the warning must hold.
 REFUSED = {
     "error below warn": ({"health/damping_error": 0.1}, ["health/damping_error = 0.1", "at least health/damping_warn"]),

@@ -9,9 +9,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kInG = 0.15;  // so near 1 is what a sensor of gravity reads that has g for its unit
-
-bool hasGravity(double mean) { return std::abs(mean) > kStandardGravity / 2.0; }
+// Of 1, and of gravity: by so much an offset of the sensor, or a strut that is inclined by 30 degrees, moves a mean.
+constexpr double kInG = 0.15;
 
 bool isOfMotion(SensorFault fault) {
   return fault == SensorFault::kNegativeDamping || fault == SensorFault::kUnrelated;
@@ -19,18 +18,9 @@ bool isOfMotion(SensorFault fault) {
 
 }  // namespace
 
-SensorCheck::SensorCheck(double gravity_tolerance, double memory, int horizon_samples)
-    : tolerance_(gravity_tolerance),
-      memory_(memory),
+SensorCheck::SensorCheck(double memory, int horizon_samples)
+    : memory_(memory),
       unread_(1.0 - 1.0 / std::max(memory, 1.0), 1.0 / (1.0 + horizon_samples / (2.0 * M_PI * kBandTimes))) {}
-
-void SensorCheck::setTolerance(double gravity_tolerance) {
-  if (gravity_tolerance == tolerance_) return;
-  tolerance_ = gravity_tolerance;
-  const bool is_of_gravity =
-      report_.fault == SensorFault::kSprungGravity || report_.fault == SensorFault::kUnsprungGravity;
-  if (is_of_gravity) report_.fault = pending_ = judgeMeans();
-}
 
 double SensorCheck::bodyBeyondStrut() const {
   const Reading& body = readings_[0];
@@ -86,7 +76,7 @@ SensorFault SensorCheck::find(const StrutEstimate& estimate, const StrutEstimate
   if (sprung_still) return SensorFault::kSprungStuck;
   if (unsprung_still) return SensorFault::kUnsprungStuck;
   if (samples_ < memory_) return SensorFault::kNone;
-  if (const SensorFault fault = judgeMeans(); fault != SensorFault::kNone) return fault;
+  if (isInG()) return SensorFault::kInG;
   if (estimate.tellsChanges()) return judgeGains(estimate);
   return la_tells ? judgeMotion(la) : SensorFault::kNone;
 }
@@ -109,36 +99,9 @@ SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
   return wheel_moves && (body_moves || may_be_swapped) ? SensorFault::kUnrelated : SensorFault::kNone;
 }
 
-SensorFault SensorCheck::judgeMeans() const {
-  if (tolerance_ == 0.0) return SensorFault::kNone;
-  if (const SensorFault fault = judgeGravity(); fault != SensorFault::kNone) return fault;
-  if (isOff(readings_[0])) return SensorFault::kSprungGravity;
-  if (isOff(readings_[1])) return SensorFault::kUnsprungGravity;
-  const auto clear = [](const Reading& reading) { return reading.meanNoise() < kStandardGravity / 4.0; };
-  if (clear(readings_[0]) && clear(readings_[1]) && hasGravity(readings_[0].mean()) != hasGravity(readings_[1].mean()))
-    return SensorFault::kGravityOnOneSide;
-  return SensorFault::kNone;
-}
-
-// What two means tell that each of them does not.
-SensorFault SensorCheck::judgeGravity() const {
-  const auto reads_gravity = [](const Reading& reading) {
-    return hasGravity(reading.mean()) && reading.meanNoise() < kStandardGravity / 2.0;
-  };
-  const auto in_g = [](const Reading& reading) {
-    const double noise = reading.meanNoise();
-    return std::abs(std::abs(reading.mean()) - 1.0) < kInG + noise && noise < 2.0 * kInG;
-  };
-  const bool sprung = reads_gravity(readings_[0]), unsprung = reads_gravity(readings_[1]);
-  if (sprung && unsprung && readings_[0].mean() * readings_[1].mean() < 0.0) return SensorFault::kGravityOpposed;
-  if (unsprung && in_g(readings_[0])) return SensorFault::kSprungInG;
-  if (sprung && in_g(readings_[1])) return SensorFault::kUnsprungInG;
-  return SensorFault::kNone;
-}
-
-bool SensorCheck::isOff(const Reading& reading) const {
-  const double off = std::min(std::abs(reading.mean()), std::abs(std::abs(reading.mean()) - kStandardGravity));
-  return off > tolerance_ * kStandardGravity + reading.meanNoise();
+bool SensorCheck::isInG() const {
+  const auto [smaller, larger] = std::minmax({std::abs(readings_[0].mean()), std::abs(readings_[1].mean())});
+  return std::abs(larger - kStandardGravity) < kInG * kStandardGravity && std::abs(smaller - 1.0) < kInG;
 }
 
 }  // namespace suspension_health_monitor

@@ -53,12 +53,6 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
   const SensorReport& sensor = monitor.report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated)
     result.warnings.push_back(describe(sensor));
-  // However well a strut fits them: readings in another unit are not those of this one.
-  if (sensor.fault == SensorFault::kSprungInG || sensor.fault == SensorFault::kUnsprungInG)
-    for (IdentifiedStrut* each : {&result.ls, &result.la, &result.estimate, &result.now}) {
-      each->valid = false;
-      each->reason = describe(sensor);
-    }
   if (!result.isSteady()) result.warnings.push_back(describeUnsteady(result.estimate, result.now));
   return result;
 }

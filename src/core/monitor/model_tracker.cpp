@@ -164,6 +164,7 @@ void ModelTracker::judge(ModelReport& report) {
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
     EstimateFacts facts = identifier_.facts(*estimate);
     facts.period_fits = period_fits_;
+    facts.unit_fits = unit_fits_;
     facts.free_run_fails = estimate == &report.la && is_paper_ && free_run_fails_;
     if (!is_paper_) facts.agrees = report.estimate.valid() && agree(*estimate, report.estimate);
     estimate->doubt = doubtOf(facts);
@@ -172,6 +173,7 @@ void ModelTracker::judge(ModelReport& report) {
 
 void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
   EstimateFacts facts = blockFacts(estimate);
+  facts.unit_fits = unit_fits_;
   facts.has_row = newest_ || (blocks_ && blocks_->estimator().hasBlocks());
   if (newest_) {
     // Samples of a vehicle's strut are late, and may be older than its blocks.
@@ -188,6 +190,7 @@ StrutEstimate ModelTracker::judged(const std::optional<BlockEstimate>& blocks,
   estimate.damping_model_stddev = model_stddev[0];
   estimate.stiffness_model_stddev = model_stddev[1];
   EstimateFacts facts = blockFacts(estimate);
+  facts.unit_fits = unit_fits_;
   facts.has_row = blocks || (blocks_ && blocks_->estimator().hasBlocks());
   estimate.doubt = doubtOf(facts);
   return estimate;
@@ -234,6 +237,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
 
 void ModelTracker::setInput(const InputStatus& input, Stamp now, ModelReport& report) {
   period_fits_ = input.period_fits;
+  unit_fits_ = input.unit_fits;
   now_ = now;
   judge(report);
 }

@@ -26,8 +26,7 @@ SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options, bool has_ow
       series_(fromSeconds(*options.sample_period)),
       plain_(options, has_own_blocks),
       health_(options.health()),
-      sensors_(options.gravity_tolerance,
-               std::max(options.comparison_window / *options.sample_period, kHorizonsOfSensorCheck * horizon_samples_),
+      sensors_(std::max(options.comparison_window / *options.sample_period, kHorizonsOfSensorCheck * horizon_samples_),
                horizon_samples_),
       sensors_due_(std::max(1, static_cast<int>(horizon_samples_ / kChecksPerHorizon))) {}
 
@@ -59,7 +58,6 @@ void SuspensionMonitor::reconfigure(const MonitorSettings& options) {
   options_ = checked(options);
   health_.setOptions(options.health());
   has_new_estimate_ = true;  // the newest estimate is judged by them at once
-  sensors_.setTolerance(options.gravity_tolerance);
   changeModels([&](ModelTracker& model, ModelReport&) { model.setOptions(options); });
 }
 
@@ -110,7 +108,7 @@ const CornerSample* SuspensionMonitor::track(const CornerSample& sample) {
 }
 
 void SuspensionMonitor::judgeSensors() {
-  series_.noteBeyondStrut(sensors_.bodyBeyondStrut(), sensors_.bodyBeyondStrutLevel());
+  series_.note(sensors_);
   series_.judge();
   changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input(), series_.newest(), report); });
   const bool la_tells =

@@ -24,6 +24,8 @@ struct Rule {
 constexpr std::array kRules{
     // Every parameter has the time in its unit: a wrong period makes all wrong.
     Rule{EstimateDoubt::kWrongPeriod, [](const EstimateFacts& f) { return !f.period_fits; }},
+    // However well a strut fits them: readings in another unit are not those of this one.
+    Rule{EstimateDoubt::kWrongUnit, [](const EstimateFacts& f) { return !f.unit_fits; }},
     // After a start or a gap the filter still holds what was before: estimates are those of before.
     Rule{EstimateDoubt::kNoRows, [](const EstimateFacts& f) { return !f.has_row; }},
     // The start values still count, or the noise of a few rows.

@@ -21,6 +21,7 @@ std::string describe(EstimateDoubt doubt) {
     case EstimateDoubt::kNone: return "valid";
     case EstimateDoubt::kNoRows: return "the first blocks fill after a start or a gap";
     case EstimateDoubt::kWrongPeriod: return "stamps do not fit sample_period";
+    case EstimateDoubt::kWrongUnit: return "one of the IMUs reads in g, must be in m/s^2";
     case EstimateDoubt::kFewRows: return "too few samples yet";
     case EstimateDoubt::kNotExcited:
       return "too little motion to know damping and stiffness: drive, or on a rougher road";
@@ -54,28 +55,15 @@ std::string describe(const SensorReport& report) {
   const auto stuck = [](const char* one, const char* other) {
     return formatted("the %s IMU reads one value while the %s one moves: stuck", one, other);
   };
-  const auto off = [](const char* sensor, double mean) {
-    return formatted("the %s IMU reads %.2f m/s^2 on average, neither 9.81 nor 0: gain, offset or mount", sensor, mean);
-  };
-  const auto in_g = [](const char* sensor) {
-    return formatted("the %s IMU reads about 1 where the other reads gravity: it is in g, must be in m/s^2", sensor);
-  };
   switch (report.fault) {
     case SensorFault::kNone: return {};
     case SensorFault::kSprungStuck: return stuck("sprung", "unsprung");
     case SensorFault::kUnsprungStuck: return stuck("unsprung", "sprung");
-    case SensorFault::kSprungGravity: return off("sprung", sprung);
-    case SensorFault::kUnsprungGravity: return off("unsprung", unsprung);
-    case SensorFault::kGravityOnOneSide:
-      return formatted("mean readings %.2f (sprung) and %.2f m/s^2 (unsprung): only one of the IMUs reads gravity",
-                       sprung, unsprung);
-    case SensorFault::kGravityOpposed:
-      return "one IMU reads gravity upward, the other downward: "
-             "one is mounted upside down, or its axis has the wrong sign";
-    case SensorFault::kSprungInG: return in_g("sprung");
-    case SensorFault::kUnsprungInG: return in_g("unsprung");
+    case SensorFault::kInG:
+      return formatted("the %s IMU reads about 1 where the other reads gravity: it is in g, must be in m/s^2",
+                       std::abs(sprung) < std::abs(unsprung) ? "sprung" : "unsprung");
     case SensorFault::kNegativeDamping:
-      return "damping is negative: are the IMUs swapped, or is an axis the wrong way up?";
+      return "damping is negative: are the IMUs swapped, is one upside down, or has its axis the wrong sign?";
     case SensorFault::kUnrelated:
       return "both IMUs move, but no strut makes the one of the other: "
              "sensor fault, wrong axis, wrong topic, or the two swapped";

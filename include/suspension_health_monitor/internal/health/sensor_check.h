@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/limited_mean.h"
@@ -9,31 +8,26 @@
 
 namespace suspension_health_monitor {
 
+inline constexpr double kMuchLarger = 3.0;         ///< rms of the body over that of the wheel: they may be swapped
+inline constexpr double kCertainlyNegative = 5.0;  ///< standard deviations of a damping below 0
+
 /// Tells faults of a sensor from those of the strut, by what a strut cannot do:
-/// - a vehicle does not climb for good, so a mean reading is gravity (REP 145: +9.81 at rest on the up axis) or 0
-///   (taken out before). A gain error shows there as well as in the parameters, a worn damper does not; so do an offset
-///   and a mount that has turned;
+/// - a vehicle does not climb for good: where one mean reading is gravity (REP 145: +9.81 at rest on the up axis) and
+///   the other is 1, that one is in g. What else a mean tells of one IMU MountClaim judges;
 /// - a strut passes slow motion as it is: of both sensors' gains the blocks know the difference;
 /// - a strut takes energy: damping that is certainly negative is that of readings of which one has the wrong sign, and
 ///   a body that shakes three times as much as the wheel may be the wheel;
 /// - a spring lets no wheel move without the body;
 /// - a model that explains less than half of a signal that is motion, not noise (its steps from sample to sample are
 ///   smaller than white noise would have them), was given readings that do not belong together.
-/// Each verdict must have lasted for the memory; one on how they move falls with the first valid estimate. Nothing is
-/// said while the mean is uncertain: a mean counts as off by what exceeds kMeanNoise of the rms.
+/// Each verdict must have lasted for the memory; one on how they move falls with the first valid estimate.
 /// Cost per sample: O(1), no allocation.
-inline constexpr double kMuchLarger = 3.0;         ///< rms of the body over that of the wheel: they may be swapped
-inline constexpr double kCertainlyNegative = 5.0;  ///< standard deviations of a damping below 0
 class SensorCheck {
  public:
-  /// @param gravity_tolerance  share of g by which a mean may be off; 0: means are not judged.
   /// @param memory  in samples, above 0.
   /// @param horizon_samples  of the filter, near a period of the body's bounce: what is ten times as fast is no motion
   /// of the strut but that of an engine.
-  SensorCheck(double gravity_tolerance, double memory, int horizon_samples);
-
-  /// Judges by another gravity_tolerance from now on, and what has been found of gravity at once.
-  void setTolerance(double gravity_tolerance);
+  SensorCheck(double memory, int horizon_samples);
 
   void add(const CornerSample& sample);
 
@@ -58,13 +52,11 @@ class SensorCheck {
     double still = 0.0;                             // samples without any change
     void add(double now, double quick);
     double mean() const { return limited.mean(); }
-    double meanNoise() const { return kMeanNoise * std::sqrt(variance); }
     bool isMotion() const { return step < kWhiteShare * 2.0 * variance; }
     bool isOfStrut() const { return isMotion() && band > kBandShare * variance; }
   };
 
-  static constexpr double kMeanNoise = 0.2;  // of the rms: more than a mean over the memory is off by
-  static constexpr double kQuick = 10.0;     // motion is forgotten so much sooner than the mean: else a stop takes long
+  static constexpr double kQuick = 10.0;  // motion is forgotten so much sooner than the mean: else a stop takes long
   static constexpr double kWhiteShare = 0.5;  // of 2 variance, the mean square step of white noise
   static constexpr double kBandTimes = 10.0;  // the bounce: a wheel hops below that
   static constexpr double kBandShare = 0.4;   // of the variance: the low-pass leaves half at the end of the band
@@ -72,13 +64,11 @@ class SensorCheck {
 
   bool isStill(const Reading& reading) const { return reading.still >= kStill * memory_; }
   SensorFault find(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells) const;
-  SensorFault judgeMeans() const;
-  SensorFault judgeGravity() const;
+  bool isInG() const;
   static SensorFault judgeGains(const StrutEstimate& estimate);
   SensorFault judgeMotion(const StrutEstimate& la) const;
-  bool isOff(const Reading& reading) const;
 
-  double tolerance_, memory_;
+  double memory_;
   Reading unread_;
   double samples_ = 0.0;        // taken in since a sensor came back
   double pending_since_ = 0.0;  // in samples taken in

@@ -106,7 +106,7 @@ class ModelTracker {
   std::optional<Newest> newest_;
   StrutIdentifier identifier_;
   Stamp now_{};
-  bool period_fits_ = true;
+  bool period_fits_ = true, unit_fits_ = true;
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
   bool has_own_model_ = false;  // the free run has had estimated parameters, or those that belong to the start values

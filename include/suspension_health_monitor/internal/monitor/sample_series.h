@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
@@ -27,10 +28,11 @@ class SampleSeries {
   /// Judges the spacings up to now.
   void judge();
 
-  /// @param share, level  of the body's motion above the strut's band.
-  void noteBeyondStrut(double share, double level) {
-    status_.beyond_strut = share;
-    status_.beyond_strut_level = level;
+  /// Notes what is known of the sensors.
+  void note(const SensorCheck& sensors) {
+    status_.beyond_strut = sensors.bodyBeyondStrut();
+    status_.beyond_strut_level = sensors.bodyBeyondStrutLevel();
+    status_.unit_fits = sensors.report().fault != SensorFault::kInG;
   }
 
   /// @return the sample FreeRun::kDelay before the newest one; nullptr: the series is too short yet.

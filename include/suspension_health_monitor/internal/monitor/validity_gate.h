@@ -22,6 +22,7 @@ bool agree(const StrutEstimate& a, const StrutEstimate& b);
 /// All that decides whether an estimate is valid. What does not concern an estimator stays as it is here.
 struct EstimateFacts {
   bool period_fits = true;        ///< samples come at the sample period of the options
+  bool unit_fits = true;          ///< both IMUs read in m/s^2
   bool has_row = false;           ///< the newest sample gave a regression row; the blocks gave an estimate
   double rows = 0.0;              ///< that the estimate rests on, of the model's present columns
   double fewest_rows = 0.0;       ///< that it needs
