@@ -25,6 +25,7 @@ constexpr FormerOptions kFormerOptions[] = {
      "preset: paper has the paper's value"},
     {"horizon_samples", "integration_horizon gives the horizon in seconds"},
     {"tyre/integration_horizon", "it is an eighth of integration_horizon"},
+    {"tyre/enabled", "identify --road-topic identifies the tyre of a recorded drive"},
     {"hardware_id", "it is the name of the node"},
     {"fastest_memory", "the estimate follows a change of the strut by itself"},
     {"damping_ramp", "damping_end_fraction: 1 makes a healthy drive"},

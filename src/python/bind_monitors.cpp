@@ -119,7 +119,7 @@ void bindMonitors(py::module& module) {
       .def(py::init([](const Keywords& keywords, bool tyre, const py::object& on_report, int every) {
              if (every < 1) throw std::invalid_argument("every = " + std::to_string(every) + ", must be 1 or more");
              MonitorOptions options = keywords.forArrays().monitor;
-             options.tyre = options.tyre || tyre;
+             options.tyre = tyre;
              return std::make_unique<LockedMonitor>(options, sinkFor(on_report, every));
            }),
            py::arg("keywords"), py::arg("tyre"), py::arg("on_report"), py::arg("every"), py::keep_alive<1, 4>())

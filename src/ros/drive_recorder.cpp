@@ -9,7 +9,6 @@
 #include <suspension_health_monitor/ParameterEstimate.h>
 #include <suspension_health_monitor/SimulationTruth.h>
 #include <suspension_health_monitor/SuspensionHealth.h>
-#include <suspension_health_monitor/TyreEstimate.h>
 
 #include <sstream>
 #include <utility>
@@ -49,7 +48,7 @@ std::vector<std::string> DriveRecorder::connect(const std::vector<std::string>& 
   for (const auto& [topic, type] : publishedTopics()) {
     if (unpublished_.count(topic) == 0) continue;
     if (!subscribeToOneOf<sensor_msgs::Imu, SimulationTruth, ParameterEstimate, ModelComparison, SuspensionHealth,
-                          ModelInUse, TyreEstimate, CornerComparison, diagnostic_msgs::DiagnosticArray>(topic, type))
+                          ModelInUse, CornerComparison, diagnostic_msgs::DiagnosticArray>(topic, type))
       throw std::invalid_argument("record_topics: " + topic + " has the type " + type +
                                   ", must be one of the types of this package, sensor_msgs/Imu or "
                                   "diagnostic_msgs/DiagnosticArray; `rosbag record` records the others");

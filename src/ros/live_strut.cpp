@@ -33,7 +33,6 @@ void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& privat
     why_none = host_.why_none();
     return host_.monitor();
   });
-  if (host_.describe_tyre) updater_->add("Tyre", [this](Status& status) { host_.describe_tyre(status); });
   services_.emplace(own, options_.shell, model_, baseline_, host_);
   diagnose_.emplace(own, *host_.queue, host_.search);
 }
@@ -46,7 +45,7 @@ void LiveStrut::publishModel() {
 void LiveStrut::publish(const MonitorReport& report) {
   if (diagnostics_.note(report)) publishDiagnostics();
   if (report.health.learned && !baseline_.known()) keepBaseline();
-  reports_->publish(report, *host_.monitor(), host_.tyre ? host_.tyre() : nullptr, host_.frame());
+  reports_->publish(report, *host_.monitor(), host_.frame());
 }
 
 void LiveStrut::keepBaseline() {

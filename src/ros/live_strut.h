@@ -24,10 +24,8 @@ class LiveStrut {
 
   /// What it asks the nodelet for; what changes with its model it does itself.
   struct Host : StrutServices::Strut {
-    std::string title;                           ///< of the strut, for the terminal
-    std::function<const TyreTracker*()> tyre;    ///< empty: no road sensor
-    std::function<void(Status&)> describe_tyre;  ///< likewise
-    std::function<std::string()> why_none;       ///< why the strut has no monitor
+    std::string title;                      ///< of the strut, for the terminal
+    std::function<std::string()> why_none;  ///< why the strut has no monitor
     StrutDiagnostics::FindSilent silent_topics;
     std::function<const std::string&()> frame;    ///< frame_id of the body's IMU
     std::function<void(Status&)> describe_input;  ///< of the strut's own sensors

@@ -79,9 +79,6 @@ LiveStrut::Host MonitorNodelet::hostOf(std::size_t i) {
 
 void MonitorNodelet::completeAlone(LiveStrut::Host& host) {
   host.title = getName();
-  host.tyre = [this] { return pipeline_->tyre(); };
-  if (options_.common.monitor.tyre)
-    host.describe_tyre = [this](LiveStrut::Status& status) { describeTyre(*pipeline_, status); };
   host.describe_input = [this](LiveStrut::Status& status) {
     strut_input_->describe(*pipeline_, status);
     input_log_->note(status);
@@ -157,8 +154,7 @@ void MonitorNodelet::onImu(std::size_t imu, const sensor_msgs::Imu& message) {
 
 template <class Message>
 void MonitorNodelet::onMessage(std::size_t sensor, const Message& message) {
-  if (placement_->streams().sensors[sensor].place != VehicleStreams::Place::kRoad)
-    input().noteMessage(sensor, message.header.stamp);
+  input().noteMessage(sensor, message.header.stamp);
   if (!pipeline_) return;
   try {
     pipeline_->push(sensor, message);

@@ -26,11 +26,9 @@ ReportTopics::ReportTopics(ros::NodeHandle& private_node, const PipelineOptions&
       health_(private_node.advertise<SuspensionHealth>("health", kQueueSize)),
       model_(private_node) {
   setStride(options.shell.publish_every);
-  if (options.monitor.tyre) tyre_.emplace(private_node, kQueueSize);
 }
 
-void ReportTopics::publish(const MonitorReport& report, const SuspensionMonitor& monitor, const TyreTracker* tyre,
-                           const std::string& frame) {
+void ReportTopics::publish(const MonitorReport& report, const SuspensionMonitor& monitor, const std::string& frame) {
   model_.note(monitor, frame);
   if (reports_++ % stride_ != 0) return;
   std_msgs::Header header;
@@ -41,7 +39,6 @@ void ReportTopics::publish(const MonitorReport& report, const SuspensionMonitor&
   send(ls_, [&] { return toMsg(report.ls, "ls", header, effects, sprung_mass_); });
   send(la_, [&] { return toMsg(report.la, "la", header, effects, sprung_mass_); });
   if (report.comparison.has_sample) send(comparison_, [&] { return toMsg(report.comparison, frame); });
-  if (tyre_ && tyre != nullptr) tyre_->publish(*tyre, report.estimate, header);
   send(health_, [&] { return toMsg(report, monitor.baseline(), header); });
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <suspension_health_monitor/ModelInUse.h>
 
@@ -11,7 +10,6 @@
 
 #include "shell_options.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
@@ -36,23 +34,7 @@ class ModelTopic {
   bool has_estimate_ = false;
 };
 
-/// What a monitor with a third IMU on the road says of wheel and tyre: ~tyre_ls, ~tyre_la and a task of /diagnostics.
-class TyreOutput {
- public:
-  TyreOutput(ros::NodeHandle& private_node, std::uint32_t queue_size);
-
-  /// Publishes what has subscribers.
-  void publish(const TyreTracker& tracker, const StrutEstimate& strut, const std_msgs::Header& header);
-
- private:
-  ros::Publisher ls_, la_;
-};
-
-/// The task "Tyre".
-void describeTyre(const VehiclePipeline& pipeline, diagnostic_updater::DiagnosticStatusWrapper& status);
-
-/// What is told of every sample: ~estimate, ~ls, ~la, ~comparison, ~health and those of the tyre; and ~model, when it
-/// changes.
+/// What is published of every sample: ~estimate, ~ls, ~la, ~comparison, ~health; and ~model, when it changes.
 class ReportTopics {
  public:
   static constexpr std::uint32_t kQueueSize = 100000;  // messages
@@ -60,9 +42,8 @@ class ReportTopics {
   ReportTopics(ros::NodeHandle& private_node, const PipelineOptions& options);
 
   /// Publishes what has subscribers, of every publish_every-th report.
-  /// @param tyre  nullptr: no road sensor.  @param frame  frame_id of the body's IMU.
-  void publish(const MonitorReport& report, const SuspensionMonitor& monitor, const TyreTracker* tyre,
-               const std::string& frame);
+  /// @param frame  frame_id of the body's IMU.
+  void publish(const MonitorReport& report, const SuspensionMonitor& monitor, const std::string& frame);
 
   /// @param every  so many reports make one publication, >= 1.
   void setStride(int every) { stride_ = static_cast<std::uint64_t>(every); }
@@ -74,7 +55,6 @@ class ReportTopics {
   std::optional<double> sprung_mass_;  // [kg]
   ros::Publisher estimate_, ls_, la_, comparison_, health_;
   ModelTopic model_;
-  std::optional<TyreOutput> tyre_;
 };
 
 }  // namespace suspension_health_monitor

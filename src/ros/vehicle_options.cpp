@@ -49,12 +49,7 @@ PipelineOptions optionsOf(const std::string& strut, OptionMap values, const Opti
                                   " is of the whole vehicle, must be given without struts/" + strut);
     values[name] = value;
   }
-  return prefixed("struts/" + strut + ": ", [&] {
-    PipelineOptions options = PipelineOptions::fromValues(values);
-    if (options.monitor.tyre)
-      throw std::invalid_argument("tyre/enabled = true: a vehicle's monitor takes no road IMU, must be false");
-    return options;
-  });
+  return prefixed("struts/" + strut + ": ", [&] { return PipelineOptions::fromValues(values); });
 }
 
 void requireOwnFiles(const VehicleOptions& options, const char* name, std::string ShellOptions::*file) {

@@ -156,10 +156,10 @@ def test_wrong_options_are_refused_by_name(call, options, words, drive):
 def test_every_name_of_an_option_is_its_own():
     from suspension_health_monitor import _core
     names = {"health_damping_warn": 0.2, "health/damping_error": 0.4, "health": {"confirm_time": 1.0},
-             "nominal_damping_to_mass": np.float64(3.0), "memory": None, "effects": ["a", "b"], "tyre_enabled": True}
+             "nominal_damping_to_mass": np.float64(3.0), "memory": None, "effects": ["a", "b"]}
     assert _core.monitor_keywords(names, []).assignments == [
         "effects=a, b", "health/confirm_time=1", "health/damping_error=0.40000000000000002",
-        "health/damping_warn=0.20000000000000001", "nominal/damping_to_mass=3", "tyre/enabled=true"]
+        "health/damping_warn=0.20000000000000001", "nominal/damping_to_mass=3"]
 
 
 @pytest.mark.parametrize("call", [shm.identify, shm.compare, shm.diagnose, shm.health])

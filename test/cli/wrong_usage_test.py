@@ -32,7 +32,7 @@ SETTINGS = {
     "integration_horizon=0.006": ["integration_horizon = 0.006", "at least 1"],
     "integration_horizon=9999": ["integration_horizon = 9999", "100000 samples"],
     "preset=papers": ["preset", "papers", "default, paper"],
-    "tyre/enabled=maybe": ["tyre/enabled", "maybe", "true or false"],
+    "tyre/enabled=true": ["tyre/enabled is no option any more", "--road-topic"],
     "integration_rule=trapezoid": ["integration_rule is no option any more", "preset: paper"],
     "la/small_divisor=0.1": ["la/small_divisor is no option any more", "preset: paper"],
     "horizon_samples=30": ["horizon_samples is no option any more", "integration_horizon"],

@@ -160,34 +160,9 @@ TEST(TyreTracker, OneMissingReadingEmptiesTheFilterAndKeepsTheEstimate) {
 
 TEST(TyreTracker, HorizonIsAnEighthOfTheStrutsOfAtLeastFiveSamples) {
   MonitorSettings options = neverForgetting();
-  EXPECT_EQ(TyreTracker(options).horizonSamples(), 75);
+  EXPECT_EQ(options.tyreFilter(*options.sample_period).horizon_samples, 75);
   options.integration_horizon = 0.02;
-  EXPECT_EQ(TyreTracker(options).horizonSamples(), 5);
-}
-
-// The same rows with another factor: that of a tracker that has had it from the start, once the rest is forgotten.
-TEST(TyreTracker, TakesOverANewForgettingFactorAndKeepsItsEstimates) {
-  MonitorSettings options = neverForgetting();
-  TyreTracker tracker(options);
-  options.forgetting_factor = 0.99;
-  TyreTracker forgetting(options);
-  const std::vector<DriveSample> samples = drive(roadDrive("golden_car", 0.024, 6.0));
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const double before = tracker.report().la.tyre_to_wheel_mass;
-    if (k == 3000) tracker.reconfigure(options);
-    tracker.add(cornerSample(samples[k]), samples[k].road->acceleration);
-    forgetting.add(cornerSample(samples[k]), samples[k].road->acceleration);
-    if (k == 3000) {
-      EXPECT_TRUE(tracker.report().la.valid());
-      EXPECT_NEAR(tracker.report().la.tyre_to_wheel_mass / before, 1.0, 1e-3);
-      EXPECT_GT(tracker.report().ls.effective_rows, 2000.0);
-    }
-  }
-  const WheelEstimate &actual = tracker.report().ls, &expected = forgetting.report().ls;
-  EXPECT_NEAR(actual.effective_rows, 100.0, 1e-6);
-  EXPECT_NEAR(actual.damping_to_wheel_mass / expected.damping_to_wheel_mass, 1.0, 1e-6);
-  EXPECT_NEAR(actual.stiffness_to_wheel_mass / expected.stiffness_to_wheel_mass, 1.0, 1e-6);
-  EXPECT_NEAR(actual.tyre_to_wheel_mass / expected.tyre_to_wheel_mass, 1.0, 1e-6);
+  EXPECT_EQ(options.tyreFilter(*options.sample_period).horizon_samples, 5);
 }
 
 }  // namespace

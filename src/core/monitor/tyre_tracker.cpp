@@ -56,13 +56,6 @@ const TyreReport& TyreTracker::add(const CornerSample& sample, const std::option
   return report_;
 }
 
-void TyreTracker::reconfigure(const MonitorSettings& options) {
-  const double period = toSeconds(period_), factor = options.forgettingFactor(period);
-  least_squares_.setForgettingFactor(factor);
-  least_absolute_.setForgettingFactor(factor);
-  fewest_rows_ = options.fewestRows(kFewestHorizons, period);
-}
-
 bool TyreTracker::continues(Stamp stamp) const {
   return !last_stamp_ || continuity(stamp - *last_stamp_, period_) == Continuity::kContinues;
 }

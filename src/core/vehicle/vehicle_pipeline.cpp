@@ -78,7 +78,6 @@ void VehiclePipeline::reconfigure(const MonitorSettings& settings, std::size_t s
   MonitorSettings changed = settings;
   changed.sample_period = period();
   if (monitor_) monitor_->reconfigure(strut, changed);
-  if (tyre_) tyre_->reconfigure(changed);
   starts_[strut].settings = changed;
 }
 

@@ -25,15 +25,10 @@ class TyreTracker {
   /// @param road_acceleration  mu'' at this sample [m/s^2]; none: the road's sensor is silent.
   const TyreReport& add(const CornerSample& sample, const std::optional<double>& road_acceleration);
 
-  /// Takes over the forgetting factor, from the next row on; estimates stay. Nothing else changes.
-  /// @throws std::invalid_argument  as RecursiveOptions::validate().
-  void reconfigure(const MonitorSettings& options);
-
   /// @param fits  false: no estimate is valid from the next sample on, as samples do not come at the sample period.
   void setPeriodFits(bool fits) { period_fits_ = fits; }
 
   const TyreReport& report() const { return report_; }
-  int horizonSamples() const { return horizon_samples_; }
 
  private:
   bool continues(Stamp stamp) const;
