@@ -27,6 +27,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
       input_log_(name + " input", Status::ERROR, options.common.shell.input_timeout),
       coupling_log_(name + " coupling"),
       coupling_(private_node, struts_, options.forceNames()),
+      corners_(CornerOutput::of(node, struts_)),
       updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Coupling", [this](Status& status) {
@@ -37,11 +38,13 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
     input_.describe(pipeline_, placement_.missing(), status);
     input_log_.note(status);
   });
+  if (corners_) updater_.add("Corners", [this](Status& status) { corners_->describe(status); });
 }
 
 void VehicleDiagnostics::publish(const MessagePipeline* pipeline) {
   coupling_.publish(monitorOf(pipeline), whyNoMonitor(pipeline),
                     pipeline != nullptr ? toRosTime(pipeline->newest()) : ros::Time());
+  if (corners_) corners_->publish(pipeline);
   pipeline_ = pipeline;
   updater_.force_update();
   pipeline_ = nullptr;

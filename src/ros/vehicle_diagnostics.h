@@ -3,9 +3,11 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "corner_output.h"
 #include "coupling_output.h"
 #include "message_pipeline.h"
 #include "task_log.h"
@@ -15,7 +17,8 @@
 
 namespace suspension_health_monitor {
 
-/// What is told of a live vehicle as a whole: the tasks Coupling and Input of /diagnostics, and ~coupling.
+/// What a live vehicle says as a whole: the tasks Coupling, Input and, with four corners, Corners of /diagnostics,
+/// ~coupling and corners/comparison.
 class VehicleDiagnostics {
  public:
   /// @param topics  by VehicleStreams::sensors.  @param placement  outlives this object.
@@ -40,6 +43,7 @@ class VehicleDiagnostics {
   VehicleInput input_;
   TaskLog input_log_, coupling_log_;
   CouplingOutput coupling_;
+  std::optional<CornerOutput> corners_;
   const MessagePipeline* pipeline_ = nullptr;  // during publish() only
   diagnostic_updater::Updater updater_;
 };

@@ -6,7 +6,6 @@
 #include <tuple>
 #include <vector>
 
-#include "../ros/corners_options.h"
 #include "../ros/shell_options.h"
 #include "../ros/simulator_options.h"
 #include "../ros/vehicle_simulation_options.h"
@@ -18,9 +17,8 @@ namespace {
 std::vector<OptionDescription> optionsOf(const std::string& of) {
   if (of == "monitor") return PipelineOptions::describe();
   if (of == "simulator") return SimulatorOptions::describe();
-  if (of == "corners") return describeOptions(kCornersFields);
   if (of == "vehicle") return VehicleSimulationOptions::describe();
-  throw std::invalid_argument("options of " + of + ", must be monitor, simulator, vehicle or corners");
+  throw std::invalid_argument("options of " + of + ", must be monitor, simulator or vehicle");
 }
 
 using Cells = std::array<std::string, 5>;
@@ -48,9 +46,8 @@ void print(const std::vector<Cells>& rows) {
 void options(const Arguments& arguments) {
   namespace po = boost::program_options;
   po::options_description description("options");
-  description.add_options()("of", po::value<std::string>()->default_value("monitor"),
-                            "monitor, simulator, vehicle or corners");
-  const auto values = parse(arguments, "options [monitor|simulator|vehicle|corners]", description, "of");
+  description.add_options()("of", po::value<std::string>()->default_value("monitor"), "monitor, simulator or vehicle");
+  const auto values = parse(arguments, "options [monitor|simulator|vehicle]", description, "of");
   if (!values) return;
   const std::vector<OptionDescription> all = optionsOf((*values)["of"].as<std::string>());
   for (auto option = all.begin(); option != all.end();) {

@@ -22,8 +22,7 @@ constexpr std::array kCommands{
     Command{"diagnose", "which physical effect the model misses, and how sure that is", &diagnose},
     Command{"effects", "the effects that diagnose and simulate know", &effects},
     Command{"horizon", "propose the filter's horizon for a strut and show why", &horizon},
-    Command{"options", "all settings of the monitor, the simulator of a strut or vehicle, or the comparison of corners",
-            &options},
+    Command{"options", "all settings of the monitor or the simulator of a strut or vehicle", &options},
 };
 
 void printHelp(std::FILE* out) {

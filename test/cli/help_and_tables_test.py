@@ -21,7 +21,7 @@ OPTIONS = {
     "compare": ["--config", "--set", "--sprung-topic", "--unsprung-topic", "--start", "--end", "--json", "--model",
                 "--effects-file"],
     "horizon": ["--damping-to-mass", "--stiffness-to-mass", "--json"],
-    "options": ["monitor", "simulator", "vehicle", "corners"],
+    "options": ["monitor", "simulator", "vehicle"],
 }
 DOCUMENTS = imu_bag.REPOSITORY / "doc"
 
@@ -58,7 +58,7 @@ def test_help_comes_before_complaints(program):
 
 
 @pytest.mark.parametrize("document, command", [
-    *(("settings.md", f"options {of}") for of in ("monitor", "simulator", "vehicle", "corners")), ("effects.md", "effects --markdown")])
+    *(("settings.md", f"options {of}") for of in ("monitor", "simulator", "vehicle")), ("effects.md", "effects --markdown")])
 def test_tables_of_the_documents_are_those_of_the_program(program, document, command):
     assert f"<!-- {command} -->\n{program.succeed(*command.split())}<!-- end -->" in (DOCUMENTS / document).read_text()
 

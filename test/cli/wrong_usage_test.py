@@ -157,4 +157,4 @@ def test_no_command(program):
 
 
 def test_unknown_table_of_options(program, tmp_path):
-    program.refuse(2, ["options", "car"], ["car", "monitor, simulator, vehicle or corners"], tmp_path)
+    program.refuse(2, ["options", "car"], ["car", "monitor, simulator or vehicle"], tmp_path)

@@ -14,23 +14,23 @@ enum { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
 Corners healthyCorners() {
   Corners corners;
   for (std::size_t i = 0; i < kNumCorners; ++i) {
-    CornerState& corner = corners[i];
-    corner.valid = true;
-    corner.nominal_damping_to_mass = corner.damping_to_mass = i < 2 ? 6.0 : 4.0;
-    corner.nominal_stiffness_to_mass = corner.stiffness_to_mass = i < 2 ? 63.3 : 50.0;
-    corner.damping_to_mass_stddev = 0.01 * corner.damping_to_mass;
-    corner.stiffness_to_mass_stddev = 0.01 * corner.stiffness_to_mass;
+    auto& [estimate, healthy] = corners[i];
+    estimate.doubt = EstimateDoubt::kNone;
+    healthy.damping_to_mass = estimate.damping_to_mass = i < 2 ? 6.0 : 4.0;
+    healthy.stiffness_to_mass = estimate.stiffness_to_mass = i < 2 ? 63.3 : 50.0;
+    estimate.damping_to_mass_stddev = 0.01 * estimate.damping_to_mass;
+    estimate.stiffness_to_mass_stddev = 0.01 * estimate.stiffness_to_mass;
   }
   return corners;
 }
 
 void load(CornerState& corner, double mass_ratio) {
-  corner.damping_to_mass /= mass_ratio;
-  corner.stiffness_to_mass /= mass_ratio;
+  corner.estimate.damping_to_mass /= mass_ratio;
+  corner.estimate.stiffness_to_mass /= mass_ratio;
 }
 
 void forgetBaselines(Corners& corners) {
-  for (CornerState& corner : corners) corner.nominal_damping_to_mass = corner.nominal_stiffness_to_mass = std::nullopt;
+  for (CornerState& corner : corners) corner.healthy = {};
 }
 
 TEST(CornerComparison, HealthyCornersAreAlike) {
@@ -43,7 +43,7 @@ TEST(CornerComparison, HealthyCornersAreAlike) {
 TEST(CornerComparison, NamesTheOneCornerWhoseDamperIsWornWhicheverItIs) {
   for (std::size_t worn = 0; worn < kNumCorners; ++worn) {
     Corners corners = healthyCorners();
-    corners[worn].damping_to_mass *= 0.72;
+    corners[worn].estimate.damping_to_mass *= 0.72;
     const CornerComparisonReport report = compareCorners(corners);
     EXPECT_EQ(report.level, HealthLevel::kWarn);
     EXPECT_EQ(describe(report), std::string(kCornerNames[worn]) + " damping 28 % below the other corners: damage");
@@ -76,8 +76,8 @@ TEST(CornerComparison, TellsDamperFromSpringUnderLoad) {
       load(damper[corner], mass_ratio);
       load(spring[corner], mass_ratio);
     }
-    damper[kRearLeft].damping_to_mass *= 0.7;
-    spring[kRearLeft].stiffness_to_mass *= 0.7;
+    damper[kRearLeft].estimate.damping_to_mass *= 0.7;
+    spring[kRearLeft].estimate.stiffness_to_mass *= 0.7;
     EXPECT_EQ(compareCorners(damper).verdicts[kRearLeft], CornerVerdict::kDamper) << mass_ratio;
     EXPECT_EQ(compareCorners(spring).verdicts[kRearLeft], CornerVerdict::kSpring) << mass_ratio;
     EXPECT_EQ(compareCorners(spring).verdicts[kFrontRight], CornerVerdict::kAlike) << mass_ratio;
@@ -86,7 +86,7 @@ TEST(CornerComparison, TellsDamperFromSpringUnderLoad) {
 
 TEST(CornerComparison, WarmDampersAccuseNone) {
   Corners corners = healthyCorners();
-  for (CornerState& corner : corners) corner.damping_to_mass *= 0.7;
+  for (CornerState& corner : corners) corner.estimate.damping_to_mass *= 0.7;
   const CornerComparisonReport report = compareCorners(corners);
   EXPECT_EQ(report.level, HealthLevel::kOk);
   EXPECT_NE(describe(report).find("warm or worn dampers"), std::string::npos) << describe(report);
@@ -94,20 +94,28 @@ TEST(CornerComparison, WarmDampersAccuseNone) {
 
 TEST(CornerComparison, AnUncertainEstimateAccusesNone) {
   Corners corners = healthyCorners();
-  corners[kFrontLeft].damping_to_mass *= 0.72;
-  corners[kFrontLeft].damping_to_mass_stddev = 0.2 * corners[kFrontLeft].damping_to_mass;  // ln 0.72 is 1.6 of it
+  corners[kFrontLeft].estimate.damping_to_mass *= 0.72;
+  corners[kFrontLeft].estimate.damping_to_mass_stddev =
+      0.2 * corners[kFrontLeft].estimate.damping_to_mass;  // ln 0.72 is 1.6 of it
+  EXPECT_EQ(compareCorners(corners).level, HealthLevel::kOk);
+}
+
+TEST(CornerComparison, AnUncertainBaselineAccusesNone) {
+  Corners corners = healthyCorners();
+  corners[kFrontLeft].estimate.damping_to_mass *= 0.72;
+  corners[kFrontLeft].healthy.damping_to_mass_stddev = 0.2 * *corners[kFrontLeft].healthy.damping_to_mass;
   EXPECT_EQ(compareCorners(corners).level, HealthLevel::kOk);
 }
 
 TEST(CornerComparison, ThreeCornersAreEnoughAndTwoAreNot) {
   Corners corners = healthyCorners();
-  corners[kFrontLeft].damping_to_mass *= 0.65;
-  corners[kRearRight].valid = false;
+  corners[kFrontLeft].estimate.damping_to_mass *= 0.65;
+  corners[kRearRight].estimate.doubt = EstimateDoubt::kNoRows;
   const CornerComparisonReport three = compareCorners(corners);
   EXPECT_EQ(three.verdicts[kFrontLeft], CornerVerdict::kDamper);
   EXPECT_EQ(three.verdicts[kFrontRight], CornerVerdict::kAlike);
   EXPECT_EQ(three.verdicts[kRearRight], CornerVerdict::kCannotTell);
-  corners[kRearLeft].valid = false;
+  corners[kRearLeft].estimate.doubt = EstimateDoubt::kNoRows;
   const CornerComparisonReport two = compareCorners(corners);
   EXPECT_EQ(two.level, HealthLevel::kStale);
   EXPECT_EQ(describe(two), "cannot tell: 2 of 4 corners have a valid estimate, 3 are needed");
@@ -118,7 +126,7 @@ TEST(CornerComparison, ThreeThatAreAlikeProveNothingOfTheFourth) {
   for (const bool with_baselines : {true, false}) {
     Corners corners = healthyCorners();
     if (!with_baselines) forgetBaselines(corners);
-    corners[kRearLeft].valid = false;
+    corners[kRearLeft].estimate.doubt = EstimateDoubt::kNoRows;
     const CornerComparisonReport report = compareCorners(corners);
     EXPECT_EQ(report.level, HealthLevel::kStale);
     EXPECT_NE(describe(report).find("no valid estimate of rear_left"), std::string::npos) << describe(report);
@@ -130,7 +138,7 @@ TEST(CornerComparison, WithoutBaselinesTheWheelsOfAnAxleAreCompared) {
   Corners corners = healthyCorners();
   forgetBaselines(corners);
   EXPECT_EQ(describe(compareCorners(corners)), "left and right alike (no baseline)");
-  corners[kRearRight].damping_to_mass *= 0.7;
+  corners[kRearRight].estimate.damping_to_mass *= 0.7;
   const CornerComparisonReport report = compareCorners(corners);
   EXPECT_EQ(report.verdicts[kRearRight], CornerVerdict::kDamper);
   EXPECT_EQ(report.verdicts[kRearLeft], CornerVerdict::kAlike);

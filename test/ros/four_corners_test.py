@@ -6,6 +6,7 @@ import tempfile
 import unittest
 
 import rosgraph
+import rosnode
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -42,6 +43,10 @@ def is_as_expected(tree):
                     for corner in CORNERS))
 
 
+def is_undecided(message):
+    return message.level == CornerComparison.STALE and message.sentence.startswith("cannot tell: 0 of 4 corners")
+
+
 class FourCornersTest(unittest.TestCase):
     def setUp(self):
         self.comparison = Collector("/corners/comparison", CornerComparison)
@@ -59,6 +64,9 @@ class FourCornersTest(unittest.TestCase):
             named = self.comparison.wait_for(lambda message: message.level == CornerComparison.WARN, "a warning")
             self.tree.wait_for(is_as_expected, "every branch, the worn corner's not OK")
             state = rosgraph.Master(rospy.get_name()).getSystemState()
+            driven = len(self.comparison.messages)
+            rosnode.kill_nodes(["/simulator"])
+            wait_until(lambda: any(map(is_undecided, self.comparison.messages[driven:])), "silent sensors that tell nothing")
         self.assertEqual(tuple(named.corners), CORNERS)
         for corner, verdict in zip(named.corners, bytes(named.verdicts)):
             self.assertEqual(verdict, CornerComparison.DAMPER if corner == WORN else CornerComparison.ALIKE, corner)
@@ -85,6 +93,7 @@ class FourCornersTest(unittest.TestCase):
             with launch("four_corners.launch", body_imu="/imu/data", front_left_config=config, aggregate="false",
                         rear_left_sprung_imu="/rear_left/top", rear_left_unsprung_imu="/hub/data", **positions):
                 self.coupling.wait_for(lambda message: True, "a vehicle that has started")
+                self.comparison.wait_for(is_undecided, "that nobody can tell yet")
                 heard = wait_until(self.topics_of_vehicle, "the IMUs that it listens to")
                 settings = rospy.get_param("/vehicle/struts/front_left")
         self.assertEqual(settings, {"nominal": {"damping_to_mass": 3.0, "stiffness_to_mass": 40.0}})

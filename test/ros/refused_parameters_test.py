@@ -8,7 +8,7 @@ import rostest
 from ros_session import PACKAGE, Collector, is_finite, load_nodelet, settings, start_node, wait_until
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu
-from suspension_health_monitor.msg import CornerComparison, ParameterEstimate, SimulationTruth
+from suspension_health_monitor.msg import ParameterEstimate, SimulationTruth
 
 # What is wrong: the parameters, and what the message must hold. Names are those of config/monitor.yaml.
 WRONG = {
@@ -30,14 +30,7 @@ WRONG = {
     "nested, of the search": ({"diagnose": {"window": 0}}, ["diagnose/window = 0", "must be in [0.01, 1000000]"]),
     "contradiction": ({"health": {"damping_warn": 0.5}}, ["health/damping_error = 0.3", "at least health/damping_warn"]),
     "former option": ({"forgetting_rule": "exponential"}, ["forgetting_rule is no option any more: preset: paper"]),
-}
-WRONG_COMPARISON = {
-    "out of range": ({"threshold": 1.5}, ["threshold = 1.5", "must be in [0.001, 0.9]"]),
-    "at the other end": ({"timeout": 0.05}, ["timeout = 0.05", "must be in [0.1, 3600]"]),
-    "unknown": ({"confirm_tme": 1.0}, ["unknown option confirm_tme = 1", "confirm_time"]),
-    "wrong type": ({"threshold": "high"}, ['threshold = "high"', "must be in [0.001, 0.9]"]),
-    "former option": ({"hardware_id": "rover"}, ["hardware_id is no option any more: it is the name of the node"]),
-    "list": ({"timeout": [1.0, 2.0]}, ["timeout = [1, 2] [s], must be in [0.1, 3600]"]),
+    "former name": ({"hardware_id": "rover"}, ["hardware_id is no option any more: it is the name of the node"]),
 }
 WRONG_SIMULATION = {"scenario": "paper_dirty"}
 DRIVE = {"real_time_factor": 20.0, "duration": 3600.0}
@@ -89,15 +82,11 @@ class RefusedParametersTest(unittest.TestCase):
         self.assertTrue(all(math.isfinite(each.sprung_acceleration) for each in truth.messages))
         self.assertLess(truth.messages[-1].header.stamp.to_sec(), START + DURATION)
 
-    def test_refused_comparison_leaves_no_topic_and_a_good_one_works(self):
+    def test_former_comparison_of_corners_says_who_compares_them(self):
         self.rosout.wait_for_publisher()
-        self.assert_all_refused("CornersNodelet", WRONG_COMPARISON)
-        topics = [topic for topic, _ in rospy.get_published_topics()]
-        self.assertFalse([topic for topic in topics if topic.startswith("/wrong_CornersNodelet")])
-        comparisons = Collector("/good_comparison/comparison", CornerComparison)
-        with load_nodelet("CornersNodelet", "good_comparison", {"threshold": 0.9}):
-            comparisons.wait_for(lambda comparison: comparison.level == CornerComparison.STALE, "cannot tell")
-        comparisons.stop()
+        with load_nodelet("CornersNodelet", "corners", {"threshold": 0.9}) as former:
+            self.rosout.wait_for(lambda log: log.level == Log.WARN and "VehicleNodelet compares the corners" in log.msg, "a warning")
+            self.assertTrue(former.running(), former.output())
 
     def test_refused_simulator_leaves_no_topic(self):
         self.rosout.wait_for_publisher()
@@ -109,7 +98,6 @@ class RefusedParametersTest(unittest.TestCase):
     def test_nodes_end_with_an_error_and_say_why(self):
         for program, parameters, parts in (("monitor_node", *WRONG["out of range"]),
                                            ("monitor_node", *WRONG["unknown"]),
-                                           ("corners_node", *WRONG_COMPARISON["out of range"]),
                                            ("simulator_node", WRONG_SIMULATION, ['scenario = "paper_dirty"'])):
             with start_node(program, "wrong_node", parameters) as node:
                 self.assertNotEqual(node.wait_for_end(), 0)

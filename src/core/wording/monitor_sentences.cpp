@@ -135,10 +135,9 @@ std::string describe(const CornerComparisonReport& report) {
   if (report.dampers)
     parts.push_back("damping of all other corners alike " + sizeInPercent(*report.dampers) +
                     (*report.dampers < 0.0 ? " down: warm or worn dampers" : " up: cold dampers"));
-  const std::optional<std::size_t>& missing = report.missing;
   if (parts.empty() && !report.by_nominal) parts.emplace_back("left and right alike (no baseline)");
-  if (parts.empty()) parts.emplace_back(missing ? "the other corners alike" : "all corners alike");
-  if (missing) parts.push_back("no valid estimate of " + nameOf(*missing));
+  if (parts.empty()) parts.emplace_back(report.missing.empty() ? "all corners alike" : "the other corners alike");
+  for (const std::size_t corner : report.missing) parts.push_back("no valid estimate of " + nameOf(corner));
   return join(parts, "; ");
 }
 
