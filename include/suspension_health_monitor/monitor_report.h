@@ -88,6 +88,7 @@ struct StrutEstimate {
   double tails = 0.0;      ///< mean square of the residuals of LS, LA over their squared mean size [-]: 1.57 if normal
   double age = std::nan("");                     ///< of what the block estimate rests on [s], on average
   double window = std::nan("");                  ///< span of its blocks [s]
+  std::optional<double> temperature;             ///< of the damper [deg C]; empty: it has no thermometer
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
 
   bool valid() const { return doubt == EstimateDoubt::kNone; }
@@ -100,6 +101,15 @@ struct StrutEstimate {
   double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }
   /// Damping ratio b1 / (2 sqrt(b0)) [-]; NaN unless b0 > 0.
   double dampingRatio() const { return damping_to_mass / (2 * std::sqrt(stiffness_to_mass)); }
+};
+
+/// How the healthy strut's damping goes with the temperature of its damper: ln b1 changes by per_kelvin. The oil of
+/// dampers loses 0.1 to 1 % of its damping per kelvin, so before anything is learned it is 0 +- kUsual.
+struct DamperTemperature {
+  static constexpr double kUsual = 0.005;  ///< [1/K]
+  double celsius = 0.0;                    ///< at which the baseline's b1 holds
+  double per_kelvin = 0.0;                 ///< d ln b1 / dT [1/K]
+  double per_kelvin_stddev = kUsual;       ///< [1/K]
 };
 
 /// What one estimator knows of wheel and tyre. NaN: nothing yet.
@@ -188,9 +198,10 @@ struct Baseline {
   /// By how much windows of the healthy strut scatter beyond their own standard deviations: as side forces in bends
   /// make of it [1/s], [1/s^2]. In the standard deviation of every change.
   double damping_scatter = 0.0, stiffness_scatter = 0.0;
-  std::optional<DryFriction> friction;  ///< when it was learned; empty: it is not known
-  bool learned = false;                 ///< from a drive; false: nominal values
-  Stamp from{}, to{};                   ///< the drive that it was learned from
+  std::optional<DryFriction> friction;           ///< when it was learned; empty: it is not known
+  std::optional<DamperTemperature> temperature;  ///< likewise
+  bool learned = false;                          ///< from a drive; false: nominal values
+  Stamp from{}, to{};                            ///< the drive that it was learned from
 
   bool isEmpty() const { return !damping_to_mass && !stiffness_to_mass; }
 };

@@ -19,6 +19,7 @@ class Baseline:
     stiffness_scatter: float
     stiffness_to_mass: Optional[float]
     stiffness_to_mass_stddev: float
+    temperature: Optional[DamperTemperature]
 
 class ComparedSegment:
     added_force: Numbers
@@ -70,6 +71,11 @@ class Course:
     stiffness_to_mass_stddev: Numbers
     time: Numbers
     valid: Numbers
+
+class DamperTemperature:
+    celsius: float
+    per_kelvin: float
+    per_kelvin_stddev: float
 
 class Diagnosis:
     base: RankedModel

@@ -14,10 +14,11 @@ namespace py = pybind11;
 
 namespace {
 
-/// What a baseline is sent as, and its friction.
+/// What a baseline is sent as, its friction and its temperature.
 using Numbers = std::array<double, 4>;
-using BaselineState = std::tuple<std::optional<double>, std::optional<double>, double, double, double, double,
-                                 std::optional<Numbers>, bool, Stamp::rep, Stamp::rep>;
+using BaselineState =
+    std::tuple<std::optional<double>, std::optional<double>, double, double, double, double, std::optional<Numbers>,
+               std::optional<std::array<double, 3>>, bool, Stamp::rep, Stamp::rep>;
 
 std::optional<Numbers> toNumbers(const std::optional<DryFriction>& friction) {
   if (!friction) return std::nullopt;
@@ -29,15 +30,36 @@ std::optional<DryFriction> toFriction(const std::optional<Numbers>& numbers) {
   return DryFriction{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
 }
 
+std::optional<std::array<double, 3>> toNumbers(const std::optional<DamperTemperature>& temperature) {
+  if (!temperature) return std::nullopt;
+  return std::array{temperature->celsius, temperature->per_kelvin, temperature->per_kelvin_stddev};
+}
+
+std::optional<DamperTemperature> toTemperature(const std::optional<std::array<double, 3>>& numbers) {
+  if (!numbers) return std::nullopt;
+  return DamperTemperature{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
 BaselineState stateOf(const Baseline& baseline) {
   return BaselineState(baseline.damping_to_mass, baseline.stiffness_to_mass, baseline.damping_to_mass_stddev,
                        baseline.stiffness_to_mass_stddev, baseline.damping_scatter, baseline.stiffness_scatter,
-                       toNumbers(baseline.friction), baseline.learned, baseline.from.count(), baseline.to.count());
+                       toNumbers(baseline.friction), toNumbers(baseline.temperature), baseline.learned,
+                       baseline.from.count(), baseline.to.count());
 }
 
 Baseline toBaseline(const BaselineState& state) {
-  const auto& [b1, b0, b1_stddev, b0_stddev, b1_scatter, b0_scatter, friction, learned, from, to] = state;
-  return {b1, b0, b1_stddev, b0_stddev, b1_scatter, b0_scatter, toFriction(friction), learned, Stamp(from), Stamp(to)};
+  const auto& [b1, b0, b1_stddev, b0_stddev, b1_scatter, b0_scatter, friction, temperature, learned, from, to] = state;
+  return {b1,
+          b0,
+          b1_stddev,
+          b0_stddev,
+          b1_scatter,
+          b0_scatter,
+          toFriction(friction),
+          toTemperature(temperature),
+          learned,
+          Stamp(from),
+          Stamp(to)};
 }
 
 /// Adds what the estimates of a drive and those of the live monitor have alike.
@@ -59,6 +81,10 @@ void bindEstimates(py::module& module) {
       .add("rows", "regression rows, or blocks, that the estimate rests on", &IdentifiedStrut::rows)
       .add("age", "of the newest data behind estimate [s]; else NaN", &IdentifiedStrut::age)
       .add("reason", "why it is not valid; empty if it is", &IdentifiedStrut::reason);
+  ResultClass<DamperTemperature>(module, "DamperTemperature", "How damping goes with the damper's temperature.")
+      .add("celsius", "at which the baseline's damping holds", &DamperTemperature::celsius)
+      .add("per_kelvin", "change of ln damping [1/K]", &DamperTemperature::per_kelvin)
+      .add("per_kelvin_stddev", "[1/K]", &DamperTemperature::per_kelvin_stddev);
   ResultClass<DryFriction>(module, "DryFriction", "Dry friction, beside which the linear strut was estimated.")
       .add("force", "over the body's mass [m/s^2]", &DryFriction::force)
       .add("stddev", "[m/s^2]", &DryFriction::stddev)
@@ -104,6 +130,7 @@ void bindCondition(py::module& module) {
       .add("damping_scatter", "of healthy windows beyond that [1/s]", &Baseline::damping_scatter)
       .add("stiffness_scatter", "[1/s^2]", &Baseline::stiffness_scatter)
       .add("friction", "when it was learned, or None: not known", &Baseline::friction)
+      .add("temperature", "how damping goes with the damper's, or None: not known", &Baseline::temperature)
       .add("learned", "from a drive", &Baseline::learned)
       .add("learned_from", "stamp of its begin [s]", &Baseline::from)
       .add("learned_to", "stamp of its end [s]", &Baseline::to)

@@ -21,6 +21,7 @@ struct BaselineSettings : Baseline {
   std::optional<double> scatter_of_damping, scatter_of_stiffness;  // none is not written
   std::optional<double> dry_friction, dry_friction_stddev, friction_damping_gain, friction_damping_covariance;
   std::optional<double> friction_stiffness_gain;  // of files up to 1a5605d
+  std::optional<double> celsius, per_kelvin, per_kelvin_stddev;
   std::optional<double> integration_horizon, sample_period;
   std::optional<double> learned_from, learned_to;
 };
@@ -47,6 +48,11 @@ constexpr std::array kBaselineFields{
                   &BaselineSettings::friction_damping_covariance, -1e9, 1e9},
     BaselineField{"friction_stiffness_gain", "1/m", "of files whose b1 has the friction's share in it: not used",
                   &BaselineSettings::friction_stiffness_gain, -1e12, 1e12},
+    BaselineField{"temperature", "deg C", "of the damper when it was learned; left out: it had no thermometer",
+                  &BaselineSettings::celsius, -1e4, 1e4},
+    BaselineField{"damping_per_kelvin", "1/K", "change of ln b1 with it", &BaselineSettings::per_kelvin, -1.0, 1.0},
+    BaselineField{"damping_per_kelvin_stddev", "1/K", "its standard deviation", &BaselineSettings::per_kelvin_stddev,
+                  0.0, 1.0},
     BaselineField{"integration_horizon", "s", "of the filter that it was learned with",
                   &BaselineSettings::integration_horizon, 0.0, 1e9},
     BaselineField{"sample_period", "s", "likewise", &BaselineSettings::sample_period, 1e-5, 10.0},
@@ -91,6 +97,9 @@ Baseline toBaseline(const BaselineSettings& settings) {
                                     needed(settings.friction_damping_gain, "friction_damping_gain"),
                                     settings.friction_damping_covariance.value_or(0.0)};
   if (!settings.friction_damping_covariance) widen(baseline);
+  if (settings.celsius)
+    baseline.temperature = DamperTemperature{*settings.celsius, needed(settings.per_kelvin, "damping_per_kelvin"),
+                                             needed(settings.per_kelvin_stddev, "damping_per_kelvin_stddev")};
   baseline.learned = true;
   baseline.from = fromSeconds(settings.learned_from.value_or(0.0));
   baseline.to = fromSeconds(settings.learned_to.value_or(0.0));
@@ -118,6 +127,11 @@ std::string toYaml(const Baseline& baseline, double horizon, double sample_perio
     settings.dry_friction_stddev = baseline.friction->stddev;
     settings.friction_damping_gain = baseline.friction->damping_gain;
     settings.friction_damping_covariance = baseline.friction->damping_covariance;
+  }
+  if (baseline.temperature) {
+    settings.celsius = baseline.temperature->celsius;
+    settings.per_kelvin = baseline.temperature->per_kelvin;
+    settings.per_kelvin_stddev = baseline.temperature->per_kelvin_stddev;
   }
   settings.integration_horizon = horizon;
   settings.sample_period = sample_period;

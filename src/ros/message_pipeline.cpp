@@ -49,6 +49,10 @@ void MessagePipeline::push(std::size_t sensor, const geometry_msgs::WrenchStampe
   VehiclePipeline::push(sensor, toStamp(message.header.stamp), sensors_.read(sensor, message).data());
 }
 
+void MessagePipeline::push(std::size_t strut, const sensor_msgs::Temperature& message) {
+  if (monitor() != nullptr) monitor()->addTemperature(strut, toStamp(message.header.stamp), message.temperature);
+}
+
 void MessagePipeline::keep(const VehicleSample& sample) {
   if (recent_.empty()) {
     const double kept = std::ceil(kept_span_ / *period()) + 1.0;

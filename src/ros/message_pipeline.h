@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/Imu.h>
+#include <sensor_msgs/Temperature.h>
 #include <tf2/buffer_core.h>
 
 #include <cstddef>
@@ -33,6 +34,9 @@ class MessagePipeline : public VehiclePipeline {
   /// @throws std::invalid_argument  as VehiclePipeline::push().
   void push(std::size_t sensor, const sensor_msgs::Imu& message);
   void push(std::size_t sensor, const geometry_msgs::WrenchStamped& message);
+
+  /// The temperature of a strut's damper.
+  void push(std::size_t strut, const sensor_msgs::Temperature& message);
 
   /// @return the samples kept, of diagnose_window, that are at most `span` [s] older than the newest one, and of one
   /// strut what else the body's IMU measured; what they have gone through the grid describes.

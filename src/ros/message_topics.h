@@ -19,6 +19,7 @@ class MessageTopics {
   using Receive = std::function<void(std::size_t topic, const Message& message)>;
 
   /// Hears nothing before listen().
+  /// @param topics  an empty one is none.
   /// @param receive  called for every message.
   MessageTopics(const ros::NodeHandle& node, std::vector<std::string> topics, Receive receive)
       : node_(node), topics_(std::move(topics)), receive_(std::move(receive)) {}
@@ -29,10 +30,12 @@ class MessageTopics {
   /// Subscribes, unless it has.
   void listen() {
     if (!subscribers_.empty()) return;
-    for (std::size_t i = 0; i < topics_.size(); ++i)
+    for (std::size_t i = 0; i < topics_.size(); ++i) {
+      if (topics_[i].empty()) continue;
       subscribers_.push_back(node_.subscribe<Message>(
           topics_[i], kQueueSize, [this, i](const boost::shared_ptr<const Message>& message) { receive_(i, *message); },
           nullptr, ros::TransportHints().tcpNoDelay()));
+    }
   }
 
   void stop() {

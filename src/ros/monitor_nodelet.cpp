@@ -17,6 +17,7 @@ MonitorNodelet::~MonitorNodelet() {
   tick_.stop();
   imus_.reset();
   forces_.reset();
+  temperatures_.reset();
   reset_.shutdown();
   struts_.clear();
 }
@@ -33,6 +34,10 @@ void MonitorNodelet::onInit() {
                     [this, first = imus.size()](std::size_t force, const geometry_msgs::WrenchStamped& message) {
                       onMessage(first + force, message);
                     });
+    temperatures_.emplace(node, options_.temperatureTopics(),
+                          [this](std::size_t strut, const sensor_msgs::Temperature& message) {
+                            if (pipeline_) pipeline_->push(strut, message);
+                          });
     addStruts();
     makePipeline();
   });
@@ -99,6 +104,7 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   for (const auto& strut : struts_) strut->start(node, private_node);
   imus_->listen();
   forces_->listen();
+  temperatures_->listen();
   isAlone() ? startAlone(private_node) : startVehicle(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
 }

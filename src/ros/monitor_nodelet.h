@@ -5,6 +5,7 @@
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
+#include <sensor_msgs/Temperature.h>
 #include <std_srvs/Trigger.h>
 
 #include <memory>
@@ -75,6 +76,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::optional<VehiclePlacement> placement_;
   std::optional<ImuTopics> imus_;
   std::optional<MessageTopics<geometry_msgs::WrenchStamped>> forces_;
+  std::optional<MessageTopics<sensor_msgs::Temperature>> temperatures_;
   std::optional<MessagePipeline> pipeline_;  // none while the struts have no places
   std::vector<std::unique_ptr<LiveStrut>> struts_;
   ros::WallTimer tick_;

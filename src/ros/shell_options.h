@@ -25,6 +25,7 @@ struct ShellOptions {
   std::string effects_file;
   double diagnose_window = 120.0;
   std::string baseline_file;
+  std::string temperature_topic;
   std::string road_axis = "z";
   int publish_every = 1;
 };
@@ -68,6 +69,9 @@ inline constexpr std::array kShellFields{
         "health", "baseline_file", "-",
         "YAML file with the healthy strut: loaded if it is there, else written once learned, and by ~save_baseline",
         &ShellOptions::baseline_file},
+    ShellField{"health", "temperature_topic", "-",
+               "sensor_msgs/Temperature of the damper: baselines learn how damping goes with it, and are judged by it",
+               &ShellOptions::temperature_topic},
     ShellField{"tyre", "tyre/road_axis", "-",
                "axis of the road's IMU (or of target_frame) that points up along the strut", &ShellOptions::road_axis,
                0, 0, kAxisNames},

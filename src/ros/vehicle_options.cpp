@@ -114,6 +114,12 @@ std::vector<std::string> VehicleOptions::forceNames() const {
   return names;
 }
 
+std::vector<std::string> VehicleOptions::temperatureTopics() const {
+  std::vector<std::string> topics;
+  for (const PipelineOptions& strut : struts) topics.push_back(strut.shell.temperature_topic);
+  return topics;
+}
+
 std::vector<std::string> VehicleOptions::strutNames() const {
   std::vector<std::string> names;
   for (const VehicleLayout::Strut& strut : layout.struts) names.push_back(strut.name);

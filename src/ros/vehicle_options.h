@@ -28,7 +28,8 @@ struct VehicleOptions {
   static VehicleOptions ofOneStrut(const PipelineOptions& options);
 
   std::vector<std::string> strutNames() const;
-  std::vector<std::string> forceNames() const;  ///< of known forces
+  std::vector<std::string> forceNames() const;         ///< of known forces
+  std::vector<std::string> temperatureTopics() const;  ///< by strut; empty: it has no thermometer
 };
 
 }  // namespace suspension_health_monitor

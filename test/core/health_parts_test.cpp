@@ -202,5 +202,48 @@ TEST(BaselineLearner, DoesNotTakeAChangingStrutAsHealthy) {
   }
 }
 
+// A damper that loses 0.3 % per kelvin.
+StrutEstimate warmEstimate(double celsius, double noise = 0.0) {
+  StrutEstimate result = estimate(3.0 * std::exp(-0.003 * (celsius - 20.0)) + noise, 13.8);
+  result.temperature = celsius;
+  return result;
+}
+
+// It warms from 20 to 50 degrees C. 600 s have 150 windows of 4 s that share no reading, so a half's ln b1 is known to
+// 0.02 / 3 / sqrt(75) = 0.08 %, the difference of both over 15 K to 0.007 % per kelvin.
+TEST(BaselineLearner, LearnsHowDampingGoesWithTheTemperature) {
+  BaselineLearner learner(600.0);
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  std::optional<Baseline> learned;
+  for (int k = 0; !learned && k < 600; ++k)
+    learned = learner.add(fromSeconds(k), warmEstimate(20.0 + 0.05 * k, noise(random)), 1.0);
+  ASSERT_TRUE(learned && learned->temperature);
+  EXPECT_NEAR(learned->temperature->celsius, 35.0, 0.1);
+  EXPECT_NEAR(learned->temperature->per_kelvin, -0.003, 3.0 * learned->temperature->per_kelvin_stddev);
+  EXPECT_LT(learned->temperature->per_kelvin_stddev, 0.0003);
+  for (const double celsius : {-10.0, 80.0}) {
+    StrutEstimate now = warmEstimate(celsius);
+    const LogChange healthy = *changeFrom(*learned, now).change.damping;
+    EXPECT_NEAR(healthy.size, 0.0, 3.0 * healthy.stddev) << celsius;
+    EXPECT_LT(healthy.stddev, 0.03) << celsius;
+    now.damping_to_mass *= 0.7;
+    EXPECT_NEAR(changeFrom(*learned, now).change.damping->size, std::log(0.7), 3.0 * healthy.stddev) << celsius;
+  }
+}
+
+TEST(BaselineLearner, OfOneTemperatureDoesNotKnowWhatAnotherOneDoes) {
+  BaselineLearner learner(100.0);
+  std::optional<Baseline> learned;
+  for (int k = 0; !learned; ++k) learned = learner.add(fromSeconds(k), warmEstimate(20.0), 1.0);
+  const LogChange warm = *changeFrom(*learned, warmEstimate(60.0)).change.damping;
+  EXPECT_NEAR(warm.stddev, 40.0 * DamperTemperature::kUsual, 0.01);
+  EXPECT_NEAR(warm.size, -0.003 * 40.0, 1e-6);
+  EXPECT_LT(changeFrom(*learned, warmEstimate(20.0)).change.damping->stddev, 0.01);
+  StrutEstimate without = warmEstimate(20.0);
+  without.temperature.reset();
+  EXPECT_LT(changeFrom(*learned, without).change.damping->stddev, 0.01);
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor

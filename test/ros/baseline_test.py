@@ -9,6 +9,7 @@ import rospy
 import rostest
 import yaml
 from ros_session import PACKAGE, Collector, Pace, start_node, wait_until
+from sensor_msgs.msg import Temperature
 from std_srvs.srv import Trigger
 from suspension_health_monitor.msg import SuspensionHealth
 
@@ -73,6 +74,19 @@ class BaselineTest(unittest.TestCase):
         self.assertAlmostEqual(worn.nominal_damping_to_mass, stored["damping_to_mass"], delta=1e-9)
         self.assertRegex(worn.reason, r"^damping [34][0-9] % below baseline")
         self.assertEqual(self.stored(), stored)
+
+    def test_has_the_temperature_of_the_damper(self):
+        thermometer = rospy.Publisher("/damper/temperature", Temperature, queue_size=1)
+        reading = Temperature(temperature=41.5)
+        reading.header.stamp = rospy.Time.now()
+        with self.monitor(temperature_topic="/damper/temperature"):
+            timer = rospy.Timer(rospy.Duration(0.1), lambda _: thermometer.publish(reading))
+            self.drive(HEALTHY, lambda health: abs(health.damping_change) < 1.0, "a judgement by the baseline")
+            timer.shutdown()
+        stored = self.stored()
+        self.assertAlmostEqual(stored["temperature"], 41.5, delta=1e-9)
+        self.assertAlmostEqual(stored["damping_per_kelvin"], 0.0, delta=1e-6)
+        self.assertAlmostEqual(stored["damping_per_kelvin_stddev"], 0.005, delta=1e-6)
 
     def test_service_makes_the_present_strut_the_baseline(self):
         with self.monitor():

@@ -35,6 +35,7 @@ Baseline baselineOf(const StrutEstimate& estimate, Stamp stamp) {
           0.0,
           0.0,
           estimate.friction,
+          estimate.temperature ? std::optional(DamperTemperature{*estimate.temperature}) : std::nullopt,
           true,
           stamp,
           stamp};
@@ -64,6 +65,11 @@ ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now)
     damper.variance += by_law;
   }
   change.damping = logChange(damper, healthy_damper);
+  if (change.damping && healthy.temperature && now.temperature) {
+    const double warmer = *now.temperature - healthy.temperature->celsius;
+    change.damping->size -= healthy.temperature->per_kelvin * warmer;
+    change.damping->stddev = std::hypot(change.damping->stddev, healthy.temperature->per_kelvin_stddev * warmer);
+  }
   result.is_mostly_friction = by_law > 0.5 * damper.variance;
   // The error of b1 that it shares with b0; what friction adds it does not share.
   if (change.damping && change.stiffness && change.damping->stddev > 0.0 && change.stiffness->stddev > 0.0)
@@ -89,13 +95,18 @@ double BaselineLearner::Parameter::scatter(double windows) const {
 }
 
 void BaselineLearner::Half::add(const StrutEstimate& estimate, double new_seconds) {
-  if (seconds == 0.0) friction = estimate.friction;
+  if (seconds == 0.0) {
+    friction = estimate.friction;
+    celsius = estimate.temperature;
+  }
   seconds += new_seconds;
   const double gain = new_seconds / seconds;
   damping.add(estimate.damping_to_mass, estimate.damping_to_mass_stddev, gain);
   stiffness.add(estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev, gain);
   const auto mix = [gain](double& of, double value) { of += gain * (value - of); };
   mix(window, estimate.window);
+  if (!estimate.temperature) celsius.reset();
+  if (celsius) mix(*celsius, *estimate.temperature);
   if (!estimate.friction || !friction) return friction.reset();
   mix(friction->force, estimate.friction->force);
   mix(friction->damping_gain, estimate.friction->damping_gain);
@@ -121,20 +132,38 @@ std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& e
   return learned;
 }
 
+double BaselineLearner::Half::varianceOfMean(const Parameter& parameter) const {
+  return square(parameter.spread(windows())) * std::min(1.0, 1.0 / windows());
+}
+
 bool BaselineLearner::drifts() const {
   const auto& [a, b] = halves_;
-  const auto apart = [&](double first, double second, const Parameter& of_first, const Parameter& of_second) {
+  const auto apart = [&](double first, double second, const Parameter& of_first, const Parameter& of_second,
+                         double warmth) {
     const double difference = std::abs(second - first);
-    const double variance = square(of_first.spread(a.windows())) * std::min(1.0, 1.0 / a.windows()) +
-                            square(of_second.spread(b.windows())) * std::min(1.0, 1.0 / b.windows());
+    const double variance =
+        a.varianceOfMean(of_first) + b.varianceOfMean(of_second) + square(warmth * (first + second) / 2.0);
     return difference > kLeastDrift * std::abs(first) && difference > kProven * std::sqrt(variance);
   };
   const double gain = a.friction && b.friction ? (a.friction->damping_gain + b.friction->damping_gain) / 2.0 : 0.0;
   const auto damping = [&](const Half& half) {
     return half.damping.mean + (half.friction ? half.friction->force * gain : 0.0);
   };
-  return apart(damping(a), damping(b), a.damping, b.damping) ||
-         apart(a.stiffness.mean, b.stiffness.mean, a.stiffness, b.stiffness);
+  const double warmth = a.celsius && b.celsius ? DamperTemperature::kUsual * (*b.celsius - *a.celsius) : 0.0;
+  return apart(damping(a), damping(b), a.damping, b.damping, warmth) ||
+         apart(a.stiffness.mean, b.stiffness.mean, a.stiffness, b.stiffness, 0.0);
+}
+
+// One measurement, ln(b1 of the second half / of the first) over the difference in temperature, and what is usual.
+std::optional<DamperTemperature> BaselineLearner::temperature() const {
+  const auto& [a, b] = halves_;
+  if (!a.celsius || !b.celsius) return std::nullopt;
+  const double warmer = *b.celsius - *a.celsius, usual = square(DamperTemperature::kUsual);
+  const double noise =
+      a.varianceOfMean(a.damping) / square(a.damping.mean) + b.varianceOfMean(b.damping) / square(b.damping.mean);
+  const double gain = usual * warmer / (usual * square(warmer) + noise);
+  return DamperTemperature{(*a.celsius + *b.celsius) / 2.0, gain * std::log(b.damping.mean / a.damping.mean),
+                           DamperTemperature::kUsual * std::sqrt(1.0 - gain * warmer)};
 }
 
 Baseline BaselineLearner::result(Stamp to) const {
@@ -156,6 +185,7 @@ Baseline BaselineLearner::result(Stamp to) const {
         DryFriction{middle(a.friction->force, b.friction->force), stddev(a.friction->stddev, b.friction->stddev),
                     middle(a.friction->damping_gain, b.friction->damping_gain),
                     square(share) * middle(a.friction->damping_covariance, b.friction->damping_covariance)};
+  baseline.temperature = temperature();
   baseline.learned = true;
   baseline.from = from_;
   baseline.to = to;

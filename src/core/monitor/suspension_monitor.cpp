@@ -69,6 +69,10 @@ void SuspensionMonitor::addReading(Side side, Stamp stamp, double acceleration) 
   });
 }
 
+void SuspensionMonitor::addTemperature(Stamp stamp, double celsius) {
+  if (std::isfinite(celsius)) temperature_ = {stamp, celsius};
+}
+
 void SuspensionMonitor::takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev) {
   plain_.takeEstimate(estimate, model_stddev, extended_ ? base_ : report_);
   has_new_estimate_ = has_new_estimate_ || !extended_;
@@ -113,6 +117,8 @@ void SuspensionMonitor::judgeSensors() {
   changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input(), series_.newest(), report); });
   const bool la_tells =
       !tracker().holds() && report_.la.effective_rows >= options_.fewestRows(kHorizonsOfSensorCheck, period());
+  const bool is_fresh = temperature_ && std::abs(toSeconds(report_.stamp - temperature_->stamp)) < options_.oldest_data;
+  report_.estimate.temperature = is_fresh ? std::optional(temperature_->celsius) : std::nullopt;
   health_.setSensors(sensors_.judge(report_.estimate, report_.la, la_tells));
   if (report_.estimate.tellsChanges()) health_.watch(report_.ls);
   report_.health = health_.update(report_.stamp, report_.estimate, std::exchange(has_new_estimate_, false));

@@ -71,6 +71,10 @@ void VehicleMonitor::reconfigure(std::size_t strut, MonitorSettings settings) {
   starts_[strut].settings = settings;
 }
 
+void VehicleMonitor::addTemperature(std::size_t strut, Stamp stamp, double celsius) {
+  if (isCoupled()) struts_[strut].addTemperature(stamp, celsius);
+}
+
 void VehicleMonitor::addReading(const VehicleTops& tops, const VehicleReading& reading) {
   if (is_alone_) {
     const Side side = reading.sensor == VehicleReading::Sensor::kWheel ? Side::kUnsprung : Side::kSprung;

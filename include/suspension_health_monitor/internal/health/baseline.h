@@ -30,7 +30,8 @@ ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now)
 /// kProven standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another
 /// drive, perhaps of another vehicle. Estimates whose windows overlap share their errors: those of a mean over t
 /// seconds have window / t of the variance of one. Where they scatter more than that, for certain, the rest is part of
-/// the baseline. Cost per estimate: O(1), no allocation.
+/// the baseline. With a thermometer the halves tell how damping goes with the temperature, too. Cost per estimate:
+/// O(1), no allocation.
 class BaselineLearner {
  public:
   /// @param seconds  to learn from, > 0.
@@ -57,13 +58,16 @@ class BaselineLearner {
     double window = 0.0;  // mean span of an estimate's window [s]
     Parameter damping, stiffness;
     std::optional<DryFriction> friction;
+    std::optional<double> celsius;
     void add(const StrutEstimate& estimate, double seconds);
     double windows() const { return seconds / window; }
+    double varianceOfMean(const Parameter& parameter) const;
   };
 
   static constexpr double kLeastDrift = 0.03;  // of the value: less is what another road does
 
   bool drifts() const;
+  std::optional<DamperTemperature> temperature() const;
   Baseline result(Stamp to) const;
 
   double seconds_;

@@ -48,6 +48,9 @@ class SuspensionMonitor {
   /// Takes the block estimate of the plain model from elsewhere.  @param model_stddev  as ModelTracker::takeEstimate().
   void takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev);
 
+  /// Takes in the temperature of the strut's damper [deg C], which counts for health/oldest_data.
+  void addTemperature(Stamp stamp, double celsius);
+
   /// As HealthAssessment has them.
   void setOthers(const std::optional<LogChange>& others) { health_.setOthers(others); }
   const std::optional<LogChange>& dampingChange() const { return health_.dampingChange(); }
@@ -107,6 +110,11 @@ class SuspensionMonitor {
   ModelReport base_;                      // of the plain model while there is an extended one
   HealthAssessment health_;
   SensorCheck sensors_;
+  struct Temperature {
+    Stamp stamp;
+    double celsius;
+  };
+  std::optional<Temperature> temperature_;
   EveryN sensors_due_;
   bool has_new_estimate_ = false;        // that health has not seen
   std::optional<Stamp> reported_until_;  // by the model before the effects were set

@@ -62,6 +62,9 @@ class VehicleMonitor {
   void setBaseline(std::size_t strut, const Baseline& baseline);
   void reconfigure(std::size_t strut, MonitorSettings settings);
 
+  /// As SuspensionMonitor; it is lost while there is no monitor.
+  void addTemperature(std::size_t strut, Stamp stamp, double celsius);
+
   /// Fits a rigid body to the rows (BodyFit): from then on absolute values carry the model's error. Takes 2 ms for four
   /// struts: not for the sample path.
   void fitBody();
