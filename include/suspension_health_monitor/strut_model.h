@@ -36,6 +36,8 @@ struct StrutModel {
   std::vector<ActiveEffect> effects;
   std::vector<ActiveMeasurementEffect> reading;
 
+  LinearStrut linearPart() const { return {damping_to_mass, stiffness_to_mass}; }
+
   /// @param memory  one state per effect, those without memory included.
   /// @return z'' [m/s^2].
   double force(double travel, double travel_rate, double time, const Memory* memory) const {

@@ -47,8 +47,9 @@ class StrutMonitor {
 
   /// Has these effects in the model from now on, none: the plain strut. Estimates carry over; coefficients are start
   /// values. Allocates.
+  /// @param strut  b1 and b0 that belong to these coefficients, if they are known.
   /// @throws std::invalid_argument  naming what is wrong with the effects; the model then stays as it was.
-  void setEffects(const std::vector<ActiveEffect>& effects);
+  void setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut = {});
 
   /// Judges health by this from now on.
   /// @throws std::invalid_argument  if a value of it is not above 0 and finite.

@@ -15,7 +15,9 @@ StrutMonitor& StrutMonitor::operator=(StrutMonitor&& other) noexcept = default;
 
 void StrutMonitor::push(Side side, Stamp stamp, double acceleration) { pipeline_->push(side, stamp, acceleration); }
 
-void StrutMonitor::setEffects(const std::vector<ActiveEffect>& effects) { pipeline_->setEffects(effects); }
+void StrutMonitor::setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut) {
+  pipeline_->setEffects(effects, strut);
+}
 
 void StrutMonitor::setBaseline(const Baseline& baseline) { pipeline_->setBaseline(baseline); }
 
@@ -36,8 +38,6 @@ InputStatus StrutMonitor::input() const {
 
 std::map<std::string, std::uint64_t> StrutMonitor::rejected() const { return pipeline_->rejected().byName(); }
 
-std::optional<double> StrutMonitor::samplePeriod() const {
-  return pipeline_->period();
-}
+std::optional<double> StrutMonitor::samplePeriod() const { return pipeline_->period(); }
 
 }  // namespace suspension_health_monitor

@@ -127,7 +127,10 @@ void bindMonitors(py::module& module) {
       .def("set_model",
            [](LockedMonitor& self, const std::optional<StrutModel>& model) {
              self.push([&](StrutMonitor& monitor) {
-               monitor.setEffects(model ? model->effects : std::vector<ActiveEffect>{});
+               if (model)
+                 monitor.setEffects(model->effects, model->linearPart());
+               else
+                 monitor.setEffects({});
              });
            })
       .def("set_baseline",

@@ -39,7 +39,7 @@ Identification identifyArrays(const Recordings& recordings, const Keywords& keyw
     options.integration_horizon = proposeHorizon(recordings, options, period, shift, work);
   Course course(shift);
   VehiclePipeline made(options, [&](const MonitorReport& report) { course.add(report); });
-  if (model) made.setEffects(model->effects);
+  if (model) made.setEffects(model->effects, model->linearPart());
   const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
   forEachReading(recordings, shift, work, take, [] {});
   Identification found = Identification::of(made, made.rejected(), course);

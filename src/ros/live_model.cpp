@@ -127,7 +127,7 @@ std::optional<LinearStrut> LiveModel::strutFor(const std::vector<ActiveEffect>& 
   };
   for (const StrutModel* model :
        {diagnosis_ && *diagnosis_ ? &diagnosis_->model() : nullptr, loaded_ ? &*loaded_ : nullptr})
-    if (model != nullptr && belongs(*model)) return LinearStrut{model->damping_to_mass, model->stiffness_to_mass};
+    if (model != nullptr && belongs(*model)) return model->linearPart();
   return std::nullopt;
 }
 

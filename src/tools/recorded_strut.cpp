@@ -57,7 +57,8 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, const std::optional<
             if (report) report(newest);
           },
           false) {
-  pipeline_.setEffects(LiveModel(options.pipeline.shell).effects());
+  const LiveModel model(options.pipeline.shell);
+  pipeline_.setEffects(model.effects(), model.strutFor(model.effects()));
   if (healthy_) pipeline_.setBaseline(healthy_->baseline);
 }
 

@@ -308,5 +308,27 @@ TEST(LiveEffects, StartedWithWhatAFitFoundTheErrorFallsAtOnce) {
   EXPECT_LT(square, 0.5 * plain_square);  // within two seconds
 }
 
+// A lightly damped strut swings for seconds from wherever the free run starts: columns of that time, or of another
+// strut, would lead the estimate astray, which then leads the free run.
+TEST(LiveEffects, OfAModelWithItsStrutEveryEstimateIsRight) {
+  constexpr double kLight = 1.0;  // b1 [1/s]
+  SimulationOptions options = carDrive(60.0, 0.01);
+  options.damping_to_mass = kLight;
+  options.stiffness_to_mass = kCarB0;
+  options.hidden = {active("hysteresis", 0.4, {0.003})};
+  SuspensionMonitor monitor(carMonitor(0.999));
+  monitor.setEffects(options.hidden, LinearStrut{kLight, kCarB0});
+  int valid = 0;
+  for (const CornerSample& sample : simulate(options)) {
+    monitor.addSample(sample);
+    const StrutEstimate& estimate = monitor.report().estimate;
+    if (!estimate.valid()) continue;
+    ++valid;
+    ASSERT_NEAR(estimate.damping_to_mass, kLight, 4.0 * estimate.damping_to_mass_stddev) << toSeconds(sample.stamp);
+    ASSERT_NEAR(estimate.stiffness_to_mass, kCarB0, 4.0 * estimate.stiffness_to_mass_stddev) << toSeconds(sample.stamp);
+  }
+  EXPECT_GT(valid, 1000);
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor

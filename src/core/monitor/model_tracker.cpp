@@ -103,7 +103,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
   identifier_.changeEffects(columns);
   blocks_.emplace(block_options_, period_, effects.size());
   newest_.reset();
-  has_own_model_ = strut && free_run_.trySetModel(strut->damping_to_mass, strut->stiffness_to_mass);
+  has_own_model_ = is_given_ = strut && free_run_.trySetModel(strut->damping_to_mass, strut->stiffness_to_mass);
   starts_.clear();
   for (std::size_t j = 0; j < effects.size(); ++j) {
     starts_.push_back(identifier_.coefficient(j));
@@ -156,7 +156,9 @@ bool ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
 
 bool ModelTracker::addRow(const CornerSample& sample, ModelReport& report) {
   identifier_.add(sample, free_run_.effectForces());
-  return !effects().empty() && take(blocks_->pushForces(sample.stamp, free_run_.effectForces()), report);
+  // The blocks wait until the free run has forgotten where it started: what they find leads it.
+  return !effects().empty() && free_run_.settled() &&
+         take(blocks_->pushForces(sample.stamp, free_run_.effectForces()), report);
 }
 
 void ModelTracker::judge(ModelReport& report) {
@@ -199,9 +201,9 @@ StrutEstimate ModelTracker::judged(const std::optional<BlockEstimate>& blocks,
 void ModelTracker::takeModel(const ModelReport& report) {
   const bool by_blocks = !is_paper_ && isModel(report.estimate);
   const StrutEstimate& estimate = by_blocks ? report.estimate : report.la;
-  // Until the blocks know the strut LA leads, which needs no more than its own rows for that.
-  const bool leads =
-      !by_blocks && (is_paper_ ? isModel(report.la) : !newest_ && isLeading(identifier_.facts(report.la)));
+  // Until the blocks know the strut LA leads, which needs no more than its own rows for that, unless it was given.
+  const bool leads = !by_blocks && (is_paper_ ? isModel(report.la)
+                                              : !newest_ && !is_given_ && isLeading(identifier_.facts(report.la)));
   if (!by_blocks && !leads) return;
   if (!free_run_.trySetModel(estimate.damping_to_mass, estimate.stiffness_to_mass)) return;
   has_own_model_ = true;

@@ -109,6 +109,7 @@ class ModelTracker {
   bool period_fits_ = true, unit_fits_ = true;
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
+  bool is_given_ = false;       // b1 and b0 came with the effects
   bool has_own_model_ = false;  // the free run has had estimated parameters, or those that belong to the start values
   std::uint64_t runaways_ = 0;
   EveryN model_due_, figures_due_;
