@@ -86,7 +86,7 @@ IntegralFilterOptions MonitorSettings::tyreFilter(double period) const {
 }
 
 GridOptions MonitorSettings::grid(double period) const {
-  return {suspension_health_monitor::alignment(alignment), tyre, samplesOfRow(period)};
+  return {suspension_health_monitor::alignment(alignment), samplesOfRow(period)};
 }
 
 RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {

@@ -71,12 +71,10 @@ double periodOf(const Recordings& recordings, const MonitorOptions& options) {
 
 std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& options, double period, Stamp shift,
                             LongWork& work) {
-  MonitorSettings settings = options;
-  settings.tyre = false;  // a sample has no part of the road
   std::vector<Drive> drives;
   for (const Recording& recording : recordings) {
     Drive& drive = drives.emplace_back();
-    VehicleGrid grid(period, VehicleStreams(VehicleLayout::ofOneStrut(false)), settings.grid(period),
+    VehicleGrid grid(period, VehicleStreams(VehicleLayout::ofOneStrut(false)), MonitorSettings(options).grid(period),
                      [&](const VehicleSample& sample) { drive.samples.push_back(sample.ofStrut(0)); });
     drive.body = recording.bodyMotion(shift);
     recording.forEach([&](Side side, Stamp stamp, double value) {

@@ -88,8 +88,8 @@ std::vector<double> jumps(const std::vector<CornerSample>& samples) {
   return all;
 }
 
-const GridOptions kResampled{Alignment::kResampled, false, 240};
-const GridOptions kAuto{Alignment::kAuto, false, 240};
+const GridOptions kResampled{Alignment::kResampled, 240};
+const GridOptions kAuto{Alignment::kAuto, 240};
 
 TEST(ResampledGrid, GivesBothSensorsAtTheInstantsOfOneUniformSeries) {
   Messages messages(1);
@@ -173,7 +173,7 @@ TEST(ResampledGrid, KeepsOutASensorThatIsStuck) {
 
 TEST(ResampledGrid, GivesTheRoadAtTheSameInstantsAndDoesWithoutIt) {
   Messages messages(6);
-  UniformGrid grid(kPeriod, {Alignment::kResampled, true, 240});
+  UniformGrid grid(kPeriod, kResampled, true);
   std::vector<Message> road_readings = messages.of(Side::kRoad, 500.0, 1.0, 3.0, 0.001, 0.02);
   int with = 0, without = 0;
   for (const Message& message :

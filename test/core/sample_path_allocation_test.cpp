@@ -139,7 +139,7 @@ TEST(SamplePath, AllocatesNothingInTheTyreTrackerWhateverTheInput) {
 }
 
 TEST(SamplePath, AllocatesNothingInAGridThatTurnsToResampling) {
-  UniformGrid grid(0.02, {Alignment::kAuto, true, 60});
+  UniformGrid grid(0.02, {Alignment::kAuto, 60}, true);
   Stamp stamp{};
   int samples = 0, readings = 0;
   EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {

@@ -11,9 +11,9 @@
 namespace suspension_health_monitor {
 
 // One sensor each, in the order of Side.
-inline std::vector<StreamOptions> streamsOf(const GridOptions& options) {
+inline std::vector<StreamOptions> streamsOf(bool has_road) {
   std::vector<StreamOptions> streams{{indexOf(Side::kSprung), true}, {indexOf(Side::kUnsprung), true}};
-  if (options.has_road) streams.push_back({indexOf(Side::kRoad), false});
+  if (has_road) streams.push_back({indexOf(Side::kRoad), false});
   return streams;
 }
 
@@ -21,10 +21,11 @@ inline std::vector<StreamOptions> streamsOf(const GridOptions& options) {
 class UniformGrid {
  public:
   /// @param period  sampling time T > 0 [s].
-  explicit UniformGrid(double period, const GridOptions& options = {});
+  /// @param has_road  there is a third stream, Side::kRoad.
+  explicit UniformGrid(double period, const GridOptions& options = {}, bool has_road = false);
 
   /// As StreamGrid::push().
-  /// @param side  the road's readings are left out without GridOptions::has_road.
+  /// @param side  the road's readings are left out without has_road.
   /// @param acceleration  along the strut, up positive [m/s^2].
   /// @return the first sample that this reading completes, stamped by the sprung sensor or, resampled, by the grid.
   std::optional<CornerSample> push(Side side, Stamp stamp, double acceleration);
@@ -46,8 +47,8 @@ class UniformGrid {
   std::optional<double> road_acceleration_;
 };
 
-inline UniformGrid::UniformGrid(double period, const GridOptions& options)
-    : has_road_(options.has_road), streams_(period, streamsOf(options), options.alignment, options.fill_samples) {}
+inline UniformGrid::UniformGrid(double period, const GridOptions& options, bool has_road)
+    : has_road_(has_road), streams_(period, streamsOf(has_road), options.alignment, options.fill_samples) {}
 
 inline std::optional<CornerSample> UniformGrid::push(Side side, Stamp stamp, double acceleration) {
   if (side == Side::kRoad && !has_road_) return std::nullopt;

@@ -24,7 +24,7 @@ class WithRoad : public testing::Test {
     push(Side::kUnsprung, milliseconds, 2.0);
   }
 
-  UniformGrid grid_{0.02, {Alignment::kPaired, true}};
+  UniformGrid grid_{0.02, {}, true};
   std::vector<int> stamps_;
   std::vector<double> road_;
 };

@@ -29,7 +29,6 @@ inline Alignment alignment(std::string_view name) {
 /// How a grid brings the streams of sensors together.
 struct GridOptions {
   Alignment alignment = Alignment::kPaired;
-  bool has_road = false;   ///< there is a third stream, Side::kRoad
   int fill_samples = 120;  ///< in a row that make one row of the regression; kAuto judges by it
 };
 
