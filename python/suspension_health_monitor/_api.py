@@ -48,7 +48,7 @@ def identify(*drives: Any, vehicle: Optional[Path] = None, model: Model = None, 
     if not call.is_of_bags:
         return call.of_arrays(_core.identify, to_model(model, effects_file))
     if call.is_of_vehicle and (model is not None or effects_file is not None):
-        raise ValueError("model and effects_file beside vehicle, must be left out: its struts are taken as linear")
+        raise ValueError("model and effects_file beside vehicle, must be left out: config names the models of its struts")
     with model_file(model, effects_file) as file:
         settings = {"effects_file": effects_file, "model_file": file}
         return call.of_bags("identify", settings={k: v for k, v in settings.items() if v is not None})
@@ -129,7 +129,7 @@ def health(*drives: Any, vehicle: Optional[Path] = None, baseline: Optional[Unio
     if call.is_of_vehicle:
         if not (baseline is None or is_path(baseline)):
             raise ValueError("baseline of a vehicle, must be the path of a file with its struts")
-        return call.of_bags("health", baseline=baseline)
+        return call.of_bags("health", None, "", baseline=baseline)
     healthy, file = healthy_strut(baseline)
     return call.of_bags("health", healthy, file) if call.is_of_bags else call.of_arrays(_core.health, healthy, file)
 
@@ -187,12 +187,12 @@ class _Call:
                                         [*_OF_BAGS, "bag", "config", "progress", *arguments])
 
     def of_bags(self, name, *more, settings=(), **flags):
-        command = getattr(files(), f"{name}_struts" if self.is_of_vehicle else name)
         paths = [f"./{path}" if path.startswith("-") else path for path in self._source]
         assignments = [*self._keywords.assignments, *(f"{name}={value}" for name, value in dict(settings).items())]
         with callback(self._progress, self._name) as told:
-            return command(paths + _flags(**self._of_bags, config=self._config, **flags)
-                           + [f"--set={each}" for each in assignments], *more, told)
+            found = getattr(files(), name)(paths + _flags(**self._of_bags, config=self._config, **flags)
+                                           + [f"--set={each}" for each in assignments], *more, told)
+        return found if self.is_of_vehicle else found[""]
 
     def of_arrays(self, function, *more):
         readings = [recording._readings() for recording in self._source]

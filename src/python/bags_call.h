@@ -3,7 +3,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <boost/program_options.hpp>
 #include <cstddef>
 
 #include "../tools/command.h"
@@ -34,9 +33,6 @@ class ToolsWork {
   ToolsWork* before_;
 };
 
-/// @param arguments  as on the command line, of any of the commands.
-boost::program_options::variables_map parsed(const Arguments& arguments);
-
 /// Adds what the command line does, as defWork(); its errors are ValueError.
 template <class... Given, class Work, class... Names>
 void defCommand(pybind11::module& module, const char* name, const Work& work, const Names&... names) {
@@ -54,7 +50,7 @@ void defCommand(pybind11::module& module, const char* name, const Work& work, co
   defWork<Given...>(module, name, command, names...);
 }
 
-/// Adds what is of the struts of a vehicle.
-void bindVehicles(pybind11::module& module);
+/// Adds the commands that read bags.
+void bindBags(pybind11::module& module);
 
 }  // namespace suspension_health_monitor

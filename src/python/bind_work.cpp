@@ -28,6 +28,15 @@ double proposeHorizon(const Recordings& recordings, const MonitorOptions& option
                               "; give integration_horizon to look at them all the same");
 }
 
+/// @throws std::invalid_argument  saying why, if the readings have not given one regression row.
+const SuspensionMonitor& monitorOf(const VehiclePipeline& made) {
+  if (made.strut() == nullptr)
+    throw std::invalid_argument(describeNoStart("of one of the sensors") + describeRejected(made.rejected()));
+  const std::string nothing = describeNoRow(*made.strut(), made.grid()->streams(), made.rejected());
+  if (!nothing.empty()) throw std::invalid_argument(nothing);
+  return *made.strut();
+}
+
 Identification identifyArrays(const Recordings& recordings, const Keywords& keywords,
                               const std::optional<StrutModel>& model, LongWork& work) {
   MonitorOptions options = keywords.forArrays().monitor;
@@ -42,7 +51,8 @@ Identification identifyArrays(const Recordings& recordings, const Keywords& keyw
   if (model) made.setEffects(model->effects, model->linearPart());
   const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
   forEachReading(recordings, shift, work, take, [] {});
-  Identification found = Identification::of(made, made.rejected(), course);
+  const IdentifyResult result = identified(monitorOf(made), made.overTheDrive(), made.rejected());
+  Identification found = Identification::of(result, made, 0, course);
   found.change = describeChange(found, nominalOf(options), options);
   return found;
 }
@@ -67,12 +77,8 @@ HealthSummary watchArrays(const Recordings& recordings, const Keywords& keywords
     strut.push(side, stamp, value);
   };
   forEachReading(recordings, shift, work, take, [&] { log.finishRecording(); });
-  const SuspensionMonitor* monitor = strut.strut();
-  if (monitor == nullptr)
-    throw std::invalid_argument(describeNoStart("of one of the sensors") + describeRejected(strut.rejected()));
-  const std::string nothing = describeNoRow(*monitor, strut.grid()->streams(), strut.rejected());
-  if (!nothing.empty()) throw std::invalid_argument(nothing);
-  return HealthSummary::of(log, *monitor, healthy ? std::optional(file) : std::nullopt, strut.rejected(), course);
+  return HealthSummary::of(log, monitorOf(strut), healthy ? std::optional(file) : std::nullopt, strut.rejected(),
+                           course);
 }
 
 Comparison compareArrays(const Recordings& recordings, const Keywords& keywords, const std::optional<StrutModel>& model,

@@ -1,27 +1,22 @@
 #include "results.h"
 
-#include <stdexcept>
-
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
 
-Identification Identification::of(VehiclePipeline& made, const RejectCounts& rejected, const Course& course) {
-  const SuspensionMonitor& monitor = *made.strut();
-  const StreamGrid& streams = made.grid()->streams();
-  const std::string nothing = describeNoRow(monitor, streams, rejected);
-  if (!nothing.empty()) throw std::invalid_argument(nothing);
-  Identification found;
-  static_cast<IdentifyResult&>(found) = identified(monitor, made.overTheDrive(), made.rejected());
-  found.rejected = rejected.byName();
-  found.mean_period = monitor.input().mean_period;
-  found.alignment = streams.describeAlignment();
-  found.bridged = streams.bridged();
-  if (made.tyre() != nullptr) found.tyre = made.tyre()->report();
-  found.sprung_mass = monitor.options().sprung_mass;
-  found.course = course;
-  return found;
+Identification Identification::of(const IdentifyResult& found, const VehiclePipeline& made, std::size_t strut,
+                                  const Course& course) {
+  const SuspensionMonitor& monitor = *made.strut(strut);
+  Identification result;
+  static_cast<IdentifyResult&>(result) = found;
+  result.mean_period = monitor.input().mean_period;
+  result.alignment = made.grid()->streams().describeAlignment();
+  result.bridged = made.grid()->streams().bridged();
+  if (made.tyre() != nullptr) result.tyre = made.tyre()->report();
+  result.sprung_mass = monitor.options().sprung_mass;
+  result.course = course;
+  return result;
 }
 
 HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& monitor,

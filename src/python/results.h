@@ -48,8 +48,9 @@ struct Identification : IdentifyResult {
   std::string change;                 ///< how the strut is against the healthy one, in a sentence; empty: none is known
   Course course;
 
-  /// @throws std::invalid_argument  saying why, if the readings have not given one regression row.
-  static Identification of(VehiclePipeline& made, const RejectCounts& rejected, const Course& course);
+  /// @param made  what a strut, by its place, was identified by.
+  static Identification of(const IdentifyResult& found, const VehiclePipeline& made, std::size_t strut,
+                           const Course& course);
 };
 
 struct SearchedStrut : Diagnosis {

@@ -14,6 +14,24 @@
 namespace suspension_health_monitor {
 namespace po = boost::program_options;
 
+namespace {
+
+/// @return the bags and the part of each that is to be read, with the static transforms if a target_frame wants them.
+ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
+  ImuBags bags;
+  bags.reads_ahead = threadsOf(values) > 1;
+  bags.paths = values["bag"].as<std::vector<std::string>>();
+  bags.start = values["start"].as<double>();
+  if (values.count("end") != 0) bags.end = values["end"].as<double>();
+  if (!(bags.start >= 0.0 && bags.end > bags.start))
+    throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
+                                " [s], must be 0 <= start < end");
+  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+  return bags;
+}
+
+}  // namespace
+
 void addBagOptions(po::options_description& description) {
   auto add = description.add_options();
   add("bag", po::value<std::vector<std::string>>()->required(), "bags, read one after the other");
@@ -68,24 +86,12 @@ int threadsOf(const po::variables_map& values) {
   return threads;
 }
 
-ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
-  ImuBags bags;
-  bags.reads_ahead = threadsOf(values) > 1;
-  bags.paths = values["bag"].as<std::vector<std::string>>();
-  bags.start = values["start"].as<double>();
-  if (values.count("end") != 0) bags.end = values["end"].as<double>();
-  if (!(bags.start >= 0.0 && bags.end > bags.start))
-    throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
-                                " [s], must be 0 <= start < end");
-  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
-  return bags;
-}
-
-OptionMap monitorSettings(const po::variables_map& values) {
+OptionMap givenSettings(const po::variables_map& values) {
   constexpr const char *kDamping = "damping_to_mass", *kStiffness = "stiffness_to_mass";
   OptionMap settings = gatherOptions(values);
   const auto path = values["config"].as<std::string>();
-  if (path.empty() || settings.count(kDamping) == 0 || settings.count(kStiffness) == 0) return settings;
+  if (values.count(kVehicle) != 0 || path.empty() || settings.count(kDamping) == 0 || settings.count(kStiffness) == 0)
+    return settings;
   settings.insert({"model_file", path});
   for (const char* number : {kDamping, kStiffness}) {
     settings.insert({std::string("nominal/") + number, settings.at(number)});
@@ -98,23 +104,21 @@ OptionMap monitorSettings(const po::variables_map& values) {
 }
 
 BagOptions readLiveOptions(const po::variables_map& values) {
-  BagOptions options;
-  options.pipeline = PipelineOptions::fromValues(monitorSettings(values));
-  ImuBags& bags = options.bags;
-  bags = readBags(values, options.pipeline.shell);
-  bags.topics = {values["sprung-topic"].as<std::string>(), values["unsprung-topic"].as<std::string>()};
-  if (values.count("road-topic") != 0) bags.topics.push_back(values["road-topic"].as<std::string>());
-  bags.not_needed = bags.topics.size() - 2;
-  for (std::size_t i = 0; i < bags.topics.size(); ++i)
-    if (bags.topics[i].empty())
-      throw std::invalid_argument(std::string(kTopicOptions[i]) + " is empty, must be a topic");
-  if (bags.topics[0] == bags.topics[1])
-    throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + bags.topics[0] + ", must differ");
-  if (bags.topics.size() > 2 && (bags.topics[2] == bags.topics[0] || bags.topics[2] == bags.topics[1]))
-    throw std::invalid_argument("--road-topic " + bags.topics[2] + " is one of the other two, must differ");
-  options.pipeline.monitor.tyre = bags.topics.size() > 2;
-  options.period_measured = !options.pipeline.monitor.sample_period;
-  if (!options.period_measured) requireFittingPeriod(bags, *options.pipeline.monitor.sample_period);
+  BagOptions options{readVehicle(values), {}, {}};
+  AskedVehicle& vehicle = options.vehicle;
+  if (vehicle.isStrutAlone()) {
+    PipelineOptions strut = PipelineOptions::fromValues(givenSettings(values));
+    strut.monitor.tyre = vehicle.layout.road_imu.has_value();
+    options.settings = VehicleOptions::ofOneStrut(strut);
+  } else {
+    options.settings = VehicleOptions::fromValues(vehicle.layout, givenSettings(values));
+  }
+  const PipelineOptions& common = options.settings.common;
+  options.bags = readBags(values, common.shell);
+  findSensors(options.bags, common.shell, vehicle.layout);
+  if (vehicle.isStrutAlone()) options.bags.named_by.assign(kTopicOptions.begin(), kTopicOptions.end());
+  options.period_measured = !common.monitor.sample_period;
+  if (!options.period_measured) requireFittingPeriod(options.bags, options.period());
   return options;
 }
 
@@ -130,17 +134,6 @@ void addModelOptions(po::options_description& description) {
 
 EffectLibrary readEffects(const po::variables_map& values) {
   return readEffectsFile(values[kEffectsFile].as<std::string>());
-}
-
-ModelOptions readModelOptions(const po::variables_map& values) {
-  ModelOptions options{readEffects(values), std::nullopt};
-  if (values.count(kModel) != 0) options.model = readModelFile(values[kModel].as<std::string>(), options.library);
-  return options;
-}
-
-void requireEnough(Shortcoming shortcoming, const std::string& reason) {
-  if (shortcoming == Shortcoming::kModelUntestable) throw InputError("the drives " + reason);
-  if (shortcoming != Shortcoming::kNone) throw TooLittleError("the drives " + reason);
 }
 
 }  // namespace suspension_health_monitor

@@ -1,23 +1,26 @@
 #pragma once
 
 #include <boost/program_options.hpp>
-#include <optional>
+#include <memory>
 #include <string>
+#include <vector>
 
-#include "../ros/shell_options.h"
+#include "../ros/vehicle_options.h"
+#include "asked_vehicle.h"
 #include "imu_bags.h"
-#include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 
 /// What every subcommand that reads bags understands.
 struct BagOptions {
-  ImuBags bags;
-  PipelineOptions pipeline;
+  AskedVehicle vehicle;
+  VehicleOptions settings;
+  ImuBags bags;  ///< as findSensors()
   bool period_measured = false;
   bool horizon_measured = false;
+
+  double period() const { return *settings.common.monitor.sample_period; }  ///< [s], of readBagOptions()
 };
 
 inline constexpr const char* kVehicle = "vehicle";  ///< names of options
@@ -34,11 +37,6 @@ int threadsOf(const boost::program_options::variables_map& values);
 /// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
 std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths);
 
-/// @return the bags and the part of each that is to be read, with the static transforms if a target_frame wants them;
-/// no topics.
-/// @throws std::invalid_argument  as command.h.  @throws InputError  as readStaticTransforms().
-ImuBags readBags(const boost::program_options::variables_map& values, const ShellOptions& options);
-
 /// @return the mean spacing of the stamps at the beginning of the bags, of the slowest topic that is needed [s].
 /// @throws InputError  as readTopics(), or it is no sample_period.  @throws TooLittleError  if there are too few
 /// messages.
@@ -48,18 +46,19 @@ double measurePeriod(const ImuBags& bags);
 /// bags that nearly all samples would be made up. Bags whose stamps tell no spacing are left to what reads them.
 void requireFittingPeriod(const ImuBags& bags, double sample_period);
 
-/// @return the settings of a monitor that --config and --set give. A model, as diagnose -o writes it, is a config, too:
-/// its effects by model_file, its b1 and b0 as nominal values.
+/// @return the settings that --config and --set give. Of a strut alone a model, as diagnose -o writes it, is a config,
+/// too: its effects by model_file, its b1 and b0 as nominal values.
 /// @throws std::invalid_argument  as command.h.
-OptionMap monitorSettings(const boost::program_options::variables_map& values);
+OptionMap givenSettings(const boost::program_options::variables_map& values);
 
 /// Collects the common options. What they leave open, sample_period and integration_horizon, stays open: a monitor
 /// finds it out as it does live.
-/// @throws std::invalid_argument, InputError, TooLittleError  as command.h.
+/// @throws std::invalid_argument, InputError, TooLittleError  as command.h, readVehicle(), findSensors() and
+/// requireFittingPeriod().
 BagOptions readLiveOptions(const boost::program_options::variables_map& values);
 
-/// The same, with what they leave open measured from the bags: sample_period by measurePeriod(), the horizon by
-/// proposeHorizon() with what blocks tell of the strut: those of the beginning, as soon as they know it well enough.
+/// The same, with what they leave open measured from the bags: sample_period by measurePeriod(), the horizon of a strut
+/// alone by proposeHorizon() with what blocks tell of it: those of the beginning, as soon as they know it well enough.
 /// @param clocks_may_differ  true: a strut that blocks see once the clocks are set right (rough_strut.h) will do.
 /// @throws std::invalid_argument, InputError, TooLittleError  likewise, also if there are too few messages to tell.
 BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ = false);
@@ -68,24 +67,12 @@ BagOptions readBagOptions(const boost::program_options::variables_map& values, b
 inline constexpr const char* kEffectsFile = "effects-file";
 inline constexpr const char* kModel = "model";
 
-/// What a model may be made of, and the model that the user brings.
-struct ModelOptions {
-  EffectLibrary library;
-  std::optional<StrutModel> model;
-};
-
 void addModelOptions(boost::program_options::options_description& description);
-
-/// @throws std::invalid_argument  naming the file and what is wrong in it.
-ModelOptions readModelOptions(const boost::program_options::variables_map& values);
 
 /// @return the catalogue and the laws of --effects-file.
 EffectLibrary readEffects(const boost::program_options::variables_map& values);
 
 /// Adds --effects-file alone.
 void addEffectsFile(boost::program_options::options_description& description);
-
-/// @throws InputError, TooLittleError  in words for people, if a diagnosis or comparison has a shortcoming.
-void requireEnough(Shortcoming shortcoming, const std::string& reason);
 
 }  // namespace suspension_health_monitor

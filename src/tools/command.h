@@ -87,9 +87,6 @@ void printWritten(const boost::program_options::variables_map& values, const std
 /// @return paths without their folders.
 std::vector<std::string> fileNames(const std::vector<std::string>& paths);
 
-/// @return true if a vehicle file is given.
-bool isOfVehicle(const boost::program_options::variables_map& values);
-
 /// Writes a whole simulated drive, with progress.
 void writeBag(const SimulatedDrive& drive, const std::string& path);
 

@@ -1,32 +1,29 @@
 #include "csv_tables.h"
 
-#include <algorithm>
 #include <cinttypes>
-#include <utility>
 
 namespace suspension_health_monitor {
 
-CsvTable::CsvTable(std::FILE* out, std::vector<std::string> struts, const char* columns)
-    : out_(out), struts_(std::move(struts)) {
-  if (out_ != nullptr) std::fprintf(out_, "time,%s%s\n", struts_.empty() ? "" : "strut,", columns);
+CsvTable::CsvTable(std::FILE* out, const AskedVehicle& vehicle, const char* columns) : out_(out), vehicle_(vehicle) {
+  if (out_ != nullptr) std::fprintf(out_, "time,%s%s\n", vehicle_.only ? "" : "strut,", columns);
 }
 
 std::FILE* CsvTable::beginLine(std::size_t strut, Stamp stamp) {
   constexpr std::int64_t second = 1000000000;
   std::fprintf(out_, "%" PRId64 ".%09" PRId64 ",", stamp.count() / second, stamp.count() % second);
-  if (!struts_.empty()) std::fprintf(out_, "%s,", struts_[strut].c_str());
+  if (!vehicle_.only) std::fprintf(out_, "%s,", vehicle_.names[strut].c_str());
   return out_;
 }
 
-RowTable::RowTable(std::FILE* out, const std::vector<std::string>& struts)
-    : CsvTable(out, struts,
+RowTable::RowTable(std::FILE* out, const AskedVehicle& vehicle)
+    : CsvTable(out, vehicle,
                "ls_damping_to_mass,ls_stiffness_to_mass,la_damping_to_mass,la_stiffness_to_mass,"
                "measured,predicted,residual,estimate_damping_to_mass,estimate_stiffness_to_mass,"
                "estimate_damping_to_mass_stddev,estimate_stiffness_to_mass_stddev"),
-      waiting_(std::max<std::size_t>(1, struts.size())) {}
+      waiting_(vehicle.names.size()) {}
 
 void RowTable::add(std::size_t strut, const MonitorReport& report) {
-  if (out_ == nullptr) return;
+  if (!isOf(strut)) return;
   std::deque<Row>& waiting = waiting_[strut];
   const bool clock_went_back = !waiting.empty() && report.stamp < waiting.back().stamp;
   while (clock_went_back && !waiting.empty()) write(strut, std::nullopt);

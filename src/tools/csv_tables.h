@@ -6,23 +6,28 @@
 #include <string>
 #include <vector>
 
+#include "asked_vehicle.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
-/// A table for programs, full precision: a line begins with its time and, in a vehicle, the name of the strut.
+/// A table for programs, full precision: a line begins with its time and, where several struts are asked for, the name
+/// of the strut.
 class CsvTable {
  public:
-  /// @param out  nullptr: no table is wanted.  @param struts  names of a vehicle's, for a column; empty: one strut.
-  /// @param columns  names of the others.
-  CsvTable(std::FILE* out, std::vector<std::string> struts, const char* columns);
+  /// @param out  nullptr: no table is wanted.  @param vehicle  outlives this object.  @param columns  names of the
+  /// others.
+  CsvTable(std::FILE* out, const AskedVehicle& vehicle, const char* columns);
+
+  /// @return true if the table has lines of this strut.
+  bool isOf(std::size_t strut) const { return out_ != nullptr && vehicle_.only.value_or(strut) == strut; }
 
   /// @return where the rest of the line is to be written.
   std::FILE* beginLine(std::size_t strut, Stamp stamp);
 
  protected:
   std::FILE* out_;
-  std::vector<std::string> struts_;
+  const AskedVehicle& vehicle_;
 };
 
 /// `suspension_bag identify --csv`: one line per regression row. The comparison of a row's sample comes some samples
@@ -30,7 +35,7 @@ class CsvTable {
 class RowTable : CsvTable {
  public:
   /// As CsvTable.
-  RowTable(std::FILE* out, const std::vector<std::string>& struts);
+  RowTable(std::FILE* out, const AskedVehicle& vehicle);
 
   void add(std::size_t strut, const MonitorReport& report);
 

@@ -1,13 +1,11 @@
 #include <cstdio>
 
 #include "../ros/model_file.h"
-#include "bag_options.h"
 #include "command.h"
 #include "long_work.h"
-#include "recorded_strut.h"
+#include "recorded_search.h"
 #include "report_page.h"
 #include "results.h"
-#include "strut_files.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
@@ -17,31 +15,34 @@ namespace {
 namespace po = boost::program_options;
 using nlohmann::json;
 
-/// @throws TooLittleError  if there is nothing to be said of any strut that is asked for.
-void requireOne(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
-  requireCoupling(found.coupling);
-  for (const std::size_t i : vehicle.asked)
-    if (found.struts[i]) return;
-  const std::size_t first = vehicle.asked.front();
-  throw TooLittleError(vehicle.names[first] + ": the drives " + found.struts[first].reason);
+/// Tells people which candidates were not tried.
+/// @return the same for programs.
+json tellNotTried(const Diagnosis& strut) {
+  json reasons = json::object();
+  for (const auto& [name, reason] : strut.not_tried) {
+    std::printf("not tried: %s, %s\n", name.c_str(), reason.c_str());
+    reasons[name] = reason;
+  }
+  return reasons;
 }
 
 /// Tells people what was found of the struts that are asked for.
 /// @return the same for programs.
-json tell(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std::vector<std::string>& changes) {
-  std::printf("%s\n", found.summary.c_str());
-  printCoupling(found.coupling, vehicle.names);
-  json whole = toJson(found.coupling, vehicle.names);
-  whole["verdict"] = nameOf(found.verdict);
-  whole["summary"] = found.summary;
-  whole["selected"] = json::object();
+json tell(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std::vector<std::string>& changes,
+          const TopicGaps& gaps) {
+  json whole = wholeJson(vehicle, found.coupling, gaps);
+  if (!vehicle.isStrutAlone()) {
+    std::printf("%s\n", found.summary.c_str());
+    printCoupling(found.coupling, vehicle.names);
+    whole.update({{"verdict", nameOf(found.verdict)}, {"summary", found.summary}, {"selected", json::object()}});
+  }
   for (const std::size_t i : vehicle.asked) {
     const Diagnosis& strut = found.struts[i];
-    json& its = whole["struts"][vehicle.names[i]];
-    std::printf("\n%s: ", vehicle.names[i].c_str());
+    json& its = vehicle.resultsOf(i, whole);
+    std::printf("\n%s", vehicle.prefix(i, ": ").c_str());
     if (strut) {
       printSearch(strut);
-      its = toJson(strut);
+      its.update(toJson(strut));
       its["verdict"] = nameOf(found.verdictOn(i));
     } else {
       std::printf("the drives %s\n", strut.reason.c_str());
@@ -49,7 +50,11 @@ json tell(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std:
     }
     printChange(changes[i]);
     if (!changes[i].empty()) its["change"] = changes[i];
-    whole["selected"][vehicle.names[i]] = its["selected"] = found.selected(i);
+    its["selected"] = found.selected(i);
+    if (vehicle.isStrutAlone())
+      its["not_tried"] = tellNotTried(strut);
+    else
+      whole["selected"][vehicle.names[i]] = its["selected"];
   }
   return whole;
 }
@@ -63,65 +68,26 @@ std::string modelText(const VehicleDiagnosis& found, const AskedVehicle& vehicle
   return toYaml(models);
 }
 
-void diagnoseStrut(const po::variables_map& values) {
-  const int threads = threadsOf(values);
-  const ModelOptions models = readModelOptions(values);
-  const BagOptions options = readBagOptions(values, true);
+void search(const po::variables_map& values) {
+  DiagnoseOptions searching;
+  searching.threads = threadsOf(values);
+  AskedDrives asked(values);
+  const AskedVehicle& vehicle = asked.options.vehicle;
   std::optional<TextFile> file = outputFile(values, "json"), model = outputFile(values, "output");
   std::optional<ReportPage> page;
-  if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>());
-
-  TopicGaps gaps(options.pipeline.shell.input_timeout);
-  Progress progress("fitting", 1.0);
-  const RecordedDiagnosis recorded =
-      diagnoseBags(options, models, threads, gaps, [&](double share) { progress.update(share); });
-  const Diagnosis& found = recorded.found;
-  progress.clear();
-  gaps.print();
-  printSearch(found);
-  printChange(recorded.change);
-  json whole = toJson(found);
-  whole["silent"] = gaps.toJson();
-  if (!recorded.change.empty()) whole["change"] = recorded.change;
-  whole["not_tried"] = json::object();
-  for (const auto& [name, reason] : found.not_tried) {
-    std::printf("not tried: %s, %s\n", name.c_str(), reason.c_str());
-    whole["not_tried"][name] = reason;
-  }
-  if (file) file->commit(whole.dump(2) + '\n');
-  if (model) model->commit(toYaml(found.model()));
-  if (page)
-    page->write(found, recorded.drives, recorded.options,
-                {fileNames(options.bags.paths), originOf(values, options.bags.topics), recorded.change});
-}
-
-void diagnoseStruts(const po::variables_map& values) {
-  AskedVehicle vehicle = readVehicle(values);
-  DiagnoseOptions options;
-  options.candidates = readEffects(values);
-  options.threads = threadsOf(values);
-  const KnownModels models = readModels(values, vehicle, options.candidates);
-  std::optional<TextFile> file = outputFile(values, "json"), model = outputFile(values, "output");
-  std::optional<VehiclePage> page;
   if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>(), vehicle);
-
-  VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
-  TopicGaps gaps(settings.common.shell.input_timeout);
-  const std::vector<VehicleDrive> drives = readDrives(values, vehicle, settings.common, gaps);
+  asked.read();
   Progress progress("searching", 1.0);
-  options.progress = [&](double share) { progress.update(share); };
-  const VehicleDiagnosis found = diagnoseVehicle(drives, vehicle.names, diagnoseOptionsOf(settings, options), models);
-  gaps.explain([&] { requireOne(found, vehicle); });
-  const std::vector<std::string> changes = changesOf(drives, vehicle.names, settings);
+  searching.progress = [&](double share) { progress.update(share); };
+  const VehicleDiagnosis found = diagnoseBags(asked, searching);
+  const std::vector<std::string> changes = changesOf(asked);
   progress.clear();
-  json whole = tell(found, vehicle, changes);
-  whole["silent"] = gaps.toJson();
+  printBags(asked.options, asked.bags, asked.gaps);
+  const json whole = tell(found, vehicle, changes, asked.gaps);
   if (file) file->commit(whole.dump(2) + '\n');
   if (model) model->commit(modelText(found, vehicle));
-  if (page)
-    page->write(found, options, changes,
-                {fileNames(values["bag"].as<std::vector<std::string>>()),
-                 originOf(values, topicsOf(VehicleStreams(vehicle.layout)))});
+  const ImuBags& bags = asked.options.bags;
+  if (page) page->write(found, searching, changes, {fileNames(bags.paths), originOf(values, bags.allTopics())});
 }
 
 }  // namespace
@@ -141,10 +107,7 @@ void diagnose(const Arguments& arguments) {
   requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, outputs);
   threadsOf(*values);  // refuses a wrong number before any file is read
   const Interruption interruption;
-  if (isOfVehicle(*values))
-    diagnoseStruts(*values);
-  else
-    diagnoseStrut(*values);
+  search(*values);
   printWritten(*values, outputs);
 }
 

@@ -1,64 +1,42 @@
 #include <cstdio>
+#include <utility>
 
-#include "bag_options.h"
 #include "command.h"
 #include "health_page.h"
 #include "long_work.h"
-#include "recorded_strut.h"
+#include "recorded_monitor.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
-#include "watched_vehicle.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 namespace po = boost::program_options;
 
-void watchStrut(const po::variables_map& values) {
+void watchBags(const po::variables_map& values) {
   const BagOptions options = readLiveOptions(values);
-  const std::optional<HealthyStrut> healthy = healthyOf(values, options.pipeline);
-  HealthFiles files(values, {});
-  RecordedMonitor recorded(options, healthy, [&](const HealthMoment& moment, const Baseline& judged_by) {
-    files.add(0, moment, judged_by);
-  });
+  const AskedVehicle& vehicle = options.vehicle;
+  HealthyStruts healthy = healthyOf(values, options);
+  HealthFiles files(values, vehicle);
+  RecordedMonitor recorded(options, std::move(healthy),
+                           [&](std::size_t strut, const HealthMoment& moment, const Baseline& judged_by) {
+                             files.add(strut, moment, judged_by);
+                           });
   const std::vector<HealthContent::Recording> recordings = recorded.read();
-  const SuspensionMonitor& monitor = recorded.monitor();
-  const std::string reference = describeReference(monitor.baseline(), recorded.baselineFile());
-  nlohmann::json whole = toJson(recorded.log(), monitor);
-  whole["silent"] = recorded.gaps().toJson();
-  files.commit(whole, {{recorded.log(), files.course(0), monitor, recordings, reference, ""}},
-               originOf(values, options.bags.topics));
-  recorded.printInput();
-  printHealth(recorded.log(), monitor, reference);
-}
-
-void watchStruts(const po::variables_map& values) {
-  AskedVehicle vehicle = readVehicle(values);
-  const VehicleOptions options = VehicleOptions::fromValues(vehicle.layout, gatherOptions(values));
-  const std::vector<WatchedStrut> watched = readWatched(values, vehicle, options);
-  HealthFiles files(values, vehicle.only ? std::vector<std::string>{} : vehicle.names);
-  const auto placeInFiles = [&](std::size_t strut) { return vehicle.only ? 0 : strut; };
-  WatchedVehicle recorded(values, vehicle, options, watched,
-                          [&](std::size_t strut, const HealthMoment& moment, const Baseline& healthy) {
-                            if (!vehicle.only || *vehicle.only == strut)
-                              files.add(placeInFiles(strut), moment, healthy);
-                          });
-  const std::vector<HealthContent::Recording> recordings = recorded.read();
-  recorded.printInput();
-  recorded.requireCoupling();
-  nlohmann::json whole = toJson(recorded.coupling(), vehicle.names);
-  whole["silent"] = recorded.gaps().toJson();
+  nlohmann::json whole = wholeJson(vehicle, recorded.coupling(), recorded.gaps());
   std::vector<HealthContent> contents;
   for (const std::size_t i : vehicle.asked) {
-    const SuspensionMonitor& strut = *recorded.monitor().strut(i);
+    const SuspensionMonitor& strut = recorded.strut(i);
     const std::string reference = describeReference(strut.baseline(), recorded.baselineFile(i));
-    whole["struts"][vehicle.names[i]] = toJson(recorded.log(i), strut);
-    contents.push_back(
-        {recorded.log(i), files.course(placeInFiles(i)), strut, recordings, reference, vehicle.names[i]});
-    std::printf("\n%s, ", vehicle.names[i].c_str());
-    printHealth(recorded.log(i), strut, reference);
+    vehicle.resultsOf(i, whole).update(toJson(recorded.log(i), strut));
+    contents.push_back({recorded.log(i), files.course(i), strut, recordings, reference, vehicle.names[i]});
   }
-  files.commit(whole, contents, originOf(values, recorded.topics()));
+  files.commit(whole, contents, originOf(values, options.bags.allTopics()));
+  recorded.printInput();
+  for (std::size_t k = 0; k < contents.size(); ++k) {
+    std::printf("\n%s", vehicle.prefix(vehicle.asked[k], ", ").c_str());
+    printHealth(contents[k].log, contents[k].monitor, contents[k].reference);
+  }
 }
 
 }  // namespace
@@ -78,10 +56,7 @@ void health(const Arguments& arguments) {
   const std::vector<std::string> outputs{"csv", "json", kReport};
   requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, outputs);
   const Interruption interruption;
-  if (isOfVehicle(*values))
-    watchStruts(*values);
-  else
-    watchStrut(*values);
+  watchBags(*values);
   printWritten(*values, outputs);
 }
 

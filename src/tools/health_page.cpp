@@ -1,6 +1,5 @@
 #include "health_page.h"
 
-#include <algorithm>
 #include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 #include <cstdio>
@@ -79,17 +78,17 @@ json HealthCourse::toJson() const {
   return {{"time", time}, {"damping", courseOf(&Point::damping)}, {"stiffness", courseOf(&Point::stiffness)}};
 }
 
-HealthFiles::HealthFiles(const po::variables_map& values, const std::vector<std::string>& struts)
+HealthFiles::HealthFiles(const po::variables_map& values, const AskedVehicle& vehicle)
     : json_(outputFile(values, "json")),
       csv_(outputFile(values, "csv")),
-      table_(csv_ ? csv_->stream() : nullptr, struts, "level,message,b1,b0,b1_stddev,b0_stddev,offset"),
-      courses_(std::max<std::size_t>(1, struts.size())) {
+      table_(csv_ ? csv_->stream() : nullptr, vehicle, "level,message,b1,b0,b1_stddev,b0_stddev,offset"),
+      courses_(vehicle.names.size()) {
   if (values.count(kReport) != 0) page_.emplace(values[kReport].as<std::string>());
 }
 
 void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Baseline& healthy) {
   const StrutEstimate& estimate = moment.estimate;
-  if (csv_)
+  if (table_.isOf(strut))
     std::fprintf(table_.beginLine(strut, moment.stamp), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n",
                  nameOf(moment.level), boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(),
                  estimate.damping_to_mass, estimate.stiffness_to_mass, estimate.damping_to_mass_stddev,

@@ -55,14 +55,13 @@ struct HealthContent {
   std::string strut;      ///< its name in the vehicle; empty: it is alone
 };
 
-/// The files of `suspension_bag health`, and what they are made of while the monitor runs: of one strut, or of all
-/// those of a vehicle that are asked for.
+/// The files of `suspension_bag health`, and what they are made of while the monitor runs.
 class HealthFiles {
  public:
   /// Begins the files that the options ask for.
-  /// @param struts  names of a vehicle's; empty: one strut, by itself.
+  /// @param vehicle  outlives this object.
   /// @throws std::runtime_error  naming the file that cannot be written.
-  HealthFiles(const boost::program_options::variables_map& values, const std::vector<std::string>& struts);
+  HealthFiles(const boost::program_options::variables_map& values, const AskedVehicle& vehicle);
 
   /// As HealthLog calls its sink.
   /// @param healthy  what the strut is judged by then.

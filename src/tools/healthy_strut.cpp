@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "../ros/live_baseline.h"
 #include "../ros/yaml_settings.h"
@@ -19,6 +20,7 @@ bool areSettings(const OptionMap& values) {
 
 /// @return by strut what the file of --baseline has of it; nothing where it has nothing.
 std::vector<std::optional<Baseline>> readHealthyStruts(const std::string& path, const AskedVehicle& vehicle) {
+  if (vehicle.isStrutAlone()) return {readHealthy(path)};
   const OptionMap settings = readYaml(path);
   if (!areSettings(settings)) return readBaselines(path, vehicle);
   std::vector<std::optional<Baseline>> baselines;
@@ -31,61 +33,38 @@ std::vector<std::optional<Baseline>> readHealthyStruts(const std::string& path, 
 
 }  // namespace
 
-HealthyStrut readHealthy(const std::string& path) {
+Baseline readHealthy(const std::string& path) {
   OptionMap values = readYaml(path);
-  return prefixed(path + ": ", [&]() -> HealthyStrut {
-    if (areSettings(values)) return {nominalOf(PipelineOptions::fromValues(values).monitor), path};
-    return {takeBaseline(values), path};
+  return prefixed(path + ": ", [&] {
+    return areSettings(values) ? nominalOf(PipelineOptions::fromValues(values).monitor) : takeBaseline(values);
   });
 }
 
-std::optional<HealthyStrut> beforehand(const std::optional<HealthyStrut>& given, const PipelineOptions& options) {
-  if (given) {
-    requireOneReference(given->file, options.monitor);
-    return given;
-  }
-  const LiveBaseline live(options);
-  if (!live.known()) return std::nullopt;
-  return HealthyStrut{*live.known(), options.shell.baseline_file};
+HealthyStruts beforehand(HealthyStruts given, const BagOptions& options) {
+  given.resize(options.vehicle.names.size());
+  for (std::size_t i = 0; i < given.size(); ++i)
+    prefixed(options.vehicle.prefix(i, ": ", "struts/"), [&] {
+      const PipelineOptions& strut = options.settings.struts[i];
+      if (given[i]) return requireOneReference(given[i]->file, strut.monitor);
+      if (const LiveBaseline live(strut); live.known()) given[i] = {*live.known(), strut.shell.baseline_file};
+    });
+  return given;
 }
 
-std::optional<HealthyStrut> healthyOf(const boost::program_options::variables_map& values,
-                                      const PipelineOptions& options) {
-  std::optional<HealthyStrut> given;
-  if (values.count(kBaseline) != 0) given = readHealthy(values[kBaseline].as<std::string>());
-  return beforehand(given, options);
-}
-
-std::vector<std::optional<HealthyStrut>> healthyOf(const boost::program_options::variables_map& values,
-                                                   const AskedVehicle& vehicle, const VehicleOptions& options) {
-  std::vector<std::optional<HealthyStrut>> healthy(vehicle.names.size());
+HealthyStruts healthyOf(const boost::program_options::variables_map& values, const BagOptions& options) {
+  HealthyStruts given;
   if (values.count(kBaseline) != 0) {
     const auto path = values[kBaseline].as<std::string>();
-    const std::vector<std::optional<Baseline>> baselines = readHealthyStruts(path, vehicle);
-    for (std::size_t i = 0; i < healthy.size(); ++i)
-      if (baselines[i] && !baselines[i]->isEmpty()) healthy[i] = HealthyStrut{*baselines[i], path};
+    for (const std::optional<Baseline>& healthy : readHealthyStruts(path, options.vehicle)) {
+      given.emplace_back();
+      if (healthy && !healthy->isEmpty()) given.back() = {*healthy, path};
+    }
   }
-  for (std::size_t i = 0; i < healthy.size(); ++i)
-    prefixed("struts/" + vehicle.names[i] + ": ", [&] { healthy[i] = beforehand(healthy[i], options.struts[i]); });
-  return healthy;
+  return beforehand(std::move(given), options);
 }
 
-Baseline knownHealthy(const std::optional<HealthyStrut>& given, const PipelineOptions& options) {
-  const std::optional<HealthyStrut> known = beforehand(given, options);
-  return known ? known->baseline : nominalOf(options.monitor);
-}
-
-std::vector<std::string> changesOf(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
-                                   const VehicleOptions& settings) {
-  std::vector<std::string> changes(names.size());
-  std::vector<Baseline> healthy;
-  for (const PipelineOptions& strut : settings.struts) healthy.push_back(knownHealthy({}, strut));
-  if (std::all_of(healthy.begin(), healthy.end(), [](const Baseline& strut) { return strut.isEmpty(); }))
-    return changes;
-  const VehicleIdentification identified = identifyVehicle(drives, names, identifyOptionsOf(settings));
-  for (std::size_t i = 0; i < names.size(); ++i)
-    changes[i] = describeChange(identified.struts[i], healthy[i], settings.struts[i].monitor);
-  return changes;
+Baseline knownHealthy(const std::optional<HealthyStrut>& healthy, const PipelineOptions& options) {
+  return healthy ? healthy->baseline : nominalOf(options.monitor);
 }
 
 }  // namespace suspension_health_monitor

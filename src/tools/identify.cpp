@@ -1,16 +1,14 @@
+#include <algorithm>
 #include <cstdio>
 
-#include "bag_options.h"
 #include "command.h"
 #include "csv_tables.h"
 #include "long_work.h"
-#include "recorded_strut.h"
+#include "recorded_monitor.h"
 #include "results.h"
-#include "strut_files.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
-#include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
-#include "watched_vehicle.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -22,12 +20,11 @@ constexpr std::size_t kTableLines = 12;
 
 /// The files that are asked for, begun.
 struct Files {
-  /// @param struts  names of a vehicle's, for a column; empty: one strut.
-  Files(const po::variables_map& values, const std::vector<std::string>& struts)
+  Files(const po::variables_map& values, const AskedVehicle& vehicle)
       : csv(outputFile(values, "csv")),
         findings(outputFile(values, "json")),
         settings(outputFile(values, "output")),
-        rows(csv ? csv->stream() : nullptr, struts) {}
+        rows(csv ? csv->stream() : nullptr, vehicle) {}
 
   void commitTables(const json& whole) {
     if (findings) findings->commit(whole.dump(2) + '\n');
@@ -38,24 +35,62 @@ struct Files {
   RowTable rows;
 };
 
-json toJson(RecordedMonitor& recorded, const IdentifyResult& found, const std::string& change) {
-  const MonitorReport& report = recorded.monitor().report();
-  const StreamGrid& streams = recorded.grid();
-  const RejectCounts counts = recorded.rejected();
-  json whole = toJson(found, change);
-  whole.update({{"alignment", streams.describeAlignment()},
-                {"bridged", streams.bridged()},
-                {"silent", recorded.gaps().toJson()},
-                {"mean_period", recorded.monitor().input().mean_period}});
+/// What is known at the end.
+struct Found {
+  Found(RecordedMonitor& recorded, const BagOptions& options, const HealthyStruts& healthy)
+      : vehicle(recorded.identified()) {
+    for (std::size_t i = 0; i < vehicle.struts.size(); ++i) {
+      const PipelineOptions& strut = options.settings.struts[i];
+      changes.push_back(describeChange(vehicle.struts[i], knownHealthy(healthy[i], strut), strut.monitor));
+    }
+    if (changes.size() > 1) body = inertiaOf(recorded.monitor().body(), recorded.monitor().tops()->places());
+  }
+
+  VehicleIdentification vehicle;
+  std::vector<std::string> changes;  // by strut, against the healthy one
+  std::optional<BodyInertiaResult> body;
+};
+
+json toJson(const RecordedMonitor& recorded, const Found& found) {
+  json whole = wholeJson(recorded.vehicle(), found.vehicle.coupling, recorded.gaps());
+  whole["alignment"] = recorded.grid().describeAlignment();
+  whole["bridged"] = recorded.grid().bridged();
+  const RejectCounts counts = recorded.pipeline().rejected();
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)
     whole["rejected"][std::string(kRejectReasonNames[i])] = counts.count(static_cast<RejectReason>(i));
-  if (const TyreTracker* tyre = recorded.strut().tyre())
+  if (found.body) whole["body"] = toJson(*found.body);
+  for (const std::size_t i : recorded.vehicle().asked) {
+    json& its = recorded.vehicle().resultsOf(i, whole);
+    its.update(toJson(found.vehicle.struts[i], found.changes[i]));
+    its["mean_period"] = recorded.strut(i).input().mean_period;
+  }
+  const ModelReport& report = recorded.strut(0).report();
+  if (const TyreTracker* tyre = recorded.pipeline().tyre())
     whole["tyre"] = {{"ls", toJson(tyre->report().ls, report.ls)}, {"la", toJson(tyre->report().la, report.la)}};
   return whole;
 }
 
-void printWarnings(const IdentifyResult& found) {
-  for (const std::string& warning : found.warnings) std::printf("warning: %s\n", warning.c_str());
+/// @param table  of the one strut that is asked for.
+void print(const RecordedMonitor& recorded, const Found& found, const std::vector<MonitorReport>& table) {
+  const AskedVehicle& vehicle = recorded.vehicle();
+  recorded.printInput();
+  printCoupling(found.vehicle.coupling, vehicle.names);
+  if (found.body) printBody(*found.body);
+  if (vehicle.only) {
+    std::printf("\n");
+    printTable(table);
+  }
+  for (const std::size_t i : vehicle.asked) {
+    const MonitorReport& report = recorded.strut(i).report();
+    std::printf("\n%s", vehicle.prefix(i, ", ").c_str());
+    printEstimates(found.vehicle.struts[i], recorded.strut(i).options().sprung_mass);
+    if (const TyreTracker* tyre = recorded.pipeline().tyre()) {
+      printTyre("LS", tyre->report().ls, report.ls);
+      printTyre("LA", tyre->report().la, report.la);
+    }
+    printChange(found.changes[i]);
+    for (const std::string& warning : found.vehicle.struts[i].warnings) std::printf("warning: %s\n", warning.c_str());
+  }
 }
 
 /// @return why the strut is not known, neither over the whole drive nor at its end, in words; empty: it is.
@@ -70,107 +105,76 @@ std::string whyNotValid(const IdentifyResult& found, const MonitorOptions& optio
          "or not the two sides of one strut";
 }
 
-std::string suspicions(const RecordedMonitor& recorded, const IdentifiedStrut& ls) {
-  const SensorReport& sensor = recorded.monitor().report().health.sensor;
+std::string suspicions(const RecordedMonitor& recorded, std::size_t strut, const IdentifiedStrut& ls) {
+  const SensorReport& sensor = recorded.strut(strut).report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated) return "; " + describe(sensor);
-  return describeSuspicions(recorded.grid(), ls);
+  return recorded.vehicle().isStrutAlone() ? describeSuspicions(recorded.grid(), ls) : "";
 }
 
-void identifyStrut(const po::variables_map& values) {
+/// @throws TooLittleError  if no strut that is asked for is known.
+void requireValid(const RecordedMonitor& recorded, const std::vector<IdentifyResult>& found,
+                  const VehicleOptions& settings) {
+  const AskedVehicle& vehicle = recorded.vehicle();
+  std::vector<std::string> reasons;
+  for (const std::size_t i : vehicle.asked) {
+    const std::string reason = whyNotValid(found[i], settings.struts[i].monitor);
+    if (reason.empty()) return;
+    reasons.push_back(vehicle.prefix(i, ": ") + reason + suspicions(recorded, i, found[i].ls));
+  }
+  throw TooLittleError(join(reasons, "; ") + describeRejected(recorded.pipeline().rejected()));
+}
+
+/// The struts that may be what health is judged by, and what is the matter with the others.
+struct Nominal {
+  std::map<std::string, StrutOfDrive> struts;
+  std::vector<std::string> lacks;
+
+  Nominal(const RecordedMonitor& recorded, const std::vector<IdentifyResult>& found, const VehicleOptions& settings) {
+    for (const std::size_t i : recorded.vehicle().asked) {
+      const std::vector<std::string> faults = recorded.mountFaults(i);
+      std::string lack = whyNotNominal(found[i], settings.struts[i].monitor);
+      if (lack.empty() && !faults.empty()) lack = "mend a sensor first: " + faults.front();
+      if (lack.empty())
+        struts.emplace(recorded.vehicle().names[i], *strutOf(found[i]));
+      else
+        lacks.push_back(recorded.vehicle().prefix(i, ": ") + lack);
+    }
+  }
+
+  std::string text(const po::variables_map& values, const BagOptions& options) const {
+    const OptionMap given = givenSettings(values);
+    const std::vector<std::string> drives = fileNames(options.bags.paths);
+    if (!options.vehicle.only) return settingsOf(struts, given, drives);
+    const auto& [name, strut] = *struts.begin();
+    return settingsOf(strut, settingsFor(name, given), drives);
+  }
+};
+
+void identifyBags(const po::variables_map& values) {
   const BagOptions options = readBagOptions(values);
-  const MonitorOptions& settings = options.pipeline.monitor;
-  const Baseline healthy = knownHealthy(healthyOf(values, options.pipeline), options.pipeline);
-  Files files(values, {});
-  Digest<MonitorReport> digest(kTableLines);
-  RecordedMonitor recorded(options, {}, {}, [&](const MonitorReport& report) {
-    files.rows.add(0, report);
-    if (report.has_row) digest.add(report);
+  const AskedVehicle& vehicle = options.vehicle;
+  const HealthyStruts healthy = healthyOf(values, options);
+  Files files(values, vehicle);
+  Digest<MonitorReport> table(kTableLines);
+  RecordedMonitor recorded(options, healthy, {}, [&](std::size_t strut, const MonitorReport& report) {
+    files.rows.add(strut, report);
+    if (vehicle.only == strut && report.has_row) table.add(report);
   });
   recorded.read();
   files.rows.finish();
-  VehiclePipeline& strut = recorded.strut();
-  IdentifyResult found = identified(recorded.monitor(), strut.overTheDrive(), strut.rejected());
-  const std::vector<std::string> faults = recorded.mountFaults();
-  found.warnings.insert(found.warnings.end(), faults.begin(), faults.end());
-  const std::string change = describeChange(found, healthy, settings);
-  files.commitTables(toJson(recorded, found, change));
-  std::string not_nominal = whyNotNominal(found, settings);
-  if (not_nominal.empty() && !faults.empty()) not_nominal = "mend a sensor first: " + faults.front();
-  if (files.settings && not_nominal.empty())
-    files.settings->commit(settingsOf(*strutOf(found), monitorSettings(values), fileNames(options.bags.paths)));
-  recorded.printInput();
-  printTable(digest.items());
-  std::printf("\n");
-  printEstimates(found, settings.sprung_mass);
-  if (const TyreTracker* tyre = strut.tyre()) {
-    printTyre("LS", tyre->report().ls, recorded.monitor().report().ls);
-    printTyre("LA", tyre->report().la, recorded.monitor().report().la);
-  }
-  printChange(change);
-  const std::string not_valid = whyNotValid(found, settings);
-  if (not_valid.empty()) printWarnings(found);
+  const Found found(recorded, options, healthy);
+  files.commitTables(toJson(recorded, found));
+  const Nominal nominal(recorded, found.vehicle.struts, options.settings);
+  const bool has_settings = files.settings && !nominal.struts.empty();
+  if (has_settings) files.settings->commit(nominal.text(values, options));
+  print(recorded, found, table.items());
+  if (has_settings)
+    for (const std::string& lack : nominal.lacks) std::printf("warning: no settings of %s\n", lack.c_str());
   std::vector<std::string> outputs{"csv", "json"};
-  if (not_nominal.empty()) outputs.emplace_back("output");
+  if (has_settings) outputs.emplace_back("output");
   printWritten(values, outputs);
-  if (!not_valid.empty())
-    throw TooLittleError(not_valid + suspicions(recorded, found.ls) + describeRejected(recorded.rejected()));
-  if (files.settings && !not_nominal.empty()) throw TooLittleError("no settings are written: " + not_nominal);
-}
-
-std::string settingsText(const std::map<std::string, StrutOfDrive>& struts, const OptionMap& given,
-                         const po::variables_map& values, const AskedVehicle& vehicle) {
-  if (struts.empty()) throw TooLittleError("no estimate is valid: there are no settings to write");
-  const std::vector<std::string> drives = fileNames(values["bag"].as<std::vector<std::string>>());
-  if (!vehicle.only) return settingsOf(struts, given, drives);
-  const auto& [name, strut] = *struts.begin();
-  return settingsOf(strut, settingsFor(name, given), drives);
-}
-
-void identifyStruts(const po::variables_map& values) {
-  AskedVehicle vehicle = readVehicle(values);
-  const OptionMap given = gatherOptions(values);
-  const VehicleOptions settings = VehicleOptions::fromValues(vehicle.layout, given);
-  const std::vector<std::optional<HealthyStrut>> healthy = healthyOf(values, vehicle, settings);
-  Files files(values, vehicle.only ? std::vector<std::string>{} : vehicle.names);
-  WatchedVehicle recorded(values, vehicle, settings, plainStruts(vehicle.names.size()), {},
-                          [&](std::size_t strut, const MonitorReport& report) {
-                            if (!vehicle.only) files.rows.add(strut, report);
-                            if (vehicle.only == strut) files.rows.add(0, report);
-                          });
-  recorded.requirePeriod();
-  recorded.read();
-  files.rows.finish();
-  recorded.printInput();
-  const VehicleIdentification found = recorded.identified();
-  printCoupling(found.coupling, vehicle.names);
-  json whole = toJson(found.coupling, vehicle.names);
-  whole["silent"] = recorded.gaps().toJson();
-  if (vehicle.names.size() > 1) {
-    const BodyInertiaResult body = inertiaOf(recorded.monitor().body(), recorded.monitor().tops()->places());
-    printBody(body);
-    whole["body"] = toJson(body);
-  }
-  std::map<std::string, StrutOfDrive> struts;
-  for (const std::size_t i : vehicle.asked) {
-    const IdentifyResult& strut = found.struts[i];
-    const MonitorOptions& its_settings = settings.struts[i].monitor;
-    std::printf("\n%s, ", vehicle.names[i].c_str());
-    printEstimates(strut, its_settings.sprung_mass);
-    const std::string change = describeChange(strut, knownHealthy(healthy[i], settings.struts[i]), its_settings);
-    printChange(change);
-    if (const std::optional<StrutOfDrive> its = strutOf(strut)) {
-      const std::string not_nominal = whyNotNominal(strut, its_settings);
-      if (not_nominal.empty())
-        struts.emplace(vehicle.names[i], *its);
-      else if (files.settings)
-        std::printf("warning: no settings of it are written: %s\n", not_nominal.c_str());
-    }
-    printWarnings(strut);
-    whole["struts"][vehicle.names[i]] = toJson(strut, change);
-  }
-  files.commitTables(whole);
-  if (files.settings) files.settings->commit(settingsText(struts, given, values, vehicle));
-  printWritten(values, {"csv", "json", "output"});
+  requireValid(recorded, found.vehicle.struts, options.settings);
+  if (files.settings && !has_settings) throw TooLittleError("no settings are written: " + join(nominal.lacks, "; "));
 }
 
 }  // namespace
@@ -188,10 +192,7 @@ void identify(const Arguments& arguments) {
   if (!values) return;
   requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, {"csv", "json", "output"});
   const Interruption interruption;
-  if (isOfVehicle(*values))
-    identifyStruts(*values);
-  else
-    identifyStrut(*values);
+  identifyBags(*values);
 }
 
 }  // namespace suspension_health_monitor

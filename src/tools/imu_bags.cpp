@@ -196,6 +196,19 @@ std::vector<std::string> neededTopics(const ImuBags& bags) {
 
 }  // namespace
 
+std::vector<std::string> ImuBags::allTopics() const {
+  std::vector<std::string> all = topics;
+  all.insert(all.end(), wrench_topics.begin(), wrench_topics.end());
+  return all;
+}
+
+ImuBags ImuBags::of(const std::string& path, TopicGaps& its_gaps) const {
+  ImuBags bag = *this;
+  bag.paths = {path};
+  bag.gaps = &its_gaps;
+  return bag;
+}
+
 void readTopics(const ImuBags& bags, const TopicSinks& take) {
   for (const std::string& path : bags.paths) {
     BagFile file(path);

@@ -18,20 +18,25 @@ namespace suspension_health_monitor {
 /// Options that name the topics, by Side.
 inline constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
 
-/// What to read: one or more bags, the topics of the two IMUs, and a part of each bag.
+/// What to read: one or more bags, the topics, and a part of each bag.
 struct ImuBags {
   std::vector<std::string> paths;
-  std::vector<std::string> topics;         ///< by Side; the road's may be left out. Or any, for readTopics()
-  std::vector<std::string> wrench_topics;  ///< of geometry_msgs/WrenchStamped, for readTopics()
-  /// By topic, then by wrench topic, the option or setting that names it.
-  std::vector<std::string> named_by{kTopicOptions.begin(), kTopicOptions.end()};
-  double start = 0.0;  ///< seconds after the beginning of each bag
+  std::vector<std::string> topics;         ///< of sensor_msgs/Imu
+  std::vector<std::string> wrench_topics;  ///< of geometry_msgs/WrenchStamped
+  std::vector<std::string> named_by;       ///< by topic, then by wrench topic, the option or setting that names it
+  double start = 0.0;                      ///< seconds after the beginning of each bag
   double end = std::numeric_limits<double>::infinity();
   std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted
 
   TopicGaps* gaps = nullptr;   ///< told of all that is read, if it is given; outlives the reading
   bool reads_ahead = true;     ///< in a second thread
   std::size_t not_needed = 0;  ///< of `topics` so many, the last: their silence is none
+
+  /// @return the topics, then the wrench topics.
+  std::vector<std::string> allTopics() const;
+
+  /// @return the same of one bag alone.
+  ImuBags of(const std::string& path, TopicGaps& its_gaps) const;
 };
 
 /// What is called with every message, its place among ImuBags::topics and then ImuBags::wrench_topics, and the time of

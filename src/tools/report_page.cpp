@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bag_options.h"
+#include "recorded_search.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
@@ -85,8 +85,20 @@ std::vector<std::string> partnersOf(std::size_t place, const VehicleCoupling& co
 
 }  // namespace
 
-void ReportPage::write(const Diagnosis& found, const std::vector<Drive>& drives, const DiagnoseOptions& options,
-                       const PageSource& source, const InVehicle* vehicle) {
+ReportPage::ReportPage(const std::string& folder, const AskedVehicle& vehicle) : vehicle_(vehicle) {
+  if (vehicle.only) {
+    struts_.try_emplace(*vehicle.only, folder);
+    return;
+  }
+  page_.emplace(folder);
+  for (std::size_t i = 0; i < vehicle.names.size(); ++i)
+    struts_.try_emplace(i, (std::filesystem::path(folder) / vehicle.names[i]).string());
+}
+
+void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options,
+                            const std::string& change, PageSource source) {
+  const Diagnosis& found = all.struts[place];
+  const std::vector<Drive>& drives = all.drives[place];
   CompareOptions comparing;
   comparing.sample_period = options.sample_period;
   comparing.model = found.base.model;
@@ -102,30 +114,16 @@ void ReportPage::write(const Diagnosis& found, const std::vector<Drive>& drives,
     comparing.fit = false;
     after = compare(drives, comparing);
   }
-  page_.write(searchTemplate(), findingsOf({found, options.candidates, *options.sample_period, source, before,
-                                            after && *after ? &*after : nullptr, vehicle}));
-}
-
-VehiclePage::VehiclePage(const std::string& folder, const AskedVehicle& vehicle) : vehicle_(vehicle) {
-  if (vehicle.only) {
-    struts_.try_emplace(*vehicle.only, folder);
-    return;
-  }
-  page_.emplace(folder);
-  for (std::size_t i = 0; i < vehicle.names.size(); ++i)
-    struts_.try_emplace(i, (std::filesystem::path(folder) / vehicle.names[i]).string());
-}
-
-void VehiclePage::writeStrut(std::size_t place, const VehicleDiagnosis& found, const DiagnoseOptions& options,
-                             const std::string& change, PageSource source) {
   source.change = change;
-  const InVehicle in{vehicle_.names[place], vehicle_.file, partnersOf(place, found.coupling, vehicle_.names),
+  const InVehicle in{vehicle_.names[place], vehicle_.file, partnersOf(place, all.coupling, vehicle_.names),
                      page_.has_value()};
-  struts_.at(place).write(found.struts[place], found.drives[place], options, source, &in);
+  struts_.at(place).write(searchTemplate(),
+                          findingsOf({found, options.candidates, *options.sample_period, source, before,
+                                      after && *after ? &*after : nullptr, vehicle_.isStrutAlone() ? nullptr : &in}));
 }
 
-void VehiclePage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options,
-                        const std::vector<std::string>& changes, const PageSource& source) {
+void ReportPage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options,
+                       const std::vector<std::string>& changes, const PageSource& source) {
   if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, changes[*vehicle_.only], source);
   double samples = 0.0;
   for (const Drive& drive : found.drives.front()) samples += static_cast<double>(drive.samples.size());

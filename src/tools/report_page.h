@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "asked_vehicle.h"
 #include "html_page.h"
-#include "recorded_vehicle.h"
+#include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
@@ -54,46 +56,31 @@ nlohmann::json forcesJson(const ReportContent& content);
 /// How to put the model to use: the text of its file, and what to type.
 nlohmann::json addingJson(const ReportContent& content);
 
-/// The page of a search: the verdict, the error step by step, measured against predicted over time, the residual from
-/// all sides, the force that was missing, every candidate, and how to use the model. Recordings beyond an hour or so
-/// are thinned to the extremes of short ranges, so that the page stays below 5 MB.
+/// The pages of a search: of every strut the verdict, the error step by step, measured against predicted over time, the
+/// residual from all sides, the force that was missing, every candidate, and how to use the model. Recordings beyond an
+/// hour or so are thinned to the extremes of short ranges, so that the page stays below 5 MB. Of one strut it is
+/// DIR/report.html; of several DIR/NAME/report.html, and DIR/report.html has the vehicle from above, its verdict and
+/// its coupling.
 class ReportPage {
  public:
-  /// As HtmlPage.
-  explicit ReportPage(const std::string& folder) : page_(folder) {}
-
-  /// Compares what a search found with the drives, before and after, and writes the page.
-  /// @param drives, options  of the search.  @param vehicle  nullptr: there is none.
-  /// @throws InputError, TooLittleError  if even the model as it is cannot be compared.
-  /// @throws std::runtime_error  as HtmlPage::write().
-  void write(const Diagnosis& found, const std::vector<Drive>& drives, const DiagnoseOptions& options,
-             const PageSource& source, const InVehicle* vehicle = nullptr);
-
- private:
-  HtmlPage page_;
-};
-
-/// The pages of a search in a vehicle: DIR/report.html with the vehicle from above, its verdict and its coupling, and
-/// DIR/NAME/report.html of every strut, each as ReportPage. With --strut that strut's own is DIR/report.html, the only
-/// one.
-class VehiclePage {
- public:
   /// As HtmlPage. @param vehicle  outlives this object.
-  VehiclePage(const std::string& folder, const AskedVehicle& vehicle);
+  ReportPage(const std::string& folder, const AskedVehicle& vehicle);
 
+  /// Compares what a search found with the drives, before and after, and writes the pages.
   /// @param options  of the search, with sample_period.
   /// @param changes  by strut how it is against the healthy one, in words; empty: not known.
+  /// @throws InputError, TooLittleError  if even the model as it is cannot be compared.
   /// @throws std::runtime_error  naming the file that cannot be written.
   void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const std::vector<std::string>& changes,
              const PageSource& source);
 
  private:
-  void writeStrut(std::size_t place, const VehicleDiagnosis& found, const DiagnoseOptions& options,
+  void writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options,
                   const std::string& change, PageSource source);
 
   const AskedVehicle& vehicle_;
-  std::optional<HtmlPage> page_;              // before those of the struts, whose folders are in its folder
-  std::map<std::size_t, ReportPage> struts_;  // by place
+  std::optional<HtmlPage> page_;            // before those of the struts, whose folders are in its folder
+  std::map<std::size_t, HtmlPage> struts_;  // by place
 };
 
 }  // namespace suspension_health_monitor

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asked_vehicle.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
@@ -63,9 +64,12 @@ nlohmann::json parametersOf(const StrutModel& model);
 /// Adds "coefficients" and "shapes" by name.
 void addNumbers(const StrutModel& model, nlohmann::json& into);
 
-/// How the struts move one another; for programs with `struts` to be filled.
+/// How the struts move one another; nothing of a strut alone.
 void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names);
-nlohmann::json toJson(const VehicleCoupling& coupling, const std::vector<std::string>& names);
+
+/// @return what all commands tell programs: which topics were silent and, of a vehicle, how the struts move one
+/// another, with `struts` to be filled.
+nlohmann::json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps);
 
 /// How the body's mass is spread.
 void printBody(const BodyInertiaResult& found);

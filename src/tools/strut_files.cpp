@@ -10,7 +10,6 @@
 #include "../ros/live_baseline.h"
 #include "../ros/model_file.h"
 #include "../ros/yaml_settings.h"
-#include "bag_options.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
@@ -101,7 +100,9 @@ OptionMap othersOf(OptionMap given) {
 KnownModels readModels(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
                        const EffectLibrary& library) {
   if (values.count(kModel) == 0) return KnownModels(vehicle.names.size());
-  return readByStrut(values[kModel].as<std::string>(), vehicle, [&](OptionMap& settings) {
+  const auto path = values[kModel].as<std::string>();
+  if (vehicle.isStrutAlone()) return {readModelFile(path, library)};
+  return readByStrut(path, vehicle, [&](OptionMap& settings) {
     StrutModel model = takeModel(settings, library);
     refuseUnknown(settings, {});
     return model;

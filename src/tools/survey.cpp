@@ -9,7 +9,7 @@
 #include "../ros/conversions.h"
 #include "bag_options.h"
 #include "command.h"
-#include "recorded_strut.h"
+#include "recorded_drives.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/signal/continuity.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
@@ -56,20 +56,21 @@ struct Surveyed {
   RejectCounts rejected;
 };
 
-Surveyed survey(const ImuBags& bags, const PipelineOptions& options) {
-  const double period = *options.monitor.sample_period;
+Surveyed survey(const BagOptions& options) {
+  const double period = options.period();
   StrutBlocks blocks({}, period);
   std::optional<RoughStrut> rough;
   std::optional<Stamp> last;
   std::size_t count = 0, gaps = 0, piece = 0, longest = 0;
-  RejectCounts too_soon;
+  RejectCounts rejected;
   Drive drive;
-  ReadSamples read = readSamples(bags, options, [&](const CornerSample& sample) {
+  const auto take = [&](const VehicleSample& of_vehicle) {
+    const CornerSample sample = of_vehicle.ofStrut(0);
     const Continuity follows = last ? continuity(sample.stamp - *last, fromSeconds(period)) : Continuity::kContinues;
     last = sample.stamp;
     ++count;
     if (follows == Continuity::kTooSoon) {
-      too_soon.add(RejectReason::kTooSoon);
+      rejected.add(RejectReason::kTooSoon);
       return true;
     }
     if (follows != Continuity::kContinues) {
@@ -81,13 +82,14 @@ Surveyed survey(const ImuBags& bags, const PipelineOptions& options) {
     const BlockEstimate* estimate = blocks.push(sample);
     if (estimate != nullptr && estimate->worst() < kEnough) rough.emplace(*estimate);
     return !rough;
-  });
+  };
+  const ReadSamples read = readSamples(options.bags, options.settings.common, options.vehicle.layout, {take});
   if (const auto all = blocks.overTheDrive(); all && !rough) rough.emplace(*all);
   const bool is_seen = rough.has_value();
   if (!is_seen) rough = roughStrut({drive}, period);
   const bool clocks_differ = !is_seen && rough && rough->clocksDiffer(period);
-  read.rejected += too_soon;
-  return {rough, clocks_differ, std::move(drive), std::move(read.grid), count, gaps, longest, read.rejected};
+  for (const RejectCounts& of_sensor : read.rejected) rejected += of_sensor;
+  return {rough, clocks_differ, std::move(drive), read.grid.streams(), count, gaps, longest, rejected};
 }
 
 [[noreturn]] void refuse(const Surveyed& surveyed, double period) {
@@ -105,9 +107,9 @@ Surveyed survey(const ImuBags& bags, const PipelineOptions& options) {
       "; give integration_horizon (--set integration_horizon=0.6) to look at them all the same");
 }
 
-int proposeHorizonSamples(const ImuBags& bags, const PipelineOptions& options, bool clocks_may_differ) {
-  const double period = *options.monitor.sample_period;
-  const Surveyed surveyed = survey(bags, options);
+int proposeHorizonSamples(const BagOptions& options, bool clocks_may_differ) {
+  const double period = options.period();
+  const Surveyed surveyed = survey(options);
   if (!surveyed.rough || (surveyed.clocks_differ && !clocks_may_differ)) refuse(surveyed, period);
   return surveyed.rough->horizonSamples(period);
 }
@@ -130,12 +132,13 @@ double measurePeriod(const ImuBags& bags) {
 
 BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ) {
   BagOptions options = readLiveOptions(values);
-  MonitorOptions& monitor = options.pipeline.monitor;
-  options.horizon_measured = !monitor.integration_horizon;
-  if (options.period_measured) monitor.sample_period = measurePeriod(options.bags);
-  if (options.horizon_measured)
-    monitor.integration_horizon =
-        proposeHorizonSamples(options.bags, options.pipeline, clocks_may_differ) * *monitor.sample_period;
+  MonitorOptions& common = options.settings.common.monitor;
+  if (options.period_measured) common.sample_period = measurePeriod(options.bags);
+  for (PipelineOptions& strut : options.settings.struts) strut.monitor.sample_period = common.sample_period;
+  options.horizon_measured = options.vehicle.isStrutAlone() && !common.integration_horizon;
+  if (!options.horizon_measured) return options;
+  common.integration_horizon = proposeHorizonSamples(options, clocks_may_differ) * options.period();
+  options.settings.struts.front().monitor.integration_horizon = common.integration_horizon;
   return options;
 }
 

@@ -70,13 +70,16 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
                 names[bar.second].c_str(), bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
 }
 
-json toJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
-  return {{"struts", json::object()},
-          {"coupling", couplingJson(coupling.ratios, names)},
-          {"coupling_stddevs", couplingJson(coupling.stddevs, names)},
-          {"anti_roll_bars", barsJson(coupling, names)},
-          {"known_forces", forcesJson(coupling, names)},
-          {"model_error", coupling.model_error}};
+json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps) {
+  json whole{{"silent", gaps.toJson()}};
+  if (vehicle.isStrutAlone()) return whole;
+  whole["struts"] = json::object();
+  whole["coupling"] = couplingJson(coupling.ratios, vehicle.names);
+  whole["coupling_stddevs"] = couplingJson(coupling.stddevs, vehicle.names);
+  whole["anti_roll_bars"] = barsJson(coupling, vehicle.names);
+  whole["known_forces"] = forcesJson(coupling, vehicle.names);
+  whole["model_error"] = coupling.model_error;
+  return whole;
 }
 
 void printBody(const BodyInertiaResult& found) {

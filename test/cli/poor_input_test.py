@@ -103,7 +103,7 @@ def test_swapped_sensors_are_suspected(program, messages, tmp_path, settings):
 
 def test_heavy_clipping_is_told_and_ends_not_valid(program, messages, tmp_path):
     result = program("identify", write(tmp_path / "drive.bag", messages, clip), "--set", "integration_horizon=0.26")
-    found = int(result.stdout.split("rejected clipped ")[1].split()[0].rstrip(","))
+    found = int(result.stdout.split("rejected clipped: ")[1].split()[0].rstrip(";"))
     body = [message.linear_acceleration.z for topic, message, _ in messages if topic == SPRUNG]
     at_limit = sum(abs(reading - 9.81) >= 0.4 for reading in body)
     assert 0.9 * at_limit < found <= at_limit

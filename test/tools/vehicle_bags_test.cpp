@@ -16,7 +16,7 @@
 #include "ros/vehicle_file.h"
 #include "suspension_health_monitor/internal/signal/motion_filter.h"
 #include "tools/command.h"
-#include "tools/recorded_vehicle.h"
+#include "tools/recorded_drives.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -111,21 +111,28 @@ void writeDrive(const std::string& path, double seconds, bool with_frame, bool u
   }
 }
 
+/// @param options  whose topics, positions and sample period are found.
+std::vector<VehicleBag> read(BagOptions& options, TopicGaps& gaps) {
+  findSensors(options.bags, options.settings.common.shell, options.vehicle.layout);
+  options.settings.common.monitor.sample_period = measurePeriod(options.bags);
+  return readDrives(options, gaps);
+}
+
 TEST_F(VehicleBags, AreReadAsDrivesOfAllStrutsWithOneGrid) {
   const VehicleLayout layout = readVehicleFile(write("vehicle.yaml", kVehicle));
   for (const bool upside_down : {false, true}) {
     writeDrive(path("one.bag"), 10.0, true, upside_down);
     writeDrive(path("two.bag"), 5.0, true, upside_down);
-    ImuBags bags;
-    bags.paths = {path("one.bag"), path("two.bag")};
-    PipelineOptions options;
-    if (upside_down) options.shell.sprung_axis = "-z";
-    VehicleLayout placed = layout;
+    BagOptions options;
+    options.vehicle.layout = layout;
+    options.bags.paths = {path("one.bag"), path("two.bag")};
+    if (upside_down) options.settings.common.shell.sprung_axis = "-z";
     TopicGaps gaps(kTimeout);
-    const std::vector<VehicleBag> drives = readVehicleDrives(bags, options, placed, gaps);
+    const std::vector<VehicleBag> drives = read(options, gaps);
     EXPECT_TRUE(gaps.toJson().empty());
-    for (const VehicleLayout::Strut& strut : placed.struts) EXPECT_TRUE(strut.position || !strut.frame) << strut.name;
-    EXPECT_NEAR(*options.monitor.sample_period, 1.0 / kRate, 1e-6);
+    for (const VehicleLayout::Strut& strut : options.vehicle.layout.struts)
+      EXPECT_TRUE(strut.position || !strut.frame) << strut.name;
+    EXPECT_NEAR(options.period(), 1.0 / kRate, 1e-6);
     ASSERT_EQ(drives.size(), 2u);
     EXPECT_EQ(drives[0].alignment, "paired");
     ASSERT_EQ(drives[0].drive.struts.size(), 3u);
@@ -161,51 +168,49 @@ TEST_F(VehicleBags, HoldKnownForcesOnTheSameGrid) {
   }
   const std::string forces =
       "known_forces:\n  lift: {topic: /tow_bar, field: force.z}\n  turn: {topic: /tow_bar, field: torque.y}\n";
-  ImuBags bags;
-  bags.paths = {path("drive.bag")};
-  PipelineOptions options;
-  VehicleLayout layout = readVehicleFile(write("vehicle.yaml", kVehicle + forces));
+  BagOptions options;
+  options.vehicle.layout = readVehicleFile(write("vehicle.yaml", kVehicle + forces));
+  options.bags.paths = {path("drive.bag")};
   TopicGaps gaps(kTimeout);
-  const VehicleBag read = readVehicleDrives(bags, options, layout, gaps).front();
-  ASSERT_EQ(read.drive.forces.size(), 2u);
-  EXPECT_EQ(read.drive.forces[0].name, "lift");
-  EXPECT_EQ(read.drive.forces[1].name, "turn");
-  const std::vector<CornerSample>& samples = read.drive.struts[0].samples;
+  const VehicleBag bag = read(options, gaps).front();
+  ASSERT_EQ(bag.drive.forces.size(), 2u);
+  EXPECT_EQ(bag.drive.forces[0].name, "lift");
+  EXPECT_EQ(bag.drive.forces[1].name, "turn");
+  const std::vector<CornerSample>& samples = bag.drive.struts[0].samples;
   ASSERT_GT(samples.size(), 400u);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const double t = toSeconds(samples[k].stamp) - 1000.0;
-    ASSERT_NEAR(read.drive.forces[0].values[k], pull(t), 0.5) << t;
-    ASSERT_NEAR(read.drive.forces[1].values[k], -2.0 * pull(t), 1.0) << t;
+    ASSERT_NEAR(bag.drive.forces[0].values[k], pull(t), 0.5) << t;
+    ASSERT_NEAR(bag.drive.forces[1].values[k], -2.0 * pull(t), 1.0) << t;
   }
-  ASSERT_EQ(read.sensors.size(), 6u);
-  EXPECT_EQ(read.sensors[5].topic, "/tow_bar");
-  EXPECT_EQ(read.sensors[5].rejected.count(RejectReason::kNotFinite), 1u);
+  ASSERT_EQ(bag.sensors.size(), 6u);
+  EXPECT_EQ(bag.sensors[5].topic, "/tow_bar");
+  EXPECT_EQ(bag.sensors[5].rejected.count(RejectReason::kNotFinite), 1u);
 }
 
 TEST_F(VehicleBags, OfOtherVehiclesAreRefused) {
   writeDrive(path("drive.bag"), 1.0, false);
-  const auto read = [&](const std::string& file) {
-    ImuBags bags;
-    bags.paths = {path("drive.bag")};
-    PipelineOptions options;
+  const auto said = [&](const std::string& file) {
+    BagOptions options;
+    options.bags.paths = {path("drive.bag")};
     try {
-      VehicleLayout layout = readVehicleFile(write("vehicle.yaml", file));
+      options.vehicle.layout = readVehicleFile(write("vehicle.yaml", file));
       TopicGaps gaps(kTimeout);
-      readVehicleDrives(bags, options, layout, gaps);
+      read(options, gaps);
     } catch (const std::exception& error) {
       return std::string(error.what());
     }
     return std::string("accepted");
   };
-  expectNamed(read(kVehicle), {"drive.bag", "/tf_static", "frame of a strut"});
-  expectNamed(read("struts: {only: {sprung_imu: /imu/front, unsprung_imu: /wheel/left}}"),
+  expectNamed(said(kVehicle), {"drive.bag", "/tf_static", "frame of a strut"});
+  expectNamed(said("struts: {only: {sprung_imu: /imu/front, unsprung_imu: /wheel/left}}"),
               {"no topic /wheel/left (struts/only/unsprung_imu)", "/wheel/front"});
-  expectNamed(read("struts: {only: {sprung_imu: /imu/front, unsprung_imu: /wheel/front}}\n"
+  expectNamed(said("struts: {only: {sprung_imu: /imu/front, unsprung_imu: /wheel/front}}\n"
                    "known_forces: {bar: {topic: /bar, field: force.z}}"),
               {"no topic /bar (known_forces/bar/topic)", "WrenchStamped topics in this bag: /tow_bar"});
-  EXPECT_EQ(read("struts: {only: {sprung_imu: /imu/front, unsprung_imu: /wheel/front}}"), "accepted");
+  EXPECT_EQ(said("struts: {only: {sprung_imu: /imu/front, unsprung_imu: /wheel/front}}"), "accepted");
   writeDrive(path("drive.bag"), 1.0, true);
-  expectNamed(read("body_imu: /imu/data\nstruts: {only: {unsprung_imu: /wheel/front, frame: front_strut}}"),
+  expectNamed(said("body_imu: /imu/data\nstruts: {only: {unsprung_imu: /wheel/front, frame: front_strut}}"),
               {"struts/only/frame = \"front_strut\"", "imu_link"});
 }
 

@@ -1,0 +1,115 @@
+#include "recorded_drives.h"
+
+#include <cinttypes>
+#include <cstdio>
+#include <utility>
+
+#include "../ros/conversions.h"
+#include "../ros/vehicle_sensors.h"
+#include "suspension_health_monitor/internal/signal/alignment_judge.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout) {
+  VehicleBag read;
+  VehicleDrive& drive = read.drive;
+  drive.struts.resize(layout.struts.size());
+  for (const VehicleLayout::KnownForce& force : layout.known_forces) drive.forces.push_back({force.name, {}});
+  SampleSinks take;
+  take.sample = [&](const VehicleSample& sample) {
+    append(sample, drive);
+    return true;
+  };
+  take.body = [&](const BodyMotion& motion) { drive.struts.front().body.push_back(motion); };
+  take.take_back = [&] { dropNewest(drive, AlignmentJudge::kOutcomes); };
+  const ReadSamples samples = readSamples(bag, options, layout, take);
+  const VehicleGrid& grid = samples.grid;
+  grid.describe(drive);
+  drive.places = grid.tops().places();
+  read.num_instants = grid.numInstants();
+  read.body_level = grid.bodyLevel();
+  read.alignment = grid.streams().describeAlignment();
+  const VehicleStreams streams(layout);
+  for (std::size_t i = 0; i < samples.rejected.size(); ++i)
+    read.sensors.push_back({streams.sensors[i].topic, samples.rejected[i], grid.missed(i)});
+  return read;
+}
+
+}  // namespace
+
+ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, VehicleLayout layout,
+                        const SampleSinks& take) {
+  layout.road_imu.reset();
+  const VehicleStreams streams(layout);
+  VehicleSensors sensors(streams, options.shell, bags.transforms.get());
+  const double period = *options.monitor.sample_period;
+  bool goes_on = true;
+  VehicleGrid grid(period, streams, MonitorSettings(options.monitor).grid(period),
+                   [&](const VehicleSample& sample) { goes_on = goes_on && take.sample(sample); });
+  const auto push = [&](std::size_t sensor, Stamp stamp, const std::vector<double>& values) {
+    if (grid.push(sensor, stamp, values) && take.take_back) take.take_back();
+    return goes_on;
+  };
+  const bool has_body = take.body && layout.struts.size() == 1;
+  Stamp last_body{};
+  const auto take_imu = [&](std::size_t sensor, const sensor_msgs::Imu& imu, Stamp) {
+    if (sensor >= streams.sensors.size()) return true;  // that of the road
+    const std::vector<double>& values = sensors.read(sensor, imu);
+    if (values.empty()) return true;
+    const Stamp stamp = toStamp(imu.header.stamp);
+    if (has_body && sensor == streams.bodyImuOf(0) && stamp > last_body) {
+      last_body = stamp;
+      take.body(sensors.mount(sensor).across(imu));
+    }
+    return push(sensor, stamp, values);
+  };
+  const auto take_wrench = [&](std::size_t sensor, const geometry_msgs::WrenchStamped& wrench, Stamp) {
+    return push(sensor, toStamp(wrench.header.stamp), sensors.read(sensor, wrench));
+  };
+  readTopics(bags, {take_imu, take_wrench});
+  grid.finish();
+  std::vector<RejectCounts> rejected;
+  for (std::size_t i = 0; i < streams.sensors.size(); ++i) {
+    rejected.push_back(sensors.rejected(i));
+    rejected.back() += grid.rejected(i);
+  }
+  return {std::move(grid), rejected};
+}
+
+std::vector<VehicleBag> readDrives(BagOptions& options, TopicGaps& gaps) {
+  std::vector<VehicleBag> drives;
+  VehicleLayout& layout = options.vehicle.layout;
+  for (const std::string& path : options.bags.paths)
+    drives.push_back(readBag(options.bags.of(path, gaps), options.settings.common, layout));
+  layout.turn(drives.front().body_level.mount());
+  return drives;
+}
+
+void printBags(const BagOptions& options, const std::vector<VehicleBag>& bags, const TopicGaps& gaps) {
+  gaps.print();
+  printPeriod(options, options.period());
+  for (const VehicleBag& bag : bags) {
+    printReadings(bag.num_instants, bag.alignment, bag.body_level);
+    for (const VehicleBag::Sensor& sensor : bag.sensors) printRejected(sensor.topic, sensor.rejected);
+  }
+}
+
+void printPeriod(const BagOptions& options, double period) {
+  std::printf("sample period %.6g s%s\n", period, options.period_measured ? " (measured)" : "");
+}
+
+void printReadings(std::uint64_t num_instants, const std::string& alignment, const BodyLevel& level) {
+  std::printf("%" PRIu64 " instants, readings %s\n", num_instants, alignment.c_str());
+  const std::string leans = describe(level);
+  if (!leans.empty()) std::printf("%s\n", leans.c_str());
+}
+
+void printRejected(const std::string& topic, const RejectCounts& rejected) {
+  if (rejected.total() > 0) std::printf("%s%s\n", topic.c_str(), describeRejected(rejected).c_str());
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bag_options.h"
+#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/vehicle/body_level.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
+#include "suspension_health_monitor/vehicle.h"
+
+namespace suspension_health_monitor {
+
+/// What is called as bags are read as samples.
+struct SampleSinks {
+  std::function<bool(const VehicleSample&)> sample;  ///< returns false to stop
+  /// Of a vehicle with one strut: what its body's IMU measures across the strut, in the order of the stamps.
+  std::function<void(const BodyMotion&)> body = {};
+  /// The grid begins to resample: the newest AlignmentJudge::kOutcomes samples were badly paired.
+  std::function<void()> take_back = {};
+};
+
+/// What came of reading samples.
+struct ReadSamples {
+  VehicleGrid grid;                    ///< after the last reading
+  std::vector<RejectCounts> rejected;  ///< by sensor, wherever it was noticed
+};
+
+/// Reads bags as samples of a vehicle: all sensors but that of the road on one grid, the strut tops known by their own
+/// IMUs or by that of the body.
+/// @param bags, layout  as findSensors().  @param options  with a sample_period.
+/// @throws InputError, TooLittleError  as readTopics().
+ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, VehicleLayout layout,
+                        const SampleSinks& take);
+
+/// One bag, read as a drive of a vehicle.
+struct VehicleBag {
+  /// By VehicleLayout::struts z'' at the strut's top and w'', by VehicleLayout::known_forces the forces.
+  VehicleDrive drive;
+  std::uint64_t num_instants;
+  std::string alignment;  ///< StreamGrid::describeAlignment()
+  BodyLevel body_level;
+  /// What became of one sensor's messages.
+  struct Sensor {
+    std::string topic;
+    RejectCounts rejected;
+    std::uint64_t missed;  ///< readings of others and instants that were lost for want of its readings
+  };
+  std::vector<Sensor> sensors;  ///< by VehicleStreams::sensors, without that of the road
+};
+
+/// Reads bags as drives of the vehicle, one each, as readSamples().
+/// @param options  of readBagOptions(); positions become those in upright axes, if the body's IMU leans in the first
+/// drive.
+/// @param gaps  collects the gaps in all that is read.
+std::vector<VehicleBag> readDrives(BagOptions& options, TopicGaps& gaps);
+
+/// Tells people what bags hold and which topics were silent.
+void printBags(const BagOptions& options, const std::vector<VehicleBag>& bags, const TopicGaps& gaps);
+
+/// Tells people the sample period.
+void printPeriod(const BagOptions& options, double period);
+
+/// Tells people what the readings became.
+void printReadings(std::uint64_t num_instants, const std::string& alignment, const BodyLevel& level);
+
+/// Tells people what became of the messages of a sensor that were kept out.
+void printRejected(const std::string& topic, const RejectCounts& rejected);
+
+}  // namespace suspension_health_monitor
