@@ -61,7 +61,7 @@ void printTable(int seeds) {
 }
 
 int loop(std::string_view alignment_name, double rate, long count) {
-  UniformGrid grid(kAlignedPeriod, {alignment(alignment_name), false, 240});
+  UniformGrid grid(kAlignedPeriod, {alignment(alignment_name), 240});
   double sum = 0.0;
   const auto push = [&](Side side, long k, double spacing) {
     const Stamp stamp = fromSeconds(static_cast<double>(k) * spacing);

@@ -216,6 +216,7 @@ class InputStatus:
     gaps: int
     mean_period: float
     period_fits: bool
+    unit_fits: bool
     rows: int
     samples: int
 

@@ -30,36 +30,21 @@ std::optional<DryFriction> toFriction(const std::optional<Numbers>& numbers) {
   return DryFriction{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
 }
 
-std::optional<std::array<double, 3>> toNumbers(const std::optional<DamperTemperature>& temperature) {
-  if (!temperature) return std::nullopt;
-  return std::array{temperature->celsius, temperature->per_kelvin, temperature->per_kelvin_stddev};
-}
-
-std::optional<DamperTemperature> toTemperature(const std::optional<std::array<double, 3>>& numbers) {
-  if (!numbers) return std::nullopt;
-  return DamperTemperature{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-}
-
 BaselineState stateOf(const Baseline& baseline) {
+  std::optional<std::array<double, 3>> temperature;
+  if (const auto& known = baseline.temperature)
+    temperature = {known->celsius, known->per_kelvin, known->per_kelvin_stddev};
   return BaselineState(baseline.damping_to_mass, baseline.stiffness_to_mass, baseline.damping_to_mass_stddev,
                        baseline.stiffness_to_mass_stddev, baseline.damping_scatter, baseline.stiffness_scatter,
-                       toNumbers(baseline.friction), toNumbers(baseline.temperature), baseline.learned,
-                       baseline.from.count(), baseline.to.count());
+                       toNumbers(baseline.friction), temperature, baseline.learned, baseline.from.count(),
+                       baseline.to.count());
 }
 
 Baseline toBaseline(const BaselineState& state) {
-  const auto& [b1, b0, b1_stddev, b0_stddev, b1_scatter, b0_scatter, friction, temperature, learned, from, to] = state;
-  return {b1,
-          b0,
-          b1_stddev,
-          b0_stddev,
-          b1_scatter,
-          b0_scatter,
-          toFriction(friction),
-          toTemperature(temperature),
-          learned,
-          Stamp(from),
-          Stamp(to)};
+  const auto& [b1, b0, sd1, sd0, scatter1, scatter0, friction, temperature, learned, from, to] = state;
+  std::optional<DamperTemperature> warm;
+  if (temperature) warm = {(*temperature)[0], (*temperature)[1], (*temperature)[2]};
+  return {b1, b0, sd1, sd0, scatter1, scatter0, toFriction(friction), warm, learned, Stamp(from), Stamp(to)};
 }
 
 /// Adds what the estimates of a drive and those of the live monitor have alike.

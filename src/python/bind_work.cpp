@@ -14,18 +14,11 @@
 namespace suspension_health_monitor {
 namespace {
 
-double proposeHorizon(const Recordings& recordings, const MonitorOptions& options, double period, Stamp shift,
-                      LongWork& work) {
-  const std::vector<Drive> drives = toDrives(recordings, options, period, shift, work);
-  if (const auto rough = roughStrut(drives, period)) return rough->horizonSamples(period) * period;
-  VehicleGrid grid(period, VehicleStreams(VehicleLayout::ofOneStrut(false)), MonitorSettings(options).grid(period),
-                   [](const VehicleSample&) {});
-  recordings.front().forEach([&](Side side, Stamp stamp, double value) {
-    if (side != Side::kRoad) grid.push(indexOf(side), stamp + shift, &value);
-  });
-  throw std::invalid_argument("no horizon can be proposed: the data show no damped spring" +
-                              describeSuspicions(grid.streams(), drives, period) +
-                              "; give integration_horizon to look at them all the same");
+/// @return the horizon [s] of the strut that the readings show; empty: no damped spring.
+std::optional<double> proposeHorizon(const Recordings& recordings, const MonitorOptions& options, double period,
+                                     Stamp shift, LongWork& work) {
+  const auto rough = roughStrut(toDrives(recordings, options, period, shift, work), period);
+  return rough ? std::optional(rough->horizonSamples(period) * period) : std::nullopt;
 }
 
 /// @throws std::invalid_argument  saying why, if the readings have not given one regression row.
@@ -44,14 +37,18 @@ Identification identifyArrays(const Recordings& recordings, const Keywords& keyw
   const Stamp shift = shiftOf(recordings);
   options.sample_period = period;
   options.tyre = recordings.front().streams().size() > indexOf(Side::kRoad);
-  if (!options.integration_horizon)
-    options.integration_horizon = proposeHorizon(recordings, options, period, shift, work);
+  const bool is_given = options.integration_horizon.has_value();
+  if (!is_given) options.integration_horizon = proposeHorizon(recordings, options, period, shift, work);
   Course course(shift);
   VehiclePipeline made(options, [&](const MonitorReport& report) { course.add(report); });
   if (model) made.setEffects(model->effects, model->linearPart());
   const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
   forEachReading(recordings, shift, work, take, [] {});
   const IdentifyResult result = identified(monitorOf(made), made.overTheDrive(), made.rejected());
+  if (!is_given && !options.integration_horizon && !result.estimate.valid && !result.now.valid)
+    throw std::invalid_argument("no estimate is valid: " + result.estimate.reason +
+                                describeSuspicions(made.strut()->report(), &made.grid()->streams()) +
+                                "; give integration_horizon to look at them all the same");
   Identification found = Identification::of(result, made, 0, course);
   found.change = describeChange(found, nominalOf(options), options);
   return found;

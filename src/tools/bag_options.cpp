@@ -104,7 +104,8 @@ OptionMap givenSettings(const po::variables_map& values) {
 }
 
 BagOptions readLiveOptions(const po::variables_map& values) {
-  BagOptions options{readVehicle(values), {}, {}};
+  BagOptions options;
+  options.vehicle = readVehicle(values);
   AskedVehicle& vehicle = options.vehicle;
   if (vehicle.isStrutAlone()) {
     PipelineOptions strut = PipelineOptions::fromValues(givenSettings(values));
@@ -116,6 +117,7 @@ BagOptions readLiveOptions(const po::variables_map& values) {
   const PipelineOptions& common = options.settings.common;
   options.bags = readBags(values, common.shell);
   findSensors(options.bags, common.shell, vehicle.layout);
+  options.bags.temperature_topics = options.settings.temperatureTopics();
   if (vehicle.isStrutAlone()) options.bags.named_by.assign(kTopicOptions.begin(), kTopicOptions.end());
   options.period_measured = !common.monitor.sample_period;
   if (!options.period_measured) requireFittingPeriod(options.bags, options.period());

@@ -19,6 +19,7 @@ struct BagOptions {
   ImuBags bags;  ///< as findSensors()
   bool period_measured = false;
   bool horizon_measured = false;
+  std::optional<double> clock_offset;  ///< by which the body's clock seems to be late [s], of readBagOptions()
 
   double period() const { return *settings.common.monitor.sample_period; }  ///< [s], of readBagOptions()
 };
@@ -58,10 +59,9 @@ OptionMap givenSettings(const boost::program_options::variables_map& values);
 BagOptions readLiveOptions(const boost::program_options::variables_map& values);
 
 /// The same, with what they leave open measured from the bags: sample_period by measurePeriod(), the horizon of a strut
-/// alone by proposeHorizon() with what blocks tell of it: those of the beginning, as soon as they know it well enough.
-/// @param clocks_may_differ  true: a strut that blocks see once the clocks are set right (rough_strut.h) will do.
+/// alone by what blocks tell of it, if they do.
 /// @throws std::invalid_argument, InputError, TooLittleError  likewise, also if there are too few messages to tell.
-BagOptions readBagOptions(const boost::program_options::variables_map& values, bool clocks_may_differ = false);
+BagOptions readBagOptions(const boost::program_options::variables_map& values);
 
 /// Names of the options that addModelOptions() adds; their values are files that are read.
 inline constexpr const char* kEffectsFile = "effects-file";

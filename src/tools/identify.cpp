@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "command.h"
@@ -105,21 +106,22 @@ std::string whyNotValid(const IdentifyResult& found, const MonitorOptions& optio
          "or not the two sides of one strut";
 }
 
-std::string suspicions(const RecordedMonitor& recorded, std::size_t strut, const IdentifiedStrut& ls) {
-  const SensorReport& sensor = recorded.strut(strut).report().health.sensor;
-  if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated) return "; " + describe(sensor);
-  return recorded.vehicle().isStrutAlone() ? describeSuspicions(recorded.grid(), ls) : "";
+/// @param late  BagOptions::clock_offset.
+std::string suspicions(const RecordedMonitor& recorded, std::size_t strut, const std::optional<double>& late) {
+  if (late) return formatted("; the IMUs' clocks seem to differ by %.0f ms: diagnose tells", 1e3 * std::abs(*late));
+  return describeSuspicions(recorded.strut(strut).report(),
+                            recorded.vehicle().isStrutAlone() ? &recorded.grid() : nullptr);
 }
 
 /// @throws TooLittleError  if no strut that is asked for is known.
 void requireValid(const RecordedMonitor& recorded, const std::vector<IdentifyResult>& found,
-                  const VehicleOptions& settings) {
+                  const BagOptions& options) {
   const AskedVehicle& vehicle = recorded.vehicle();
   std::vector<std::string> reasons;
   for (const std::size_t i : vehicle.asked) {
-    const std::string reason = whyNotValid(found[i], settings.struts[i].monitor);
+    const std::string reason = whyNotValid(found[i], options.settings.struts[i].monitor);
     if (reason.empty()) return;
-    reasons.push_back(vehicle.prefix(i, ": ") + reason + suspicions(recorded, i, found[i].ls));
+    reasons.push_back(vehicle.prefix(i, ": ") + reason + suspicions(recorded, i, options.clock_offset));
   }
   throw TooLittleError(join(reasons, "; ") + describeRejected(recorded.pipeline().rejected()));
 }
@@ -173,7 +175,7 @@ void identifyBags(const po::variables_map& values) {
   std::vector<std::string> outputs{"csv", "json"};
   if (has_settings) outputs.emplace_back("output");
   printWritten(values, outputs);
-  requireValid(recorded, found.vehicle.struts, options.settings);
+  requireValid(recorded, found.vehicle.struts, options);
   if (files.settings && !has_settings) throw TooLittleError("no settings are written: " + join(nominal.lacks, "; "));
 }
 

@@ -48,6 +48,10 @@ Places findPlaces(const BagFile& file, const ImuBags& bags) {
   for (std::size_t i = 0; i < bags.wrench_topics.size(); ++i)
     findTopic<geometry_msgs::WrenchStamped>(file, bags.wrench_topics[i], bags.named_by[num_imus + i], "WrenchStamped",
                                             num_imus + i, places);
+  const std::size_t num_sensors = num_imus + bags.wrench_topics.size();
+  for (std::size_t i = 0; i < bags.temperature_topics.size(); ++i)
+    for (const std::uint32_t connection : connectionsOf<sensor_msgs::Temperature>(file, bags.temperature_topics[i]))
+      places[connection] = num_sensors + i;
   return places;
 }
 
@@ -90,6 +94,7 @@ class Delivery {
       : file_(file),
         places_(findPlaces(file, bags)),
         num_imus_(bags.topics.size()),
+        num_sensors_(num_imus_ + bags.wrench_topics.size()),
         range_(range),
         take_(take),
         gaps_(bags.gaps) {}
@@ -131,9 +136,14 @@ class Delivery {
     const auto place = places_.find(message.connection);
     if (place == places_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
     if (!place->second || !range_.contains(message.time)) return true;
-    const bool is_imu = *place->second < num_imus_;
-    return is_imu ? deliver(message, *place->second, imu_, take_.imu)
-                  : deliver(message, *place->second, wrench_, take_.wrench);
+    const std::size_t sensor = *place->second;
+    if (sensor >= num_sensors_) {
+      if (!take_.temperature) return true;
+      decode(file_, message, "", temperature_);
+      return take_.temperature(sensor - num_sensors_, temperature_, Stamp(static_cast<Stamp::rep>(message.time)));
+    }
+    return sensor < num_imus_ ? deliver(message, sensor, imu_, take_.imu)
+                              : deliver(message, sensor, wrench_, take_.wrench);
   }
 
   /// @param decoded  storage for it.
@@ -147,7 +157,7 @@ class Delivery {
 
   const BagFile& file_;
   Places places_;
-  std::size_t num_imus_;
+  std::size_t num_imus_, num_sensors_;
   Range range_;
   const TopicSinks& take_;
   TopicGaps* gaps_;
@@ -155,6 +165,7 @@ class Delivery {
   ChunkContents spare_;          // storage of a chunk that is done
   sensor_msgs::Imu imu_;
   geometry_msgs::WrenchStamped wrench_;
+  sensor_msgs::Temperature temperature_;
 };
 
 bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {

@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/Imu.h>
+#include <sensor_msgs/Temperature.h>
 #include <tf2/buffer_core.h>
 
 #include <array>
@@ -21,10 +22,11 @@ inline constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", 
 /// What to read: one or more bags, the topics, and a part of each bag.
 struct ImuBags {
   std::vector<std::string> paths;
-  std::vector<std::string> topics;         ///< of sensor_msgs/Imu
-  std::vector<std::string> wrench_topics;  ///< of geometry_msgs/WrenchStamped
-  std::vector<std::string> named_by;       ///< by topic, then by wrench topic, the option or setting that names it
-  double start = 0.0;                      ///< seconds after the beginning of each bag
+  std::vector<std::string> topics;              ///< of sensor_msgs/Imu
+  std::vector<std::string> wrench_topics;       ///< of geometry_msgs/WrenchStamped
+  std::vector<std::string> temperature_topics;  ///< of sensor_msgs/Temperature; a bag may lack them, one may be empty
+  std::vector<std::string> named_by;            ///< by topic, then by wrench topic, the option or setting that names it
+  double start = 0.0;                           ///< seconds after the beginning of each bag
   double end = std::numeric_limits<double>::infinity();
   std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted
 
@@ -39,11 +41,12 @@ struct ImuBags {
   ImuBags of(const std::string& path, TopicGaps& its_gaps) const;
 };
 
-/// What is called with every message, its place among ImuBags::topics and then ImuBags::wrench_topics, and the time of
-/// its recording; returns false to stop.
+/// What is called with every message, its place among ImuBags::topics and then ImuBags::wrench_topics, or among
+/// ImuBags::temperature_topics, and the time of its recording; returns false to stop.
 struct TopicSinks {
   std::function<bool(std::size_t, const sensor_msgs::Imu&, Stamp recorded)> imu;
   std::function<bool(std::size_t, const geometry_msgs::WrenchStamped&, Stamp recorded)> wrench;
+  std::function<bool(std::size_t, const sensor_msgs::Temperature&, Stamp recorded)> temperature = {};
 };
 
 /// Reads the messages of all bags in the order of their recording, with a progress bar.

@@ -52,9 +52,15 @@ std::vector<HealthContent::Recording> RecordedMonitor::read() {
     if (pipeline_.monitor() != nullptr) pipeline_.monitor()->fitBodyIfDue();
     return true;
   };
+  const std::vector<std::string>& thermometers = options_.bags.temperature_topics;
+  const auto take_temperature = [&](std::size_t topic, const sensor_msgs::Temperature& message, Stamp) {
+    for (std::size_t i = 0; i < thermometers.size(); ++i)
+      if (thermometers[i] == thermometers[topic]) pipeline_.push(i, message);
+    return true;
+  };
   for (const std::string& path : options_.bags.paths) {
     recordings.push_back({fileNames({path}).front(), logs_.front().elapsed()});
-    readTopics(options_.bags.of(path, gaps_), {take, take});
+    readTopics(options_.bags.of(path, gaps_), {take, take, take_temperature});
     pipeline_.finish();
     for (HealthLog& log : logs_) log.finishRecording();
   }

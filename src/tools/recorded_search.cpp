@@ -65,7 +65,7 @@ void requireEnough(Shortcoming shortcoming, const std::string& reason, const std
 AskedDrives::AskedDrives(const boost::program_options::variables_map& values)
     : library(readEffects(values)),
       models(readModels(values, readVehicle(values), library)),
-      options(readBagOptions(values, true)),
+      options(readBagOptions(values)),
       gaps(options.settings.common.shell.input_timeout) {}
 
 void AskedDrives::read() {

@@ -64,17 +64,15 @@ def write(path, messages, change, swap=False):
     return path
 
 
-UPSIDE_DOWN = "wrong way up"
 POOR = {
-    "no number": (constant(float("nan"), SPRUNG), [], "no pair of readings can be used", "not_finite: 4001"),
-    "not measured": (not_measured, [], "no pair of readings can be used", "not_measured: 4001"),
-    "body stuck": (constant(9.81, SPRUNG), [], "no damped spring", "stuck: "),
-    "body dead": (constant(0.0, SPRUNG), [], "no damped spring", "stuck: "),
-    "wheel stuck": (constant(9.81, UNSPRUNG), [], "no damped spring", "stuck: "),
+    "no number": (constant(float("nan"), SPRUNG), [], "usable samples in all: 0", "not_finite: 4001"),
+    "not measured": (not_measured, [], "usable samples in all: 0", "not_measured: 4001"),
+    "body stuck": (constant(9.81, SPRUNG), [], "no regression row", "stuck: "),
+    "body dead": (constant(0.0, SPRUNG), [], "no regression row", "stuck: "),
+    "wheel stuck": (constant(9.81, UNSPRUNG), [], "no regression row", "stuck: "),
     "range too small": (nothing, ["sprung_range=5"], "clipped: "),
-    "period too long": (nothing, ["sample_period=0.02"], "too_soon: "),
-    "body upside down": (scale(-1, SPRUNG), [], "damping comes out negative", UPSIDE_DOWN),
-    "wheel upside down": (scale(-1, UNSPRUNG), [], "damping comes out negative", UPSIDE_DOWN),
+    "body upside down": (scale(-1, SPRUNG), [], "damping is negative", "upside down"),
+    "wheel upside down": (scale(-1, UNSPRUNG), [], "damping is negative", "upside down"),
     "body upside down, horizon given": (scale(-1, SPRUNG), ["integration_horizon=0.6"], "upside down"),
     "wheel in g": (scale(1 / 9.81, UNSPRUNG), ["integration_horizon=0.6"], "the unsprung IMU", "in g"),
     "hardly any reading": (in_tiny_unit, [], "the sprung readings differ by ", "m/s^2 only"),

@@ -25,7 +25,7 @@ inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignmen
   options.sample_period = kAlignedPeriod;
   options.forgetting_factor = 0.999;
   SuspensionMonitor monitor(options);
-  UniformGrid grid(kAlignedPeriod, {alignment, false, 2 * monitor.horizonSamples()});
+  UniformGrid grid(kAlignedPeriod, {alignment, 2 * monitor.horizonSamples()});
   DriveSimulator simulator(drive);
   MeanEstimates mean;
   double count = 0.0;

@@ -11,6 +11,7 @@ namespace {
 
 // Of 1, and of gravity: by so much an offset of the sensor, or a strut that is inclined by 30 degrees, moves a mean.
 constexpr double kInG = 0.15;
+constexpr double kCertainlyNegative = 5.0;  // standard deviations of a damping below 0
 
 bool isOfMotion(SensorFault fault) {
   return fault == SensorFault::kNegativeDamping || fault == SensorFault::kUnrelated;

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 #include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"

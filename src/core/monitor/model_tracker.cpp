@@ -220,7 +220,7 @@ void ModelTracker::lead(const StrutEstimate& plain) {
 void ModelTracker::fallBack() {
   runaways_ = free_run_.runaways();
   identifier_.restartValidity();
-  has_own_model_ = false;
+  has_own_model_ = is_given_ = false;
   for (std::size_t j = 0; j < starts_.size(); ++j) free_run_.setCoefficient(j, starts_[j] = 0.0);
 }
 

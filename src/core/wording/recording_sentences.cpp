@@ -6,6 +6,7 @@
 #include "suspension_health_monitor/internal/signal/early_readings.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/signal/stream_resampler.h"
+#include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -91,25 +92,19 @@ std::string describeReference(const Baseline& baseline, const std::string& file)
          values;
 }
 
-std::string describeSuspicions(const StreamGrid& grid, const IdentifiedStrut& ls) {
-  const StreamGate &body = grid.gate(indexOf(Side::kSprung)), &wheel = grid.gate(indexOf(Side::kUnsprung));
+std::string describeSuspicions(const MonitorReport& report, const StreamGrid* grid) {
+  SensorReport sensor = report.health.sensor;
+  const bool is_negative = report.la.damping_to_mass < -kProven * report.la.damping_to_mass_stddev;
+  if (sensor.fault == SensorFault::kNone || sensor.fault == SensorFault::kUnrelated)
+    sensor.fault = is_negative ? SensorFault::kNegativeDamping : SensorFault::kNone;
+  if (sensor.fault != SensorFault::kNone) return "; " + describe(sensor);
+  if (grid == nullptr) return "";
+  const StreamGate &body = grid->gate(indexOf(Side::kSprung)), &wheel = grid->gate(indexOf(Side::kUnsprung));
   std::string text = describeStillness("sprung", body) + describeStillness("unsprung", wheel);
   text += describeSpike("sprung", body) + describeSpike("unsprung", wheel);
   if (body.deviation() > kMuchLarger * wheel.deviation() && wheel.deviation() > 0.0)
     text += "; the sprung IMU shakes far more than the unsprung one: swapped, or not in m/s^2?";
-  else if (ls.damping_to_mass < -kCertainlyNegative * ls.damping_to_mass_stddev)
-    text += "; damping comes out negative: the IMUs swapped, or an axis the wrong way up?";
   return text;
-}
-
-std::string describeSuspicions(const StreamGrid& grid, const std::vector<Drive>& drives, double period) {
-  constexpr double kHorizon = 0.2, kAllOfIt = 1e6;  // [s]: short, so that the sign of the damping shows in many rows
-  constexpr int kFewestSamples = 6;
-  IdentifyOptions options;
-  options.sample_period = period;
-  options.horizon_samples = std::max(kFewestSamples, static_cast<int>(std::lround(kHorizon / period)));
-  options.memory = kAllOfIt;
-  return describeSuspicions(grid, identify(drives, options).ls);
 }
 
 }  // namespace suspension_health_monitor

@@ -21,12 +21,8 @@ std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut
 std::string describeRejected(const RejectCounts& rejected);
 
 /// @return what in the readings may be why they show no strut: "; ..." for each suspicion, empty without any.
-/// @param grid  of a strut, whose streams are numbered by Side.  @param ls  the strut by least squares.
-std::string describeSuspicions(const StreamGrid& grid, const IdentifiedStrut& ls);
-
-/// The same of drives that no horizon can be proposed for.
-/// @param period  sampling time [s].
-std::string describeSuspicions(const StreamGrid& grid, const std::vector<Drive>& drives, double period);
+/// @param grid  of a strut alone, whose streams are numbered by Side; nullptr: it is not.
+std::string describeSuspicions(const MonitorReport& report, const StreamGrid* grid);
 
 /// @param where  there are too few readings: "on one of the topics".
 /// @return why `count` readings tell no sample period.
