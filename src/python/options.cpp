@@ -8,7 +8,6 @@
 #include <map>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
 
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/wording/words.h"

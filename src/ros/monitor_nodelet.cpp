@@ -2,7 +2,6 @@
 
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
-#include <utility>
 
 #include "parameters.h"
 #include "suspension_health_monitor/internal/prefixed.h"

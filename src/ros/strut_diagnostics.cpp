@@ -63,6 +63,7 @@ void StrutDiagnostics::describeHealth(const SuspensionMonitor& monitor, Status& 
     status.addf("dry friction [m/s^2]", "%.4f", friction->force);
     status.addf("dry friction stddev [m/s^2]", "%.4f", friction->stddev);
   }
+  if (const auto& celsius = report.estimate.temperature) status.addf("temperature [deg C]", "%.1f", *celsius);
   if (report.health.payload_change) status.addf("body mass change [%]", "%+.1f", 100.0 * *report.health.payload_change);
   if (report.health.learning) status.addf("baseline learned [%]", "%.0f", 100.0 * *report.health.learning);
   status.add("early warning", report.health.early_warning);

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <set>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/plain_text.h"

@@ -8,7 +8,6 @@
 #include <iostream>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 #include "../ros/yaml_settings.h"
 #include "suspension_health_monitor/internal/nearest_name.h"

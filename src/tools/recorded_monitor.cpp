@@ -99,6 +99,9 @@ void RecordedMonitor::printInput() const {
                 options_.vehicle.prefix(i, ": ").c_str(), input.samples, input.rows, input.gaps, input.restarts,
                 horizon, horizon * strut(i).period(), options_.horizon_measured ? " (proposed from the data)" : "",
                 describeRejected(strut(i).rejected()).c_str());
+    const std::string& thermometer = options_.bags.temperature_topics[i];
+    if (!thermometer.empty() && !strut(i).report().estimate.temperature)
+      std::printf("warning: no temperature on %s\n", thermometer.c_str());
   }
   for (const std::string& fault : mountFaults())
     if (!fault.empty()) std::printf("warning: %s\n", fault.c_str());

@@ -1,10 +1,7 @@
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 
 #include <cmath>
-#include <cstdio>
-#include <utility>
 
-#include "suspension_health_monitor/internal/monitor/validity_gate.h"
 #include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"

@@ -117,8 +117,8 @@ void SuspensionMonitor::judgeSensors() {
   changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input(), series_.newest(), report); });
   const bool la_tells =
       !tracker().holds() && report_.la.effective_rows >= options_.fewestRows(kHorizonsOfSensorCheck, period());
-  const bool is_fresh = temperature_ && std::abs(toSeconds(report_.stamp - temperature_->stamp)) < options_.oldest_data;
-  report_.estimate.temperature = is_fresh ? std::optional(temperature_->celsius) : std::nullopt;
+  const bool is_fresh = temperature_ && toSeconds(report_.stamp - temperature_->first) < options_.oldest_data;
+  report_.estimate.temperature = is_fresh ? std::optional(temperature_->second) : std::nullopt;
   health_.setSensors(sensors_.judge(report_.estimate, report_.la, la_tells));
   if (report_.estimate.tellsChanges()) health_.watch(report_.ls);
   report_.health = health_.update(report_.stamp, report_.estimate, std::exchange(has_new_estimate_, false));

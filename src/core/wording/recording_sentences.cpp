@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "suspension_health_monitor/internal/signal/early_readings.h"

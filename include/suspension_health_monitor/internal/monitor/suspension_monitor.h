@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
@@ -110,11 +111,7 @@ class SuspensionMonitor {
   ModelReport base_;                      // of the plain model while there is an extended one
   HealthAssessment health_;
   SensorCheck sensors_;
-  struct Temperature {
-    Stamp stamp;
-    double celsius;
-  };
-  std::optional<Temperature> temperature_;
+  std::optional<std::pair<Stamp, double>> temperature_;  // the newest of the damper [deg C]
   EveryN sensors_due_;
   bool has_new_estimate_ = false;        // that health has not seen
   std::optional<Stamp> reported_until_;  // by the model before the effects were set
