@@ -45,7 +45,8 @@ def search(bag, output, folder):
                           check=False)
     if done.returncode != 0:
         raise RunFailed(f"{' '.join(map(str, command))}: status {done.returncode}: {done.stderr.strip()}")
-    return Search(json.loads(result.read_text()), done.stdout.splitlines()[0])
+    verdict = done.stdout.split("\n\n")[1].splitlines()[0]  # behind what the bag holds
+    return Search(json.loads(result.read_text()), verdict)
 
 
 def ladder(found):
