@@ -1,7 +1,7 @@
 """Every command that stands in a block of the README or of doc/ is run, in the order of its document.
 
 Those of the README's walk and on the robot are run by effect_walk_test.py; scripts/demo by demo_page_test.py, but for
-installing and building; scripts/test is what runs all tests.
+installing and building; scripts/test is what runs all tests. cmake builds, as scripts/test does.
 """
 import re
 import shutil
@@ -16,7 +16,7 @@ from terminal import Terminal
 
 DOCUMENTS = ["README.md", *sorted(str(path.relative_to(imu_bag.REPOSITORY))
                                   for path in (imu_bag.REPOSITORY / "doc").glob("*.md"))]
-PROGRAMS = ("rosrun", "roslaunch", "rosservice", "rostopic", "rqt_plot", "suspension_bag", "scripts/", "source", "cp", "cmake")
+PROGRAMS = ("rosrun", "roslaunch", "rosservice", "rostopic", "rqt_plot", "suspension_bag", "scripts/", "source", "cp")
 RUN_ELSEWHERE = ("scripts/demo", "scripts/test", "source ", "rosservice ", "rostopic echo -p /monitor/comparison")
 # What the README's vehicle has that none of the shipped ones has: three struts, the rear one alone with an IMU of its own.
 TRICYCLE = """mass: 100
@@ -38,7 +38,9 @@ def without_comment(line):
 
 def commands_of(text):
     """(block, its commands) of every block without a language, or of a shell."""
-    for block in re.findall(r"^```(?:sh)?\n(.*?)^```", text, re.DOTALL | re.MULTILINE):
+    for language, block in re.findall(r"^```(\w*)\n(.*?)^```$", text, re.DOTALL | re.MULTILINE):
+        if language not in ("", "sh"):
+            continue
         lines = [without_comment(line) for line in block.replace("\\\n", " ").splitlines()]
         yield [line for line in lines if line.startswith(PROGRAMS)]
 
