@@ -82,12 +82,6 @@ class RefusedParametersTest(unittest.TestCase):
         self.assertTrue(all(math.isfinite(each.sprung_acceleration) for each in truth.messages))
         self.assertLess(truth.messages[-1].header.stamp.to_sec(), START + DURATION)
 
-    def test_former_comparison_of_corners_says_who_compares_them(self):
-        self.rosout.wait_for_publisher()
-        with load_nodelet("CornersNodelet", "corners", {"threshold": 0.9}) as former:
-            self.rosout.wait_for(lambda log: log.level == Log.WARN and "VehicleNodelet compares the corners" in log.msg, "a warning")
-            self.assertTrue(former.running(), former.output())
-
     def test_refused_simulator_leaves_no_topic(self):
         self.rosout.wait_for_publisher()
         with load_nodelet("SimulatorNodelet", "wrong_drive", WRONG_SIMULATION) as wrong:
