@@ -32,8 +32,7 @@ constexpr FormerOptions kFormerOptions[] = {
     {"sprung_rate", "it is rate; that of the other sensor is unsprung_rate"},
     {"valid/min_rows valid/min_explained health/hysteresis health/min_significance health/early_change "
      "health/false_alarm_interval health/gravity_tolerance expected_rate/tolerance queue_size diagnose/threads "
-     "significance ramp_start "
-     "ramp_end noise_distribution gyro_noise wait_for_subscribers",
+     "significance ramp_start ramp_end noise_distribution gyro_noise wait_for_subscribers",
      "its default always holds"},
 };
 

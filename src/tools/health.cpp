@@ -47,8 +47,7 @@ void health(const Arguments& arguments) {
   auto add = description.add_options();
   add(kBaseline, po::value<std::string>(),
       "YAML file with the healthy strut, as the monitor writes it, or settings with nominal values; of a vehicle "
-      "struts: "
-      "{NAME: ...}");
+      "struts: {NAME: ...}");
   add("csv", po::value<std::string>(), "write a line per second and change of level, full precision");
   add(kReport, po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
   const auto values = parse(arguments, "health BAG... [OPTION]...", description, "bag");

@@ -1,5 +1,6 @@
 """Readings that show no strut: the message names what is wrong with them."""
 import copy
+import json
 
 import pytest
 import rosbag
@@ -90,6 +91,16 @@ def test_message_names_what_is_wrong(program, messages, tmp_path, change, settin
     for word in words:
         assert word in result.stderr
     assert "nan" not in result.stdout + result.stderr
+
+
+def test_a_period_that_is_too_long_is_told_and_costs_half_of_the_readings_only(program, messages, tmp_path):
+    """LS and LA see every second one; the blocks take each by its stamp."""
+    bag = write(tmp_path / "drive.bag", messages, nothing)
+    result = program("identify", bag, "--set", "sample_period=0.02", "--json", tmp_path / "result.json")
+    assert result.returncode == 0 and "too_soon: " in result.stdout
+    estimate = json.loads((tmp_path / "result.json").read_text())["estimate"]
+    assert estimate["damping_to_mass"] == pytest.approx(4.0, abs=4.0 * estimate["damping_to_mass_stddev"])
+    assert estimate["stiffness_to_mass"] == pytest.approx(40.0, abs=4.0 * estimate["stiffness_to_mass_stddev"])
 
 
 @pytest.mark.parametrize("settings", [[], ["--set", "integration_horizon=0.6"]], ids=["proposed", "given"])

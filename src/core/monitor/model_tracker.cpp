@@ -70,17 +70,6 @@ void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimat
   estimate.window = (blocks.blocks + 1) * blocks.length / 2.0;
 }
 
-EstimateFacts blockFacts(const StrutEstimate& estimate) {
-  EstimateFacts facts;
-  const double damping = leastDamping(estimate.damping_to_mass, estimate.stiffness_to_mass);
-  facts.damping_stddev = estimate.damping_to_mass_stddev / damping;
-  facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
-  facts.absolute_stddev = std::max(estimate.dampingAbsoluteStddev() / damping,
-                                   estimate.stiffnessAbsoluteStddev() / estimate.stiffness_to_mass);
-  facts.explained = estimate.explained;
-  return facts;
-}
-
 }  // namespace
 
 ModelTracker::ModelTracker(const MonitorSettings& options, bool has_own_blocks)
@@ -173,10 +162,22 @@ void ModelTracker::judge(ModelReport& report) {
   }
 }
 
-void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
-  EstimateFacts facts = blockFacts(estimate);
+// Of the blocks.  @param has_estimate  this one is theirs.
+EstimateFacts ModelTracker::factsOf(const StrutEstimate& estimate, bool has_estimate) const {
+  EstimateFacts facts;
+  const double damping = leastDamping(estimate.damping_to_mass, estimate.stiffness_to_mass);
   facts.unit_fits = unit_fits_;
-  facts.has_row = newest_ || (blocks_ && blocks_->estimator().hasBlocks());
+  facts.has_row = has_estimate || (blocks_ && blocks_->estimator().hasBlocks());
+  facts.damping_stddev = estimate.damping_to_mass_stddev / damping;
+  facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
+  facts.absolute_stddev = std::max(estimate.dampingAbsoluteStddev() / damping,
+                                   estimate.stiffnessAbsoluteStddev() / estimate.stiffness_to_mass);
+  facts.explained = estimate.explained;
+  return facts;
+}
+
+void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
+  EstimateFacts facts = factsOf(estimate, newest_.has_value());
   if (newest_) {
     // Samples of a vehicle's strut are late, and may be older than its blocks.
     estimate.age = facts.age = newest_->age + std::max(0.0, toSeconds(now_ - newest_->stamp));
@@ -191,10 +192,7 @@ StrutEstimate ModelTracker::judged(const std::optional<BlockEstimate>& blocks,
   if (blocks) describe(*blocks, effects().size(), estimate);
   estimate.damping_model_stddev = model_stddev[0];
   estimate.stiffness_model_stddev = model_stddev[1];
-  EstimateFacts facts = blockFacts(estimate);
-  facts.unit_fits = unit_fits_;
-  facts.has_row = blocks || (blocks_ && blocks_->estimator().hasBlocks());
-  estimate.doubt = doubtOf(facts);
+  estimate.doubt = doubtOf(factsOf(estimate, blocks.has_value()));
   return estimate;
 }
 

@@ -8,7 +8,7 @@
 
 namespace suspension_health_monitor {
 
-inline constexpr double kMuchLarger = 3.0;         ///< rms of the body over that of the wheel: they may be swapped
+inline constexpr double kMuchLarger = 3.0;  ///< rms of the body over that of the wheel: they may be swapped
 
 /// Tells faults of a sensor from those of the strut, by what a strut cannot do:
 /// - a vehicle does not climb for good: where one mean reading is gravity (REP 145: +9.81 at rest on the up axis) and

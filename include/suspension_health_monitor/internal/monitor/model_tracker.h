@@ -89,6 +89,7 @@ class ModelTracker {
   bool take(const BlockEstimate* estimate, ModelReport& report);
   bool addRow(const CornerSample& sample, ModelReport& report);
   void judge(ModelReport& report);
+  EstimateFacts factsOf(const StrutEstimate& estimate, bool has_estimate) const;
   void judgeBlocks(StrutEstimate& estimate) const;
   void takeModel(const ModelReport& report);
   void fallBack();

@@ -75,7 +75,7 @@ class VehiclePipeline {
 
   /// @return T [s], once there is a monitor.
   std::optional<double> period() const { return monitor_ ? starts_.front().settings.sample_period : std::nullopt; }
-  Stamp newest() const { return newest_; }           ///< stamp of the newest sample; 0 before the first
+  Stamp newest() const { return newest_; }  ///< stamp of the newest sample; 0 before the first
 
   /// @return readings of a sensor, or of all, that were kept out so far, wherever it was noticed.
   RejectCounts rejected(std::size_t sensor) const;
