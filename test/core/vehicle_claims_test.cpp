@@ -112,6 +112,20 @@ TEST(VehicleClaims, TellWhatPositionsAreTimesTheFile) {
   }
 }
 
+TEST(VehicleClaims, NameOnePositionThatChangesLessThanTheGyrosNoise) {
+  vehicle_drive::Vehicle sedan = vehicle_drive::made("sedan", 1);
+  sedan.roughness *= 16.0;  // class C
+  for (const std::size_t strut : {0u, 3u}) {
+    const VehicleMistake found = tell(sedan, byBody(), [&](Record&, VehicleTops& tops) {
+                                   tops.tops[strut].position->y() *= 0.8;
+                                 }).mistake;
+    EXPECT_EQ(found.kind, Kind::kSideOfOne);
+    EXPECT_EQ(found.struts.first, strut);
+    EXPECT_NEAR(found.size, 1.0 / 0.8, 4.0 * found.stddev);
+    EXPECT_LT(found.stddev, 0.03);
+  }
+}
+
 TEST(VehicleClaims, TellWhereTheBodysImuStands) {
   const VehicleMistake found = tell(vehicle_drive::made("robot", 1), byBody(), [](Record&, VehicleTops& tops) {
                                  for (VehicleTops::Top& top : tops.tops) top.position->x() += 0.1;

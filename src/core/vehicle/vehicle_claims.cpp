@@ -13,9 +13,10 @@ using Kind = VehicleMistake::Kind;
 constexpr int kFewestBlocks = 8;
 constexpr double kSame = 1e-9;   // 1 - r^2 of two streams of one sensor, by rounding; noise of two makes 1e-5
 constexpr double kAlike = 0.01;  // of a wheel's power is all that the other wheels do not have: a tenth of its motion
-constexpr double kBetter = 0.5;  // of what the file leaves
-constexpr double kFits = 0.2;    // of the tops' motion, that a file which is right leaves at most
-constexpr double kMuch = 0.02;   // that goes with the wheels, and no strut of theirs makes; links make 0.003
+constexpr double kBetter = 0.5;  // of what the file leaves beyond noise
+constexpr double kNoiseKnownTo = 0.1;  // of its mean: with it 300 numbers, of all bins, rows and columns
+constexpr double kFits = 0.2;          // of the tops' motion, that a file which is right leaves at most
+constexpr double kMuch = 0.02;         // that goes with the wheels, and no strut of theirs makes; links make 0.003
 constexpr int kRefinements = 3;
 
 double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j) {
@@ -54,17 +55,22 @@ VehicleClaims::Mapping VehicleClaims::asFiled() const {
   return mapping;
 }
 
-// Of all streams the part that goes with the wheels and the known forces: noise of other sensors does not.
+// Of all streams the part that goes with the wheels and the known forces: noise of other sensors does not, but for the
+// share of it that as many columns fit in as many blocks.
 void VehicleClaims::keepWhatWheelsTell() {
+  const double share = noiseShare();
   Eigen::MatrixXcd causes = Eigen::MatrixXcd::Zero(6 * n_ + forces_, n_ + forces_);
   causes.block(2 * n_, 0, n_, n_).setIdentity();  // p = 1
   causes.bottomRightCorner(forces_, forces_).setIdentity();
   for (Eigen::MatrixXcd& products : products_) {
     const Eigen::MatrixXcd with_causes = products * causes;
-    products =
+    const Eigen::MatrixXcd with_them =
         with_causes * (causes.adjoint() * with_causes).completeOrthogonalDecomposition().solve(with_causes.adjoint());
+    products = (with_them - share * products) / (1.0 - share);
   }
 }
+
+double VehicleClaims::noiseShare() const { return static_cast<double>(n_ + forces_) / blocks_; }
 
 // A stream that is late by tau has exp(-s tau) of what happened.
 Eigen::MatrixXd VehicleClaims::moments(const Eigen::VectorXd& delays) const {
@@ -120,11 +126,14 @@ VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
     found.size = std::clamp(found.size + (below - above) / (2.0 * curvature * step), sizes.front(), sizes.back());
     found.unexplained = unexplained(hypothesis, found.size);
   }
-  // At an end of the range it is something else.
-  if (found.size <= sizes.front() || found.size >= sizes.back()) found.unexplained = 1.0;
-  // Of a sum of squares over as many equations; half of each block is the next one's, too.
+  // Without a minimum, or with one at an end of the range, it is something else.
+  if (!(curvature > 0.0) || found.size <= sizes.front() || found.size >= sizes.back()) {
+    found.unexplained = 1.0;
+    return found;
+  }
+  // Of a sum of squares over as many equations, noise among them; neighbouring bins of a window share half.
   const double equations = 0.5 * blocks_ * 2.0 * static_cast<double>(s_.size() * n_);
-  found.stddev = std::sqrt(std::max(0.0, 2.0 * found.unexplained / (curvature * equations)));
+  found.stddev = std::sqrt(2.0 * (noise_ + std::max(0.0, found.unexplained)) / (curvature * equations));
   return found;
 }
 
@@ -162,17 +171,19 @@ VehicleMistake VehicleClaims::find(const StrutPlaces& places) {
   keepWhatWheelsTell();
   in_step_ = moments(filed.delays);
   const double filed_leaves = unexplained(filed, in_step_);
-  double least = std::min(kBetter * filed_leaves, kFits);
+  noise_ = std::max(0.0, all - filed_leaves);
+  const double slack = kNoiseKnownTo * noiseShare() * noise_;
+  double least = kFits;
   for (const Hypothesis& hypothesis : hypotheses(places)) {
     VehicleMistake other = attempt(hypothesis);
-    if (!(other.unexplained < least) || !other.isLarge()) continue;
+    if (!(other.unexplained < least) || !other.isLarge() ||
+        !(other.unexplained + slack < kBetter * (filed_leaves + slack)))
+      continue;
     least = other.unexplained;
     found = other;
     found.unexplained = all;
   }
-  // Of noise n wheels "tell" n / B in B blocks that share no reading, to a tenth.
-  const double of_noise = 1.5 * static_cast<double>(n_) / (0.5 * blocks_) * all;
-  if (found.kind == Kind::kNone && filed_leaves > std::max(kMuch, of_noise)) found.kind = Kind::kOthers;
+  if (found.kind == Kind::kNone && filed_leaves > std::max(kMuch, noiseShare() * noise_)) found.kind = Kind::kOthers;
   return found;
 }
 

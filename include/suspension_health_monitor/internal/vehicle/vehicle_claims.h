@@ -78,6 +78,7 @@ class VehicleClaims {
     std::vector<double> sizes;  ///< to begin with; one: there are no others
     std::function<void(double size, Mapping& mapping)> apply;
   };
+  double noiseShare() const;
   void keepWhatWheelsTell();
   Mapping asFiled() const;
   Eigen::MatrixXd moments(const Eigen::VectorXd& delays) const;
@@ -94,6 +95,7 @@ class VehicleClaims {
   std::vector<Eigen::MatrixXcd> products_;  // by bin: by p, then wheels, then tops; forces; of displacements
   Eigen::MatrixXd in_step_;                 // moments() if no stream is late
   Eigen::MatrixXd whole_;                   // of H_0 of wheels and tops, all bins
+  double noise_ = 0.0;                      // share of the tops' motion that does not go with the wheels
   int blocks_ = 0;
 };
 
