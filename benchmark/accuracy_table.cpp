@@ -1,5 +1,5 @@
-// Prints the tables of doc/uncertainty.md on vehicles that nobody had in mind, and on clocks that differ: how far the
-// block estimate and LA are off, and how often their intervals hold the truth.
+// Prints tables, which doc/uncertainty.md quotes, on vehicles that nobody had in mind, and on clocks that differ: how
+// far the block estimate and LA are off, and how often their intervals hold the truth.
 //   accuracy_table offset|skew [MEMORY]     memory in seconds
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Estimates from sensors as they really come against those from ideal ones, and what bringing them onto one grid costs.
-//   alignment_table [SEEDS]                   the table of doc/alignment.md; measurements of each drive, default 20
+//   alignment_table [SEEDS]                   the table; measurements of each drive, default 20
 //   alignment_table --loop ALIGNMENT RATE COUNT   COUNT readings of 200 Hz and as long a stream of RATE Hz, paired or
 //                                             resampled onto 200 Hz, for counting instructions
 #include <Eigen/Core>

@@ -1,5 +1,4 @@
-// Prints the table of doc/uncertainty.md: how often the block estimate plus and minus 1.96 stddev holds the truth, over
-// roads, vehicles and noise.
+// Prints how often the block estimate plus and minus 1.96 stddev holds the truth, over roads, vehicles and noise.
 //   coverage_table [SEEDS]      measurements of each drive, default 10
 #include <cstdio>
 #include <cstdlib>

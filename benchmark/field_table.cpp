@@ -1,4 +1,4 @@
-// Prints the tables of doc/health.md, "In the field": what is said of a strut as it is met there.
+// Prints the tables that doc/robustness.md quotes: what is said of a strut as it is met there.
 //   field_table healthy|unfiltered|steps [MEMORY [HOURS]]     memory in seconds; hours of a drive, default 10;
 //   unfiltered: healthy without an anti-alias filter
 #include <algorithm>

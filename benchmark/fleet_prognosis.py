@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How right the prognosis is on fleets whose truth is known: the tables of doc/fleet_prognosis.md.
+"""How right the prognosis is on fleets whose truth is known: the figures of doc/fleet_prognosis.md.
 
     source devel/setup.bash && benchmark/fleet_prognosis.py STRUTS SEED [ROW...]
 """

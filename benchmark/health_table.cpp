@@ -1,4 +1,4 @@
-// Prints the tables of doc/health.md: how soon the judgement of health finds a change of the damping, and how often it
+// Prints how soon the judgement of health finds a change of the damping, and how often it
 // finds one in a healthy strut.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Prints the table of doc/uncertainty.md about rest: what a day parked does to the estimates.
+// Prints what a day parked does to the estimates; doc/uncertainty.md quotes it.
 #include <chrono>
 #include <cmath>
 #include <cstdio>

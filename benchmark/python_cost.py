@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What Python adds to the cost of a search and of a stream, in processor time: the table of doc/python.md.
+"""What Python adds to the cost of a search and of a stream, in processor time: the figures of doc/python.md.
 
     source devel/setup.bash && benchmark/python_cost.py
 """

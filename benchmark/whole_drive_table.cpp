@@ -1,6 +1,5 @@
-// Prints the tables of doc/uncertainty.md for whole drives: error of b1 and b0 by least squares over all rows and by
-// the estimate of identify(), and how often the latter's 95 % interval holds the truth; then the latter in the field
-// (field_drive.h).
+// Prints tables for whole drives: error of b1 and b0 by least squares over all rows and by the estimate of identify(),
+// and how often the latter's 95 % interval holds the truth; then the latter in the field (field_drive.h).
 //   whole_drive_table [SEEDS [SECONDS]]      measurements of each drive, default 20, and its length, default 120
 #include <array>
 #include <cstdio>

@@ -63,7 +63,7 @@ struct KnownForceCoefficients {
 /// How the struts of a vehicle move one another through its body: what strut j does to its own top it does to that of
 /// strut i with the ratio rho_ij, of a rigid body without anti-roll bars
 ///   rho_ij = a_ij / a_jj,   a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx.
-/// doc/vehicle.md derives it.
+/// doc/conventions.md, Vehicles.
 struct VehicleCoupling {
   std::vector<std::vector<double>> ratios;   ///< rho_ij in row i [-]; 1 for j = i
   std::vector<std::vector<double>> stddevs;  ///< of these
