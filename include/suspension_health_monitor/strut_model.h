@@ -35,6 +35,8 @@ struct StrutModel {
   double stiffness_to_mass = 0.0;  ///< b0 [1/s^2]
   std::vector<ActiveEffect> effects;
   std::vector<ActiveMeasurementEffect> reading;
+  /// false: it leaves more than noise of the drives that it is from, so its b1 and b0 are those of these drives only.
+  bool is_complete = true;
 
   LinearStrut linearPart() const { return {damping_to_mass, stiffness_to_mass}; }
 

@@ -144,6 +144,8 @@ std::vector<std::string> LiveModel::remarks() const {
                   (std::filesystem::exists(model_file_) ? " has no model of " + strut_
                                                         : " is not there yet" + inWhichFolder(model_file_)) +
                   ": starting with " + describe());
+  if (!isComplete())
+    all.push_back(model_file_ + ": the model leaves more than noise, so health does not judge by nominal values");
   if (loaded_)
     for (const ActiveMeasurementEffect& reading : loaded_->reading)
       all.push_back(model_file_ + ": " + reading.effect.name +

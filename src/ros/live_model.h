@@ -30,6 +30,9 @@ class LiveModel {
   const std::vector<ActiveEffect>& effects() const { return effects_; }
   void setEffects(std::vector<ActiveEffect> effects) { effects_ = std::move(effects); }
 
+  /// @return false: model_file says that its model leaves more than noise. Then health learns a baseline.
+  bool isComplete() const { return !loaded_ || loaded_->is_complete; }
+
   /// @return what the model is, in a few words.
   std::string describe() const;
 

@@ -109,7 +109,7 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
 }
 
 void MonitorNodelet::startAlone(ros::NodeHandle& private_node) {
-  const MonitorOptions& options = options_.common.monitor;
+  const MonitorOptions& options = options_.struts.front().monitor;
   NODELET_INFO("listens to %s (body) and %s (wheel); sample period %s, horizon %g s, memory %g s; health against %s",
                imus_->topic(indexOf(Side::kSprung)).c_str(), imus_->topic(indexOf(Side::kUnsprung)).c_str(),
                options.sample_period ? formatted("%g s", *options.sample_period).c_str() : "measured",

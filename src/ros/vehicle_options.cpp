@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "live_model.h"
 #include "model_file.h"
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
@@ -77,6 +78,15 @@ void requireItsStruts(const VehicleOptions& options) {
   });
 }
 
+/// What a model leaves moves b1 and b0 from drive to drive.
+void dropNominalOfIncompleteModels(VehicleOptions& options) {
+  for (std::size_t i = 0; i < options.struts.size(); ++i) {
+    PipelineOptions& strut = options.struts[i];
+    if (strut.shell.model_file.empty() || LiveModel(strut.shell, options.model_of[i]).isComplete()) continue;
+    strut.monitor.nominal_damping_to_mass = strut.monitor.nominal_stiffness_to_mass = std::nullopt;
+  }
+}
+
 }  // namespace
 
 VehicleOptions VehicleOptions::fromValues(OptionMap values) {
@@ -101,11 +111,14 @@ VehicleOptions VehicleOptions::fromValues(VehicleLayout layout, OptionMap values
   requireOwnFiles(options, "baseline_file", &ShellOptions::baseline_file);
   requireOwnFiles(options, "model_file", &ShellOptions::model_file);
   requireItsStruts(options);
+  dropNominalOfIncompleteModels(options);
   return options;
 }
 
 VehicleOptions VehicleOptions::ofOneStrut(const PipelineOptions& options) {
-  return {VehicleLayout::ofOneStrut(options.monitor.tyre), options, {options}, {""}};
+  VehicleOptions one{VehicleLayout::ofOneStrut(options.monitor.tyre), options, {options}, {""}};
+  dropNominalOfIncompleteModels(one);
+  return one;
 }
 
 std::vector<std::string> VehicleOptions::forceNames() const {

@@ -93,6 +93,7 @@ OptionMap givenSettings(const po::variables_map& values) {
   if (values.count(kVehicle) != 0 || path.empty() || settings.count(kDamping) == 0 || settings.count(kStiffness) == 0)
     return settings;
   settings.insert({"model_file", path});
+  settings.erase("complete");
   for (const char* number : {kDamping, kStiffness}) {
     settings.insert({std::string("nominal/") + number, settings.at(number)});
     settings.erase(number);

@@ -151,6 +151,15 @@ def test_settings_decide(program, worn_bag, worn, tmp_path):
     assert (stiffer["events"][1]["level"], stiffer["events"][-1]["level"] == "ERROR") == ("ERROR", False)
 
 
+@pytest.mark.parametrize("complete", [True, False])
+def test_only_a_complete_model_has_nominal_values(program, healthy_bag, tmp_path, complete):
+    (tmp_path / "model.yaml").write_text(f"damping_to_mass: 1.5\nstiffness_to_mass: {B0}\n"
+                                         f"complete: {str(complete).lower()}\n")
+    said = health(program, tmp_path, [healthy_bag], "--config", tmp_path / "model.yaml")
+    assert ("ERROR" in levels(said)) == complete
+    assert any("learning the baseline" in event["message"] for event in said.result["events"]) != complete
+
+
 def test_start_and_end_choose_a_part(program, worn_bag, tmp_path):
     said = health(program, tmp_path, [worn_bag], *SETTINGS, "--start", 10, "--end", 50)
     assert levels(said) == ["STALE", "OK"]

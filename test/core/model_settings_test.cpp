@@ -94,10 +94,18 @@ TEST(ModelSettings, YamlAndBackKeepsEveryBit) {
     EXPECT_EQ(back.effects[1].effect.name, "bump_stop");
     EXPECT_EQ(back.effects[1].coefficient, number);
     EXPECT_EQ(back.effects[1].shapes, std::vector<double>{shape});
+    EXPECT_TRUE(back.is_complete);
     ASSERT_EQ(back.reading.size(), 1u);
     EXPECT_EQ(back.reading[0].effect.name, "clock_offset");
     EXPECT_EQ(back.reading[0].coefficients, std::vector<double>{-number});
   }
+}
+
+TEST(ModelSettings, AModelThatLeavesMoreThanNoiseIsMarkedSo) {
+  StrutModel model = exampleModel();
+  model.is_complete = false;
+  OptionMap values = parse(toYaml(model));
+  EXPECT_FALSE(takeModel(values, builtInEffects()).is_complete);
 }
 
 TEST(ModelSettings, LeavesOtherSettings) {

@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
+#include <array>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
@@ -9,6 +10,9 @@
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr std::array kModelFields{
+    OptionField<StrutModel>{"complete", "", "false: it leaves more than noise", &StrutModel::is_complete}};
 
 double takeParameter(OptionMap& values, const std::string& name, double min) {
   const auto found = values.find(name);
@@ -48,6 +52,7 @@ StrutModel takeModel(OptionMap& values, const EffectLibrary& library) {
   model.stiffness_to_mass = takeParameter(values, "stiffness_to_mass", 1e-15);
   model.effects = takeEffects(values, library.forces, library.readings);
   model.reading = takeReadings(values, library.readings);
+  takeOptions(values, kModelFields, model);
   if (model.effects.size() > kMostEffects)
     throw std::invalid_argument("effects: " + std::to_string(model.effects.size()) + " of them, must be at most " +
                                 std::to_string(kMostEffects));
@@ -57,6 +62,7 @@ StrutModel takeModel(OptionMap& values, const EffectLibrary& library) {
 std::string toYaml(const StrutModel& model) {
   std::string text = line("", "damping_to_mass", model.damping_to_mass, "1/s") +
                      line("", "stiffness_to_mass", model.stiffness_to_mass, "1/s^2");
+  if (!model.is_complete) text += "complete: false  # it leaves more than noise: b1 and b0 are no nominal values\n";
   if (!model.effects.empty()) text += "effects:\n";
   for (const ActiveEffect& active : model.effects) {
     text += "  " + active.effect.name + ":\n" + line("    ", "coefficient", active.coefficient, active.effect.unit);

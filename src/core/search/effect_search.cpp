@@ -213,6 +213,7 @@ void Search::conclude(const EvaluatedModel& last) {
   }
   const bool structured = suspect_ || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
   result_.verdict = structured ? Verdict::kUnexplained : Verdict::kNothingMissing;
+  result_.base.model.is_complete = !structured;
   if (result_.structured_share > 0.0)
     result_.folded_share =
         foldedMotion(records_, base_.ranked.model) / (std::sqrt(result_.structured_share) * base_.ranked.held_out_rmse);
@@ -226,6 +227,7 @@ void Search::name(Verdict verdict, const EvaluatedModel& model) {
   result_.extended = model.ranked;
   result_.extended_fit_percent = evaluator_.heldOut().fitPercent(model.ranked.held_out_rmse);
   result_.final_fit = finalFit(model);
+  if (result_.final_fit) result_.final_fit->model.is_complete = verdict != Verdict::kSuspect;
 }
 
 SearchResult Search::run(const ModelFit& rough) {

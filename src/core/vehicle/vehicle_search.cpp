@@ -81,7 +81,9 @@ void VehicleSearch::fitFound() {
   const std::vector<std::optional<ModelFit>> fits = separator_.fitModels(found);
   for (std::size_t k = 0; k < found.size(); ++k) {
     Diagnosis& strut = result_.struts[found[k]];
-    if (fits[k]) strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
+    if (!fits[k]) continue;
+    strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
+    strut.final_fit->model.is_complete = strut.verdict != Verdict::kSuspect;
   }
 }
 
