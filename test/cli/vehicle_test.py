@@ -2,6 +2,7 @@
 import json
 
 import pytest
+import yaml
 
 
 @pytest.fixture(scope="module")
@@ -149,3 +150,31 @@ def test_wheels_that_move_alike_are_not_told_apart(program, tmp_path):
     told = program("identify", bag, "--vehicle", path)
     assert told.returncode == 4
     assert "cannot tell" in told.stderr and "_left" in told.stderr and "_right" in told.stderr
+
+
+@pytest.fixture(scope="module")
+def ugv(program, tmp_path_factory):
+    """@return bag of 60 s with one IMU on the body, and what its vehicle file holds."""
+    folder = tmp_path_factory.mktemp("ugv")
+    program.succeed("simulate", "--vehicle-model", "ugv", "--duration", "60", "--rate", "100", "--set",
+                    "sprung_imus=none", "-o", folder / "drive.bag", "--vehicle-file", folder / "vehicle.yaml")
+    return folder / "drive.bag", (folder / "vehicle.yaml").read_text()
+
+
+def mirror(left, _):
+    left["position"][0] *= -1.0
+
+
+def swap(left, right):
+    left["unsprung_imu"], right["unsprung_imu"] = right["unsprung_imu"], left["unsprung_imu"]
+
+
+@pytest.mark.parametrize("command", ["identify", "compare", "diagnose"])
+@pytest.mark.parametrize("make_wrong, words", [(mirror, ["other sign of x", "front_left"]), (swap, ["swapped", "front_left"])])
+def test_a_mistake_in_the_vehicle_file_is_named_by_every_command(program, ugv, tmp_path, command, make_wrong, words):
+    vehicle = yaml.safe_load(ugv[1])
+    make_wrong(vehicle["struts"]["front_left"], vehicle["struts"]["front_right"])
+    (tmp_path / "wrong.yaml").write_text(yaml.safe_dump(vehicle))
+    told = program(command, ugv[0], "--vehicle", tmp_path / "wrong.yaml")
+    assert told.returncode == 4
+    assert all(word in told.stdout + told.stderr for word in ["vehicle file", *words])

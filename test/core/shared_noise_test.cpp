@@ -87,15 +87,15 @@ TEST(SharedNoise, StaysWhereAModelRunsAway) {
   EXPECT_EQ(drives[0][0].samples[2000].sprung_acceleration, before[0].samples[2000].sprung_acceleration);
 }
 
-TEST(SharesSensors, TellsABodysImuFromOwnOnes) {
-  EXPECT_FALSE(sharesSensors({}));
-  EXPECT_FALSE(sharesSensors(noiseOfOwnSensors(4)));
+TEST(StrutsOfASensor, AreAllThoseThatTheBodysImuTellsOf) {
+  EXPECT_EQ(mostStrutsOfASensor({}), 0);
+  EXPECT_EQ(mostStrutsOfASensor(noiseOfOwnSensors(4)), 1);
   VehicleChannels channels;
   channels.body_imu = 0;
   channels.struts = {{6, {}, Eigen::Vector3d(1.0, 0.0, 0.0)}, {7, {}, Eigen::Vector3d(-1.0, 0.0, 0.0)}};
-  EXPECT_TRUE(sharesSensors(noiseOfStrutTops(channels, fromSeconds(kT), 0.1)));
+  EXPECT_EQ(mostStrutsOfASensor(noiseOfStrutTops(channels, fromSeconds(kT), 0.1)), 2);
   channels.struts.pop_back();
-  EXPECT_FALSE(sharesSensors(noiseOfStrutTops(channels, fromSeconds(kT), 0.1)));
+  EXPECT_EQ(mostStrutsOfASensor(noiseOfStrutTops(channels, fromSeconds(kT), 0.1)), 1);
 }
 
 }  // namespace

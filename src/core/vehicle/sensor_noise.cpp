@@ -65,15 +65,16 @@ SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, doub
   return noise;
 }
 
-bool sharesSensors(const SensorNoise& noise) {
+std::ptrdiff_t mostStrutsOfASensor(const SensorNoise& noise) {
   const auto shows = [](const Drive& strut) {
     return std::any_of(strut.samples.begin(), strut.samples.end(), [](const CornerSample& sample) {
       return sample.sprung_acceleration != 0.0 || sample.unsprung_acceleration != 0.0;
     });
   };
-  return std::any_of(noise.begin(), noise.end(), [&](const StrutDrives& response) {
-    return std::count_if(response.begin(), response.end(), shows) > 1;
-  });
+  std::ptrdiff_t most = 0;
+  for (const StrutDrives& response : noise)
+    most = std::max(most, std::count_if(response.begin(), response.end(), shows));
+  return most;
 }
 
 StrutDrives makeNoiseDrive(const SensorNoise& noise, double period) {

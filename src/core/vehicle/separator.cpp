@@ -56,17 +56,19 @@ void Separator::learnRows(const std::vector<std::string>& names) {
     for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) blocks.push(sampleOf(drive, k));
   }
   const std::optional<BodyRows> rows = blocks.rowsOverTheDrive();
-  const bool are_known = rows && rows->areKnown();
+  const auto of_body_imu = static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise));
+  const VehicleMistake mistake = blocks.mistake(of_body_imu == names.size() ? drives_.front().places : StrutPlaces{});
+  const bool are_known = rows && rows->areKnown() && !mistake.isContradiction();
   std::optional<BodyFitResult> body;
   if (are_known) {
     if (names.size() > 1) body = BodyFit::of(names.size(), drives_.front().places).fit(*rows, blocks.rowsOfHalves());
     rows_ = body ? body->combined(*rows) : *rows;
   }
-  coupling_ = describe(are_known ? &rows_ : nullptr, body, are_known ? "" : whyNotCoupled(blocks.mistake(), names),
+  coupling_ = describe(are_known ? &rows_ : nullptr, body, are_known ? "" : whyNotCoupled(mistake, names),
                        forceNames(drives_.front()));
 }
 
-bool Separator::sharesNoise() const { return sharesSensors(drives_.front().noise); }
+bool Separator::sharesNoise() const { return mostStrutsOfASensor(drives_.front().noise) > 1; }
 
 std::vector<std::optional<ModelFit>> Separator::fitModels(const std::vector<std::size_t>& struts) {
   const std::vector<std::vector<Drive>> separated = separate();

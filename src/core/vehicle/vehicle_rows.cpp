@@ -73,10 +73,8 @@ std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
   return rows;
 }
 
-VehicleMistake VehicleBlocks::mistake() const {
+VehicleMistake VehicleBlocks::mistake(const StrutPlaces& of_body_imu) const {
   const auto n = static_cast<Eigen::Index>(tops_.size());
-  const bool is_by_body =
-      std::none_of(tops_.tops.begin(), tops_.tops.end(), [](const auto& top) { return top.has_own; });
   const Modulation modulation(estimators_.front().equations().band());
   const Eigen::ArrayXcd s = modulation.s();
   const auto num_forces = static_cast<Eigen::Index>(tops_.known_forces);
@@ -96,11 +94,11 @@ VehicleMistake VehicleBlocks::mistake() const {
     for (Eigen::Index k = 0; k < num_forces; ++k)
       modulation.apply(2, first.forces.col(firstKnownForce() + k), forces.col(k));
     claims.add(wheels, tops, forces);
-    if (is_by_body && 2 * age < estimators_.front().count()) newer.add(wheels, tops, forces);
+    if (2 * age < estimators_.front().count()) newer.add(wheels, tops, forces);
   }
-  if (!is_by_body) return claims.find({});
-  if (newer.hasDeadGyro(tops_.places())) return {VehicleMistake::Kind::kDeadGyro, {}};  // it may have died
-  return claims.find(tops_.places());
+  if (!of_body_imu.empty() && newer.hasDeadGyro(of_body_imu))
+    return {VehicleMistake::Kind::kDeadGyro, {}};  // it may have died
+  return claims.find(of_body_imu);
 }
 
 std::vector<BodyRows> VehicleBlocks::rowsOfHalves() {

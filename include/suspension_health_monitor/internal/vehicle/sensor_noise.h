@@ -18,8 +18,8 @@ SensorNoise knownNoise(const SensorNoise& noise, std::size_t num_struts);
 /// @return the noise of a vehicle's sensors behind its StrutTops.
 SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise);
 
-/// @return true if a wrong reading of one sensor shows in several struts.
-bool sharesSensors(const SensorNoise& noise);
+/// @return in how many struts a wrong reading of one sensor shows, of the sensor that shows in most.
+std::ptrdiff_t mostStrutsOfASensor(const SensorNoise& noise);
 
 /// @return a drive that is nothing but the noise of all sensors, long enough to tell its size within a percent.
 StrutDrives makeNoiseDrive(const SensorNoise& noise, double period);

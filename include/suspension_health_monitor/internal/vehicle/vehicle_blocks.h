@@ -76,7 +76,9 @@ class VehicleBlocks {
   double length() const { return length_; }  ///< T of the blocks [s]
 
   /// @return what the blocks kept say against the vehicle file. Not for the sample path.
-  VehicleMistake mistake() const;
+  VehicleMistake mistake() const { return mistake(tops_.areOfBody() ? tops_.places() : StrutPlaces{}); }
+  /// @param of_body_imu  where the tops are, if what is given as theirs was made of the body's IMU; else empty.
+  VehicleMistake mistake(const StrutPlaces& of_body_imu) const;
 
   /// Another drive: blocks are forgotten, but to overTheDrive(); estimates stay until there are new ones.
   void restart();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -29,9 +30,11 @@ struct VehicleTops {
     return result;
   }
   bool needsBody() const {
-    for (const Top& top : tops)
-      if (!top.has_own) return true;
-    return false;
+    return std::any_of(tops.begin(), tops.end(), [](const Top& top) { return !top.has_own; });
+  }
+  /// @return true: the body's IMU tells of all.
+  bool areOfBody() const {
+    return std::none_of(tops.begin(), tops.end(), [](const Top& top) { return top.has_own; });
   }
 };
 
