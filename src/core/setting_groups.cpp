@@ -57,7 +57,7 @@ std::vector<double> takeNumbers(const std::string& group, const OptionMap& setti
 
 double toNumber(const std::string& name, const OptionValue& value, double min, double max) {
   OptionMap one{{name, value}};
-  const std::array fields{OptionField<Number>{name, "SI", "a number", &Number::value, min, max}};
+  const OptionField<Number> fields[] = {{name, "SI", "a number", &Number::value, min, max}};
   Number number{min};
   takeOptions(one, fields, number);
   return number.value;

@@ -32,7 +32,7 @@ struct Simulation {
 };
 
 void refusePlaying(const OptionMap& values) {
-  for (const PlayingField& field : kPlayingFields)
+  for (const auto& field : kPlayingFields)
     if (field.name != "start_time" && values.count(std::string(field.name)) != 0)
       throw std::invalid_argument(std::string(field.name) + " is an option of the nodelet, must not come with arrays");
 }

@@ -60,13 +60,13 @@ OptionValue toValue(const std::string& name, const py::handle& given) {
 const std::map<std::string_view, std::string> kArguments{
     {"effects", "model"}, {"model_file", "model"}, {"effects_file", "effects_file"}, {"baseline_file", "baseline"}};
 
-bool isOfArrays(const ShellField& field) { return field.name == "input_timeout"; }
+bool isOfArrays(const OptionField<ShellOptions>& field) { return field.name == "input_timeout"; }
 
 }  // namespace
 
 Keywords Keywords::withoutMessages() const {
   Keywords rest = *this;
-  for (const ShellField& field : kShellFields)
+  for (const auto& field : kShellFields)
     if (!isOfArrays(field) && kArguments.count(field.name) == 0) rest.values.erase(std::string(field.name));
   return rest;
 }
@@ -116,7 +116,7 @@ std::vector<std::string> Keywords::assignments() const {
 }
 
 PipelineOptions Keywords::forArrays() const {
-  for (const ShellField& field : kShellFields) {
+  for (const auto& field : kShellFields) {
     if (isOfArrays(field) || values.count(std::string(field.name)) == 0) continue;
     const auto argument = kArguments.find(field.name);
     throw std::invalid_argument(std::string(field.name) +

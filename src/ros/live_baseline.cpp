@@ -26,38 +26,33 @@ struct BaselineSettings : Baseline {
   std::optional<double> learned_from, learned_to;
 };
 
-using BaselineField = OptionField<BaselineSettings>;
-constexpr std::array kBaselineFields{
-    BaselineField{"damping_to_mass", "1/s", "b1 of the healthy strut", &BaselineSettings::damping_to_mass, 1e-9, 1e9},
-    BaselineField{"damping_to_mass_stddev", "1/s", "its standard deviation", &BaselineSettings::damping_to_mass_stddev,
-                  0.0, 1e9},
-    BaselineField{"stiffness_to_mass", "1/s^2", "b0 of the healthy strut", &BaselineSettings::stiffness_to_mass, 1e-9,
-                  1e12},
-    BaselineField{"stiffness_to_mass_stddev", "1/s^2", "its standard deviation",
-                  &BaselineSettings::stiffness_to_mass_stddev, 0.0, 1e12},
-    BaselineField{"damping_scatter", "1/s", "of healthy windows, beyond their standard deviations",
-                  &BaselineSettings::scatter_of_damping, 0.0, 1e9},
-    BaselineField{"stiffness_scatter", "1/s^2", "likewise, of b0", &BaselineSettings::scatter_of_stiffness, 0.0, 1e12},
-    BaselineField{"dry_friction", "m/s^2", "that the strut had besides, over the body's mass; left out: not known",
-                  &BaselineSettings::dry_friction, -1e6, 1e6},
-    BaselineField{"dry_friction_stddev", "m/s^2", "its standard deviation", &BaselineSettings::dry_friction_stddev, 0.0,
-                  1e6},
-    BaselineField{"friction_damping_gain", "s/m", "what 1 m/s^2 of it made of b1 on that road",
-                  &BaselineSettings::friction_damping_gain, -1e9, 1e9},
-    BaselineField{"friction_damping_covariance", "m/s^3", "of the errors of b1 and the friction",
-                  &BaselineSettings::friction_damping_covariance, -1e9, 1e9},
-    BaselineField{"friction_stiffness_gain", "1/m", "of files whose b1 has the friction's share in it: not used",
-                  &BaselineSettings::friction_stiffness_gain, -1e12, 1e12},
-    BaselineField{"temperature", "deg C", "of the damper when it was learned; left out: it had no thermometer",
-                  &BaselineSettings::celsius, -1e4, 1e4},
-    BaselineField{"damping_per_kelvin", "1/K", "change of ln b1 with it", &BaselineSettings::per_kelvin, -1.0, 1.0},
-    BaselineField{"damping_per_kelvin_stddev", "1/K", "its standard deviation", &BaselineSettings::per_kelvin_stddev,
-                  0.0, 1.0},
-    BaselineField{"integration_horizon", "s", "of the filter that it was learned with",
-                  &BaselineSettings::integration_horizon, 0.0, 1e9},
-    BaselineField{"sample_period", "s", "likewise", &BaselineSettings::sample_period, 1e-5, 10.0},
-    BaselineField{"learned_from", "s", "stamp of the first estimate", &BaselineSettings::learned_from, 0.0, 9e9},
-    BaselineField{"learned_to", "s", "stamp of the last estimate", &BaselineSettings::learned_to, 0.0, 9e9},
+constexpr OptionField<BaselineSettings> kBaselineFields[] = {
+    {"damping_to_mass", "1/s", "b1 of the healthy strut", &BaselineSettings::damping_to_mass, 1e-9, 1e9},
+    {"damping_to_mass_stddev", "1/s", "its standard deviation", &BaselineSettings::damping_to_mass_stddev, 0.0, 1e9},
+    {"stiffness_to_mass", "1/s^2", "b0 of the healthy strut", &BaselineSettings::stiffness_to_mass, 1e-9, 1e12},
+    {"stiffness_to_mass_stddev", "1/s^2", "its standard deviation", &BaselineSettings::stiffness_to_mass_stddev, 0.0,
+     1e12},
+    {"damping_scatter", "1/s", "of healthy windows, beyond their standard deviations",
+     &BaselineSettings::scatter_of_damping, 0.0, 1e9},
+    {"stiffness_scatter", "1/s^2", "likewise, of b0", &BaselineSettings::scatter_of_stiffness, 0.0, 1e12},
+    {"dry_friction", "m/s^2", "that the strut had besides, over the body's mass; left out: not known",
+     &BaselineSettings::dry_friction, -1e6, 1e6},
+    {"dry_friction_stddev", "m/s^2", "its standard deviation", &BaselineSettings::dry_friction_stddev, 0.0, 1e6},
+    {"friction_damping_gain", "s/m", "what 1 m/s^2 of it made of b1 on that road",
+     &BaselineSettings::friction_damping_gain, -1e9, 1e9},
+    {"friction_damping_covariance", "m/s^3", "of the errors of b1 and the friction",
+     &BaselineSettings::friction_damping_covariance, -1e9, 1e9},
+    {"friction_stiffness_gain", "1/m", "of files whose b1 has the friction's share in it: not used",
+     &BaselineSettings::friction_stiffness_gain, -1e12, 1e12},
+    {"temperature", "deg C", "of the damper when it was learned; left out: it had no thermometer",
+     &BaselineSettings::celsius, -1e4, 1e4},
+    {"damping_per_kelvin", "1/K", "change of ln b1 with it", &BaselineSettings::per_kelvin, -1.0, 1.0},
+    {"damping_per_kelvin_stddev", "1/K", "its standard deviation", &BaselineSettings::per_kelvin_stddev, 0.0, 1.0},
+    {"integration_horizon", "s", "of the filter that it was learned with", &BaselineSettings::integration_horizon, 0.0,
+     1e9},
+    {"sample_period", "s", "likewise", &BaselineSettings::sample_period, 1e-5, 10.0},
+    {"learned_from", "s", "stamp of the first estimate", &BaselineSettings::learned_from, 0.0, 9e9},
+    {"learned_to", "s", "stamp of the last estimate", &BaselineSettings::learned_to, 0.0, 9e9},
 };
 
 double needed(const std::optional<double>& value, const char* name) {
@@ -140,7 +135,7 @@ std::string toYaml(const Baseline& baseline, double horizon, double sample_perio
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::setprecision(17) << "# The healthy strut, written by the monitor.\n";
-  for (const BaselineField& field : kBaselineFields)
+  for (const auto& field : kBaselineFields)
     if (const std::optional<OptionValue> value = option_table::valueOf(option_table::bind(field, settings)))
       text << field.name << ": " << std::get<double>(*value) << "  # [" << field.unit << "] " << field.help << '\n';
   return text.str();

@@ -18,21 +18,18 @@ struct PlayingOptions {
       "/monitor/estimate /monitor/ls /monitor/la /monitor/comparison /monitor/health /simulator/truth";
 };
 
-using PlayingField = OptionField<PlayingOptions>;
-inline constexpr std::array kPlayingFields{
-    PlayingField{"playing", "start_time", "s", "stamp at the start of the drive; live without publish_clock it is now",
-                 &PlayingOptions::start_time, 0.0, 4e9},
-    PlayingField{"playing", "real_time_factor", "-", "drive seconds per wall second; 0: as fast as subscribers keep up",
-                 &PlayingOptions::real_time_factor, 0.0, 1e6},
-    PlayingField{"playing", "publish_clock", "-", "drive /clock, for nodes with use_sim_time",
-                 &PlayingOptions::publish_clock},
-    PlayingField{"playing", "record", "-", "bag to record the drive into, every message of it; empty: none",
-                 &PlayingOptions::record},
-    PlayingField{"playing", "record_topics", "-",
-                 "what to record, with spaces; the drive begins once all are published",
-                 &PlayingOptions::record_topics},
-    PlayingField{"playing", "shutdown_at_end", "-", "shut the node or the nodelet manager down after the drive",
-                 &PlayingOptions::shutdown_at_end},
+inline constexpr OptionField<PlayingOptions> kPlayingFields[] = {
+    {"playing", "start_time", "s", "stamp at the start of the drive; live without publish_clock it is now",
+     &PlayingOptions::start_time, 0.0, 4e9},
+    {"playing", "real_time_factor", "-", "drive seconds per wall second; 0: as fast as subscribers keep up",
+     &PlayingOptions::real_time_factor, 0.0, 1e6},
+    {"playing", "publish_clock", "-", "drive /clock, for nodes with use_sim_time", &PlayingOptions::publish_clock},
+    {"playing", "record", "-", "bag to record the drive into, every message of it; empty: none",
+     &PlayingOptions::record},
+    {"playing", "record_topics", "-", "what to record, with spaces; the drive begins once all are published",
+     &PlayingOptions::record_topics},
+    {"playing", "shutdown_at_end", "-", "shut the node or the nodelet manager down after the drive",
+     &PlayingOptions::shutdown_at_end},
 };
 
 }  // namespace suspension_health_monitor

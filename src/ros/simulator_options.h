@@ -23,22 +23,18 @@ struct PublishingOptions {
   std::string vehicle_model;  ///< for takeVehicleModel(): of a drive of one strut empty
 };
 
-using PublishingField = OptionField<PublishingOptions>;
-inline constexpr std::array kPublishingFields{
-    PublishingField{"drive", "vehicle_model", "-",
-                    "a whole vehicle: sedan, ugv, truck, half_sedan or a YAML file; its options are those of "
-                    "`suspension_bag options vehicle` instead of these",
-                    &PublishingOptions::vehicle_model},
-    PublishingField{"hidden", "hidden", "-",
-                    "effects in the strut: NAME=COEFFICIENT[,SHAPE=VALUE]..., the next after ';'",
-                    &PublishingOptions::hidden},
-    PublishingField{"hidden", "effects_file", "-", "YAML file with laws of your own, to hide",
-                    &PublishingOptions::effects_file},
-    PublishingField{"sensors", "gravity", "m/s^2", "what both IMUs read on z at rest (REP 145)",
-                    &PublishingOptions::gravity, -100.0, 100.0},
-    PublishingField{"sensors", "road_imu", "-",
-                    "a third IMU where the tyre touches the road, on road/imu; of vehicles on a tyre",
-                    &PublishingOptions::road_imu},
+inline constexpr OptionField<PublishingOptions> kPublishingFields[] = {
+    {"drive", "vehicle_model", "-",
+     "a whole vehicle: sedan, ugv, truck, half_sedan or a YAML file; its options are those of "
+     "`suspension_bag options vehicle` instead of these",
+     &PublishingOptions::vehicle_model},
+    {"hidden", "hidden", "-", "effects in the strut: NAME=COEFFICIENT[,SHAPE=VALUE]..., the next after ';'",
+     &PublishingOptions::hidden},
+    {"hidden", "effects_file", "-", "YAML file with laws of your own, to hide", &PublishingOptions::effects_file},
+    {"sensors", "gravity", "m/s^2", "what both IMUs read on z at rest (REP 145)", &PublishingOptions::gravity, -100.0,
+     100.0},
+    {"sensors", "road_imu", "-", "a third IMU where the tyre touches the road, on road/imu; of vehicles on a tyre",
+     &PublishingOptions::road_imu},
 };
 
 /// What config/simulator.yaml can set.

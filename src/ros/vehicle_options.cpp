@@ -19,9 +19,8 @@ namespace {
 struct FileSettings {
   std::string vehicle;
 };
-using FileField = OptionField<FileSettings>;
-constexpr std::array kFileFields{
-    FileField{"vehicle", "-", "YAML file that says which sensors the vehicle has", &FileSettings::vehicle},
+constexpr OptionField<FileSettings> kFileFields[] = {
+    {"vehicle", "-", "YAML file that says which sensors the vehicle has", &FileSettings::vehicle},
 };
 
 VehicleLayout takeLayout(OptionMap& values) {

@@ -16,13 +16,12 @@ struct VehiclePublishingOptions {
   std::string effects_file;
 };
 
-using VehiclePublishingField = OptionField<VehiclePublishingOptions>;
-inline constexpr std::array kVehiclePublishingFields{
-    VehiclePublishingField{"sensors", "sprung_imus", "-",
-                           "struts with an IMU of their own on the body: all, none (the body's IMU alone), or names",
-                           &VehiclePublishingOptions::sprung_imus},
-    VehiclePublishingField{"hidden", "effects_file", "-", "YAML file with laws of your own, for struts/NAME/effects",
-                           &VehiclePublishingOptions::effects_file},
+inline constexpr OptionField<VehiclePublishingOptions> kVehiclePublishingFields[] = {
+    {"sensors", "sprung_imus", "-",
+     "struts with an IMU of their own on the body: all, none (the body's IMU alone), or names",
+     &VehiclePublishingOptions::sprung_imus},
+    {"hidden", "effects_file", "-", "YAML file with laws of your own, for struts/NAME/effects",
+     &VehiclePublishingOptions::effects_file},
 };
 
 /// A vehicle to simulate, its drive, and what is published of it.

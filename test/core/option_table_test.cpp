@@ -24,13 +24,13 @@ struct Sample {
   std::optional<double> mass;
 };
 
-constexpr std::array kSampleFields{
-    OptionField<Sample>{"first", "flag", "-", "a switch", &Sample::flag},
-    OptionField<Sample>{"first", "count", "-", "a whole number", &Sample::count, -2, 2147483647},
-    OptionField<Sample>{"first", "gain", "V/m", "a number", &Sample::gain, 1e-9, 2.0},
-    OptionField<Sample>{"first", "mode", "-", "a choice", &Sample::mode, 0, 0, "slow fast 17"},
-    OptionField<Sample>{"second", "label", "-", "a text", &Sample::label},
-    OptionField<Sample>{"first", "group/mass", "kg", "a number or none", &Sample::mass, 0.0, 1e6},
+constexpr OptionField<Sample> kSampleFields[] = {
+    {"first", "flag", "-", "a switch", &Sample::flag},
+    {"first", "count", "-", "a whole number", &Sample::count, -2, 2147483647},
+    {"first", "gain", "V/m", "a number", &Sample::gain, 1e-9, 2.0},
+    {"first", "mode", "-", "a choice", &Sample::mode, 0, 0, "slow fast 17"},
+    {"second", "label", "-", "a text", &Sample::label},
+    {"first", "group/mass", "kg", "a number or none", &Sample::mass, 0.0, 1e6},
 };
 
 Sample taken(const std::string& name, const OptionValue& value) {
@@ -186,7 +186,7 @@ TEST(OptionTable, DescribesDefaultsAsTheyWouldBeWritten) {
 }
 
 TEST(OptionTable, ShowsGroupAfterGroupInTheOrderOfTheTable) {
-  constexpr std::array kMore{OptionField<Sample>{"second", "more", "-", "a switch", &Sample::flag}};
+  constexpr OptionField<Sample> kMore[] = {{"second", "more", "-", "a switch", &Sample::flag}};
   std::string names;
   for (const auto& row : inGroups({"second", "first"}, describeOptions(kSampleFields), describeOptions(kMore)))
     names += row.name + ' ';
@@ -210,7 +210,7 @@ TEST(OptionTable, SaysWhatServesInsteadOfAFormerOption) {
 // What every shipped table must keep. A default taken by its own description must give itself: text, range and type
 // agree.
 template <class Options, std::size_t N>
-void expectSound(const std::array<OptionField<Options>, N>& fields) {
+void expectSound(const OptionField<Options> (&fields)[N]) {
   EXPECT_NO_THROW(validate(Options{}, fields));
   std::set<std::string> names;
   for (const OptionDescription& row : describeOptions(fields)) {

@@ -95,7 +95,7 @@ OptionDescription describe(const Bound& option);
 /// Checks every option of one struct against its table.
 /// @throws std::invalid_argument  naming the option, its value and what is allowed. NaN is outside every range.
 template <class Options, std::size_t N>
-void validate(const Options& options, const std::array<OptionField<Options>, N>& fields) {
+void validate(const Options& options, const OptionField<Options> (&fields)[N]) {
   Options copy = options;
   for (const OptionField<Options>& field : fields) option_table::check(option_table::bind(field, copy));
 }
@@ -103,7 +103,7 @@ void validate(const Options& options, const std::array<OptionField<Options>, N>&
 /// Sets the options that `values` names and removes them from `values`, so that what is left is unknown to this table.
 /// @throws std::invalid_argument  on a value of the wrong type or outside its range; `options` is then unchanged.
 template <class Options, std::size_t N>
-void takeOptions(OptionMap& values, const std::array<OptionField<Options>, N>& fields, Options& options) {
+void takeOptions(OptionMap& values, const OptionField<Options> (&fields)[N], Options& options) {
   Options changed = options;
   for (const OptionField<Options>& field : fields) {
     const option_table::Bound option = option_table::bind(field, changed);
@@ -126,7 +126,7 @@ void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>
 
 /// @return one description per row of the table, with the struct's own defaults.
 template <class Options, std::size_t N>
-std::vector<OptionDescription> describeOptions(const std::array<OptionField<Options>, N>& fields) {
+std::vector<OptionDescription> describeOptions(const OptionField<Options> (&fields)[N]) {
   Options defaults;
   std::vector<OptionDescription> result;
   for (const OptionField<Options>& field : fields)

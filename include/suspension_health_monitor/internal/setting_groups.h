@@ -37,8 +37,8 @@ void requireName(const std::string& where, const std::string& name);
 /// @param where  the settings stand, for messages.  @param also  what the caller takes, for the nearest name.
 /// @throws std::invalid_argument  as takeOptions() and refuseUnknown().
 template <class Options, std::size_t N>
-void takeAll(const std::string& where, OptionMap values, const std::array<OptionField<Options>, N>& fields,
-             Options& options, const std::vector<OptionDescription>& also = {}) {
+void takeAll(const std::string& where, OptionMap values, const OptionField<Options> (&fields)[N], Options& options,
+             const std::vector<OptionDescription>& also = {}) {
   prefixed(where + ": ", [&] {
     std::vector<OptionDescription> known = describeOptions(fields);
     known.insert(known.end(), also.begin(), also.end());

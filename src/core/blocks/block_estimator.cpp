@@ -120,7 +120,6 @@ const WindowEstimate* BlockEstimator::update() {
     --waits_;
     return nullptr;
   }
-  is_refused_ = false;
   if (has_theta_) equations_.linearise(theta_, block(0));
   if (!hasBlocks() || !(has_theta_ || start())) {
     if (hasBlocks()) newest_worst_ = kUnknown;
@@ -149,8 +148,7 @@ const WindowEstimate* BlockEstimator::update() {
   }
   refine(window, prior);
   has_theta_ = best_.isUsable() && best_.worst() < kLost;
-  is_refused_ = !has_theta_;
-  if (is_refused_) return nullptr;
+  if (!has_theta_) return nullptr;
   theta_ = best_.theta;
   // Blocks at rest can only make it worse: what is known is held.
   if (newestSayNothing() && (best_.explained < kHalf || best_.worst() >= told_worst_)) return nullptr;
@@ -168,8 +166,6 @@ bool BlockEstimator::start() {
     for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
     return true;
   }
-  std::swap(best_, trial_);
-  is_refused_ = true;
   if (is_alone) return false;
   waits_ = kSlowEvery - 1;
   double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
@@ -268,7 +264,7 @@ void BlockEstimator::restart() {
   weights_.usual = BandVector();
   scatter_ = 1.0;
   slow_ = scaled_ = first_;
-  has_theta_ = is_refused_ = false;
+  has_theta_ = false;
   updates_ = 0;
 }
 

@@ -11,8 +11,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::array kModelFields{
-    OptionField<StrutModel>{"complete", "", "false: it leaves more than noise", &StrutModel::is_complete}};
+constexpr OptionField<StrutModel> kModelFields[] = {
+    {"complete", "", "false: it leaves more than noise", &StrutModel::is_complete}};
 
 double takeParameter(OptionMap& values, const std::string& name, double min) {
   const auto found = values.find(name);

@@ -18,12 +18,11 @@ struct LawSettings {
   std::string force, memory_rate, unit, finding = "a law of your own";
 };
 
-using LawField = OptionField<LawSettings>;
-constexpr std::array kLawFields{
-    LawField{"force", "-", "expression in d, v, t, s and the shapes", &LawSettings::force},
-    LawField{"memory_rate", "-", "expression for s'", &LawSettings::memory_rate},
-    LawField{"unit", "-", "unit of the coefficient", &LawSettings::unit},
-    LawField{"finding", "-", "what a workshop would find", &LawSettings::finding},
+constexpr OptionField<LawSettings> kLawFields[] = {
+    {"force", "-", "expression in d, v, t, s and the shapes", &LawSettings::force},
+    {"memory_rate", "-", "expression for s'", &LawSettings::memory_rate},
+    {"unit", "-", "unit of the coefficient", &LawSettings::unit},
+    {"finding", "-", "what a workshop would find", &LawSettings::finding},
 };
 
 struct ShapeSettings {
@@ -31,13 +30,12 @@ struct ShapeSettings {
   double min = 0.0, max = 0.0;
 };
 
-using ShapeField = OptionField<ShapeSettings>;
-constexpr std::array kShapeFields{
-    ShapeField{"unit", "-", "unit of the shape", &ShapeSettings::unit},
-    ShapeField{"scale", "-", "what min and max are multiples of", &ShapeSettings::scale, 0.0, 0.0,
-               "none travel travel_rate time frequency"},
-    ShapeField{"min", "scale", "smallest value worth trying", &ShapeSettings::min, 1e-15, 1e15},
-    ShapeField{"max", "scale", "largest value worth trying, above min", &ShapeSettings::max, 1e-15, 1e15},
+constexpr OptionField<ShapeSettings> kShapeFields[] = {
+    {"unit", "-", "unit of the shape", &ShapeSettings::unit},
+    {"scale", "-", "what min and max are multiples of", &ShapeSettings::scale, 0.0, 0.0,
+     "none travel travel_rate time frequency"},
+    {"min", "scale", "smallest value worth trying", &ShapeSettings::min, 1e-15, 1e15},
+    {"max", "scale", "largest value worth trying, above min", &ShapeSettings::max, 1e-15, 1e15},
 };
 
 [[noreturn]] void refuse(const std::string& where, const std::string& why) {

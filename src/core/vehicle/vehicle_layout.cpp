@@ -22,29 +22,26 @@ constexpr double kNearest = 0.01;    // [m]: two struts nearer than that are one
 struct StrutSettings {
   std::string sprung_imu, unsprung_imu, frame;
 };
-using StrutField = OptionField<StrutSettings>;
-constexpr std::array kStrutFields{
-    StrutField{"sprung_imu", "-", "topic of the IMU at the strut's top", &StrutSettings::sprung_imu},
-    StrutField{"unsprung_imu", "-", "topic of the IMU at the wheel", &StrutSettings::unsprung_imu},
-    StrutField{"frame", "-", "frame at the strut's top", &StrutSettings::frame},
+constexpr OptionField<StrutSettings> kStrutFields[] = {
+    {"sprung_imu", "-", "topic of the IMU at the strut's top", &StrutSettings::sprung_imu},
+    {"unsprung_imu", "-", "topic of the IMU at the wheel", &StrutSettings::unsprung_imu},
+    {"frame", "-", "frame at the strut's top", &StrutSettings::frame},
 };
 constexpr const char* kPosition = "position";
 
 struct ForceSettings {
   std::string topic, field;
 };
-using ForceField = OptionField<ForceSettings>;
-constexpr std::array kForceFields{
-    ForceField{"topic", "-", "topic of the force", &ForceSettings::topic},
-    ForceField{"field", "-", "field of its messages that is the force", &ForceSettings::field},
+constexpr OptionField<ForceSettings> kForceFields[] = {
+    {"topic", "-", "topic of the force", &ForceSettings::topic},
+    {"field", "-", "field of its messages that is the force", &ForceSettings::field},
 };
 
 struct BodySettings {
   std::string body_imu;
 };
-using BodyField = OptionField<BodySettings>;
-constexpr std::array kBodyFields{
-    BodyField{"body_imu", "-", "topic of one six-axis IMU of the body", &BodySettings::body_imu},
+constexpr OptionField<BodySettings> kBodyFields[] = {
+    {"body_imu", "-", "topic of one six-axis IMU of the body", &BodySettings::body_imu},
 };
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }

@@ -5,7 +5,6 @@
 namespace suspension_health_monitor {
 
 RoadDrivenForm roadDrivenForm(const QuarterCar& car) {
-  validate(car);
   if (!car.tyre_stiffness) {
     throw std::invalid_argument(
         "tyre_stiffness = none [N/m], must be given for the road-driven form: a rigid wheel has w = mu and no state");
@@ -24,7 +23,6 @@ RoadDrivenForm roadDrivenForm(const QuarterCar& car) {
 }
 
 WheelDrivenForm wheelDrivenForm(const QuarterCar& car) {
-  validate(car);
   const double b1 = car.dampingToMass();
   const double b0 = car.stiffnessToMass();
   WheelDrivenForm form;

@@ -12,7 +12,7 @@ struct RoadDrivenForm {
   Eigen::Vector4d b;
 };
 
-/// @throws std::invalid_argument  on a parameter outside its range or a rigid wheel, which has no such form.
+/// @throws std::invalid_argument  on a rigid wheel, which has no such form.
 RoadDrivenForm roadDrivenForm(const QuarterCar& car);
 
 /// Equation (27), z'' = b1 v + b0 d, driven by the wheel's acceleration. State x = (d, v) [m, m/s], travel and its
@@ -25,7 +25,6 @@ struct WheelDrivenForm {
   Eigen::RowVector2d c;
 };
 
-/// @throws std::invalid_argument  on a parameter outside its range.
 WheelDrivenForm wheelDrivenForm(const QuarterCar& car);
 
 }  // namespace suspension_health_monitor

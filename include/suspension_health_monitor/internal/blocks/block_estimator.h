@@ -41,9 +41,6 @@ class BlockEstimator {
   /// @param newest  age of the newest block, 0: of all.  @param count  blocks.
   std::optional<WindowEstimate> ofBlocks(int newest, int count);
 
-  /// @return what update() could not take; nullptr: it had nothing, or has an estimate.
-  const WindowEstimate* refused() const { return is_refused_ ? &best_ : nullptr; }
-
   /// @param each  as WindowFit::setWheelNoise.
   void setWheelNoise(const std::vector<WheelNoise>& each) { window_fit_.setWheelNoise(each); }
 
@@ -111,7 +108,7 @@ class BlockEstimator {
   double scatter_ = 1.0;
   DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;
-  bool has_theta_ = false, is_refused_ = false;
+  bool has_theta_ = false;
   double newest_worst_ = 0.0;     // larger relative standard deviation of b1 and b0 by the newest blocks, kWindows[0]
   double told_worst_ = HUGE_VAL;  // WindowEstimate::worst() of what update() returned last
   WindowEstimate best_, trial_;

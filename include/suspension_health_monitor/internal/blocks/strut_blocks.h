@@ -16,7 +16,6 @@ namespace suspension_health_monitor {
 struct BlockEstimate : WindowEstimate {
   Stamp stamp{};              ///< end of the newest block
   double length = 0.0;        ///< T of its blocks [s]
-  std::vector<double> edges;  ///< lowest frequency of each band of the noise [Hz]
 };
 
 /// From the readings of a strut's two sensors, each on its own stamps, to estimates after every half block:

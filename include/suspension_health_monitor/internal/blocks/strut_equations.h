@@ -33,7 +33,6 @@ struct BlockColumns {
   int numParameters() const { return kNumBlockParameters + forces + neighbours; }
   int firstForce() const { return kNumBlockParameters; }
   int firstNeighbour() const { return kNumBlockParameters + forces; }
-  bool isNeighbour(int i) const { return i >= firstNeighbour(); }
 };
 
 /// One block of one strut top: its spectra, and its equations linearised at `at`.

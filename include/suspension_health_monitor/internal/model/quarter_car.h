@@ -1,9 +1,6 @@
 #pragma once
 
-#include <array>
 #include <optional>
-
-#include "suspension_health_monitor/internal/option_table.h"
 
 namespace suspension_health_monitor {
 
@@ -24,20 +21,5 @@ struct QuarterCar {
   constexpr double dampingToMass() const { return damping / sprung_mass; }      ///< b1 [1/s]
   constexpr double stiffnessToMass() const { return stiffness / sprung_mass; }  ///< b0 [1/s^2]
 };
-
-inline constexpr std::array kQuarterCarFields{
-    OptionField<QuarterCar>{"sprung_mass", "kg", "mass of the body above the strut, M", &QuarterCar::sprung_mass, 1e-9,
-                            1e9},
-    OptionField<QuarterCar>{"unsprung_mass", "kg", "mass of wheel and carrier, m", &QuarterCar::unsprung_mass, 1e-9,
-                            1e9},
-    OptionField<QuarterCar>{"damping", "N s/m", "damping coefficient of the strut, beta", &QuarterCar::damping, 0.0,
-                            1e12},
-    OptionField<QuarterCar>{"stiffness", "N/m", "spring rate of the strut, K", &QuarterCar::stiffness, 1e-9, 1e12},
-    OptionField<QuarterCar>{"tyre_stiffness", "N/m", "tyre stiffness, K0; none: rigid wheel",
-                            &QuarterCar::tyre_stiffness, 1e-9, 1e15},
-};
-
-/// @throws std::invalid_argument  naming the parameter, its value and what is allowed.
-inline void validate(const QuarterCar& car) { validate(car, kQuarterCarFields); }
 
 }  // namespace suspension_health_monitor

@@ -16,7 +16,6 @@ struct StrutState {
   double travel_rate = 0.0;  ///< v [m/s]
   std::array<Memory, kMostEffects> memory{};
 
-  bool finite() const { return std::isfinite(travel) && std::isfinite(travel_rate); }
 };
 
 /// What the wheel does during one integration step, beyond going on with the speed that it had: the gains of its

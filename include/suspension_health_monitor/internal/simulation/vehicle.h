@@ -92,77 +92,65 @@ struct Vehicle {
   std::size_t strutNamed(const std::string& name) const;
 };
 
-using VehicleField = OptionField<Vehicle>;
-inline constexpr std::array kVehicleFields{
-    VehicleField{"vehicle", "mass", "kg", "of the body, without wheels", &Vehicle::mass, 1e-3, 1e9},
-    VehicleField{"vehicle", "pitch_inertia", "kg m^2", "of the body about y; not needed where all x are 0",
-                 &Vehicle::pitch_inertia, 0.0, 1e12},
-    VehicleField{"vehicle", "roll_inertia", "kg m^2", "of the body about x; not needed where all y are 0",
-                 &Vehicle::roll_inertia, 0.0, 1e12},
-    VehicleField{"vehicle", "iso_class", "-", "class of the road by ISO 8608, A smooth", &Vehicle::iso_class, 0, 0,
-                 "A B C D E F G H"},
-    VehicleField{"vehicle", "speed", "m/s", "it shakes up to 2.83 speed Hz", &Vehicle::speed, 0.01, 200.0},
+inline constexpr OptionField<Vehicle> kVehicleFields[] = {
+    {"vehicle", "mass", "kg", "of the body, without wheels", &Vehicle::mass, 1e-3, 1e9},
+    {"vehicle", "pitch_inertia", "kg m^2", "of the body about y; not needed where all x are 0", &Vehicle::pitch_inertia,
+     0.0, 1e12},
+    {"vehicle", "roll_inertia", "kg m^2", "of the body about x; not needed where all y are 0", &Vehicle::roll_inertia,
+     0.0, 1e12},
+    {"vehicle", "iso_class", "-", "class of the road by ISO 8608, A smooth", &Vehicle::iso_class, 0, 0,
+     "A B C D E F G H"},
+    {"vehicle", "speed", "m/s", "it shakes up to 2.83 speed Hz", &Vehicle::speed, 0.01, 200.0},
 };
 
-using VehicleStrutField = OptionField<VehicleStrut>;
-inline constexpr std::array kVehicleStrutFields{
-    VehicleStrutField{"struts/NAME", "x", "m", "top of the strut, ahead of the centre of gravity", &VehicleStrut::x,
-                      -1e3, 1e3},
-    VehicleStrutField{"struts/NAME", "y", "m", "to the left of it", &VehicleStrut::y, -1e3, 1e3},
-    VehicleStrutField{"struts/NAME", "damping", "N s/m", "of the damper, c", &VehicleStrut::damping, 0.0, 1e9},
-    VehicleStrutField{"struts/NAME", "stiffness", "N/m", "of the spring, k", &VehicleStrut::stiffness, 1e-6, 1e12},
-    VehicleStrutField{"struts/NAME", "wheel_mass", "kg", "of wheel and carrier", &VehicleStrut::wheel_mass, 1e-6, 1e9},
-    VehicleStrutField{"struts/NAME", "tyre_stiffness", "N/m", "of the tyre, which never lifts off",
-                      &VehicleStrut::tyre_stiffness, 1e-6, 1e12},
-    VehicleStrutField{"struts/NAME", "z", "m", "top of the strut, above the centre of gravity", &VehicleStrut::z, -1e3,
-                      1e3},
-    VehicleStrutField{"struts/NAME", "tyre_damping", "N s/m", "of the tyre", &VehicleStrut::tyre_damping, 0.0, 1e9},
-    VehicleStrutField{"struts/NAME", "damping_end_fraction", "-", "share of the damping that is left from ramp_end on",
-                      &VehicleStrut::damping_end_fraction, 0.0, 10.0},
-    VehicleStrutField{"struts/NAME", "stiffness_end_fraction", "-", "likewise of the stiffness",
-                      &VehicleStrut::stiffness_end_fraction, 1e-3, 10.0},
-    VehicleStrutField{"struts/NAME", "ramp_start", "s", "when damping and stiffness begin to change",
-                      &VehicleStrut::ramp_start, 0.0, 1e6},
-    VehicleStrutField{"struts/NAME", "ramp_end", "s", "when they have changed; ramp_start: at once",
-                      &VehicleStrut::ramp_end, 0.0, 1e6},
-    VehicleStrutField{"struts/NAME", "sprung_offset", "m/s^2", "of the IMU at the strut's top",
-                      &VehicleStrut::sprung_offset, -100.0, 100.0},
-    VehicleStrutField{"struts/NAME", "unsprung_offset", "m/s^2", "of the IMU at the wheel",
-                      &VehicleStrut::unsprung_offset, -100.0, 100.0},
+inline constexpr OptionField<VehicleStrut> kVehicleStrutFields[] = {
+    {"struts/NAME", "x", "m", "top of the strut, ahead of the centre of gravity", &VehicleStrut::x, -1e3, 1e3},
+    {"struts/NAME", "y", "m", "to the left of it", &VehicleStrut::y, -1e3, 1e3},
+    {"struts/NAME", "damping", "N s/m", "of the damper, c", &VehicleStrut::damping, 0.0, 1e9},
+    {"struts/NAME", "stiffness", "N/m", "of the spring, k", &VehicleStrut::stiffness, 1e-6, 1e12},
+    {"struts/NAME", "wheel_mass", "kg", "of wheel and carrier", &VehicleStrut::wheel_mass, 1e-6, 1e9},
+    {"struts/NAME", "tyre_stiffness", "N/m", "of the tyre, which never lifts off", &VehicleStrut::tyre_stiffness, 1e-6,
+     1e12},
+    {"struts/NAME", "z", "m", "top of the strut, above the centre of gravity", &VehicleStrut::z, -1e3, 1e3},
+    {"struts/NAME", "tyre_damping", "N s/m", "of the tyre", &VehicleStrut::tyre_damping, 0.0, 1e9},
+    {"struts/NAME", "damping_end_fraction", "-", "share of the damping that is left from ramp_end on",
+     &VehicleStrut::damping_end_fraction, 0.0, 10.0},
+    {"struts/NAME", "stiffness_end_fraction", "-", "likewise of the stiffness", &VehicleStrut::stiffness_end_fraction,
+     1e-3, 10.0},
+    {"struts/NAME", "ramp_start", "s", "when damping and stiffness begin to change", &VehicleStrut::ramp_start, 0.0,
+     1e6},
+    {"struts/NAME", "ramp_end", "s", "when they have changed; ramp_start: at once", &VehicleStrut::ramp_end, 0.0, 1e6},
+    {"struts/NAME", "sprung_offset", "m/s^2", "of the IMU at the strut's top", &VehicleStrut::sprung_offset, -100.0,
+     100.0},
+    {"struts/NAME", "unsprung_offset", "m/s^2", "of the IMU at the wheel", &VehicleStrut::unsprung_offset, -100.0,
+     100.0},
 };
 /// So many of the rows, the first ones, a model file must give for every strut.
 inline constexpr std::size_t kRequiredStrutFields = 6;
 
-using KnownForceField = OptionField<KnownForce>;
-inline constexpr std::array kKnownForceFields{
-    KnownForceField{"known_forces/NAME", "x", "m", "where it acts, ahead of the centre of gravity", &KnownForce::x,
-                    -1e3, 1e3},
-    KnownForceField{"known_forces/NAME", "y", "m", "to the left of it", &KnownForce::y, -1e3, 1e3},
-    KnownForceField{"known_forces/NAME", "rms", "N", "size of the force, which is vertical and random",
-                    &KnownForce::rms, 0.0, 1e9},
-    KnownForceField{"known_forces/NAME", "lowest_frequency", "Hz", "of its band", &KnownForce::lowest_frequency, 1e-3,
-                    1e3},
-    KnownForceField{"known_forces/NAME", "highest_frequency", "Hz", "of its band", &KnownForce::highest_frequency, 1e-3,
-                    1e3},
-    KnownForceField{"known_forces/NAME", "noise", "N", "standard deviation of its measurement's white noise",
-                    &KnownForce::noise, 0.0, 1e9},
+inline constexpr OptionField<KnownForce> kKnownForceFields[] = {
+    {"known_forces/NAME", "x", "m", "where it acts, ahead of the centre of gravity", &KnownForce::x, -1e3, 1e3},
+    {"known_forces/NAME", "y", "m", "to the left of it", &KnownForce::y, -1e3, 1e3},
+    {"known_forces/NAME", "rms", "N", "size of the force, which is vertical and random", &KnownForce::rms, 0.0, 1e9},
+    {"known_forces/NAME", "lowest_frequency", "Hz", "of its band", &KnownForce::lowest_frequency, 1e-3, 1e3},
+    {"known_forces/NAME", "highest_frequency", "Hz", "of its band", &KnownForce::highest_frequency, 1e-3, 1e3},
+    {"known_forces/NAME", "noise", "N", "standard deviation of its measurement's white noise", &KnownForce::noise, 0.0,
+     1e9},
 };
 
-using VehicleImuField = OptionField<VehicleImu>;
-inline constexpr std::array kVehicleImuFields{
-    VehicleImuField{"body_imu", "x", "m", "place, ahead of the centre of gravity", &VehicleImu::x, -1e3, 1e3},
-    VehicleImuField{"body_imu", "y", "m", "to the left of it", &VehicleImu::y, -1e3, 1e3},
-    VehicleImuField{"body_imu", "z", "m", "above it", &VehicleImu::z, -1e3, 1e3},
-    VehicleImuField{"body_imu", "roll", "rad", "how it is mounted: Rz(yaw) Ry(pitch) Rx(roll)", &VehicleImu::roll, -7.0,
-                    7.0},
-    VehicleImuField{"body_imu", "pitch", "rad", "likewise", &VehicleImu::pitch, -7.0, 7.0},
-    VehicleImuField{"body_imu", "yaw", "rad", "likewise", &VehicleImu::yaw, -7.0, 7.0},
-    VehicleImuField{"body_imu", "offset_x", "m/s^2", "of its accelerometer on x", &VehicleImu::offset_x, -100.0, 100.0},
-    VehicleImuField{"body_imu", "offset_y", "m/s^2", "on y", &VehicleImu::offset_y, -100.0, 100.0},
-    VehicleImuField{"body_imu", "offset_z", "m/s^2", "on z", &VehicleImu::offset_z, -100.0, 100.0},
-    VehicleImuField{"body_imu", "gyro_offset_x", "rad/s", "of its gyro about x", &VehicleImu::gyro_offset_x, -1.0, 1.0},
-    VehicleImuField{"body_imu", "gyro_offset_y", "rad/s", "about y", &VehicleImu::gyro_offset_y, -1.0, 1.0},
-    VehicleImuField{"body_imu", "gyro_offset_z", "rad/s", "about z", &VehicleImu::gyro_offset_z, -1.0, 1.0},
+inline constexpr OptionField<VehicleImu> kVehicleImuFields[] = {
+    {"body_imu", "x", "m", "place, ahead of the centre of gravity", &VehicleImu::x, -1e3, 1e3},
+    {"body_imu", "y", "m", "to the left of it", &VehicleImu::y, -1e3, 1e3},
+    {"body_imu", "z", "m", "above it", &VehicleImu::z, -1e3, 1e3},
+    {"body_imu", "roll", "rad", "how it is mounted: Rz(yaw) Ry(pitch) Rx(roll)", &VehicleImu::roll, -7.0, 7.0},
+    {"body_imu", "pitch", "rad", "likewise", &VehicleImu::pitch, -7.0, 7.0},
+    {"body_imu", "yaw", "rad", "likewise", &VehicleImu::yaw, -7.0, 7.0},
+    {"body_imu", "offset_x", "m/s^2", "of its accelerometer on x", &VehicleImu::offset_x, -100.0, 100.0},
+    {"body_imu", "offset_y", "m/s^2", "on y", &VehicleImu::offset_y, -100.0, 100.0},
+    {"body_imu", "offset_z", "m/s^2", "on z", &VehicleImu::offset_z, -100.0, 100.0},
+    {"body_imu", "gyro_offset_x", "rad/s", "of its gyro about x", &VehicleImu::gyro_offset_x, -1.0, 1.0},
+    {"body_imu", "gyro_offset_y", "rad/s", "about y", &VehicleImu::gyro_offset_y, -1.0, 1.0},
+    {"body_imu", "gyro_offset_z", "rad/s", "about z", &VehicleImu::gyro_offset_z, -1.0, 1.0},
 };
 
 /// Checks ranges, that the struts hold the body (three that are not in a line; two, if the centre of gravity is between

@@ -27,29 +27,23 @@ struct VehicleDriveOptions {
   double gravity = 9.81;
 };
 
-using VehicleDriveField = OptionField<VehicleDriveOptions>;
-inline constexpr std::array kVehicleDriveFields{
-    VehicleDriveField{"drive", "tracks", "-",
-                      "left and right on an ISO 8608 road; coherent: lines of one isotropic surface; the rear follows "
-                      "the front, wheelbase / speed later",
-                      &VehicleDriveOptions::tracks, 0, 0, "coherent identical independent"},
-    VehicleDriveField{"drive", "duration", "s", "length of the drive; samples at both ends",
-                      &VehicleDriveOptions::duration, 0.0, 1e6},
-    VehicleDriveField{"drive", "seed", "-", "same options and seed, same drive", &VehicleDriveOptions::seed, 0,
-                      2147483647},
-    VehicleDriveField{"sensors", "rate", "Hz", "samples per second of all sensors", &VehicleDriveOptions::rate, 0.1,
-                      20000.0},
-    VehicleDriveField{"sensors", "noise", "m/s^2", "standard deviation of every accelerometer's white noise",
-                      &VehicleDriveOptions::noise, 0.0, 1e3},
-    VehicleDriveField{"sensors", "gyro_noise", "rad/s", "likewise of the gyro", &VehicleDriveOptions::gyro_noise, 0.0,
-                      1e3},
-    VehicleDriveField{"sensors", "stamp_jitter", "s",
-                      "stamps are late by a uniform 0..stamp_jitter, less than 1 / rate",
-                      &VehicleDriveOptions::stamp_jitter, 0.0, 10.0},
-    VehicleDriveField{"sensors", "dropout", "-", "share of messages lost, each sensor by itself",
-                      &VehicleDriveOptions::dropout, 0.0, 1.0},
-    VehicleDriveField{"sensors", "gravity", "m/s^2", "what an upright IMU reads on z at rest (REP 145)",
-                      &VehicleDriveOptions::gravity, -100.0, 100.0},
+inline constexpr OptionField<VehicleDriveOptions> kVehicleDriveFields[] = {
+    {"drive", "tracks", "-",
+     "left and right on an ISO 8608 road; coherent: lines of one isotropic surface; the rear follows "
+     "the front, wheelbase / speed later",
+     &VehicleDriveOptions::tracks, 0, 0, "coherent identical independent"},
+    {"drive", "duration", "s", "length of the drive; samples at both ends", &VehicleDriveOptions::duration, 0.0, 1e6},
+    {"drive", "seed", "-", "same options and seed, same drive", &VehicleDriveOptions::seed, 0, 2147483647},
+    {"sensors", "rate", "Hz", "samples per second of all sensors", &VehicleDriveOptions::rate, 0.1, 20000.0},
+    {"sensors", "noise", "m/s^2", "standard deviation of every accelerometer's white noise",
+     &VehicleDriveOptions::noise, 0.0, 1e3},
+    {"sensors", "gyro_noise", "rad/s", "likewise of the gyro", &VehicleDriveOptions::gyro_noise, 0.0, 1e3},
+    {"sensors", "stamp_jitter", "s", "stamps are late by a uniform 0..stamp_jitter, less than 1 / rate",
+     &VehicleDriveOptions::stamp_jitter, 0.0, 10.0},
+    {"sensors", "dropout", "-", "share of messages lost, each sensor by itself", &VehicleDriveOptions::dropout, 0.0,
+     1.0},
+    {"sensors", "gravity", "m/s^2", "what an upright IMU reads on z at rest (REP 145)", &VehicleDriveOptions::gravity,
+     -100.0, 100.0},
 };
 
 /// @throws std::invalid_argument  naming option, value and what is allowed.
