@@ -8,12 +8,18 @@
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+constexpr double kBodyPeriod = 0.02;  // [s], of portions: some 100 make a test of the vehicle file
+
+}  // namespace
 
 MonitorNodelet::~MonitorNodelet() {
   // Nothing may call back into members that are already gone.
   reconfigure_.reset();
   diagnose_.reset();
   tick_.stop();
+  body_.stop();
   imus_.reset();
   forces_.reset();
   temperatures_.reset();
@@ -106,6 +112,9 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   temperatures_->listen();
   isAlone() ? startAlone(private_node) : startVehicle(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
+  body_ = node.createWallTimer(ros::WallDuration(kBodyPeriod), [this](const ros::WallTimerEvent&) {
+    if (pipeline_ && pipeline_->monitor() != nullptr) pipeline_->monitor()->fitBodyIfDue();
+  });
 }
 
 void MonitorNodelet::startAlone(ros::NodeHandle& private_node) {
@@ -190,7 +199,6 @@ void MonitorNodelet::stopListening(const std::string& reason) {
 void MonitorNodelet::onTick() {
   if (!isAlone()) {
     if (!pipeline_) makePipeline();
-    if (pipeline_ && pipeline_->monitor() != nullptr) pipeline_->monitor()->fitBodyIfDue();
     diagnostics_->publish(pipeline());
   }
   for (const auto& strut : struts_) strut->publishDiagnostics();

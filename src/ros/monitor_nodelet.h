@@ -79,7 +79,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::optional<MessageTopics<sensor_msgs::Temperature>> temperatures_;
   std::optional<MessagePipeline> pipeline_;  // none while the struts have no places
   std::vector<std::unique_ptr<LiveStrut>> struts_;
-  ros::WallTimer tick_;
+  ros::WallTimer tick_, body_;
   // Of one strut alone:
   std::optional<InputDiagnostics> strut_input_;
   std::optional<TaskLog> input_log_;

@@ -26,11 +26,16 @@ double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j
 
 }  // namespace
 
-VehicleClaims::VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s)
-    : n_(static_cast<Eigen::Index>(struts)), forces_(static_cast<Eigen::Index>(forces)), s_(s) {
-  const Eigen::Index size = 6 * n_ + forces_;
-  products_.assign(static_cast<std::size_t>(s.size()), Eigen::MatrixXcd::Zero(size, size));
+VehicleClaims::VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s,
+                             const StrutPlaces& places)
+    : n_(static_cast<Eigen::Index>(struts)),
+      forces_(static_cast<Eigen::Index>(forces)),
+      s_(s),
+      places_(places),
+      columns_(static_cast<std::size_t>(s.size())) {
   whole_.setZero(2 * n_, 2 * n_);
+  measured_.setZero(6 * n_ + forces_, 6 * n_ + forces_);
+  in_step_ = measured_;
 }
 
 void VehicleClaims::add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXXcd& forces) {
@@ -43,8 +48,9 @@ void VehicleClaims::add(const Spectra& wheels, const Spectra& tops, const Eigen:
   }
   whole_ += (columns.topRows(2 * n_) * columns.topRows(2 * n_).adjoint()).real();
   columns.array().rowwise() /= (s_ * s_).transpose();  // displacements, which a bounce has most of
-  for (Eigen::Index k = 0; k < s_.size(); ++k)
-    products_[static_cast<std::size_t>(k)] += columns.col(k) * columns.col(k).adjoint();
+  if (blocks_ == columns_.front().cols())
+    for (Eigen::MatrixXcd& bin : columns_) bin.conservativeResize(columns.rows(), 2 * blocks_ + kFewestBlocks);
+  for (Eigen::Index k = 0; k < s_.size(); ++k) columns_[static_cast<std::size_t>(k)].col(blocks_) = columns.col(k);
   ++blocks_;
 }
 
@@ -55,21 +61,7 @@ VehicleClaims::Mapping VehicleClaims::asFiled() const {
   return mapping;
 }
 
-// Of all streams the part that goes with the wheels and the known forces: noise of other sensors does not, but for the
-// share of it that as many columns fit in as many blocks.
-void VehicleClaims::keepWhatWheelsTell() {
-  const double share = noiseShare();
-  Eigen::MatrixXcd causes = Eigen::MatrixXcd::Zero(6 * n_ + forces_, n_ + forces_);
-  causes.block(2 * n_, 0, n_, n_).setIdentity();  // p = 1
-  causes.bottomRightCorner(forces_, forces_).setIdentity();
-  for (Eigen::MatrixXcd& products : products_) {
-    const Eigen::MatrixXcd with_causes = products * causes;
-    const Eigen::MatrixXcd with_them =
-        with_causes * (causes.adjoint() * with_causes).completeOrthogonalDecomposition().solve(with_causes.adjoint());
-    products = (with_them - share * products) / (1.0 - share);
-  }
-}
-
+// Of noise that does not go with the wheels and the known forces what as many columns fit in as many blocks.
 double VehicleClaims::noiseShare() const { return static_cast<double>(n_ + forces_) / blocks_; }
 
 // A stream that is late by tau has exp(-s tau) of what happened.
@@ -137,14 +129,14 @@ VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
   return found;
 }
 
-VehicleMistake VehicleClaims::sameOrAlike(bool has_own_tops) const {
+VehicleMistake VehicleClaims::sameOrAlike() const {
   const auto pairOf = [](Eigen::Index i, Eigen::Index j) {
     return StrutPair(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
   };
   for (Eigen::Index i = 0; i < n_; ++i)
     for (Eigen::Index j = i + 1; j < n_; ++j) {
       if (notShared(whole_, i, j) < kSame) return {Kind::kSameWheels, pairOf(i, j)};
-      if (has_own_tops && notShared(whole_, n_ + i, n_ + j) < kSame) return {Kind::kSameTops, pairOf(i, j)};
+      if (places_.empty() && notShared(whole_, n_ + i, n_ + j) < kSame) return {Kind::kSameTops, pairOf(i, j)};
     }
   const Eigen::MatrixXd wheels = whole_.topLeftCorner(n_, n_), inverse = wheels.inverse();
   VehicleMistake found;
@@ -161,30 +153,64 @@ VehicleMistake VehicleClaims::sameOrAlike(bool has_own_tops) const {
   return found;
 }
 
-VehicleMistake VehicleClaims::find(const StrutPlaces& places) {
-  if (blocks_ < kFewestBlocks || n_ < 2) return {Kind::kTooLittle, {}};
-  VehicleMistake found = sameOrAlike(places.empty());
+bool VehicleClaims::work() {
+  if (next_ == 0 && !begins()) return true;
+  const std::size_t bins = columns_.size();
+  if (next_ < bins)
+    takeBin(next_);
+  else if (next_ == bins)
+    judgeAsFiled();
+  else
+    judge(hypotheses_[next_ - bins - 1]);
+  if (++next_ <= bins + hypotheses_.size()) return false;
+  if (found_.kind == Kind::kNone && filed_ > std::max(kMuch, noiseShare() * noise_)) found_.kind = Kind::kOthers;
+  return true;
+}
+
+bool VehicleClaims::begins() {
+  if (hasDeadGyro())
+    found_.kind = Kind::kDeadGyro;
+  else if (blocks_ < kFewestBlocks || n_ < 2)
+    found_.kind = Kind::kTooLittle;
+  else
+    found_ = sameOrAlike();
+  products_.resize(columns_.size());
+  return found_.kind == Kind::kNone;
+}
+
+// Of all streams the part that goes with the wheels and the known forces: noise of other sensors does not, but for its
+// share.
+void VehicleClaims::takeBin(std::size_t bin) {
+  const auto columns = columns_[bin].leftCols(blocks_);
+  const Eigen::MatrixXcd all = columns * columns.adjoint();
+  Eigen::MatrixXcd causes = Eigen::MatrixXcd::Zero(6 * n_ + forces_, n_ + forces_);
+  causes.block(2 * n_, 0, n_, n_).setIdentity();  // p = 1
+  causes.bottomRightCorner(forces_, forces_).setIdentity();
+  const Eigen::MatrixXcd with_causes = all * causes;
+  const Eigen::MatrixXcd with_them =
+      with_causes * (causes.adjoint() * with_causes).completeOrthogonalDecomposition().solve(with_causes.adjoint());
+  products_[bin] = (with_them - noiseShare() * all) / (1.0 - noiseShare());
+  measured_ += all.real();
+  in_step_ += products_[bin].real();
+}
+
+void VehicleClaims::judgeAsFiled() {
   const Mapping filed = asFiled();
-  found.unexplained = unexplained(filed, moments(filed.delays));
-  if (found.kind != Kind::kNone) return found;
-  const double all = found.unexplained;
-  keepWhatWheelsTell();
-  in_step_ = moments(filed.delays);
-  const double filed_leaves = unexplained(filed, in_step_);
-  noise_ = std::max(0.0, all - filed_leaves);
+  found_.unexplained = unexplained(filed, measured_);
+  filed_ = unexplained(filed, in_step_);
+  noise_ = std::max(0.0, found_.unexplained - filed_);
+  least_ = kFits;
+  hypotheses_ = hypotheses();
+}
+
+void VehicleClaims::judge(const Hypothesis& hypothesis) {
+  VehicleMistake other = attempt(hypothesis);
   const double slack = kNoiseKnownTo * noiseShare() * noise_;
-  double least = kFits;
-  for (const Hypothesis& hypothesis : hypotheses(places)) {
-    VehicleMistake other = attempt(hypothesis);
-    if (!(other.unexplained < least) || !other.isLarge() ||
-        !(other.unexplained + slack < kBetter * (filed_leaves + slack)))
-      continue;
-    least = other.unexplained;
-    found = other;
-    found.unexplained = all;
-  }
-  if (found.kind == Kind::kNone && filed_leaves > std::max(kMuch, noiseShare() * noise_)) found.kind = Kind::kOthers;
-  return found;
+  if (!(other.unexplained < least_) || !other.isLarge() || !(other.unexplained + slack < kBetter * (filed_ + slack)))
+    return;
+  least_ = other.unexplained;
+  other.unexplained = found_.unexplained;
+  found_ = other;
 }
 
 }  // namespace suspension_health_monitor

@@ -71,25 +71,28 @@ bool VehicleMistake::isLarge() const {
   }
 }
 
-// At bounce and below a body follows its wheels, in pitch and roll as in heave.
-bool VehicleClaims::hasDeadGyro(const StrutPlaces& places) const {
-  if (blocks_ < kFewestOfHalf) return false;
+// At bounce and below a body follows its wheels, in pitch and roll as in heave. A gyro may have died: of the newest
+// half.
+bool VehicleClaims::hasDeadGyro() const {
+  const Eigen::Index count = (blocks_ + 1) / 2;
+  if (places_.empty() || count < kFewestOfHalf) return false;
   Eigen::MatrixXd wheels = Eigen::MatrixXd::Zero(n_, n_), tops = wheels;
-  for (const Eigen::MatrixXcd& products : products_) {
-    const Eigen::MatrixXcd of_wheels = products.topLeftCorner(n_, n_), both = products.block(n_, 0, n_, n_);
+  for (const Eigen::MatrixXcd& columns : columns_) {
+    const auto wheel = columns.topLeftCorner(n_, count), top = columns.block(n_, 0, n_, count);
+    const Eigen::MatrixXcd of_wheels = wheel * wheel.adjoint(), both = top * wheel.adjoint();
     wheels += of_wheels.real();
     tops += (both * of_wheels.completeOrthogonalDecomposition().solve(both.adjoint())).real();  // that goes with them
   }
-  const Eigen::MatrixXd motions = motionsOf(places).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd motions = motionsOf(places_).completeOrthogonalDecomposition().pseudoInverse();
   const Eigen::ArrayXd passed = (motions * tops * motions.transpose()).diagonal().array() /
                                 (motions * wheels * motions.transpose()).diagonal().array();
   for (const std::size_t axis : {0u, 1u})
-    if (isSpread(places, axis) && passed[static_cast<Eigen::Index>(1 + axis)] < square(kLeastTurning) * passed[0])
+    if (isSpread(places_, axis) && passed[static_cast<Eigen::Index>(1 + axis)] < square(kLeastTurning) * passed[0])
       return true;
   return false;
 }
 
-std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses(const StrutPlaces& places) const {
+std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
   std::vector<Hypothesis> all;
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -99,20 +102,21 @@ std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses(const StrutPlac
                        m.wheels.row(row).swap(m.wheels.row(static_cast<Eigen::Index>(j)));
                      }});
   }
-  if (!places.empty()) addPositions(places, all);
-  addDelays(!places.empty(), all);
+  if (!places_.empty()) addPositions(all);
+  addDelays(all);
   return all;
 }
 
 // Tops that the body's IMU tells of move with its heave, pitch and roll.
-void VehicleClaims::addPositions(const StrutPlaces& places, std::vector<Hypothesis>& all) const {
+void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
+  const StrutPlaces& places = places_;
   const Eigen::MatrixXd inverse = motionsOf(places).completeOrthogonalDecomposition().pseudoInverse();
   using Change = std::function<void(double size, StrutPlaces& places)>;
   const auto add = [&](Kind kind, std::size_t strut, const std::vector<double>& sizes, const Change& change) {
-    all.push_back({kind, {strut, strut}, sizes, [=](double size, Mapping& m) {
+    all.push_back({kind, {strut, strut}, sizes, [places = places_, change, inverse, n = n_](double size, Mapping& m) {
                      StrutPlaces other = places;
                      change(size, other);
-                     m.tops.rightCols(n_) = motionsOf(other) * inverse;
+                     m.tops.rightCols(n) = motionsOf(other) * inverse;
                    }});
   };
   for (const std::size_t axis : {0u, 1u}) {
@@ -137,15 +141,15 @@ void VehicleClaims::addPositions(const StrutPlaces& places, std::vector<Hypothes
   }
 }
 
-void VehicleClaims::addDelays(bool is_by_body, std::vector<Hypothesis>& all) const {
+void VehicleClaims::addDelays(std::vector<Hypothesis>& all) const {
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     all.push_back({Kind::kLateWheel, {i, i}, kDelays, [at](double size, Mapping& m) { m.delays[at] = size; }});
-    if (!is_by_body)
+    if (places_.empty())
       all.push_back(
           {Kind::kLateTop, {i, i}, kDelays, [at, n = n_](double size, Mapping& m) { m.delays[n + at] = size; }});
   }
-  if (is_by_body)
+  if (!places_.empty())
     all.push_back({Kind::kLateBody, {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
 }
 

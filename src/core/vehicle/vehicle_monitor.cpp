@@ -172,7 +172,15 @@ void VehicleMonitor::takeModels() {
 
 void VehicleMonitor::fitBody() {
   if (!blocks_ || numStruts() < 2) return;
-  mistake_ = blocks_->mistake();
+  claims_.emplace(blocks_->claims());
+  while (!claims_->work()) {
+  }
+  fitRows();
+}
+
+void VehicleMonitor::fitRows() {
+  mistake_ = claims_->found();
+  claims_.reset();
   BodyRows rows;
   if (!blocks_->rows(rows)) return;
   body_ = BodyFit::of(numStruts(), blocks_->tops().places()).fit(rows, blocks_->rowsOfHalves());
@@ -180,11 +188,18 @@ void VehicleMonitor::fitBody() {
 
 void VehicleMonitor::fitBodyIfDue() {
   if (!decoupler_ || !last_) return;
+  if (claims_) {
+    if (claims_->work()) fitRows();
+    return;
+  }
   if (coupled_ && *last_ >= fitted_ && *last_ - fitted_ < std::clamp(fitted_ - *coupled_, kBodyFirst, kBodyEvery))
     return;
-  if (!coupled_) coupled_ = last_;
   fitted_ = *last_;
-  fitBody();
+  if (!coupled_) {  // no estimate is to be valid before the vehicle file is tested
+    coupled_ = last_;
+    return fitBody();
+  }
+  if (numStruts() > 1) claims_.emplace(blocks_->claims());
 }
 
 Eigen::Vector2d VehicleMonitor::modelStddev(const TopEstimate& estimate) const {

@@ -73,12 +73,12 @@ std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
   return rows;
 }
 
-VehicleMistake VehicleBlocks::mistake(const StrutPlaces& of_body_imu) const {
+VehicleClaims VehicleBlocks::claims(const StrutPlaces& of_body_imu) const {
   const auto n = static_cast<Eigen::Index>(tops_.size());
   const Modulation modulation(estimators_.front().equations().band());
   const Eigen::ArrayXcd s = modulation.s();
   const auto num_forces = static_cast<Eigen::Index>(tops_.known_forces);
-  VehicleClaims claims(tops_.size(), tops_.known_forces, s), newer(claims);
+  VehicleClaims claims(tops_.size(), tops_.known_forces, s, of_body_imu);
   VehicleClaims::Spectra wheels, tops;
   Eigen::ArrayXXcd forces(s.size(), num_forces);
   for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);
@@ -94,11 +94,9 @@ VehicleMistake VehicleBlocks::mistake(const StrutPlaces& of_body_imu) const {
     for (Eigen::Index k = 0; k < num_forces; ++k)
       modulation.apply(2, first.forces.col(firstKnownForce() + k), forces.col(k));
     claims.add(wheels, tops, forces);
-    if (2 * age < estimators_.front().count()) newer.add(wheels, tops, forces);
   }
-  if (!of_body_imu.empty() && newer.hasDeadGyro(of_body_imu))
-    return {VehicleMistake::Kind::kDeadGyro, {}};  // it may have died
-  return claims.find(of_body_imu);
+  return {VehicleMistake::Kind::kDeadGyro, {}};  // it may have died
+  return claims;
 }
 
 std::vector<BodyRows> VehicleBlocks::rowsOfHalves() {

@@ -75,10 +75,10 @@ class VehicleBlocks {
   const VehicleTops& tops() const { return tops_; }
   double length() const { return length_; }  ///< T of the blocks [s]
 
-  /// @return what the blocks kept say against the vehicle file. Not for the sample path.
-  VehicleMistake mistake() const { return mistake(tops_.areOfBody() ? tops_.places() : StrutPlaces{}); }
+  /// @return what the blocks kept say of the vehicle file, to be worked through. Allocates.
+  VehicleClaims claims() const { return claims(tops_.areOfBody() ? tops_.places() : StrutPlaces{}); }
   /// @param of_body_imu  where the tops are, if what is given as theirs was made of the body's IMU; else empty.
-  VehicleMistake mistake(const StrutPlaces& of_body_imu) const;
+  VehicleClaims claims(const StrutPlaces& of_body_imu) const;
 
   /// Another drive: blocks are forgotten, but to overTheDrive(); estimates stay until there are new ones.
   void restart();

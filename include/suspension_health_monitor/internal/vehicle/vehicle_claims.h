@@ -45,25 +45,26 @@ struct VehicleMistake {
   bool isLarge() const;
 };
 
-/// Products of all wheels' and tops' spectra, summed over blocks, by which every mistake is judged at once: for each,
-/// the rows (B20) are fitted by least squares to what the sensors would have read without it, and what they leave is
-/// compared. Noise in the columns draws all of them alike.
+/// Products of all wheels' and tops' spectra, summed over blocks, by which every mistake is judged: for each, the rows
+/// (B20) are fitted by least squares to what the sensors would have read without it, and what they leave is compared.
+/// Noise in the columns draws all of them alike. Blocks first, then work() until it is done.
 class VehicleClaims {
  public:
   using Spectra = std::array<Eigen::ArrayXXcd, 3>;  ///< H_p of p = 0, 1, 2, bins by struts
 
   /// @param s  of the bins of a block [rad/s].
-  VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s);
+  /// @param places  of struts whose tops the body's IMU tells; empty: tops have sensors of their own.
+  VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s, const StrutPlaces& places);
 
-  /// Adds one block.
+  /// Adds the next older block.
   /// @param wheels, tops  of w'' and z''.  @param forces  H_2 of the known forces, bins by forces.
   void add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXXcd& forces);
 
-  /// @param places  of struts whose tops the body's IMU tells; empty: tops have sensors of their own.
-  VehicleMistake find(const StrutPlaces& places);
+  /// Does one portion: one bin or one hypothesis, some 0.2 ms for four struts.  @return true: all is done.
+  bool work();
 
-  /// @return true: the body's IMU tells of less pitch or roll than any body on these wheels has.
-  bool hasDeadGyro(const StrutPlaces& places) const;
+  /// @pre work() has returned true.
+  const VehicleMistake& found() const { return found_; }
 
  private:
   /// Streams of all struts as they would be without a mistake, from those that were measured.
@@ -79,24 +80,36 @@ class VehicleClaims {
     std::function<void(double size, Mapping& mapping)> apply;
   };
   double noiseShare() const;
-  void keepWhatWheelsTell();
+  bool begins();
+  void takeBin(std::size_t bin);
+  void judgeAsFiled();
+  void judge(const Hypothesis& hypothesis);
+  bool hasDeadGyro() const;
   Mapping asFiled() const;
   Eigen::MatrixXd moments(const Eigen::VectorXd& delays) const;
   double unexplained(const Mapping& mapping, const Eigen::MatrixXd& moments) const;
   double unexplained(const Hypothesis& hypothesis, double size) const;
   VehicleMistake attempt(const Hypothesis& hypothesis) const;
-  std::vector<Hypothesis> hypotheses(const StrutPlaces& places) const;
-  void addPositions(const StrutPlaces& places, std::vector<Hypothesis>& all) const;
-  void addDelays(bool is_by_body, std::vector<Hypothesis>& all) const;
-  VehicleMistake sameOrAlike(bool has_own_tops) const;
+  std::vector<Hypothesis> hypotheses() const;
+  void addPositions(std::vector<Hypothesis>& all) const;
+  void addDelays(std::vector<Hypothesis>& all) const;
+  VehicleMistake sameOrAlike() const;
 
   Eigen::Index n_, forces_;
   Eigen::ArrayXcd s_;
-  std::vector<Eigen::MatrixXcd> products_;  // by bin: by p, then wheels, then tops; forces; of displacements
-  Eigen::MatrixXd in_step_;                 // moments() if no stream is late
+  StrutPlaces places_;
+  // By bin, in a column per block, newest first: by p the wheels, then the tops; forces; of displacements.
+  std::vector<Eigen::MatrixXcd> columns_;
   Eigen::MatrixXd whole_;                   // of H_0 of wheels and tops, all bins
-  double noise_ = 0.0;                      // share of the tops' motion that does not go with the wheels
+  std::vector<Eigen::MatrixXcd> products_;  // by bin: of columns_, what goes with the wheels
+  Eigen::MatrixXd measured_, in_step_;      // sums over bins: of all that was measured, of products_
+  std::vector<Hypothesis> hypotheses_;
+  std::size_t next_ = 0;  // bin, then hypothesis
+  double filed_ = 0.0;    // share of what goes with the wheels that the file leaves
+  double noise_ = 0.0;    // share of the tops' motion that does not go with the wheels
+  double least_ = 0.0;    // that a hypothesis leaves
   int blocks_ = 0;
+  VehicleMistake found_;
 };
 
 }  // namespace suspension_health_monitor
