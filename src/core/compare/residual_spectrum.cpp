@@ -28,7 +28,7 @@ struct SpectralSums {
 }  // namespace
 
 std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series, const std::vector<ComparedSegment>& segments,
-                                           const ExpectedNoise& noise) {
+                                           const LinearStrut& strut, double noise_floor) {
   std::vector<std::size_t> sizes;
   for (const ComparedSegment& segment : segments) sizes.push_back(segment.size());
   const std::size_t length = Periodogram::lengthFor(sizes, series.natural_period);
@@ -49,8 +49,8 @@ std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series, const s
   result.num_averages = std::max(1.0, Periodogram::kIndependent * static_cast<double>(windows));
   // gamma^2 of unrelated signals: P(gamma^2 > x) = (1 - x)^(n - 1).
   result.coherence_threshold = 1.0 - std::pow(0.05, 1.0 / std::max(1e-3, result.num_averages - 1.0));
-  const double b1 = noise.damping_to_mass, b0 = noise.stiffness_to_mass;
-  const double own = noise.floor * noise.floor / (1.0 + series.period * (b1 * b1 + b0) / (2.0 * b1));
+  const double b1 = strut.damping_to_mass, b0 = strut.stiffness_to_mass;
+  const double own = noise_floor * noise_floor / (1.0 + series.period * (b1 * b1 + b0) / (2.0 * b1));
   for (std::size_t i = 1; i <= length / 2; ++i) {
     const double sides = i == length / 2 ? 1.0 : 2.0;
     const double scale = sides * series.period / (periodogram.taperPower() * static_cast<double>(windows));
