@@ -40,6 +40,10 @@ double transmissibility(double damping_to_mass, double stiffness_to_mass, double
   return std::abs(force / (s * s + force));
 }
 
+double noiseOfBothSensors(double damping_to_mass, double stiffness_to_mass, double period) {
+  return 1.0 + period * (damping_to_mass * damping_to_mass + stiffness_to_mass) / (2.0 * damping_to_mass);
+}
+
 double integralFilterMagnitude(double horizon, double frequency_hz) {
   const double x = M_PI * frequency_hz * horizon;
   const double sinc = x == 0.0 ? 1.0 : std::sin(x) / x;
