@@ -95,7 +95,7 @@ Errors errorsAt(double horizon, const Drive& drive, const std::vector<Samples>& 
 
 void printRow(const Drive& drive) {
   const std::vector<Samples> drives = simulateAll(drive);
-  const double proposed = proposeHorizon(drive.b1, drive.b0).horizon;
+  const double proposed = proposeHorizon(drive.b1, drive.b0);
   const Errors at_proposal = errorsAt(proposed, drive, drives);
   Errors least = at_proposal, best{proposed, proposed};
   for (double factor = 0.3; factor < 3.0; factor *= 1.1) {

@@ -37,13 +37,12 @@ std::size_t Periodogram::lengthFor(const std::vector<std::size_t>& stretches, do
   return length;
 }
 
-const Spectrum& Periodogram::of(const double* values, Spectrum& into) {
+void Periodogram::of(const double* values, Spectrum& into) {
   double mean = 0.0;
   for (std::size_t i = 0; i < taper_.size(); ++i) mean += values[i];
   mean /= static_cast<double>(taper_.size());
   for (std::size_t i = 0; i < taper_.size(); ++i) windowed_[i] = taper_[i] * (values[i] - mean);
   fft_.fwd(into, windowed_);
-  return into;
 }
 
 }  // namespace suspension_health_monitor

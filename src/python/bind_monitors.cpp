@@ -4,7 +4,6 @@
 #include "callback_lock.h"
 #include "options.h"
 #include "readings.h"
-#include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "suspension_health_monitor/strut_monitor.h"
@@ -22,8 +21,8 @@ using LockedMonitor = Locked<StrutMonitor>;
 /// @return what calls it after every n-th sample.
 StrutMonitor::Sink sinkFor(py::handle on_report, int every) {
   if (on_report.is_none()) return {};
-  return [on_report, due = EveryN(every)](const MonitorReport& report) mutable {
-    if (!due()) return;
+  return [on_report, every, samples = std::uint64_t{0}](const MonitorReport& report) mutable {
+    if (samples++ % static_cast<std::uint64_t>(every) != 0) return;
     const py::gil_scoped_acquire held;
     on_report(report);
   };

@@ -12,8 +12,8 @@
 #include "input_history.h"
 #include "message_pipeline.h"
 #include "shell_options.h"
-#include "suspension_health_monitor/internal/signal/silent_sensors.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
+#include "suspension_health_monitor/internal/signal/stream_silence.h"
 
 namespace suspension_health_monitor {
 
@@ -68,7 +68,7 @@ class InputTask {
 
  private:
   std::optional<double> max_lag_;  // [s]
-  SilentSensors silent_;
+  StreamSilence silent_;
   PublishedTopics published_;
   std::string refusal_;
   SeriesHistory series_;

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "command.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
@@ -11,31 +13,51 @@ namespace {
 namespace po = boost::program_options;
 
 constexpr std::size_t kPlotLines = 25;
+constexpr int kCurvePoints = 241;
+constexpr double kCurveDecades = 1.5;  // on either side of the bandwidth
 constexpr double kColumnsPerUnit = 30.0;
 constexpr double kHighestPlotted = 3.0;
 
+/// One frequency of the two magnitude responses that are to match.
+struct MagnitudePoint {
+  double frequency_hz, strut, filter;
+};
+
+/// @return frequencies in equal ratios around the bandwidth.
+std::vector<MagnitudePoint> curvesOf(double damping_to_mass, double stiffness_to_mass, double horizon,
+                                     double bandwidth_hz) {
+  std::vector<MagnitudePoint> curves;
+  for (int i = 0; i < kCurvePoints; ++i) {
+    const double decades = kCurveDecades * (2.0 * i / (kCurvePoints - 1) - 1.0);
+    const double frequency = bandwidth_hz * std::pow(10.0, decades);
+    curves.push_back({frequency, transmissibility(damping_to_mass, stiffness_to_mass, frequency),
+                      integralFilterMagnitude(horizon, frequency)});
+  }
+  return curves;
+}
+
 /// Both curves as a plot on its side, for a terminal; a higher resonance is cut off.
-void plot(const HorizonProposal& proposal) {
+void plot(const std::vector<MagnitudePoint>& curves) {
   const auto column = [](double magnitude) {
     return static_cast<std::size_t>(std::min(magnitude, kHighestPlotted) * kColumnsPerUnit);
   };
   std::printf("      Hz   strut  filter   magnitude: S strut, F filter, | is 1\n");
-  const std::size_t step = proposal.curves.size() / kPlotLines;
-  for (std::size_t i = 0; i < proposal.curves.size(); i += step) {
-    const MagnitudePoint& point = proposal.curves[i];
-    std::string line(std::max(column(point.system), column(1.0)) + 1, ' ');
+  const std::size_t step = curves.size() / kPlotLines;
+  for (std::size_t i = 0; i < curves.size(); i += step) {
+    const MagnitudePoint& point = curves[i];
+    std::string line(std::max(column(point.strut), column(1.0)) + 1, ' ');
     line[column(1.0)] = '|';
     line[column(point.filter)] = 'F';
-    line[column(point.system)] = 'S';
-    std::printf("%8.3f  %6.3f  %6.3f   %s\n", point.frequency_hz, point.system, point.filter, line.c_str());
+    line[column(point.strut)] = 'S';
+    std::printf("%8.3f  %6.3f  %6.3f   %s\n", point.frequency_hz, point.strut, point.filter, line.c_str());
   }
 }
 
-nlohmann::json toJson(const HorizonProposal& proposal) {
-  nlohmann::json curves = nlohmann::json::array();
-  for (const MagnitudePoint& point : proposal.curves)
-    curves.push_back({{"frequency_hz", point.frequency_hz}, {"strut", point.system}, {"filter", point.filter}});
-  return {{"horizon", proposal.horizon}, {"bandwidth_hz", proposal.bandwidth_hz}, {"curves", curves}};
+nlohmann::json toJson(const std::vector<MagnitudePoint>& curves) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const MagnitudePoint& point : curves)
+    list.push_back({{"frequency_hz", point.frequency_hz}, {"strut", point.strut}, {"filter", point.filter}});
+  return list;
 }
 
 }  // namespace
@@ -49,12 +71,16 @@ void horizon(const Arguments& arguments) {
   const auto values =
       parse(arguments, "horizon --damping-to-mass B1 --stiffness-to-mass B0 [--json FILE]", description);
   if (!values) return;
-  const HorizonProposal proposal =
-      proposeHorizon((*values)["damping-to-mass"].as<double>(), (*values)["stiffness-to-mass"].as<double>());
-  if (std::optional<TextFile> file = outputFile(*values, "json")) file->commit(toJson(proposal).dump(2) + '\n');
-  plot(proposal);
-  std::printf("\nintegration_horizon: %.3g   # [s] strut and filter both reach to %.3g Hz (3 dB)\n", proposal.horizon,
-              proposal.bandwidth_hz);
+  const double b1 = (*values)["damping-to-mass"].as<double>(), b0 = (*values)["stiffness-to-mass"].as<double>();
+  const double horizon = proposeHorizon(b1, b0), bandwidth_hz = bandwidth(b1, b0) / (2.0 * M_PI);
+  const std::vector<MagnitudePoint> curves = curvesOf(b1, b0, horizon, bandwidth_hz);
+  if (std::optional<TextFile> file = outputFile(*values, "json")) {
+    const nlohmann::json all{{"horizon", horizon}, {"bandwidth_hz", bandwidth_hz}, {"curves", toJson(curves)}};
+    file->commit(all.dump(2) + '\n');
+  }
+  plot(curves);
+  std::printf("\nintegration_horizon: %.3g   # [s] strut and filter both reach to %.3g Hz (3 dB)\n", horizon,
+              bandwidth_hz);
   printWritten(*values, {"json"});
 }
 

@@ -34,7 +34,7 @@ void TopicGaps::beginBag(const std::string& path, const std::vector<std::string>
   bags_.push_back(
       {std::filesystem::path(path).filename().string(),
        topics,
-       StreamSilence(topics.size(), timeout_, [this](const Silence& ended) { bags_.back().silences.push_back(ended); }),
+       StreamSilence(topics, timeout_, [this](const Silence& ended) { bags_.back().silences.push_back(ended); }),
        {},
        {},
        {}});

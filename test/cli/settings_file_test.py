@@ -210,6 +210,10 @@ def test_what_was_written_is_told_and_a_pipe_is_not(program, bag, tmp_path):
     assert told.endswith(f"wrote {tmp_path / 'said' / 'report.html'}\n")
     told = program.succeed("horizon", "--damping-to-mass", 4, "--stiffness-to-mass", 40, "--json", tmp_path / "h.json")
     assert told.endswith(f"wrote {tmp_path / 'h.json'}\n")
+    proposal = json.loads((tmp_path / "h.json").read_text())
+    frequencies = [point["frequency_hz"] for point in proposal["curves"]]
+    assert len(frequencies) > 100
+    assert frequencies[0] < 0.1 * proposal["bandwidth_hz"] and frequencies[-1] > 10 * proposal["bandwidth_hz"]
 
 
 def test_too_short_a_drive_says_what_would_be_enough(program, tmp_path):

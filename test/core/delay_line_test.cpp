@@ -11,8 +11,11 @@ constexpr int kLength = 5;
 void expectOnlyWhatIsPushed(DelayLine& line, int first) {
   for (int pushed = 1; pushed <= 3 * kLength; ++pushed) {
     line.push(first + pushed - 1);
-    for (int lag = 0; lag < kLength; ++lag)
+    for (int lag = 0; lag < kLength; ++lag) {
       ASSERT_EQ(line.at(lag), lag < pushed ? first + pushed - 1 - lag : 0) << pushed << ' ' << lag;
+      ASSERT_EQ(line.window()[kLength - 1 - lag], line.at(lag)) << pushed << ' ' << lag;
+    }
+    ASSERT_EQ(line.full(), pushed >= kLength) << pushed;
   }
 }
 
@@ -28,6 +31,7 @@ TEST(DelayLine, AfterResetIsAsANewOne) {
     DelayLine line(kLength);
     for (int k = 0; k < before; ++k) line.push(-1.0);
     line.reset();
+    ASSERT_FALSE(line.full()) << before;
     for (int lag = 0; lag < kLength; ++lag) ASSERT_EQ(line.at(lag), 0.0) << before << ' ' << lag;
     expectOnlyWhatIsPushed(line, 100);
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPeriod = 0.01;
 constexpr double kNoise = 0.05;
-const ExpectedNoise kCar{kNoise, 6.0, 63.3};
+const LinearStrut kCar{6.0, 63.3};
 
 /// A motion with several frequencies, and a residual (and missing force) that is noise and force(t, d, v).
 template <class Force>
@@ -43,16 +43,16 @@ ComparedSegment segmentWith(const Force& force, double noise = kNoise, unsigned 
 
 const auto kNothing = [](double, double, double) { return 0.0; };
 
-ResidualViews viewsOf(const ComparedSegment& segment, const ExpectedNoise& noise = kCar) {
-  const auto views = viewResidual({segment}, noise);
+ResidualViews viewsOf(const ComparedSegment& segment, const LinearStrut& strut = kCar) {
+  const auto views = viewResidual({segment}, strut, kNoise);
   EXPECT_TRUE(views);
   return views.value_or(ResidualViews{});
 }
 
 std::vector<FailureRegion> failuresIn(const ComparedSegment& segment) {
   const ResidualViews views = viewsOf(segment);
-  std::vector<FailureRegion> where = findFailures(views, kCar);
-  describeFailures(views, kCar.floor, where);
+  std::vector<FailureRegion> where = findFailures(views, kCar, kNoise);
+  describeFailures(views, kNoise, where);
   return where;
 }
 
@@ -133,7 +133,7 @@ TEST(ResidualViews, CoherenceTellsWhatFollowsTheWheel) {
 
 TEST(ResidualViews, WhiteNoiseStaysWithinBothBands) {
   // A slow strut lets next to nothing of the noise on w'' through: the bands are those of white noise.
-  const ExpectedNoise slow{kNoise, 0.6, 0.633};
+  const LinearStrut slow{0.6, 0.633};
   constexpr int kSeeds = 20;
   int within = 0;
   double white = 0.0, cross = 0.0;
@@ -170,7 +170,7 @@ TEST(ResidualViews, SamplesPerIndependentOneGrowWithTheMemoryOfTheNoise) {
   EXPECT_NEAR(1.0 / viewsOf(segment).independent_share, 9.0, 1.5);
 }
 
-TEST(ResidualViews, NoSegmentIsNothing) { EXPECT_FALSE(viewResidual({}, kCar)); }
+TEST(ResidualViews, NoSegmentIsNothing) { EXPECT_FALSE(viewResidual({}, kCar, kNoise)); }
 
 TEST(FindFailures, NoiseNamesNothingInAnyView) {
   for (unsigned seed = 1; seed <= 30; ++seed) {

@@ -61,7 +61,7 @@ TEST(RoughStrut, ProposesTheHorizonThatTheTrueParametersAskFor) {
   options.vehicle = "golden_car";
   options.rate = 200.0;
   options.noise = 0.1;
-  const int expected = horizonSamples(proposeHorizon(6.0, 63.3).horizon, 1.0 / options.rate);
+  const int expected = horizonSamples(proposeHorizon(6.0, 63.3), 1.0 / options.rate);
   Drive measured = driveOf(drive(options));
   const int found = roughStrut({measured}, 1.0 / options.rate).value().horizonSamples(1.0 / options.rate);
   EXPECT_NEAR(found, expected, 0.1 * expected);

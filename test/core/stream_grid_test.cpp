@@ -185,7 +185,7 @@ TEST_F(StreamGridTest, TellsWhichSensorLosesReadings) {
 
 TEST_F(StreamGridTest, TellsWhichSensorIsSilentAndWhichReadsNonsense) {
   StreamGrid grid(kPeriod, sensors(3), Alignment::kPaired, kFill);
-  for (int k = 0; k < static_cast<int>(StreamGrid::kMostWaiting) + 100; ++k) {
+  for (int k = 0; k < static_cast<int>(kMostWaiting) + 100; ++k) {
     const Stamp stamp = k * fromSeconds(kPeriod);
     EXPECT_EQ(grid.push(0, stamp + Stamp(1), std::sin(k)), nullptr);
     EXPECT_EQ(grid.push(1, stamp + Stamp(1), std::cos(k)), nullptr);

@@ -39,7 +39,7 @@ std::vector<double> timesOf(const Sampling& sampling, unsigned seed) {
 std::vector<double> resampled(const std::vector<double>& times, const std::function<double(double)>& signal,
                               Stamp start = {}) {
   StreamResampler stream(fromSeconds(kPeriod));
-  ReadingQueue readings;
+  ReadingQueue readings(kMostWaiting);
   const double usual_spacing = (times.back() - times.front()) / static_cast<double>(times.size());
   for (const double t : times) {
     const Stamp stamp = fromSeconds(t);  // whole nanoseconds
@@ -201,7 +201,7 @@ TEST(StreamResampler, TellsWhatItCovers) {
   using Coverage = StreamResampler::Coverage;
   const auto at = [](int k) { return k * fromSeconds(kPeriod); };
   StreamResampler stream(at(1));
-  ReadingQueue readings;
+  ReadingQueue readings(kMostWaiting);
   const auto push = [&](int k, bool still = false) { readings.push_back({at(k), at(k), 1.0, still, kPeriod}); };
   EXPECT_EQ(stream.advance(at(0), readings), Coverage::kComes);
   EXPECT_FALSE(stream.earliest(readings));

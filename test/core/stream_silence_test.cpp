@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <initializer_list>
+#include <string>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -28,7 +29,8 @@ class StreamSilenceTest : public ::testing::Test {
   }
 
   std::vector<StreamSilence::Silence> ended_;
-  StreamSilence silence_{3, kTimeout, [this](const StreamSilence::Silence& ended) { ended_.push_back(ended); }};
+  StreamSilence silence_{
+      {"a", "b", "c"}, kTimeout, [this](const StreamSilence::Silence& ended) { ended_.push_back(ended); }};
 };
 
 TEST_F(StreamSilenceTest, OneThatEndsIsSilentToTheEnd) {
@@ -54,6 +56,21 @@ TEST_F(StreamSilenceTest, OneThatBeginsLateIsSilentFromTheFirstReadingOfAnother)
   drive(20.0, 30.0, {0, 1, 2});
   silence_.finish();
   expectOne(2, 10.0, 20.0);
+}
+
+TEST_F(StreamSilenceTest, NamesThoseOfNowAndOfLate) {
+  using Names = std::vector<std::string>;
+  drive(10.0, 20.0, {0, 1, 2});
+  drive(20.0, 30.0, {1});
+  EXPECT_EQ(silence_.now(), (Names{"a", "c"}));
+  drive(30.0, 31.0, {0, 1});
+  EXPECT_EQ(silence_.now(), (Names{"c"}));
+  EXPECT_EQ(silence_.ofLate(), (Names{"a", "c"}));
+  silence_.forget();
+  EXPECT_EQ(silence_.ofLate(), (Names{"c"}));
+  silence_.finish();
+  EXPECT_TRUE(silence_.now().empty());
+  EXPECT_EQ(silence_.ofLate(), (Names{"c"}));
 }
 
 TEST_F(StreamSilenceTest, APauseNoLongerThanTheTimeoutIsNone) {

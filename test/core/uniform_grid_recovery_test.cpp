@@ -46,16 +46,16 @@ TEST_F(Streams, GoOnAfterAStampSomewhatInTheFuture) {
 
 TEST_F(Streams, SilenceOfOneFillsNoMemoryAndIsMadeGood) {
   run(0, 10);
-  const int many = 3 * static_cast<int>(StreamGrid::kMostWaiting);
+  const int many = 3 * static_cast<int>(kMostWaiting);
   for (int k = 0; k < many; ++k) EXPECT_FALSE(grid_.push(Side::kSprung, at(200 + 20 * k), 0.01 * k));
   // All but the capacity is gone already, the rest goes when the other one comes back.
-  EXPECT_EQ(grid_.streams().rejected().count(RejectReason::kMissingPartner), 2 * StreamGrid::kMostWaiting);
+  EXPECT_EQ(grid_.streams().rejected().count(RejectReason::kMissingPartner), 2 * kMostWaiting);
   EXPECT_EQ(run(200 + 20 * many, 100), 100);
-  EXPECT_EQ(grid_.streams().rejected().count(RejectReason::kMissingPartner), 3 * StreamGrid::kMostWaiting);
+  EXPECT_EQ(grid_.streams().rejected().count(RejectReason::kMissingPartner), 3 * kMostWaiting);
 }
 
 TEST_F(Streams, OneMayRunAheadByTheCapacity) {
-  const int most = static_cast<int>(StreamGrid::kMostWaiting);
+  const int most = static_cast<int>(kMostWaiting);
   for (int k = 0; k < most; ++k) grid_.push(Side::kSprung, at(20 * k), 0.01 * k);
   for (int k = 0; k < most; ++k) {
     const auto sample = grid_.push(Side::kUnsprung, at(20 * k), -0.01 * k);

@@ -10,6 +10,14 @@ namespace suspension_health_monitor {
 
 using Spectrum = std::vector<std::complex<double>>;
 
+/// @return of segments, whatever they hold: how many samples each has.
+template <class Segments>
+std::vector<std::size_t> sizesOf(const Segments& segments) {
+  std::vector<std::size_t> sizes;
+  for (const auto& segment : segments) sizes.push_back(segment.size());
+  return sizes;
+}
+
 /// Spectra of half overlapping windows under Hann's taper, for averages over them.
 /// Source: Welch, IEEE Transactions on Audio and Electroacoustics 15 (1967), 70-73.
 class Periodogram {
@@ -22,6 +30,13 @@ class Periodogram {
   static std::size_t windowsIn(std::size_t samples, std::size_t length);
   static std::size_t windowsIn(const std::vector<std::size_t>& stretches, std::size_t length);
 
+  /// Calls take(stretch, first) for every window of several stretches, `first` being its first sample.
+  template <class Take>
+  static void forEachWindow(const std::vector<std::size_t>& stretches, std::size_t length, const Take& take) {
+    for (std::size_t s = 0; s < stretches.size(); ++s)
+      for (std::size_t i = 0; i < windowsIn(stretches[s], length); ++i) take(s, i * (length / 2));
+  }
+
   /// @param natural_period  of the strut [samples].
   /// @return a power of two: twelve natural periods, or less if there would be too few windows.
   static std::size_t lengthFor(const std::vector<std::size_t>& stretches, double natural_period,
@@ -30,7 +45,7 @@ class Periodogram {
   double taperPower() const { return power_; }
 
   /// @param values  a window; its mean is taken off.
-  const Spectrum& of(const double* values, Spectrum& into);
+  void of(const double* values, Spectrum& into);
 
  private:
   std::vector<double> taper_, windowed_;

@@ -60,7 +60,7 @@ std::vector<std::vector<std::pair<double, double>>> heldOutSpans(const Records& 
 
 int horizonFor(const CompareOptions& options, const StrutModel& model, double period) {
   if (options.horizon_samples) return *options.horizon_samples;
-  const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass).horizon;
+  const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass);
   return horizonSamples(horizon, period);
 }
 
@@ -104,12 +104,11 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
                                : std::min(comparison.noise_floor, law.leaves);
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
-  const ExpectedNoise noise{comparison.noise_floor, comparison.model.damping_to_mass,
-                            comparison.model.stiffness_to_mass};
-  std::optional<ResidualViews> views = viewResidual(comparison.segments, noise);
+  const LinearStrut strut = comparison.model.linearPart();
+  std::optional<ResidualViews> views = viewResidual(comparison.segments, strut, comparison.noise_floor);
   if (!views) return Shortcoming::kTooShort;
   comparison.views = std::move(*views);
-  comparison.where = findFailures(comparison.views, noise);
+  comparison.where = findFailures(comparison.views, strut, comparison.noise_floor);
   comparison.forces = partialResiduals(comparison.segments, compared->motion, comparison.model);
   report(1.0);
   return Shortcoming::kNone;

@@ -16,8 +16,8 @@ constexpr double kBand = 0.5;            // of what is not noise, in the band th
 
 class FailureFinder {
  public:
-  FailureFinder(const ResidualViews& views, const ExpectedNoise& noise)
-      : views_(views), noise_(noise), test_(views, noise) {}
+  FailureFinder(const ResidualViews& views, const LinearStrut& strut, double noise_floor)
+      : views_(views), strut_(strut), noise_floor_(noise_floor), test_(views, noise_floor) {}
 
   std::vector<FailureRegion> find();
 
@@ -33,7 +33,8 @@ class FailureFinder {
   FailureRegion conclude() const;
 
   const ResidualViews& views_;
-  const ExpectedNoise& noise_;
+  const LinearStrut& strut_;
+  double noise_floor_;
   NoiseTest test_;
   bool drifts_ = false;
   std::vector<FailureRegion> found_;
@@ -105,8 +106,8 @@ bool FailureFinder::findDrift(std::size_t first, std::size_t last) {
     found.first_third = begin.mean() / whole;
     found.last_third = end.mean() / whole;
   };
-  test(FailureRegion::Drift::kDamping, noise_.damping_to_mass, &TimeBin::damping_error, &TimeBin::damping_error_stddev);
-  test(FailureRegion::Drift::kStiffness, noise_.stiffness_to_mass, &TimeBin::stiffness_error,
+  test(FailureRegion::Drift::kDamping, strut_.damping_to_mass, &TimeBin::damping_error, &TimeBin::damping_error_stddev);
+  test(FailureRegion::Drift::kStiffness, strut_.stiffness_to_mass, &TimeBin::stiffness_error,
        &TimeBin::stiffness_error_stddev);
   if (found.drift == FailureRegion::Drift::kNone) return false;
   found_.push_back(found);
@@ -195,7 +196,7 @@ void FailureFinder::findFrequency() {
   for (std::size_t i = 0; i < spectrum.frequency.size(); ++i) {
     const double samples_worth = 2.0 * spectrum.num_averages / views_.independent_share;
     const bool loud =
-        test_.exceedsNoise(spectrum.residual[i] / spectrum.noise[i] * square(noise_.floor), samples_worth, limit);
+        test_.exceedsNoise(spectrum.residual[i] / spectrum.noise[i] * square(noise_floor_), samples_worth, limit);
     above.push_back(loud ? spectrum.residual[i] - spectrum.noise[i] : 0.0);
     excess += above.back() * width;
   }
@@ -243,8 +244,8 @@ std::vector<FailureRegion> FailureFinder::find() {
 
 }  // namespace
 
-std::vector<FailureRegion> findFailures(const ResidualViews& views, const ExpectedNoise& noise) {
-  return FailureFinder(views, noise).find();
+std::vector<FailureRegion> findFailures(const ResidualViews& views, const LinearStrut& strut, double noise_floor) {
+  return FailureFinder(views, strut, noise_floor).find();
 }
 
 }  // namespace suspension_health_monitor

@@ -27,15 +27,15 @@ std::vector<BinRange> rangesOf(const std::vector<ResidualBin>& bins, const std::
 
 }  // namespace
 
-NoiseTest::NoiseTest(const ResidualViews& views, const ExpectedNoise& noise) : views_(views), noise_(noise) {}
+NoiseTest::NoiseTest(const ResidualViews& views, double noise_floor) : views_(views), noise_floor_(noise_floor) {}
 
 bool NoiseTest::isForce(double mean, double standard_error, double limit) const {
-  return std::abs(mean) > std::max(limit * standard_error, kNegligible * noise_.floor);
+  return std::abs(mean) > std::max(limit * standard_error, kNegligible * noise_floor_);
 }
 
 bool NoiseTest::exceedsNoise(double mean_square, double count, double limit) const {
   const double chance = 1.0 + limit * std::sqrt(2.0 / std::max(1.0, count * views_.independent_share));
-  return mean_square > square(noise_.floor) * chance / (1.0 - kStructured);
+  return mean_square > square(noise_floor_) * chance / (1.0 - kStructured);
 }
 
 double NoiseTest::rmsElsewhere(const BinRange& range) const {

@@ -29,7 +29,7 @@ class NoiseTest {
   static constexpr int kFewest = 30;  ///< samples of a bin or a cell: fewer say nothing
 
   /// The arguments must outlive it.
-  NoiseTest(const ResidualViews& views, const ExpectedNoise& noise);
+  NoiseTest(const ResidualViews& views, double noise_floor);
 
   /// @return how many standard errors chance passes in none of `tests` two-sided tests, but with probability
   /// kFalseAlarm.
@@ -57,7 +57,7 @@ class NoiseTest {
 
  private:
   const ResidualViews& views_;
-  const ExpectedNoise& noise_;
+  double noise_floor_;
 };
 
 }  // namespace suspension_health_monitor

@@ -58,7 +58,7 @@ double Correlation::at(int lag) const {
   return scale_ > 0.0 ? sum / scale_ : 0.0;
 }
 
-std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise) {
+std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const LinearStrut& strut) {
   ResidualSeries series;
   for (const ComparedSegment& segment : segments) {
     series.begins.push_back(series.size());
@@ -71,7 +71,7 @@ std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& seg
   }
   series.begins.push_back(series.size());
   if (!(sumOfSquares(series.rate) > 0.0)) return std::nullopt;
-  series.natural_period = 2.0 * M_PI / std::sqrt(noise.stiffness_to_mass) / series.period;
+  series.natural_period = 2.0 * M_PI / std::sqrt(strut.stiffness_to_mass) / series.period;
   series.offset = centre(series.residual);
   centre(series.missing);
   centre(series.wheel);
@@ -80,8 +80,9 @@ std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& seg
   return series;
 }
 
-std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise) {
-  const std::optional<ResidualSeries> series = makeSeries(segments, noise);
+std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& segments, const LinearStrut& strut,
+                                          double noise_floor) {
+  const std::optional<ResidualSeries> series = makeSeries(segments, strut);
   if (!series) return std::nullopt;
   const auto count = static_cast<double>(series->size());
   ResidualViews views;
@@ -95,8 +96,8 @@ std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& se
   views.travel_rate = binByQuantile(*series, series->rate);
   views.surface = mapForce(*series);
   views.direction = compareDirections(*series);
-  views.spectrum = spectrumOf(*series, segments, noise);
-  ResidualCorrelations correlations = correlate(*series, noise);
+  views.spectrum = spectrumOf(*series, segments, strut, noise_floor);
+  ResidualCorrelations correlations = correlate(*series, strut, noise_floor);
   views.whiteness = std::move(correlations.whiteness);
   views.cross_correlation = std::move(correlations.cross);
   return views;

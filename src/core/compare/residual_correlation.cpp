@@ -15,8 +15,8 @@ const double kHalfBand = normalQuantile(0.5 * kOutside);  // half the band's wid
 const double kUnlikely = normalQuantile(0.01);            // of the number of lags outside
 
 /// Response of z'' to a unit sample of w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): e^{At}, held over a sample.
-std::vector<double> impulseResponse(const ExpectedNoise& noise, double period, std::size_t length) {
-  const double b1 = noise.damping_to_mass, b0 = noise.stiffness_to_mass;
+std::vector<double> impulseResponse(const LinearStrut& strut, double period, std::size_t length) {
+  const double b1 = strut.damping_to_mass, b0 = strut.stiffness_to_mass;
   Eigen::Matrix2d slope;  // of travel and travel rate
   slope << 0.0, 1.0, -b0, -b1;
   const Eigen::Matrix2d step = (period * slope).exp();
@@ -56,11 +56,11 @@ void addLag(int lag, double period, double value, double expected, double band, 
 
 }  // namespace
 
-ResidualCorrelations correlate(const ResidualSeries& series, const ExpectedNoise& noise) {
+ResidualCorrelations correlate(const ResidualSeries& series, const LinearStrut& strut, double noise_floor) {
   const auto count = static_cast<double>(series.size());
   const int lags =
       static_cast<int>(std::min(std::clamp(std::round(series.natural_period), kFewestLags, kMostLags), count / 4.0));
-  const std::vector<double> through = impulseResponse(noise, series.period, 8 * static_cast<std::size_t>(lags));
+  const std::vector<double> through = impulseResponse(strut, series.period, 8 * static_cast<std::size_t>(lags));
   const double share = 1.0 / (1.0 + sumOfSquares(through));  // of the floor's mean square: the body's own sensor
 
   ResidualCorrelations result;
@@ -87,7 +87,7 @@ ResidualCorrelations correlate(const ResidualSeries& series, const ExpectedNoise
   const double sizes = std::sqrt(sumOfSquares(series.residual) * sumOfSquares(series.wheel)) / count;
   for (int lag = -lags; lag <= lags; ++lag) {
     // Noise on w'' is in the model's input with its own sign, so in the residual with the opposite one.
-    const double noise_square = share * noise.floor * noise.floor;
+    const double noise_square = share * noise_floor * noise_floor;
     const double left =
         lag > 0 && sizes > 0.0 ? -noise_square * through[static_cast<std::size_t>(lag) - 1] / sizes : 0.0;
     addLag(lag, series.period, cross.at(lag), left, cross_band, result.cross);

@@ -21,7 +21,7 @@ struct ResidualSeries {
 };
 
 /// @return nothing if nothing moves.
-std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const ExpectedNoise& noise);
+std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const LinearStrut& strut);
 
 inline constexpr double kCovered = 0.99;        ///< of the samples, by even edges
 inline constexpr std::size_t kFewestInBin = 8;  ///< samples that a mean is taken of
@@ -61,11 +61,11 @@ ForceSurface mapForce(const ResidualSeries& series);
 struct ResidualCorrelations {
   ResidualCorrelation whiteness, cross;
 };
-ResidualCorrelations correlate(const ResidualSeries& series, const ExpectedNoise& noise);
+ResidualCorrelations correlate(const ResidualSeries& series, const LinearStrut& strut, double noise_floor);
 
 /// @param segments  those of the series.
 /// @return nothing if not even two windows fit into the segments.
 std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series, const std::vector<ComparedSegment>& segments,
-                                           const ExpectedNoise& noise);
+                                           const LinearStrut& strut, double noise_floor);
 
 }  // namespace suspension_health_monitor

@@ -40,8 +40,7 @@ struct BandSums {
 };
 
 std::optional<PartSpectra> spectraOf(const Residuals& residuals, double natural_period) {
-  std::vector<std::size_t> sizes;
-  for (const std::vector<double>& segment : residuals) sizes.push_back(segment.size());
+  const std::vector<std::size_t> sizes = sizesOf(residuals);
   const std::size_t length = Periodogram::lengthFor(sizes, natural_period, kParts * kWindowsOfPart);
   const std::size_t windows = Periodogram::windowsIn(sizes, length);
   if (windows < kParts * kWindowsOfPart) return std::nullopt;
@@ -50,12 +49,11 @@ std::optional<PartSpectra> spectraOf(const Residuals& residuals, double natural_
   Periodogram periodogram(length);
   Spectrum spectrum;
   std::size_t window = 0;
-  for (const std::vector<double>& segment : residuals)
-    for (std::size_t i = 0; i < Periodogram::windowsIn(segment.size(), length); ++i) {
-      std::vector<double>& power = spectra.parts[window++ * kParts / windows];
-      periodogram.of(&segment[i * (length / 2)], spectrum);
-      for (std::size_t f = 1; f < length / 2; ++f) power[f] += std::norm(spectrum[f]);
-    }
+  Periodogram::forEachWindow(sizes, length, [&](std::size_t segment, std::size_t first) {
+    std::vector<double>& power = spectra.parts[window++ * kParts / windows];
+    periodogram.of(&residuals[segment][first], spectrum);
+    for (std::size_t f = 1; f < length / 2; ++f) power[f] += std::norm(spectrum[f]);
+  });
   spectra.unit = static_cast<double>(windows) * static_cast<double>(length / 2 - 1) * periodogram.taperPower();
   return spectra;
 }

@@ -6,6 +6,7 @@
 
 #include "suspension_health_monitor/internal/fit/hat_functions.h"
 #include "suspension_health_monitor/internal/fit/motion_error.h"
+#include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
 
 namespace suspension_health_monitor {
@@ -189,10 +190,8 @@ double untold(const Segments& segments, const StrutModel& model) {
   return std::min(plain, deviation);
 }
 
-/// White noise on w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): its variance grows by T (b1^2 + b0) / (2 b1).
 double ofBothSensors(double body_noise, double period, const StrutModel& model) {
-  const double b1 = model.damping_to_mass, b0 = model.stiffness_to_mass;
-  return body_noise * std::sqrt(1.0 + period * (square(b1) + b0) / (2.0 * b1));
+  return body_noise * std::sqrt(noiseOfBothSensors(model.damping_to_mass, model.stiffness_to_mass, period));
 }
 
 }  // namespace

@@ -22,12 +22,11 @@ std::vector<double> powerOf(const Residuals& residuals) {
   Spectrum spectrum;
   std::vector<double> power(kWindow / 2, 0.0);
   double windows = 0.0;
-  for (const std::vector<double>& segment : residuals)
-    for (std::size_t i = 0; i < Periodogram::windowsIn(segment.size(), kWindow); ++i) {
-      periodogram.of(&segment[i * (kWindow / 2)], spectrum);
-      for (std::size_t f = 1; f <= power.size(); ++f) power[f - 1] += std::norm(spectrum[f]);
-      windows += 1.0;
-    }
+  Periodogram::forEachWindow(sizesOf(residuals), kWindow, [&](std::size_t segment, std::size_t first) {
+    periodogram.of(&residuals[segment][first], spectrum);
+    for (std::size_t f = 1; f <= power.size(); ++f) power[f - 1] += std::norm(spectrum[f]);
+    windows += 1.0;
+  });
   for (double& each : power) each /= std::max(1.0, windows);
   return power;
 }

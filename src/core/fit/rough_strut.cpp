@@ -50,8 +50,8 @@ bool RoughStrut::clocksDiffer(double period) const {
 }
 
 int RoughStrut::horizonSamples(double period) const {
-  return suspension_health_monitor::horizonSamples(
-      proposeHorizon(strut.damping_to_mass, strut.stiffness_to_mass).horizon, period);
+  return suspension_health_monitor::horizonSamples(proposeHorizon(strut.damping_to_mass, strut.stiffness_to_mass),
+                                                   period);
 }
 
 std::optional<RoughStrut> roughStrut(const std::vector<Drive>& drives, double period, double length) {

@@ -11,9 +11,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kCurvePoints = 241;
-constexpr double kCurveDecades = 1.5;  // on either side of the bandwidth
-
 // omega h / 2 at which sinc^2 is sqrt(1/2).
 constexpr double kFilterHalfPower = 1.0019063576966072;
 
@@ -43,25 +40,24 @@ double transmissibility(double damping_to_mass, double stiffness_to_mass, double
   return std::abs(force / (s * s + force));
 }
 
+double noiseOfBothSensors(double damping_to_mass, double stiffness_to_mass, double period) {
+  return 1.0 + period * (damping_to_mass * damping_to_mass + stiffness_to_mass) / (2.0 * damping_to_mass);
+}
+
 double integralFilterMagnitude(double horizon, double frequency_hz) {
   const double x = M_PI * frequency_hz * horizon;
   const double sinc = x == 0.0 ? 1.0 : std::sin(x) / x;
   return sinc * sinc;
 }
 
-HorizonProposal proposeHorizon(double damping_to_mass, double stiffness_to_mass) {
+double bandwidth(double damping_to_mass, double stiffness_to_mass) {
   requireAboveZero("damping_to_mass", damping_to_mass, "1/s");
   requireAboveZero("stiffness_to_mass", stiffness_to_mass, "1/s^2");
-  const double c = damping_to_mass / stiffness_to_mass * damping_to_mass;
-  const double omega = std::sqrt(stiffness_to_mass * halfPower(c));
-  HorizonProposal proposal{2.0 * kFilterHalfPower / omega, omega / (2.0 * M_PI), {}};
-  for (int i = 0; i < kCurvePoints; ++i) {
-    const double decades = kCurveDecades * (2.0 * i / (kCurvePoints - 1) - 1.0);
-    const double frequency = proposal.bandwidth_hz * std::pow(10.0, decades);
-    proposal.curves.push_back({frequency, transmissibility(damping_to_mass, stiffness_to_mass, frequency),
-                               integralFilterMagnitude(proposal.horizon, frequency)});
-  }
-  return proposal;
+  return std::sqrt(stiffness_to_mass * halfPower(damping_to_mass / stiffness_to_mass * damping_to_mass));
+}
+
+double proposeHorizon(double damping_to_mass, double stiffness_to_mass) {
+  return 2.0 * kFilterHalfPower / bandwidth(damping_to_mass, stiffness_to_mass);
 }
 
 int horizonSamples(double horizon, double period) {

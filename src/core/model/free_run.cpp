@@ -154,7 +154,7 @@ std::optional<double> FreeRun::push(double unsprung_acceleration, double time) {
 void FreeRun::advance(double time) {
   const double square = period_ * period_;
   for (int i = 0; i < steps_.count; ++i) {
-    WheelStep wheel = steps_.first[i](input_.data());  // in samples
+    WheelStep wheel = steps_.first[i](input_.window());  // in samples
     wheel.middle_position *= square;
     wheel.middle_velocity *= period_;
     wheel.end_position *= square;
@@ -182,7 +182,7 @@ void FreeRun::countTravelFrom(double offset) {
 }
 
 bool FreeRun::ranAway(double prediction) {
-  largest_ = std::max(largest_, std::abs(input_.newest()));
+  largest_ = std::max(largest_, std::abs(input_.at(0)));
   // Forces that cancel each other in the prediction stand in columns of the regression one by one.
   const bool usable = std::all_of(forces_.begin(), forces_.begin() + static_cast<std::ptrdiff_t>(model_.effects.size()),
                                   [](double force) { return isUsable(force); });
@@ -201,7 +201,7 @@ void FreeRun::startAnew(double time) {
 void FreeRun::reset() {
   state_ = {0.0, 0.0, state_.memory};
   decayed_ = 0.0;
-  input_.clear();
+  input_.reset();
   largest_ = 0.0;
 }
 

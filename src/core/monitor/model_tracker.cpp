@@ -79,8 +79,6 @@ ModelTracker::ModelTracker(const MonitorSettings& options, bool has_own_blocks)
       oldest_data_(options.oldest_data),
       identifier_(options),
       free_run_(*options.sample_period),
-      model_due_(kSlowlyEvery),
-      figures_due_(kSlowlyEvery),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
   if (has_own_blocks) blocks_.emplace(block_options_, period_);
 }
@@ -139,7 +137,7 @@ bool ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
   report.comparison.has_sample = compared != nullptr;
   if (compared != nullptr) compare(*compared, predicted, report);
   judge(report);
-  if (model_due_() || !has_own_model_) takeModel(report);
+  if (samples_++ % kSlowlyEvery == 0 || !has_own_model_) takeModel(report);
   return is_new;
 }
 
@@ -229,7 +227,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
   comparison.predicted = free_run_.settled() ? predicted : std::nullopt;
   if (!comparison.predicted) return;
   comparison_.add(comparison.measured, *comparison.predicted);
-  if (!figures_due_()) return;
+  if (compared_++ % kSlowlyEvery != 0) return;
   comparison.rmse = comparison.base_rmse = comparison_.rmse();
   comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
   free_run_fails_ = comparison_.isWorseThanConstant();

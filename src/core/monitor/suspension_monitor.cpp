@@ -27,8 +27,7 @@ SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options, bool has_ow
       plain_(options, has_own_blocks),
       health_(options.health()),
       sensors_(std::max(options.comparison_window / *options.sample_period, kHorizonsOfSensorCheck * horizon_samples_),
-               horizon_samples_),
-      sensors_due_(std::max(1, static_cast<int>(horizon_samples_ / kChecksPerHorizon))) {}
+               horizon_samples_) {}
 
 // Of the plain model's tracker with its report, and of the extended one's.
 template <class Change>
@@ -92,7 +91,8 @@ const MonitorReport* SuspensionMonitor::addGridSample(const CornerSample& sample
   report_.stamp = of_row->stamp;
   report_.measured = of_row->sprung_acceleration;
   sensors_.add(sample);
-  if (sensors_due_() || has_new_estimate_) judgeSensors();
+  const auto every = static_cast<std::uint64_t>(std::max(1.0, horizon_samples_ / kChecksPerHorizon));
+  if (samples_++ % every == 0 || has_new_estimate_) judgeSensors();
   return &report_;
 }
 

@@ -62,11 +62,9 @@ MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t diffe
     : period_(period),
       flat_(std::min(kBand, kWidestFlat / toSeconds(period))),
       delay_(static_cast<int>(std::ceil(kShortest * kWidestFlat / (flat_ * toSeconds(period)) - 1e-9))),
-      num_taps_(static_cast<std::size_t>(2 * delay_ + 1)),
       instant_{{}, std::vector<double>(filtered), std::vector<double>(differentiated), std::vector<double>(filtered)},
-      history_(2 * num_taps_ * (filtered + differentiated)),
-      stamps_(num_taps_),
-      newest_(num_taps_ - 1) {
+      history_(filtered + differentiated, DelayLine(2 * delay_ + 1)),
+      stamps_(static_cast<std::size_t>(2 * delay_ + 1)) {
   const FilterPair pair = makePair(delay_, flat_ * toSeconds(period), stop() * toSeconds(period));
   value_ = pair.value;
   rate_ = pair.rate / toSeconds(period);
@@ -75,19 +73,15 @@ MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t diffe
 double MotionFilter::stop() const { return flat_ * kWidestStop / kWidestFlat; }
 
 const MotionFilter::Instant* MotionFilter::push(Stamp stamp, const std::vector<double>& signals) {
-  const Continuity follows = samples_ > 0 ? continuity(stamp - stamps_[newest_], period_) : Continuity::kGap;
+  const Continuity follows = stamps_.empty() ? Continuity::kGap : continuity(stamp - stamps_.back(), period_);
   if (follows == Continuity::kTooSoon) return nullptr;
-  samples_ = follows == Continuity::kContinues ? std::min(samples_ + 1, num_taps_) : 1;
-  newest_ = (newest_ + 1) % num_taps_;
-  stamps_[newest_] = stamp;
-  for (std::size_t i = 0; i < signals.size(); ++i) {
-    double* const ring = &history_[i * 2 * num_taps_];
-    ring[newest_] = ring[newest_ + num_taps_] = signals[i];
-  }
-  if (samples_ < num_taps_) return nullptr;
+  if (follows != Continuity::kContinues) stamps_.clear();
+  stamps_.push_back(stamp);
+  for (std::size_t i = 0; i < signals.size(); ++i) history_[i].push(signals[i]);
+  if (!stamps_.full()) return nullptr;
 
   const auto windowOf = [this](std::size_t signal) {
-    return Eigen::Map<const Eigen::VectorXd>(&history_[signal * 2 * num_taps_ + newest_ + 1], value_.size());
+    return Eigen::Map<const Eigen::VectorXd>(history_[signal].window(), value_.size());
   };
   const std::size_t filtered = instant_.values.size();
   for (std::size_t i = 0; i < filtered; ++i) {
@@ -95,7 +89,7 @@ const MotionFilter::Instant* MotionFilter::push(Stamp stamp, const std::vector<d
     instant_.unfiltered[i] = windowOf(i)[delay_];
   }
   for (std::size_t i = 0; i < instant_.rates.size(); ++i) instant_.rates[i] = rate_.dot(windowOf(filtered + i));
-  instant_.stamp = stamps_[(newest_ + 1 + static_cast<std::size_t>(delay_)) % num_taps_];
+  instant_.stamp = stamps_[static_cast<std::size_t>(delay_)];
   return &instant_;
 }
 

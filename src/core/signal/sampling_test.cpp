@@ -22,10 +22,10 @@ void SamplingTest::add(double value, double off) {
   off_.push(off);
   if (++in_a_row_ < kWindow) return;
   double mean = 0.0, e = 0.0, r = 0.0, instrument = 0.0;
-  for (std::size_t i = 0; i < kDifference.size(); ++i) mean += off_.data()[kReach + i] / kDifference.size();
+  for (std::size_t i = 0; i < kDifference.size(); ++i) mean += off_.window()[kReach + i] / kDifference.size();
   for (std::size_t i = 0; i < kDifference.size(); ++i) {
-    const double* x = values_.data() + kReach + i;
-    const double distance = off_.data()[kReach + i] - mean;
+    const double* x = values_.window() + kReach + i;
+    const double distance = off_.window()[kReach + i] - mean;
     e += kDifference[i] * *x;
     r += kDifference[i] * rateBy(1, x) * distance;
     instrument += kDifference[i] * rateBy(2, x) * distance;

@@ -33,7 +33,7 @@ void TravelObserver::push(double relative_acceleration) {
   auto& [travel, rate, acceleration] = now_;
   double leaves = 0.0;
   if (input_.full()) {
-    const WheelStep gain = step_(input_.data());
+    const WheelStep gain = step_(input_.window());
     age_ += period_;
     const double washout = std::max(washout_, kStart / age_);
     leaves = washout * (2.0 * kDamping * rate + washout * travel);
@@ -42,7 +42,7 @@ void TravelObserver::push(double relative_acceleration) {
   }
   input_.push(relative_acceleration - offset_.mean());
   if (!input_.full()) return;
-  acceleration = input_.data()[WheelInterpolator::kWidth / 2 - 1] - leaves;
+  acceleration = input_.window()[WheelInterpolator::kWidth / 2 - 1] - leaves;
   for (std::size_t i = 0; i < now_.size(); ++i) {
     slow_[i].push(now_[i]);
     recent_[i].push_back(now_[i]);
@@ -54,7 +54,7 @@ double TravelObserver::fast(std::size_t which) const {
 }
 
 void TravelObserver::startNewSeries() {
-  input_.clear();
+  input_.reset();
   age_ = 0.0;
   now_ = {};
   for (LinearIntegralFilter& slow : slow_) slow.reset();

@@ -29,8 +29,6 @@ Stamp periodOf(const std::vector<VehicleMonitor::Start>& starts) {
   return fromSeconds(*period);
 }
 
-int samplesOf(double seconds, double period) { return std::max(1, static_cast<int>(std::lround(seconds / period))); }
-
 }  // namespace
 
 VehicleMonitor::VehicleMonitor(std::vector<Start> starts, Sink sink, int num_forces)
@@ -38,7 +36,6 @@ VehicleMonitor::VehicleMonitor(std::vector<Start> starts, Sink sink, int num_for
       sink_(std::move(sink)),
       starts_(std::move(starts)),
       num_forces_(num_forces),
-      models_due_(samplesOf(kModelsEvery, toSeconds(period_))),
       is_alone_(starts_.size() == 1 && num_forces == 0) {
   if (is_alone_) beginStruts();
 }
@@ -119,7 +116,8 @@ void VehicleMonitor::addGridSample(const VehicleSample& sample) {
   const VehicleSample* own = &sample;
   if (!is_alone_) {
     if (!decoupler_) return;
-    if (models_due_()) takeModels();
+    const std::int64_t every = std::max(1L, std::lround(kModelsEvery / toSeconds(period_)));
+    if (samples_++ % every == 0) takeModels();
     own = decoupler_->push(sample);
     if (own == nullptr) return;
   }
@@ -155,7 +153,7 @@ void VehicleMonitor::learnRows() {
   for (std::size_t i = 0; i < starts_.size(); ++i) {
     MonitorSettings& settings = starts_[i].settings;
     if (!settings.integration_horizon)
-      settings.integration_horizon = proposeHorizon(models[i].damping_to_mass, models[i].stiffness_to_mass).horizon;
+      settings.integration_horizon = proposeHorizon(models[i].damping_to_mass, models[i].stiffness_to_mass);
   }
   beginStruts();
 }

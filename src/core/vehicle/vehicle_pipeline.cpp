@@ -35,7 +35,7 @@ VehiclePipeline::VehiclePipeline(const std::vector<MonitorSettings>& settings, c
     : starts_(settings.begin(), settings.end()),
       streams_(streams),
       sinks_(std::move(sinks)),
-      early_(requiredOf(streams), StreamGrid::kMostWaiting) {
+      early_(requiredOf(streams), kMostWaiting) {
   for (const MonitorSettings& each : settings) each.validate();
   if (settings.front().sample_period) start(*settings.front().sample_period);
 }

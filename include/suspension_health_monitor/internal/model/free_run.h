@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
-#include "suspension_health_monitor/internal/signal/sliding_window.h"
+#include "suspension_health_monitor/internal/signal/delay_line.h"
 
 namespace suspension_health_monitor {
 
@@ -102,7 +102,6 @@ class FreeRun {
 
  private:
   static constexpr double kSettledDecay = 6.9;  // ln 1000
-  static constexpr std::size_t kWindow = WheelInterpolator::kWidth;
 
   bool withEffects() const { return !model_.effects.empty(); }
   void split(double steps);
@@ -135,12 +134,12 @@ class FreeRun {
   double decay_rate_ = 0.0;  // of the slowest free motion [1/s]
   StrutState state_;
   std::array<double, kMostEffects> forces_{};
-  SlidingWindow<kWindow> input_;  // w''
-  Mean mean_;                     // of it
-  double offset_ = 0.0;           // travel is counted from where this constant holds it [m/s^2]
-  double largest_ = 0.0;          // |w''| of this run [m/s^2]
-  double decayed_ = 0.0;          // e-foldings since the start; 0: not running
-  double last_time_ = 0.0;        // of what was predicted [s]
+  DelayLine input_{WheelInterpolator::kWidth};  // w''
+  Mean mean_;                                   // of it
+  double offset_ = 0.0;                         // travel is counted from where this constant holds it [m/s^2]
+  double largest_ = 0.0;                        // |w''| of this run [m/s^2]
+  double decayed_ = 0.0;                        // e-foldings since the start; 0: not running
+  double last_time_ = 0.0;                      // of what was predicted [s]
   std::uint64_t runaways_ = 0;
 };
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/monitor/level_times.h"
-#include "suspension_health_monitor/internal/signal/silent_sensors.h"
+#include "suspension_health_monitor/internal/signal/stream_silence.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -85,7 +85,7 @@ class HealthLog {
 
   Stamp timeout_;
   Sink sink_;
-  SilentSensors sensors_;  // of late: since the newest report
+  StreamSilence sensors_;  // of late: since the newest report
   bool in_recording_ = false;
   Instant now_, newest_reading_;
   LevelTimes times_;

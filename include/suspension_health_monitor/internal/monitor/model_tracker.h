@@ -2,12 +2,12 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/strut_blocks.h"
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/identification/running_comparison.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/monitor/strut_identifier.h"
@@ -113,7 +113,7 @@ class ModelTracker {
   bool is_given_ = false;       // b1 and b0 came with the effects
   bool has_own_model_ = false;  // the free run has had estimated parameters, or those that belong to the start values
   std::uint64_t runaways_ = 0;
-  EveryN model_due_, figures_due_;
+  std::uint64_t samples_ = 0, compared_ = 0;  // for what is made only now and then
   RunningComparison comparison_;
   bool free_run_fails_ = false;
 };

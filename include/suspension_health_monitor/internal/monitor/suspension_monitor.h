@@ -1,11 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/monitor/model_tracker.h"
 #include "suspension_health_monitor/internal/monitor/sample_series.h"
@@ -112,7 +112,7 @@ class SuspensionMonitor {
   HealthAssessment health_;
   SensorCheck sensors_;
   std::optional<std::pair<Stamp, double>> temperature_;  // the newest of the damper [deg C]
-  EveryN sensors_due_;
+  std::uint64_t samples_ = 0;
   bool has_new_estimate_ = false;        // that health has not seen
   std::optional<Stamp> reported_until_;  // by the model before the effects were set
   MonitorReport report_;

@@ -46,7 +46,7 @@ struct GridStream {
 
   StreamOptions options;
   StreamGate gate;
-  ReadingQueue waiting;
+  ReadingQueue waiting{kMostWaiting};
   RejectCounts rejected;     ///< of those that passed the gate
   std::uint64_t missed = 0;  ///< readings of others and instants that were lost for want of a reading of this stream
   bool is_silent = false;    ///< optional, and is not waited for until it comes again

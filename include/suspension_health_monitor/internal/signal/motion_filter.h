@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <boost/circular_buffer.hpp>
 #include <cstddef>
 #include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/signal/delay_line.h"
 
 namespace suspension_health_monitor {
 
@@ -46,7 +48,7 @@ class MotionFilter {
   /// @return the instant delay() samples ago, valid until the next call; nullptr while the filter fills.
   const Instant* push(Stamp stamp, const std::vector<double>& signals);
 
-  void reset() { samples_ = 0; }
+  void reset() { stamps_.clear(); }
 
   int delay() const { return delay_; }                       ///< samples; so late is an instant
   const Eigen::VectorXd& lowPass() const { return value_; }  ///< taps of H, 2 delay() + 1
@@ -57,13 +59,10 @@ class MotionFilter {
   Stamp period_;
   double flat_;
   int delay_;
-  std::size_t num_taps_;
   Eigen::VectorXd value_, rate_;  // taps from the oldest sample to the newest
   Instant instant_;
-  std::vector<double> history_;  // num_taps_ of every signal, twice so that they are in a row wherever the ring begins
-  std::vector<Stamp> stamps_;
-  std::size_t newest_;       // place in the ring
-  std::size_t samples_ = 0;  // since the last gap, up to num_taps_
+  std::vector<DelayLine> history_;        // of every signal, as many samples as taps
+  boost::circular_buffer<Stamp> stamps_;  // of these samples since the last gap
 };
 
 }  // namespace suspension_health_monitor

@@ -16,10 +16,9 @@ struct SensorReading {
   double usual_spacing = 0.0;  ///< StreamClock::period() of its stream by then [s]; 0: not known yet
 };
 
-/// Readings of one stream that wait for those of another: first in, first out, of fixed capacity.
-struct ReadingQueue : boost::circular_buffer<SensorReading> {
-  static constexpr std::size_t kCapacity = 4096;
-  ReadingQueue() : circular_buffer(kCapacity) {}
-};
+inline constexpr std::size_t kMostWaiting = 4096;  ///< readings of one stream for those of another
+
+/// Readings of one stream that wait for those of another: first in, first out, of fixed capacity, kMostWaiting.
+using ReadingQueue = boost::circular_buffer<SensorReading>;
 
 }  // namespace suspension_health_monitor

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "suspension_health_monitor/internal/identification/running_mean.h"
-#include "suspension_health_monitor/internal/signal/sliding_window.h"
+#include "suspension_health_monitor/internal/signal/delay_line.h"
 
 namespace suspension_health_monitor {
 
@@ -27,7 +27,7 @@ class SamplingTest {
   static constexpr int kHalf = 2;   // of a fourth difference
   static constexpr int kWindow = 2 * (kReach + kHalf) + 1;
 
-  SlidingWindow<kWindow> values_, off_;
+  DelayLine values_{kWindow}, off_{kWindow};
   RunningMeans<4> products_{0.9999};  // i r, i e, i^2, e^2 with e = D x_k, r = D (x'_k d_k) and its instrument i
   int in_a_row_ = 0;
   int less_than_half_ = 0;  // 1: b is, -1: it is more, 0: who knows

@@ -22,8 +22,6 @@ namespace suspension_health_monitor {
 /// run gave. Cost per reading: O(1) amortised in time, O(streams), no allocation.
 class StreamGrid {
  public:
-  static constexpr std::size_t kMostWaiting = ReadingQueue::kCapacity;
-
   /// @param period  sampling time T > 0 [s].
   /// @param streams  the first one that is required stamps the instants of paired readings.
   /// @param fill_samples  that the user needs in a row before they are of use; Alignment::kAuto judges by it.

@@ -6,7 +6,7 @@
 #include "suspension_health_monitor/internal/identification/limited_mean.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
-#include "suspension_health_monitor/internal/signal/sliding_window.h"
+#include "suspension_health_monitor/internal/signal/delay_line.h"
 
 namespace suspension_health_monitor {
 
@@ -47,7 +47,7 @@ class TravelObserver {
   LimitedMean offset_;           // between the sensors
   double age_ = 0.0;             // of the series [s]
   std::array<double, 3> now_{};  // travel, rate, acceleration
-  SlidingWindow<WheelInterpolator::kWidth> input_;
+  DelayLine input_{WheelInterpolator::kWidth};
   std::vector<LinearIntegralFilter> slow_;
   std::vector<boost::circular_buffer<double>> recent_;
 };

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/internal/every_n.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
@@ -111,7 +111,7 @@ class VehicleMonitor {
   VehicleMistake mistake_{VehicleMistake::Kind::kTooLittle, {}};
   std::optional<Decoupler> decoupler_;
   std::vector<SuspensionMonitor> struts_;
-  EveryN models_due_;
+  std::int64_t samples_ = 0;      // since the struts are told apart
   bool is_alone_;                 // nothing known moves the one strut
   std::optional<Stamp> last_;     // sample
   std::optional<Stamp> coupled_;  // first fit of the body when it was due
