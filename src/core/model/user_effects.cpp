@@ -125,11 +125,9 @@ ForceEffect makeUserEffect(const std::string& name, OptionMap values) {
   for (const std::string& text : {unit, finding}) checkText(where, text);
 
   const bool has_memory = !memory_rate.empty();
-  ForceEffect effect{name,
-                     "c (" + force + ")",
-                     unit,
-                     finding.empty() ? "a law of your own" : finding,
-                     makeLaw(where + "/force", force, shapes, has_memory),
+  ForceEffect effect{name,  "c (" + force + ")",
+                     unit,  finding.empty() ? "a law of your own" : finding,
+                     "",    makeLaw(where + "/force", force, shapes, has_memory),
                      shapes};
   checkFinite(where + "/force = \"" + shortened(force) + '"', effect.force, shapes);
   if (!has_memory) return effect;
