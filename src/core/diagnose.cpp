@@ -1,16 +1,15 @@
 #include "suspension_health_monitor/diagnose.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "prepared_drives.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 
 Diagnosis diagnose(const std::vector<Drive>& drives, const DiagnoseOptions& options) {
-  if (options.threads < 1)
-    throw std::invalid_argument("threads = " + std::to_string(options.threads) + ", must be 1 or more");
+  if (options.threads < 1) refuse("threads", options.threads, "", "1 or more");
   const PreparedDrives prepared = prepareDrives(drives, options.sample_period, options.horizon_samples, options.model);
   SearchResult result;
   result.shortcoming = prepared.shortcoming;

@@ -8,6 +8,7 @@
 #include "law_expression.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -67,10 +68,8 @@ ShapeParameter makeShape(const std::string& where, const std::string& name, cons
 LawExpression makeLaw(const std::string& where, const std::string& text, const std::vector<ShapeParameter>& shapes,
                       bool has_memory) {
   checkLaw(where, text);
-  std::vector<std::string> names;
-  for (const ShapeParameter& shape : shapes) names.push_back(shape.name);
   try {
-    return {text, names, has_memory};
+    return {text, namesOf(shapes), has_memory};
   } catch (const std::invalid_argument& error) {
     refuse(where + " = \"" + shortened(text) + '"', error.what());
   }
