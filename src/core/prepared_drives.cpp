@@ -51,10 +51,10 @@ PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::option
     prepared.lagged = start;
     prepared.lagged->reading.push_back({findEffect(measurementEffects(), "clock_offset"), {rough->clock_offset}});
   }
-  const std::optional<UntestableEffect> untestable = findUntestable(start, pointersTo(prepared.records));
+  const auto untestable = findUntestable(start, pointersTo(prepared.records));
   if (!untestable) return prepared;
   PreparedDrives refused = lacking(Shortcoming::kModelUntestable, start);
-  refused.reason = "do not tell " + untestable->name + ", which the model has: " + reasonOf(untestable->missing);
+  refused.reason = "do not tell " + untestable->first + ", which the model has: " + reasonOf(untestable->second);
   return refused;
 }
 
