@@ -152,7 +152,7 @@ class BatteryDriver {
   ForceEffect disturbance(std::size_t kind) {
     using M = StrutMotion;
     const double bounce = std::sqrt(stiffness()), d = travel_, v = travel_rate_, phase = 6.0 * random_.uniform();
-    ForceEffect effect{kDisturbances[kind], "", "m/s^2", "", {}};
+    ForceEffect effect{kDisturbances[kind], "", "m/s^2", "", "", {}};
     if (kind == 0) effect.force = [=](const M& m, const double*) { return std::sin(0.83 * bounce * m.time + phase); };
     if (kind == 1)
       effect.force = [=](const M& m, const double*) {

@@ -58,6 +58,7 @@ struct ForceEffect {
   std::string law;      ///< the formula for people, c included
   std::string unit;     ///< of the coefficient c
   std::string finding;  ///< what a workshop would find
+  std::string advice;   ///< in a sentence: whether that is design or wear, and what to check
   Law force;            ///< f, per unit of c; shapes in SI
   std::vector<ShapeParameter> shapes = {};
   MemoryLaw memory_rate = {};  ///< g [unit of s per second]; empty: no memory
@@ -103,7 +104,7 @@ struct MeasurementEffect {
   std::string name;
   std::string law;  ///< what is read instead of y
   std::vector<Coefficient> coefficients;
-  std::string finding;
+  std::string finding, advice;
   Apply apply;
   /// Size of coefficient i that changes the reading about as much as the residual does.
   double (*scale)(const ReadingSizes& sizes, std::size_t i);

@@ -1,16 +1,15 @@
 #include "suspension_health_monitor/diagnose.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "prepared_drives.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 
 Diagnosis diagnose(const std::vector<Drive>& drives, const DiagnoseOptions& options) {
-  if (options.threads < 1)
-    throw std::invalid_argument("threads = " + std::to_string(options.threads) + ", must be 1 or more");
+  if (options.threads < 1) refuse("threads", options.threads, "", "1 or more");
   const PreparedDrives prepared = prepareDrives(drives, options.sample_period, options.horizon_samples, options.model);
   SearchResult result;
   result.shortcoming = prepared.shortcoming;
@@ -19,15 +18,14 @@ Diagnosis diagnose(const std::vector<Drive>& drives, const DiagnoseOptions& opti
 
   const Records records = pointersTo(prepared.records);
   DiagnoseOptions searched = options;
-  const std::vector<UntestableEffect> untestable = takeUntestable(searched.candidates, records);
+  const auto untestable = takeUntestable(searched.candidates, records);
   result = searchEffects(records, prepared.start, searched, prepared.lagged);
   result.reason = reasonOf(result.shortcoming, prepared.start);
   if (!result) return result;
   result.summary = summaryOf(result);
   result.remainder = remainderOf(result);
   result.suggested_drive = suggestionOf(result);
-  for (const UntestableEffect& effect : untestable)
-    result.not_tried.emplace_back(effect.name, reasonOf(effect.missing));
+  for (const auto& [name, missing] : untestable) result.not_tried.emplace_back(name, reasonOf(missing));
   const auto has_samples = [](const Drive& drive) { return !drive.samples.empty(); };
   result.from = std::find_if(drives.begin(), drives.end(), has_samples)->samples.front().stamp;
   result.to = std::find_if(drives.rbegin(), drives.rend(), has_samples)->samples.back().stamp;

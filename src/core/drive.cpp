@@ -25,9 +25,7 @@ void LowPass::validate(std::size_t num_samples) const {
 
 Drive makeDrive(double period, const std::vector<double>& sprung_acceleration,
                 const std::vector<double>& unsprung_acceleration) {
-  if (!(period >= kShortestPeriod && period <= kLongestPeriod))
-    throw std::invalid_argument("period = " + numberText(period) + " [s], must be in [" + numberText(kShortestPeriod) +
-                                ", " + numberText(kLongestPeriod) + "]");
+  requireIn("period", period, "s", kShortestPeriod, kLongestPeriod);
   if (sprung_acceleration.size() != unsprung_acceleration.size())
     throw std::invalid_argument(std::to_string(sprung_acceleration.size()) + " sprung and " +
                                 std::to_string(unsprung_acceleration.size()) +

@@ -53,17 +53,17 @@ void MonitorSettings::validate() const {
   if (!sample_period) return;
   filter(*sample_period);
   if (forgettingFactor(*sample_period) < 1.0 - 1.0 / kFewestSamplesOfMemory - kRounding)
-    throw std::invalid_argument("memory = " + numberText(presentMemory()) + " [s], must be at least " +
-                                numberText(kFewestSamplesOfMemory * *sample_period) +
-                                " [s], ten samples of sample_period = " + numberText(*sample_period) + " [s]");
+    refuse("memory", presentMemory(), "s",
+           "at least " + numberText(kFewestSamplesOfMemory * *sample_period) +
+               " [s], ten samples of sample_period = " + numberText(*sample_period) + " [s]");
 }
 
 int MonitorSettings::horizonSamples(double period) const {
   const double horizon = presentHorizon();
   if (horizon / period > kMostHorizonSamples)
-    throw std::invalid_argument("integration_horizon = " + numberText(horizon) + " [s], must be at most " +
-                                std::to_string(kMostHorizonSamples) +
-                                " samples of sample_period = " + numberText(period) + " [s]");
+    refuse("integration_horizon", horizon, "s",
+           "at most " + std::to_string(kMostHorizonSamples) + " samples of sample_period = " + numberText(period) +
+               " [s]");
   return static_cast<int>(std::lround(horizon / period));
 }
 

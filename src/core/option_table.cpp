@@ -8,6 +8,7 @@
 
 #include "suspension_health_monitor/internal/nearest_name.h"
 #include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -164,10 +165,8 @@ void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>
     if (isChoice(former.names, name))
       throw std::invalid_argument(name + " is no option any more: " + std::string(former.instead));
   requireNameLength(name);
-  std::vector<std::string> names;
-  for (const OptionDescription& option : known) names.push_back(option.name);
   throw std::invalid_argument("unknown option " + shortened(name) + " = " + format(values.begin()->second) +
-                              suggestNearest(name, names));
+                              suggestNearest(name, namesOf(known)));
 }
 
 std::vector<OptionDescription> inGroups(const std::vector<std::string>& groups, std::vector<OptionDescription> first,

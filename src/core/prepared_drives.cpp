@@ -1,8 +1,6 @@
 #include "prepared_drives.h"
 
-#include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
@@ -18,17 +16,14 @@ namespace {
 double periodOf(const std::vector<Drive>& drives, const std::optional<double>& sample_period) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   if (!sample_period) return medianPeriod(drives);
-  if (!(*sample_period > 0.0 && std::isfinite(*sample_period)))
-    throw std::invalid_argument("sample_period = " + numberText(*sample_period) + " [s], must be above 0");
+  requireAboveZero("sample_period", *sample_period, "s");
   return *sample_period;
 }
 
 // A horizon that is given tells how long the first blocks have to be.
 std::optional<RoughStrut> roughStart(const std::vector<Drive>& drives, double period,
                                      const std::optional<int>& horizon_samples) {
-  if (horizon_samples && !(*horizon_samples >= 1 && *horizon_samples <= kMostHorizonSamples))
-    throw std::invalid_argument("horizon_samples = " + std::to_string(*horizon_samples) + ", must be in [1, " +
-                                std::to_string(kMostHorizonSamples) + "]");
+  if (horizon_samples) requireIn("horizon_samples", *horizon_samples, "", 1.0, kMostHorizonSamples);
   MonitorSettings settings;
   if (horizon_samples) settings.integration_horizon = *horizon_samples * period;
   return roughStrut(drives, period, settings.presentBlockLength());
@@ -56,10 +51,10 @@ PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::option
     prepared.lagged = start;
     prepared.lagged->reading.push_back({findEffect(measurementEffects(), "clock_offset"), {rough->clock_offset}});
   }
-  const std::optional<UntestableEffect> untestable = findUntestable(start, pointersTo(prepared.records));
+  const auto untestable = findUntestable(start, pointersTo(prepared.records));
   if (!untestable) return prepared;
   PreparedDrives refused = lacking(Shortcoming::kModelUntestable, start);
-  refused.reason = "do not tell " + untestable->name + ", which the model has: " + reasonOf(untestable->missing);
+  refused.reason = "do not tell " + untestable->first + ", which the model has: " + reasonOf(untestable->second);
   return refused;
 }
 

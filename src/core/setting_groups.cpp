@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::size_t kLongestNameOfOne = 64;  // [characters]
 
-struct Number {
-  double value = 0.0;
-};
-
 }  // namespace
 
 OptionMap takePrefixed(OptionMap& values, const std::string& prefix) {
@@ -56,11 +52,11 @@ std::vector<double> takeNumbers(const std::string& group, const OptionMap& setti
 }
 
 double toNumber(const std::string& name, const OptionValue& value, double min, double max) {
-  OptionMap one{{name, value}};
-  const OptionField<Number> fields[] = {{name, "SI", "a number", &Number::value, min, max}};
-  Number number{min};
-  takeOptions(one, fields, number);
-  return number.value;
+  double number = min;
+  const option_table::Bound option{{}, name, "SI", "a number", &number, min, max, {}};
+  option_table::assign(option, value);
+  option_table::check(option);
+  return number;
 }
 
 void requireName(const std::string& where, const std::string& name) {

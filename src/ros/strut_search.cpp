@@ -79,8 +79,7 @@ DiagnoseResponse toResponse(const Diagnosis& found) {
 
 double searchSpan(double window, double kept) {
   if (!(window >= 0.0 && window <= kept))
-    throw std::invalid_argument("window = " + numberText(window) + " [s], must be in [0, " + numberText(kept) +
-                                "] (diagnose/window)");
+    refuse("window", window, "s", "in [0, " + numberText(kept) + "] (diagnose/window)");
   return window > 0.0 ? window : kept;
 }
 

@@ -120,11 +120,7 @@ VehicleOptions VehicleOptions::ofOneStrut(const PipelineOptions& options) {
   return one;
 }
 
-std::vector<std::string> VehicleOptions::forceNames() const {
-  std::vector<std::string> names;
-  for (const VehicleLayout::KnownForce& force : layout.known_forces) names.push_back(force.name);
-  return names;
-}
+std::vector<std::string> VehicleOptions::forceNames() const { return namesOf(layout.known_forces); }
 
 std::vector<std::string> VehicleOptions::temperatureTopics() const {
   std::vector<std::string> topics;
@@ -132,10 +128,6 @@ std::vector<std::string> VehicleOptions::temperatureTopics() const {
   return topics;
 }
 
-std::vector<std::string> VehicleOptions::strutNames() const {
-  std::vector<std::string> names;
-  for (const VehicleLayout::Strut& strut : layout.struts) names.push_back(strut.name);
-  return names;
-}
+std::vector<std::string> VehicleOptions::strutNames() const { return namesOf(layout.struts); }
 
 }  // namespace suspension_health_monitor

@@ -63,7 +63,7 @@ AskedVehicle readVehicle(const po::variables_map& values) {
   AskedVehicle vehicle;
   vehicle.file = values[kVehicle].as<std::string>();
   vehicle.layout = readVehicleFile(vehicle.file);
-  for (const VehicleLayout::Strut& each : vehicle.layout.struts) vehicle.names.push_back(each.name);
+  vehicle.names = namesOf(vehicle.layout.struts);
   for (std::size_t i = 0; i < vehicle.names.size(); ++i)
     if (values.count(kStrut) == 0 || strut == vehicle.names[i]) vehicle.asked.push_back(i);
   if (vehicle.asked.empty())

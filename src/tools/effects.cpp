@@ -4,7 +4,6 @@
 
 #include "bag_options.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -12,7 +11,7 @@ namespace {
 
 /// What is told of one effect.
 struct Row {
-  std::string name, law, unit, shapes, finding;
+  std::string name, law, unit, shapes, finding, advice;
 };
 
 std::vector<Row> rowsOf(const EffectLibrary& library) {
@@ -20,13 +19,13 @@ std::vector<Row> rowsOf(const EffectLibrary& library) {
   for (const ForceEffect& effect : library.forces) {
     std::vector<std::string> shapes;
     for (const ShapeParameter& shape : effect.shapes) shapes.push_back(shape.name + " [" + shape.unit + "]");
-    rows.push_back({effect.name, effect.law, effect.unit, join(shapes), effect.finding});
+    rows.push_back({effect.name, effect.law, effect.unit, join(shapes), effect.finding, effect.advice});
   }
   for (const MeasurementEffect& effect : library.readings) {
     std::vector<std::string> units;
     for (const MeasurementEffect::Coefficient& c : effect.coefficients)
       units.push_back(effect.coefficients.size() == 1 ? c.unit : c.name + " [" + c.unit + "]");
-    rows.push_back({effect.name, effect.law, join(units), "", effect.finding});
+    rows.push_back({effect.name, effect.law, join(units), "", effect.finding, effect.advice});
   }
   return rows;
 }
@@ -38,7 +37,7 @@ void printMarkdown(const std::vector<Row>& rows) {
   for (const Row& row : rows)
     std::printf("| `%s` | %s | %s | %s | %s | %s |\n", row.name.c_str(),
                 boost::replace_all_copy(row.law, "|", "\\|").c_str(), row.unit.c_str(), row.shapes.c_str(),
-                row.finding.c_str(), adviceOn(row.name).c_str());
+                row.finding.c_str(), row.advice.c_str());
 }
 
 constexpr std::size_t kWidth = 76;  // of a terminal, less the indent
@@ -66,7 +65,7 @@ void printForTerminal(const std::vector<Row>& rows) {
     const std::string unit = row.unit.find('[') == std::string::npos ? '[' + row.unit + ']' : row.unit;
     std::printf("\n%s\n%s%s\n", row.name.c_str(), kIndent, join({row.law, unit, row.shapes}, "; ").c_str());
     printWrapped(row.finding);
-    printWrapped(adviceOn(row.name));
+    printWrapped(row.advice);
   }
 }
 

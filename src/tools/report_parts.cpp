@@ -94,7 +94,7 @@ json effectsJson(const EffectLibrary& library) {
   const auto add = [&](const auto& effect, const char* kind, const json& numbers) {
     effects[effect.name] = {{"law", effect.law},
                             {"finding", effect.finding},
-                            {"advice", adviceOn(effect.name)},
+                            {"advice", effect.advice},
                             {"numbers", numbers},
                             {"kind", kind}};
   };

@@ -51,7 +51,7 @@ def test_laws(program, tmp_path, name, law, words):
 def test_numbers_of_any_size_stay_short(program, tmp_path):
     for value in ("1e300", "-1e300", "1e13"):
         message = refused(program, "horizon", "--damping-to-mass", value, "--stiffness-to-mass", "60")
-        assert "damping_to_mass = " in message and "must be above 0 and at most 1e+12" in message
+        assert "damping_to_mass = " in message and "must be above 0 and at most 1000000000000" in message
     message = refused(program, "simulate", "--set", "rate=1e300", "-o", tmp_path / "out.bag")
     assert "rate = " in message and "must be in" in message
 

@@ -47,7 +47,7 @@ std::vector<std::string> untestable(const DriveRecord& record) {
   EffectLibrary library = builtInEffects();
   const std::size_t all = library.readings.size();
   std::vector<std::string> names;
-  for (const UntestableEffect& effect : takeUntestable(library, {&record})) names.push_back(effect.name);
+  for (const auto& [name, missing] : takeUntestable(library, {&record})) names.push_back(name);
   EXPECT_EQ(library.readings.size() + names.size(), all);
   return names;
 }

@@ -236,7 +236,7 @@ TEST(EffectSearch, SuggestsTheDriveThatSeparatesAGroup) {
   DiagnoseOptions searching;
   searching.candidates = {
       {findEffect(forceEffects(), "quadratic_damping"),
-       {"turbulent_damping", "c v |v|^0.75", "(s/m)^0.75 / m", "a smooth orifice",
+       {"turbulent_damping", "c v |v|^0.75", "(s/m)^0.75 / m", "a smooth orifice", "",
         [](const StrutMotion& m, const double*) { return m.travel_rate * std::pow(std::abs(m.travel_rate), 0.75); }}},
       {}};
   const DriveRecord record = recorded(options);

@@ -153,7 +153,7 @@ TEST(EffectSearch, AFinalFitThatFailsLeavesTheModelThatWasJudged) {
   bool broken = false;
   DiagnoseOptions options;
   options.candidates = {
-      {{"breaking_spring", "c |d|", "1/s^2", "a spring",
+      {{"breaking_spring", "c |d|", "1/s^2", "a spring", "",
         [&](const StrutMotion& m, const double*) { return broken ? std::nan("") : std::abs(m.travel); }}},
       {}};
   options.threads = options.most_effects = 1;

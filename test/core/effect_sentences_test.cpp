@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -16,7 +15,7 @@ bool isOneSentence(const std::string& text) {
 
 TEST(AdviceOnEffects, EveryForceIsDesignWearOrDamageAndSaysWhatToCheck) {
   for (const ForceEffect& effect : builtInEffects().forces) {
-    const std::string advice = adviceOn(effect.name);
+    const std::string& advice = effect.advice;
     EXPECT_TRUE(isOneSentence(advice)) << effect.name << ": " << advice;
     EXPECT_TRUE(has(advice, "esign") || has(advice, "Wear") || has(advice, "Damage")) << effect.name;
     EXPECT_TRUE(has(advice, "check")) << effect.name;
@@ -26,18 +25,16 @@ TEST(AdviceOnEffects, EveryForceIsDesignWearOrDamageAndSaysWhatToCheck) {
 
 TEST(AdviceOnEffects, EveryReadingIsNoFaultOfTheStrut) {
   for (const MeasurementEffect& effect : builtInEffects().readings) {
-    const std::string advice = adviceOn(effect.name);
+    const std::string& advice = effect.advice;
     EXPECT_TRUE(isOneSentence(advice)) << effect.name << ": " << advice;
     EXPECT_TRUE(has(advice, "A fault of the sensor") && has(advice, "not of the strut")) << effect.name;
   }
 }
 
 TEST(AdviceOnEffects, OrificeFlowIsDesignAndFrictionMayBeWear) {
-  EXPECT_EQ(adviceOn("quadratic_damping").rfind("Design, not wear", 0), 0u);
-  EXPECT_TRUE(has(adviceOn("coulomb_friction"), "more than when new is wear"));
+  EXPECT_EQ(findEffect(forceEffects(), "quadratic_damping").advice.rfind("Design, not wear", 0), 0u);
+  EXPECT_TRUE(has(findEffect(forceEffects(), "coulomb_friction").advice, "more than when new is wear"));
 }
-
-TEST(AdviceOnEffects, OfALawOfAUserNothingIsKnown) { EXPECT_EQ(adviceOn("second_spring"), ""); }
 
 }  // namespace
 }  // namespace suspension_health_monitor

@@ -49,10 +49,10 @@ TEST(EffectSettings, MessagesNameTheMistakeAndWhatIsKnown) {
       refusal({{"effects/bump_stop/coefficient", 1.0}, {"effects/bump_stop/g", 0.1}, {"effects/bump_stop/h", 1.0}}),
       {"effects/bump_stop/h", "unknown", "coefficient, g"});
   expectNamed(refusal({{"effects/bump_stop/coefficient", 1.0}, {"effects/bump_stop/g", 0.0}}),
-              {"effects/bump_stop/g = 0", "[m]", "[1e-09, 1e+09]"});
+              {"effects/bump_stop/g = 0", "[m]", "[1e-09, 1000000000]"});
   for (const double absurd : {1e12, 5e-324, -0.01})
     expectNamed(refusal({{"effects/bump_stop/coefficient", 1.0}, {"effects/bump_stop/g", absurd}}),
-                {"effects/bump_stop/g", "[m]", "[1e-09, 1e+09]"});
+                {"effects/bump_stop/g", "[m]", "[1e-09, 1000000000]"});
   expectNamed(refusal({{"effects/progressive_spring/coefficient", 1.0}, {"effects/progressive_spring/p", 6.0}}),
               {"effects/progressive_spring/p = 6", "[1.5, 5]"});
   expectNamed(refusal({{"effects/bump_stop/coefficient", std::string("much")}}),

@@ -113,16 +113,17 @@ TEST(Screening, GuessesCoefficientAndShapeOfAHiddenStop) {
 
 TEST(Screening, AnEffectThatNeverActsIsNoCandidate) {
   const ScreenedDrive drive(carDrive(30.0, 0.02));
-  const ForceEffect silent{"silent", "c 0", "-", "", [](const StrutMotion&, const double*) { return 0.0; }};
-  const ForceEffect linear{"linear", "c d", "1/s^2", "", [](const StrutMotion& m, const double*) { return m.travel; }};
+  const ForceEffect silent{"silent", "c 0", "-", "", "", [](const StrutMotion&, const double*) { return 0.0; }};
+  const ForceEffect linear{"linear", "c d", "1/s^2",
+                           "",       "",    [](const StrutMotion& m, const double*) { return m.travel; }};
   EXPECT_FALSE(drive.screening().screen(silent));
   EXPECT_FALSE(drive.screening().screen(linear));  // the model's spring does that already
 }
 
 TEST(Screening, AFreeFormSurfaceTakesWhatIsALawOfTravelAndRateAndNothingElse) {
   SimulationOptions options = carDrive(120.0, 0.02);
-  ForceEffect law{"product", "c d v", "1/(m s)", "",
-                  [](const StrutMotion& m, const double*) { return m.travel * m.travel_rate; }};
+  ForceEffect law{"product", "c d v", "1/(m s)",
+                  "",        "",      [](const StrutMotion& m, const double*) { return m.travel * m.travel_rate; }};
   options.hidden = {{law, 0.15 * 0.9 / (kTravel * kTravelRate), {}}};
   EXPECT_GT(ScreenedDrive(options).screening().surfaceGain(), 0.7);
   law.force = [](const StrutMotion& m, const double*) { return std::sin(7.0 * m.time); };

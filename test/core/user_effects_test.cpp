@@ -75,6 +75,7 @@ TEST(UserEffects, DescribesItselfAsTheCatalogueDoes) {
   EXPECT_EQ(effect.law, "c (d * abs(d / x))");
   EXPECT_EQ(effect.unit, "m/s^2");
   EXPECT_EQ(effect.finding, "second spring engages");
+  EXPECT_EQ(effect.advice, "");
   EXPECT_FALSE(effect.memory_rate);
   ASSERT_EQ(effect.shapes.size(), 1u);
   EXPECT_EQ(effect.shapes[0].name, "x");

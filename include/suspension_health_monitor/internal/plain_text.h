@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace suspension_health_monitor {
 
@@ -27,6 +30,27 @@ inline std::string shortened(std::string text, std::size_t most = 120) {
   for (char& letter : text)
     if (static_cast<unsigned char>(letter) < ' ' || letter == '\x7F') letter = ' ';
   return cut ? text + "... (" + std::to_string(length) + " characters)" : text;
+}
+
+/// Refuses a number.
+/// @param unit  empty: none is told.  @param wanted  what would be allowed, to be read after "must be".
+[[noreturn]] inline void refuse(std::string_view name, double value, std::string_view unit, const std::string& wanted) {
+  throw std::invalid_argument(std::string(name) + " = " + numberText(value) +
+                              (unit.empty() ? "" : " [" + std::string(unit) + ']') + ", must be " + wanted);
+}
+
+/// @throws std::invalid_argument  outside the range; NaN is outside of every one.
+inline void requireIn(std::string_view name, double value, std::string_view unit, double least, double most) {
+  if (!(value >= least && value <= most))
+    refuse(name, value, unit, "in [" + numberText(least) + ", " + numberText(most) + ']');
+}
+
+/// @throws std::invalid_argument  also if the value is not finite.
+inline void requireAboveZero(std::string_view name, double value, std::string_view unit,
+                             double most = std::numeric_limits<double>::max()) {
+  const bool has_limit = most < std::numeric_limits<double>::max();
+  if (!(value > 0.0 && value <= most))
+    refuse(name, value, unit, "above 0 and " + (has_limit ? "at most " + numberText(most) : std::string("finite")));
 }
 
 }  // namespace suspension_health_monitor

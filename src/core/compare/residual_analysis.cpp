@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "residual_series.h"
 #include "suspension_health_monitor/internal/statistics.h"
@@ -97,9 +98,7 @@ std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& se
   views.surface = mapForce(*series);
   views.direction = compareDirections(*series);
   views.spectrum = spectrumOf(*series, segments, strut, noise_floor);
-  ResidualCorrelations correlations = correlate(*series, strut, noise_floor);
-  views.whiteness = std::move(correlations.whiteness);
-  views.cross_correlation = std::move(correlations.cross);
+  std::tie(views.whiteness, views.cross_correlation) = correlate(*series, strut, noise_floor);
   return views;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 #include <unsupported/Eigen/MatrixFunctions>
+#include <utility>
 
 #include "noise_test.h"
 #include "residual_series.h"
@@ -56,14 +57,15 @@ void addLag(int lag, double period, double value, double expected, double band, 
 
 }  // namespace
 
-ResidualCorrelations correlate(const ResidualSeries& series, const LinearStrut& strut, double noise_floor) {
+std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const ResidualSeries& series, const LinearStrut& strut,
+                                                              double noise_floor) {
   const auto count = static_cast<double>(series.size());
   const int lags =
       static_cast<int>(std::min(std::clamp(std::round(series.natural_period), kFewestLags, kMostLags), count / 4.0));
   const std::vector<double> through = impulseResponse(strut, series.period, 8 * static_cast<std::size_t>(lags));
   const double share = 1.0 / (1.0 + sumOfSquares(through));  // of the floor's mean square: the body's own sensor
 
-  ResidualCorrelations result;
+  ResidualCorrelation whiteness, cross_correlation;
   std::vector<double> residual{1.0}, wheel{1.0}, expected{1.0};
   double squares = 0.0;
   const Correlation own(series, series.residual, series.residual), road(series, series.wheel, series.wheel);
@@ -76,11 +78,11 @@ ResidualCorrelations correlate(const ResidualSeries& series, const LinearStrut& 
   const double band = kHalfBand * std::sqrt((1.0 + 2.0 * squares) / count);
   double cross_variance = 1.0, wheel_squares = 0.0;
   for (std::size_t lag = 1; lag < residual.size(); ++lag) {
-    addLag(static_cast<int>(lag), series.period, residual[lag], expected[lag], band, result.whiteness);
+    addLag(static_cast<int>(lag), series.period, residual[lag], expected[lag], band, whiteness);
     cross_variance += 2.0 * residual[lag] * wheel[lag];
     wheel_squares += 2.0 * wheel[lag] * wheel[lag];
   }
-  countOutside(band, 1.0 + 2.0 * squares, result.whiteness);
+  countOutside(band, 1.0 + 2.0 * squares, whiteness);
 
   const double cross_band = kHalfBand * std::sqrt(std::max(1.0, cross_variance) / count);
   const Correlation cross(series, series.residual, series.wheel);
@@ -90,10 +92,10 @@ ResidualCorrelations correlate(const ResidualSeries& series, const LinearStrut& 
     const double noise_square = share * noise_floor * noise_floor;
     const double left =
         lag > 0 && sizes > 0.0 ? -noise_square * through[static_cast<std::size_t>(lag) - 1] / sizes : 0.0;
-    addLag(lag, series.period, cross.at(lag), left, cross_band, result.cross);
+    addLag(lag, series.period, cross.at(lag), left, cross_band, cross_correlation);
   }
-  countOutside(cross_band, 1.0 + wheel_squares, result.cross);
-  return result;
+  countOutside(cross_band, 1.0 + wheel_squares, cross_correlation);
+  return {std::move(whiteness), std::move(cross_correlation)};
 }
 
 }  // namespace suspension_health_monitor

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/compare/residual_analysis.h"
@@ -58,10 +59,8 @@ DirectionLoop compareDirections(const ResidualSeries& series);
 ForceSurface mapForce(const ResidualSeries& series);
 
 /// @return autocorrelation of the residual, and its correlation with w'', each with the bands of ResidualCorrelation.
-struct ResidualCorrelations {
-  ResidualCorrelation whiteness, cross;
-};
-ResidualCorrelations correlate(const ResidualSeries& series, const LinearStrut& strut, double noise_floor);
+std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const ResidualSeries& series, const LinearStrut& strut,
+                                                              double noise_floor);
 
 /// @param segments  those of the series.
 /// @return nothing if not even two windows fit into the segments.

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-void checkThresholds(const char* parameter, double warn, double error) {
+void checkThresholds(const std::string& parameter, double warn, double error) {
   if (!(error >= warn))
-    throw std::invalid_argument("health/" + std::string(parameter) + "_error = " + std::to_string(error) +
-                                ", must be at least health/" + parameter + "_warn = " + std::to_string(warn));
+    refuse("health/" + parameter + "_error", error, "", "at least health/" + parameter + "_warn = " + numberText(warn));
 }
 
 // A window of the fewest blocks of the usual length [s]; longer ones come at longer spacings.

@@ -4,8 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "suspension_health_monitor/internal/plain_text.h"
 
@@ -48,10 +46,8 @@ HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule r
       lateness_(lateness(rule)),
       ends_(std::max(intervals, 1) + 1),
       until_refresh_(intervals) {
-  if (intervals < 1)
-    throw std::invalid_argument("horizon_samples = " + std::to_string(intervals) + ", must be at least 1");
-  if (!(std::isfinite(period) && period > 0.0))
-    throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be above 0");
+  if (intervals < 1) refuse("horizon_samples", intervals, "", "at least 1");
+  requireAboveZero("sample_period", period, "s");
   static const std::vector<double> band_limited = endCorrections();
   if (rule == IntegrationRule::kBandLimited) corrections_ = band_limited;
 }

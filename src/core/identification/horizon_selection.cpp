@@ -4,9 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <stdexcept>
 
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -15,11 +14,6 @@ namespace {
 constexpr double kFilterHalfPower = 1.0019063576966072;
 
 constexpr double kLargest = 1e12;  // [1/s], [1/s^2]: their squares stay numbers
-
-void requireAboveZero(const char* name, double value, const char* unit) {
-  if (value > 0.0 && value <= kLargest) return;
-  throw std::invalid_argument(formatted("%s = %g [%s], must be above 0 and at most %g", name, value, unit, kLargest));
-}
 
 // With x = omega^2 / b0 and c = b1^2 / b0,  |G|^2 = (1 + c x) / ((1 - x)^2 + c x).
 double gainSquared(double x, double c) { return (1.0 + c * x) / ((1.0 - x) * (1.0 - x) + c * x); }
@@ -51,8 +45,8 @@ double integralFilterMagnitude(double horizon, double frequency_hz) {
 }
 
 double bandwidth(double damping_to_mass, double stiffness_to_mass) {
-  requireAboveZero("damping_to_mass", damping_to_mass, "1/s");
-  requireAboveZero("stiffness_to_mass", stiffness_to_mass, "1/s^2");
+  requireAboveZero("damping_to_mass", damping_to_mass, "1/s", kLargest);
+  requireAboveZero("stiffness_to_mass", stiffness_to_mass, "1/s^2", kLargest);
   return std::sqrt(stiffness_to_mass * halfPower(damping_to_mass / stiffness_to_mass * damping_to_mass));
 }
 
@@ -61,8 +55,8 @@ double proposeHorizon(double damping_to_mass, double stiffness_to_mass) {
 }
 
 int horizonSamples(double horizon, double period) {
-  requireAboveZero("integration_horizon", horizon, "s");
-  requireAboveZero("sample_period", period, "s");
+  requireAboveZero("integration_horizon", horizon, "s", kLargest);
+  requireAboveZero("sample_period", period, "s", kLargest);
   const double samples = std::min(horizon / period, 1.0 * std::numeric_limits<int>::max());
   return std::max(1, static_cast<int>(std::lround(samples)));
 }

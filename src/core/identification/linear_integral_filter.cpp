@@ -1,8 +1,8 @@
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
+
+#include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 
@@ -12,10 +12,8 @@ LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOption
       lateness_(HorizonIntegral::lateness(options.rule)),
       window_(window(order, options)),
       missing_(window_) {
-  if (order < 1) throw std::invalid_argument("filter order n = " + std::to_string(order) + ", must be at least 1");
-  if (lowest_derivative < 0 || lowest_derivative > order)
-    throw std::invalid_argument("derivative r = " + std::to_string(lowest_derivative) + ", must be in [0, " +
-                                std::to_string(order) + "]");
+  if (order < 1) refuse("filter order n", order, "", "at least 1");
+  requireIn("derivative r", lowest_derivative, "", 0.0, order);
   const HorizonIntegral integral(options.horizon_samples, options.period, options.rule);
   const int num_integrals = order - lowest_derivative;
   integrals_.assign(static_cast<std::size_t>(num_integrals), integral);

@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 
 void RecursiveOptions::validate() const {
-  if (!(forgetting_factor > 0.0 && forgetting_factor <= 1.0))
-    throw std::invalid_argument("forgetting_factor = " + numberText(forgetting_factor) + ", must be in (0, 1]");
-  if (!(std::isfinite(initial_variance) && initial_variance > 0.0))
-    throw std::invalid_argument("initial_variance = " + numberText(initial_variance) + ", must be above 0");
-  if (correlated_rows < 0)
-    throw std::invalid_argument("correlated_rows = " + std::to_string(correlated_rows) + ", must be at least 0");
+  requireAboveZero("forgetting_factor", forgetting_factor, "", 1.0);
+  requireAboveZero("initial_variance", initial_variance, "");
+  if (correlated_rows < 0) refuse("correlated_rows", correlated_rows, "", "at least 0");
 }
 
 RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOptions& options)

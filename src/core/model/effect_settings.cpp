@@ -16,9 +16,8 @@ constexpr const char* kReadings = "readings";
 constexpr const char* kCoefficient = "coefficient";
 
 std::string orFaults(const std::vector<MeasurementEffect>& faults) {
-  std::vector<std::string> names;
-  for (const MeasurementEffect& fault : faults) names.push_back(fault.name);
-  return names.empty() ? "" : "; or a fault of the reading (" + std::string(kReadings) + "/NAME/...): " + join(names);
+  if (faults.empty()) return "";
+  return "; or a fault of the reading (" + std::string(kReadings) + "/NAME/...): " + join(namesOf(faults));
 }
 
 }  // namespace
@@ -45,9 +44,8 @@ std::vector<ActiveMeasurementEffect> takeReadings(OptionMap& values, const std::
   std::vector<ActiveMeasurementEffect> result;
   for (const auto& [name, settings] : takeGroups(values, kReadings)) {
     const MeasurementEffect& effect = findEffect(catalogue, name);
-    std::vector<std::string> wanted;
-    for (const MeasurementEffect::Coefficient& coefficient : effect.coefficients) wanted.push_back(coefficient.name);
-    result.push_back({effect, takeNumbers(std::string(kReadings) + '/' + name, settings, wanted)});
+    const std::string group = std::string(kReadings) + '/' + name;
+    result.push_back({effect, takeNumbers(group, settings, namesOf(effect.coefficients))});
   }
   return result;
 }

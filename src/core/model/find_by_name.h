@@ -17,8 +17,7 @@ template <class Record>
 const Record& findByName(const std::vector<Record>& records, std::string_view name, const std::string& besides = {}) {
   const auto found = std::find_if(records.begin(), records.end(), [&](const Record& r) { return r.name == name; });
   if (found != records.end()) return *found;
-  std::vector<std::string> known;
-  for (const Record& record : records) known.push_back(record.name);
+  const std::vector<std::string> known = namesOf(records);
   throw std::invalid_argument("effect " + std::string(name) + ", must be one of " + join(known) + besides +
                               suggestNearest(std::string(name), known));
 }

@@ -67,8 +67,7 @@ void check(const ActiveEffect& active) {
 }  // namespace
 
 FreeRun::FreeRun(double period) : period_(period) {
-  if (!(std::isfinite(period) && period > 0.0))
-    throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be above 0");
+  requireAboveZero("sample_period", period, "s");
   splits();
 }
 

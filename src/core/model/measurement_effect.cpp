@@ -66,12 +66,15 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
        "y(t - c)",
        {{"coefficient", "s"}},
        "IMU clocks are not synchronised",
+       "A fault of the sensors, not of the strut: synchronise their clocks, or take the delay out of the stamps.",
        [](const double* c, const BodyChannels&, double period, Series& predicted) { delay(*c, period, predicted); },
        [](const Sizes& sizes, std::size_t) { return sizes.period * sizes.residual / sizes.y; }},
       {"accelerometer_bias",
        "y + c",
        {{"coefficient", "m/s^2"}},
        "offset of a sensor",
+       "A fault of the sensor, not of the strut: let it warm up, and calibrate it at rest; a few hundredths of m/s^2 "
+       "in every strut may be a body that leans and turns.",
        [](const double* c, const BodyChannels&, double, Series& predicted) {
          for (double& y : predicted) y += *c;
        },
@@ -80,6 +83,8 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
        "(1 + c) y",
        {{"coefficient", "-"}},
        "gain of a sensor",
+       "A fault of the sensor, not of the strut: check range and unit in its driver, and calibrate it upright and "
+       "upside down.",
        // What is off in the gain is off in gravity, too, which makes an offset of it: that tells a gain from an offset.
        [](const double* c, const BodyChannels& body, double, Series& predicted) {
          for (double& y : predicted) y *= 1.0 + *c;
@@ -91,6 +96,7 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
        "y + c_x a_x + c_y a_y",
        {{"c_x", "rad"}, {"c_y", "rad"}},
        "IMU of the body is not level",
+       "A fault of the sensor's mount, not of the strut: level the body's IMU, or tell its mount by target_frame.",
        [](const double* c, const BodyChannels& body, double, Series& predicted) {
          for (const auto& [angle, channel] : {std::pair(c[0], C::kAccelerationX), std::pair(c[1], C::kAccelerationY)}) {
            leak(angle, body, channel, predicted);
@@ -107,6 +113,8 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
        "y + r_y w_x' - r_x w_y'",
        {{"r_x", "m"}, {"r_y", "m"}},
        "IMU of the body is away from the strut top",
+       "A fault of the sensor's place, not of the strut: move the body's IMU to the top of the strut, or tell its "
+       "position in a vehicle file.",
        [](const double* r, const BodyChannels& body, double, Series& predicted) {
          leak(-r[0], body, C::kAngularAccelerationY, predicted);
          leak(r[1], body, C::kAngularAccelerationX, predicted);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -39,10 +40,7 @@ std::string line(const char* indent, const std::string& name, double value, cons
 
 void requireAllowed(const std::string& name, const ShapeParameter& shape, double value) {
   const bool is_plain = shape.scale == ShapeScale::kNone;
-  const double least = is_plain ? shape.min : 1e-9, most = is_plain ? shape.max : 1e9;
-  if (value >= least && value <= most) return;
-  throw std::invalid_argument(
-      formatted("%s = %g [%s], must be in [%g, %g]", name.c_str(), value, shape.unit.c_str(), least, most));
+  requireIn(name, value, shape.unit, is_plain ? shape.min : 1e-9, is_plain ? shape.max : 1e9);
 }
 
 StrutModel takeModel(OptionMap& values, const EffectLibrary& library) {

@@ -8,22 +8,12 @@
 #include "law_expression.h"
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kLongestText = 200, kLongestLaw = 1000;  // [characters]
-
-struct LawSettings {
-  std::string force, memory_rate, unit, finding = "a law of your own";
-};
-
-constexpr OptionField<LawSettings> kLawFields[] = {
-    {"force", "-", "expression in d, v, t, s and the shapes", &LawSettings::force},
-    {"memory_rate", "-", "expression for s'", &LawSettings::memory_rate},
-    {"unit", "-", "unit of the coefficient", &LawSettings::unit},
-    {"finding", "-", "what a workshop would find", &LawSettings::finding},
-};
 
 struct ShapeSettings {
   std::string unit = "-", scale = "none";
@@ -78,10 +68,8 @@ ShapeParameter makeShape(const std::string& where, const std::string& name, cons
 LawExpression makeLaw(const std::string& where, const std::string& text, const std::vector<ShapeParameter>& shapes,
                       bool has_memory) {
   checkLaw(where, text);
-  std::vector<std::string> names;
-  for (const ShapeParameter& shape : shapes) names.push_back(shape.name);
   try {
-    return {text, names, has_memory};
+    return {text, namesOf(shapes), has_memory};
   } catch (const std::invalid_argument& error) {
     refuse(where + " = \"" + shortened(text) + '"', error.what());
   }
@@ -131,22 +119,20 @@ ForceEffect makeUserEffect(const std::string& name, OptionMap values) {
   for (const char* wanted : {"force", "unit"})
     if (values.count(wanted) == 0)
       refuse(where + '/' + wanted, "is missing; an effect has force, unit, and may have memory_rate, finding, shapes");
-  LawSettings settings;
-  takeAll(where, std::move(values), kLawFields, settings);
-  for (const std::string& text : {settings.unit, settings.finding}) checkText(where, text);
+  const auto [force, memory_rate, unit, finding] =
+      takeTexts(where, std::move(values), {"force", "memory_rate", "unit", "finding"});
+  for (const std::string& text : {unit, finding}) checkText(where, text);
 
-  const bool has_memory = !settings.memory_rate.empty();
-  ForceEffect effect{name,
-                     "c (" + settings.force + ")",
-                     settings.unit,
-                     settings.finding,
-                     makeLaw(where + "/force", settings.force, shapes, has_memory),
+  const bool has_memory = !memory_rate.empty();
+  ForceEffect effect{name,  "c (" + force + ")",
+                     unit,  finding.empty() ? "a law of your own" : finding,
+                     "",    makeLaw(where + "/force", force, shapes, has_memory),
                      shapes};
-  checkFinite(where + "/force = \"" + shortened(settings.force) + '"', effect.force, shapes);
+  checkFinite(where + "/force = \"" + shortened(force) + '"', effect.force, shapes);
   if (!has_memory) return effect;
-  effect.law += ", s' = " + settings.memory_rate;
-  effect.memory_rate = makeLaw(where + "/memory_rate", settings.memory_rate, shapes, has_memory);
-  checkFinite(where + "/memory_rate = \"" + shortened(settings.memory_rate) + '"', effect.memory_rate, shapes);
+  effect.law += ", s' = " + memory_rate;
+  effect.memory_rate = makeLaw(where + "/memory_rate", memory_rate, shapes, has_memory);
+  checkFinite(where + "/memory_rate = \"" + shortened(memory_rate) + '"', effect.memory_rate, shapes);
   return effect;
 }
 

@@ -15,8 +15,8 @@ bool isKnown(const Records& records, BodyChannel channel) {
 
 }  // namespace
 
-std::vector<UntestableEffect> takeUntestable(EffectLibrary& library, const Records& records) {
-  std::vector<UntestableEffect> untestable;
+std::vector<std::pair<std::string, BodyChannel>> takeUntestable(EffectLibrary& library, const Records& records) {
+  std::vector<std::pair<std::string, BodyChannel>> untestable;
   std::vector<MeasurementEffect> testable;
   for (const MeasurementEffect& effect : library.readings) {
     const bool any = std::any_of(effect.channels.begin(), effect.channels.end(),
@@ -24,21 +24,20 @@ std::vector<UntestableEffect> takeUntestable(EffectLibrary& library, const Recor
     if (any || effect.channels.empty())
       testable.push_back(effect);
     else
-      untestable.push_back({effect.name, effect.channels.front()});
+      untestable.emplace_back(effect.name, effect.channels.front());
   }
   library.readings = testable;
   return untestable;
 }
 
-std::optional<UntestableEffect> findUntestable(const StrutModel& model, const Records& records) {
+std::optional<std::pair<std::string, BodyChannel>> findUntestable(const StrutModel& model, const Records& records) {
   ReadingSizes sizes{1.0, 1.0, 1.0, {}};
   for (std::size_t c = 0; c < kNumBodyChannels; ++c) sizes.body[c] = isKnown(records, static_cast<BodyChannel>(c));
   for (const auto& [effect, coefficients] : model.reading) {
     const auto missing = std::find_if(effect.channels.begin(), effect.channels.end(),
                                       [&](BodyChannel channel) { return !isKnown(records, channel); });
     for (std::size_t i = 0; i < coefficients.size(); ++i)
-      if (coefficients[i] != 0.0 && !std::isfinite(effect.scale(sizes, i)))
-        return UntestableEffect{effect.name, *missing};
+      if (coefficients[i] != 0.0 && !std::isfinite(effect.scale(sizes, i))) return std::pair(effect.name, *missing);
   }
   return std::nullopt;
 }

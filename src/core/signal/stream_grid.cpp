@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <stdexcept>
 
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
@@ -12,8 +11,7 @@ namespace {
 
 // Before the conversion to whole nanoseconds, which is undefined for NaN and what does not fit.
 Stamp checked(double period) {
-  if (!(period >= 1e-9 && period <= 1e9))
-    throw std::invalid_argument("sample_period = " + numberText(period) + " [s], must be in [1e-9, 1e9]");
+  requireIn("sample_period", period, "s", 1e-9, 1e9);
   return fromSeconds(period);
 }
 

@@ -76,9 +76,7 @@ double isoDisplacementDensity(char road_class, double spatial_frequency) {
 
 IsoRoad::IsoRoad(char road_class, double speed, int seed, RoadLine line)
     : amplitude_(kComponents), omega_(kComponents), phase_(kComponents), table_(kBlockIntervals + 1) {
-  if (!(speed > 0.0 && std::isfinite(speed))) {
-    throw std::invalid_argument("speed = " + numberText(speed) + " [m/s], must be positive");
-  }
+  requireAboveZero("speed", speed, "m/s");
   RandomStream random(seed, RandomPurpose::kRoad, line.surface);
   RandomStream across(seed, RandomPurpose::kRoadLateral, line.surface);
   const double width = std::log(kHighest / kLowest) / kComponents;

@@ -1,8 +1,8 @@
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/simulation/sensors.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -55,35 +55,32 @@ Road makeRoad(const SimulationOptions& options, const ScenarioVehicle& vehicle) 
   return paperRoad;
 }
 
-[[noreturn]] void refuse(const char* name, double value, const char* unit, const char* limit, double limit_value) {
-  throw std::invalid_argument(formatted("%s = %g [%s], must be %s = %g", name, value, unit, limit, limit_value));
-}
-
 }  // namespace
 
 void validate(const SimulationOptions& options) {
   validate(options, kSimulationFields);
   if (options.ramp_end <= options.ramp_start) {
-    refuse("ramp_end", options.ramp_end, "s", "later than ramp_start", options.ramp_start);
+    refuse("ramp_end", options.ramp_end, "s", formatted("later than ramp_start = %g", options.ramp_start));
   }
   const double shortest = 1.0 / fasterRate(options);
   if (options.stamp_jitter >= shortest) {
-    refuse("stamp_jitter", options.stamp_jitter, "s", "less than one sample period, 1 / rate", shortest);
+    refuse("stamp_jitter", options.stamp_jitter, "s",
+           formatted("less than one sample period, 1 / rate = %g", shortest));
   }
   if (options.sampling_jitter > 0.0 && options.sampling_jitter >= shortest - options.stamp_jitter) {
-    refuse("sampling_jitter", options.sampling_jitter, "s", "less than one sample period, 1 / rate, less stamp_jitter",
-           shortest - options.stamp_jitter);
+    refuse("sampling_jitter", options.sampling_jitter, "s",
+           formatted("less than one sample period, 1 / rate, less stamp_jitter = %g", shortest - options.stamp_jitter));
   }
   if (options.hidden.size() > kMostHiddenEffects) {
-    refuse("number of hidden effects", static_cast<double>(options.hidden.size()), "-", "at most",
-           static_cast<double>(kMostHiddenEffects));
+    refuse("number of hidden effects", static_cast<double>(options.hidden.size()), "",
+           "at most " + std::to_string(kMostHiddenEffects));
   }
   const SensorFaults faults = SensorFaults::from(options.hidden_faults);
   const auto acts = [](const std::array<double, 2>& sizes) { return sizes[0] != 0.0 || sizes[1] != 0.0; };
   if (acts(faults.tilt) && options.body_acceleration == 0.0)
-    throw std::invalid_argument("body_acceleration = 0 [m/s^2], must be above 0 for mount_tilt to show");
+    refuse("body_acceleration", 0.0, "m/s^2", "above 0 for mount_tilt to show");
   if (acts(faults.position) && options.body_rate == 0.0)
-    throw std::invalid_argument("body_rate = 0 [rad/s], must be above 0 for lever_arm to show");
+    refuse("body_rate", 0.0, "rad/s", "above 0 for lever_arm to show");
 }
 
 double fasterRate(const SimulationOptions& options) {

@@ -12,10 +12,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-[[noreturn]] void refuse(const std::string& name, double value, const char* unit, const std::string& wanted) {
-  throw std::invalid_argument(name + formatted(" = %g [%s], must be ", value, unit) + wanted);
-}
-
 /// Heave, pitch, roll: as many as the vehicle has.
 int motionsOf(const Vehicle& vehicle) { return 1 + (vehicle.pitches() ? 1 : 0) + (vehicle.rolls() ? 1 : 0); }
 
@@ -75,8 +71,7 @@ double Vehicle::mobility(double x, double y, double x_force, double y_force) con
 }
 
 std::size_t Vehicle::strutNamed(const std::string& name) const {
-  std::vector<std::string> known;
-  for (const VehicleStrut& strut : struts) known.push_back(strut.name);
+  const std::vector<std::string> known = namesOf(struts);
   const auto found = std::find(known.begin(), known.end(), name);
   if (found == known.end()) throw std::invalid_argument("strut " + shortened(name) + ", must be one of " + join(known));
   return static_cast<std::size_t>(found - known.begin());

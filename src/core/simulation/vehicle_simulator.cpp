@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -56,8 +56,8 @@ const Settings& checked(const Settings& settings) {
 void validate(const VehicleDriveOptions& options) {
   validate(options, kVehicleDriveFields);
   if (options.stamp_jitter >= 1.0 / options.rate)
-    throw std::invalid_argument(formatted("stamp_jitter = %g [s], must be less than one sample period, 1 / rate = %g",
-                                          options.stamp_jitter, 1.0 / options.rate));
+    refuse("stamp_jitter", options.stamp_jitter, "s",
+           formatted("less than one sample period, 1 / rate = %g", 1.0 / options.rate));
 }
 
 std::vector<Road> tracksOf(const Vehicle& vehicle, const std::string& tracks, int seed) {

@@ -80,12 +80,6 @@ void dropNewest(VehicleDrive& drive, std::size_t count) {
   for (KnownForceRecord& force : drive.forces) dropNewest(force.values, count);
 }
 
-std::vector<std::string> forceNames(const VehicleDrive& drive) {
-  std::vector<std::string> names;
-  for (const KnownForceRecord& force : drive.forces) names.push_back(force.name);
-  return names;
-}
-
 double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                 const std::optional<double>& given) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
@@ -96,9 +90,9 @@ double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::
     if (drive.struts.size() != names.size())
       throw std::invalid_argument("a drive of " + std::to_string(drive.struts.size()) + " struts, must be " +
                                   std::to_string(names.size()));
-    if (forceNames(drive) != forceNames(drives.front()))
-      throw std::invalid_argument("a drive with the known forces [" + join(forceNames(drive)) + "], must be [" +
-                                  join(forceNames(drives.front())) + "] as in the first");
+    if (namesOf(drive.forces) != namesOf(drives.front().forces))
+      throw std::invalid_argument("a drive with the known forces [" + join(namesOf(drive.forces)) + "], must be [" +
+                                  join(namesOf(drives.front().forces)) + "] as in the first");
     requireOneGrid(drive);
     of_first.push_back(drive.struts.front());
   }

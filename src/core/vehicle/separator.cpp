@@ -13,6 +13,7 @@
 #include "suspension_health_monitor/internal/vehicle/shared_noise.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -68,7 +69,7 @@ void Separator::learnRows(const std::vector<std::string>& names) {
     rows_ = body ? body->combined(*rows) : *rows;
   }
   coupling_ = describe(are_known ? &rows_ : nullptr, body, are_known ? "" : whyNotCoupled(mistake, names),
-                       forceNames(drives_.front()));
+                       namesOf(drives_.front().forces));
 }
 
 bool Separator::sharesNoise() const { return mostStrutsOfASensor(drives_.front().noise) > 1; }

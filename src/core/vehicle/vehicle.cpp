@@ -6,6 +6,7 @@
 #include "separator.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -59,7 +60,7 @@ VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, c
       monitor.fitBodyIfDue();
     }
   monitor.fitBody();
-  return identified(monitor, names, forceNames(drives.front()));
+  return identified(monitor, names, namesOf(drives.front().forces));
 }
 
 }  // namespace suspension_health_monitor

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
@@ -18,31 +19,6 @@ namespace {
 
 constexpr double kFarthest = 100.0;  // [m]: of any vehicle's struts from its IMU
 constexpr double kNearest = 0.01;    // [m]: two struts nearer than that are one
-
-struct StrutSettings {
-  std::string sprung_imu, unsprung_imu, frame;
-};
-constexpr OptionField<StrutSettings> kStrutFields[] = {
-    {"sprung_imu", "-", "topic of the IMU at the strut's top", &StrutSettings::sprung_imu},
-    {"unsprung_imu", "-", "topic of the IMU at the wheel", &StrutSettings::unsprung_imu},
-    {"frame", "-", "frame at the strut's top", &StrutSettings::frame},
-};
-constexpr const char* kPosition = "position";
-
-struct ForceSettings {
-  std::string topic, field;
-};
-constexpr OptionField<ForceSettings> kForceFields[] = {
-    {"topic", "-", "topic of the force", &ForceSettings::topic},
-    {"field", "-", "field of its messages that is the force", &ForceSettings::field},
-};
-
-struct BodySettings {
-  std::string body_imu;
-};
-constexpr OptionField<BodySettings> kBodyFields[] = {
-    {"body_imu", "-", "topic of one six-axis IMU of the body", &BodySettings::body_imu},
-};
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
@@ -94,21 +70,19 @@ std::array<double, 3> toPosition(const std::string& where, const OptionValue& va
   return position;
 }
 
-VehicleLayout::Strut toStrut(const std::string& name, const OptionMap& values, bool has_body_imu) {
+VehicleLayout::Strut toStrut(const std::string& name, OptionMap values, bool has_body_imu) {
   const std::string where = "struts/" + shortened(name);
   requireName(where, name);
-  OptionMap others = values;
-  others.erase(kPosition);
-  StrutSettings settings;
-  takeAll(where, std::move(others), kStrutFields, settings, {{"", kPosition, "", "", "", ""}});
+  const auto position = values.extract("position");
+  const auto [unsprung_imu, sprung_imu, frame] =
+      takeTexts(where, std::move(values), {"unsprung_imu", "sprung_imu", "frame"}, {"position"});
+  if (unsprung_imu.empty()) refuse(where + "/unsprung_imu is missing: every strut needs the IMU at its wheel");
   VehicleLayout::Strut strut;
   strut.name = name;
-  if (settings.unsprung_imu.empty()) refuse(where + "/unsprung_imu is missing: every strut needs the IMU at its wheel");
-  strut.unsprung_imu = settings.unsprung_imu;
-  if (!settings.sprung_imu.empty()) strut.sprung_imu = settings.sprung_imu;
-  if (!settings.frame.empty()) strut.frame = settings.frame;
-  if (const auto found = values.find(kPosition); found != values.end())
-    strut.position = toPosition(where + "/position", found->second);
+  strut.unsprung_imu = unsprung_imu;
+  if (!sprung_imu.empty()) strut.sprung_imu = sprung_imu;
+  if (!frame.empty()) strut.frame = frame;
+  if (position) strut.position = toPosition(where + "/position", position.mapped());
   if (strut.position && strut.frame) refuse(where + " has a position and a frame, must have one of them");
   if (strut.frame && !isMadeOf(*strut.frame, "/", "/"))
     refuse(where + "/frame" + quoted(*strut.frame) + ", must be letters, digits, _ and /");
@@ -124,16 +98,14 @@ VehicleLayout::Strut toStrut(const std::string& name, const OptionMap& values, b
 VehicleLayout::KnownForce toForce(const std::string& name, const OptionMap& values) {
   const std::string where = "known_forces/" + shortened(name);
   requireName(where, name);
-  ForceSettings settings;
-  takeAll(where, values, kForceFields, settings);
-  for (const auto& [wanted, text] : {std::pair("topic", &settings.topic), std::pair("field", &settings.field)})
-    if (text->empty()) refuse(where + '/' + wanted + " is missing; a known force has topic, field");
-  checkTopic(where + "/topic", settings.topic);
-  const auto field = std::find(kWrenchFields.begin(), kWrenchFields.end(), settings.field);
-  if (field == kWrenchFields.end())
-    refuse(where + "/field" + quoted(settings.field) + ", must be one of " +
-           join({kWrenchFields.begin(), kWrenchFields.end()}));
-  return {name, settings.topic, static_cast<std::size_t>(field - kWrenchFields.begin())};
+  const auto [topic, field] = takeTexts(where, values, {"topic", "field"});
+  for (const auto& [wanted, text] : {std::pair("topic", topic), std::pair("field", field)})
+    if (text.empty()) refuse(where + '/' + wanted + " is missing; a known force has topic, field");
+  checkTopic(where + "/topic", topic);
+  const auto found = std::find(kWrenchFields.begin(), kWrenchFields.end(), field);
+  if (found == kWrenchFields.end())
+    refuse(where + "/field" + quoted(field) + ", must be one of " + join({kWrenchFields.begin(), kWrenchFields.end()}));
+  return {name, topic, static_cast<std::size_t>(found - kWrenchFields.begin())};
 }
 
 /// One IMU for two places would be two struts, or a wheel and a body, that always move alike; so would one force for
@@ -193,17 +165,13 @@ void VehicleLayout::turn(const Eigen::Matrix3d& mount) {
 
 VehicleLayout takeVehicle(OptionMap& values) {
   VehicleLayout layout;
-  BodySettings body;
-  takeOptions(values, kBodyFields, body);
-  if (!body.body_imu.empty()) layout.body_imu = body.body_imu;
-  const std::map<std::string, OptionMap> struts = takeGroups(values, "struts");
+  const std::map<std::string, OptionMap> struts = takeGroups(values, "struts"),
+                                         known_forces = takeGroups(values, "known_forces");
+  const auto [body_imu] = takeTexts("", std::exchange(values, {}), {"body_imu"}, {"struts", "known_forces"});
+  if (!body_imu.empty()) layout.body_imu = body_imu;
   for (const auto& [name, settings] : struts)
     layout.struts.push_back(toStrut(name, settings, layout.body_imu.has_value()));
-  for (const auto& [name, settings] : takeGroups(values, "known_forces"))
-    layout.known_forces.push_back(toForce(name, settings));
-  std::vector<OptionDescription> known = describeOptions(kBodyFields);
-  for (const char* group : {"struts", "known_forces"}) known.push_back({"", group, "", "", "", ""});
-  refuseUnknown(values, known);
+  for (const auto& [name, settings] : known_forces) layout.known_forces.push_back(toForce(name, settings));
   if (struts.empty()) refuse("struts are missing: a vehicle has struts, each with NAME: {unsprung_imu: TOPIC, ...}");
   checkNumber("struts", layout.struts.size(), kMostStruts);
   checkNumber("known_forces", layout.known_forces.size(), kMostKnownForces);

@@ -2,19 +2,12 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "suspension_health_monitor/internal/plain_text.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-void requirePositive(const char* name, const std::optional<double>& value) {
-  if (value && !(*value > 0.0 && std::isfinite(*value)))
-    throw std::invalid_argument("baseline " + std::string(name) + " = " + numberText(*value) +
-                                ", must be above 0 and finite");
-}
 
 std::vector<bool> requiredOf(const VehicleStreams& streams) {
   std::vector<bool> required;
@@ -63,8 +56,9 @@ void VehiclePipeline::setEffects(const std::vector<ActiveEffect>& effects, const
 }
 
 void VehiclePipeline::setBaseline(const Baseline& baseline, std::size_t strut) {
-  requirePositive("damping_to_mass", baseline.damping_to_mass);
-  requirePositive("stiffness_to_mass", baseline.stiffness_to_mass);
+  for (const auto& [name, value] : {std::pair("baseline damping_to_mass", baseline.damping_to_mass),
+                                    std::pair("baseline stiffness_to_mass", baseline.stiffness_to_mass)})
+    if (value) requireAboveZero(name, *value, "");
   starts_[strut].baseline = baseline;
   if (monitor_) monitor_->setBaseline(strut, baseline);
 }

@@ -32,9 +32,6 @@ void dropNewest(std::vector<T>& series, std::size_t count) {
 VehicleCoupling describe(const BodyRows* rows, const std::optional<BodyFitResult>& body, const std::string& why_none,
                          const std::vector<std::string>& forces);
 
-/// @return the names of the forces that are known in a drive.
-std::vector<std::string> forceNames(const VehicleDrive& drive);
-
 /// @return T [s]: as given, or the median spacing of the samples.
 /// @throws std::invalid_argument  if there is no drive, or drives have other struts or known forces than one another;
 /// if the struts of one have not the same stamps or filter, or a force not a value for each.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "suspension_health_monitor/compare.h"
@@ -31,11 +30,6 @@ const char* reasonOf(FitFailure failure);
 /// What is the matter with drives, to be read after "the drives"; empty for kNone.
 /// @param start  the model that was given, or the rough one by least squares.
 std::string reasonOf(Shortcoming shortcoming, const StrutModel& start);
-
-/// What a workshop should make of an effect of the catalogue, in a sentence: whether it is design, wear or a fault of
-/// the sensor, and what to check. What it is stands in the catalogue itself (ForceEffect::finding).
-/// @return empty for a law that a user has written.
-std::string adviceOn(std::string_view effect);
 
 /// Puts regions into words: fills `region` and `sentence` from the facts.
 /// @param views, noise_floor  of the comparison that found them: numbers get the SI prefix that reads well for its

@@ -8,6 +8,14 @@ namespace suspension_health_monitor {
 /// @return the names that are not empty one after the other with `separator` between them.
 std::string join(const std::vector<std::string>& names, const std::string& separator = ", ");
 
+/// @return what the records are called, in their order.
+template <class Records>
+std::vector<std::string> namesOf(const Records& records) {
+  std::vector<std::string> names;
+  for (const auto& record : records) names.push_back(record.name);
+  return names;
+}
+
 /// @return the text that std::printf would write.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
